@@ -1,0 +1,56 @@
+/// @file
+/// Exceptions. Everything Cardan throws derives from cardan::Error; the message says what, where, the value and the limit.
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace cardan {
+
+/// Joins its arguments as a stream would print them, with 10 significant digits.
+template <class... Parts>
+std::string text(const Parts&... parts) {
+    std::ostringstream out;
+    out.precision(10);
+    (out << ... << parts);
+    return out.str();
+}
+
+/// Base of all exceptions of the library.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A value or a name that a description must not contain (negative mass, unknown joint, singular metric ...).
+class InputError : public Error {
+public:
+    explicit InputError(const std::string& message) : Error(message) {}
+    /// "<where>: <quantity> = <value>; allowed: <allowed>"
+    template <class Value>
+    InputError(std::string_view where, std::string_view quantity, const Value& value, std::string_view allowed)
+        : Error(text(where, ": ", quantity, " = ", value, "; allowed: ", allowed)) {}
+};
+
+/// Malformed text: "<file>:<line>:<column>: <message>" (line and column count from 1; column 0 is left out).
+class ParseError : public Error {
+public:
+    ParseError(std::string_view file, int line, int column, std::string_view message)
+        : Error(column > 0 ? text(file, ":", line, ":", column, ": ", message) : text(file, ":", line, ": ", message)) {}
+};
+
+/// A file that cannot be opened, written or completed; the path and the system's reason are part of the message.
+class FileError : public Error {
+public:
+    FileError(std::string_view path, std::string_view message) : Error(text(path, ": ", message)) {}
+};
+
+/// A computation that has no result: not converged, no constant steady state, singular pencil.
+class NumericalError : public Error {
+public:
+    using Error::Error;
+};
+
+}  // namespace cardan
