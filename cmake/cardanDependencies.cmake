@@ -1,0 +1,41 @@
+# How the libraries Cardan stands on are found. Used by the build and, installed beside the package config, by
+# consumers: both see the same targets.
+
+macro(cardan_find_eigen)
+    if(NOT TARGET Eigen3::Eigen)
+        find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+    endif()
+endmacro()
+
+set(CARDAN_SUNDIALS_COMPONENTS kinsol nvecserial sunmatrixdense sunlinsoldense)
+
+# SUNDIALS' own config asks for OpenMP, which clang has only with libomp, and which none of our components uses.
+# Its targets exist by then, so the targets are what is asked for here, not SUNDIALS_FOUND.
+macro(cardan_find_sundials)
+    find_package(SUNDIALS QUIET CONFIG COMPONENTS ${CARDAN_SUNDIALS_COMPONENTS})
+    foreach(_cardan_component IN LISTS CARDAN_SUNDIALS_COMPONENTS)
+        if(NOT TARGET SUNDIALS::${_cardan_component})
+            message(FATAL_ERROR "cardan needs SUNDIALS 6 or newer with ${CARDAN_SUNDIALS_COMPONENTS}; "
+                                "SUNDIALS::${_cardan_component} was not found (Debian: libsundials-dev; elsewhere "
+                                "set SUNDIALS_DIR).")
+        endif()
+    endforeach()
+    if(SUNDIALS_VERSION AND SUNDIALS_VERSION VERSION_LESS 6)
+        message(FATAL_ERROR "cardan needs SUNDIALS 6 or newer (SUNContext); found ${SUNDIALS_VERSION}.")
+    endif()
+    unset(_cardan_component)
+endmacro()
+
+# FindHDF5 compiles a C program to look for the C library.
+macro(cardan_find_hdf5)
+    if(NOT TARGET hdf5::hdf5_hl)
+        enable_language(C)
+        find_package(HDF5 1.10 REQUIRED COMPONENTS C HL)
+    endif()
+endmacro()
+
+macro(cardan_find_urdfdom)
+    if(NOT TARGET urdfdom::urdfdom_model)
+        find_package(urdfdom REQUIRED CONFIG)
+    endif()
+endmacro()

@@ -1,0 +1,33 @@
+# cardan_add_library(<name> SOURCES <files> [PUBLIC <targets>] [PRIVATE <targets>])
+#
+# Makes the target cardan_<name>, alias and export name cardan::<name>. Without sources it is an INTERFACE library.
+# Headers are included as "<folder>/<file>.hpp": from the root of the source tree, or from include/cardan installed.
+function(cardan_add_library name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
+    set(target cardan_${name})
+    if(arg_SOURCES)
+        add_library(${target} ${arg_SOURCES})
+        set(public PUBLIC)
+        target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:cardan_warnings>)
+    else()
+        add_library(${target} INTERFACE)
+        set(public INTERFACE)
+    endif()
+    add_library(cardan::${name} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    target_compile_features(${target} ${public} cxx_std_20)
+    target_include_directories(
+        ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cardan>)
+    target_link_libraries(${target} ${public} ${arg_PUBLIC})
+    set_property(GLOBAL APPEND PROPERTY CARDAN_LIBRARIES ${target})
+endfunction()
+
+# cardan_add_program(<target> SOURCES <files> LINK <targets>): an executable of ours, with our warnings.
+function(cardan_add_program target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+    add_executable(${target} ${arg_SOURCES})
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    target_link_libraries(${target} PRIVATE ${arg_LINK} cardan_warnings)
+endfunction()

@@ -1,0 +1,51 @@
+/// @file
+/// O(n) recursions: inverse dynamics (Newton-Euler) and forward dynamics (articulated body). They never form g or Gamma.
+#pragma once
+
+#include "mbs/metric.hpp"
+
+namespace cardan {
+
+/// Inverse dynamics tau_a = g_ab qdd^b + Gamma_abc qd^b qd^c, armatures included.            [Zhao et al. 2007, eq. 4]
+/// @param qd, qdd  joint rates and accelerations, size n
+/// @param tau      out, size n, N m or N; overwritten; must not alias the inputs
+/// Cost O(n), no allocation. Never singular.
+template <class S>
+void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, VectorOutT<S> tau);
+
+/// Generalised inertial forces h_a = Gamma_abc qd^b qd^c.             [Zhao et al. 2007, eq. 4 and 9 (corrected)]
+/// @param h  out, size n, N m or N; overwritten; must not alias qd
+/// Cost O(n), no allocation. Never singular.
+template <class S>
+void inertial_forces(const KinematicsT<S>& kin, VectorInT<S> qd, VectorOutT<S> h);
+
+/// Forward dynamics in hybrid form: accelerations of the free coordinates from generalised forces, forces of the driven
+/// coordinates from their prescribed accelerations. Holds the memory for armatures and the set of driven coordinates.
+class ForwardDynamics {
+public:
+    /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
+    explicit ForwardDynamics(const Model& model);
+    ForwardDynamics(const Model& model, std::vector<bool> driven);
+
+    /// @param Q    generalised forces, size n; entries of driven coordinates are forces besides the actuator's
+    /// @param qdd  in: accelerations of driven coordinates; out: of all coordinates
+    /// @param actuator  out, size n: force that the drive adds to Q on each driven coordinate, zero on free ones
+    /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.
+    void solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator);
+
+    const std::vector<bool>& driven() const { return driven_; }
+
+private:
+    void factorise(const Kinematics& kin);
+    void sweep(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorIn qdd_driven, bool moving, VectorOut qdd);
+
+    const Model* model_;
+    std::vector<bool> driven_;
+    Vector armature_diagonal_, qdd_prescribed_, zero_;
+    std::vector<int> support_;  ///< free coordinates in armatures of several coordinates
+    Matrix coupling_;           ///< off-diagonal part of these armatures on the support
+    Matrix support_solution_, capacity_;
+    Vector support_rhs_, offset_;
+};
+
+}  // namespace cardan

@@ -1,0 +1,188 @@
+#include "mbs/forces.hpp"
+
+#include "mbs/error.hpp"
+
+namespace cardan {
+
+template <class S>
+void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
+    const auto n = static_cast<Eigen::Index>(law.at.size());
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const int b = law.at[static_cast<std::size_t>(j)];
+        const S x = q(b) - law.rest(j), v = qd(b);
+        for (Eigen::Index i = 0; i < n; ++i)
+            Q(law.at[static_cast<std::size_t>(i)]) -= law.K(i, j) * x + law.D(i, j) * v;
+    }
+}
+
+// Every coordinate lifts its subtree as one body: Q_a = M_a g . v_a(C_a).
+template <class S>
+void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
+    composites(kin);
+    const WorkspaceT<S>& ws = kin.workspace();
+    const Vec3T<S> g = gravity_.template cast<S>();
+    for (int a = 0; a < kin.model().size(); ++a) {
+        const std::size_t i = static_cast<std::size_t>(a);
+        Q(a) += S(ws.M[i]) * dot<S>(g, twist_at(kin, a, ws.C[i]).v);
+    }
+}
+
+template <class S>
+void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, VectorOutT<S> Q) const {
+    const Pose<S> at = pose(kin, load.frame);
+    Vec3T<S> force = load.wrench.force.template cast<S>(), moment = load.wrench.moment.template cast<S>();
+    if (load.axes == WrenchAxes::frame) {
+        force = at.R * force;
+        moment = at.R * moment;
+    }
+    for (int a = kin.model().frame(load.frame).body; a >= 0; a = kin.model().body(a).parent) {
+        const PointTwist<S> t = twist_at(kin, a, at.p);
+        Q(a) += dot<S>(force, t.v) + dot<S>(moment, t.w);
+    }
+}
+
+template <class S>
+void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
+                                            VectorOutT<S> Q) const {
+    Q.setZero();
+    for (const Law& law : laws_) add_law<S>(law, q, qd, Q);
+    if (has_gravity()) add_gravity<S>(kin, Q);
+    for (const FrameLoad& load : loads_) add_wrench<S>(load, kin, Q);
+}
+
+void Forces::generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                                VectorOut Q) const {
+    generalised_forces_of_elements<double>(kin, q, qd, Q);
+    if (users_.empty()) return;
+    Vector user = Vector::Zero(Q.size());
+    for (const UserForce& force : users_) force.force({time, q, qd, kin}, user);
+    Q += user;
+}
+
+// d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
+void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
+    composites(kin);
+    const Workspace& ws = kin.workspace();
+    for (int a = 0; a < kin.model().size(); ++a) {
+        const std::size_t i = static_cast<std::size_t>(a);
+        const Vec3 lift = twist_at(kin, a, ws.C[i]).v;
+        for (int b = a; b >= 0; b = kin.model().body(b).parent) {
+            const Vec3 w = twist_at(kin, b, ws.C[i]).w;
+            const double dQ = ws.M[i] * gravity_.dot(cross<double>(w, lift));
+            K(a, b) -= dQ;
+            if (b != a) K(b, a) -= dQ;
+        }
+    }
+}
+
+void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const {
+    const Pose<double> at = pose(kin, load.frame);
+    const bool follower = load.axes == WrenchAxes::frame;
+    const Vec3 force = follower ? Vec3(at.R * load.wrench.force) : load.wrench.force;
+    const Vec3 moment = follower ? Vec3(at.R * load.wrench.moment) : load.wrench.moment;
+    const Model& model = kin.model();
+    const int tip = model.frame(load.frame).body;
+    for (int a = tip; a >= 0; a = model.body(a).parent)
+        for (int b = tip; b >= 0; b = model.body(b).parent) {
+            const PointTwist<double> ta = twist_at(kin, a, at.p), tb = twist_at(kin, b, at.p);
+            const bool b_proximal = b <= a;
+            double dQ = force.dot(b_proximal ? cross<double>(tb.w, ta.v) : cross<double>(ta.w, tb.v));
+            if (b_proximal) dQ += moment.dot(cross<double>(tb.w, ta.w));
+            if (follower) dQ += cross<double>(tb.w, force).dot(ta.v) + cross<double>(tb.w, moment).dot(ta.w);
+            K(a, b) -= dQ;
+        }
+}
+
+void Forces::user_derivatives(const UserForce& user, const ForceInput& at, ForceDerivatives& out) const {
+    const Eigen::Index n = at.q.size();
+    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
+    if (user.jacobian) {
+        user.jacobian(at, by_q, by_qd);
+    } else {
+        constexpr double step = 1e-6;
+        const Model& model = at.kinematics.model();
+        Workspace own(model);  // the caller's kinematics must stay valid
+        const auto force = [&](const Vector& q, const Vector& qd) {
+            Vector Q = Vector::Zero(n);
+            user.force({at.time, q, qd, kinematics(model, q, own)}, Q);
+            return Q;
+        };
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Vector d = step * Vector::Unit(n, j);
+            by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
+            by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
+        }
+    }
+    out.loads -= by_q;
+    out.damping -= by_qd;
+}
+
+void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                         ForceDerivatives& out) const {
+    const Eigen::Index n = q.size();
+    for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
+    for (const Law& law : laws_)
+        for (std::size_t i = 0; i < law.at.size(); ++i)
+            for (std::size_t j = 0; j < law.at.size(); ++j) {
+                const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+                out.elastic(law.at[i], law.at[j]) += law.K(r, c);
+                out.damping(law.at[i], law.at[j]) += law.D(r, c);
+            }
+    if (has_gravity()) gravity_stiffness(kin, out.gravity);
+    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, out.loads);
+    for (const UserForce& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
+}
+
+double Forces::gravity_energy(const Kinematics& kin) const {
+    const Workspace& ws = kin.workspace();
+    double energy = 0;
+    for (int k = 0; k < kin.model().size(); ++k)
+        energy -= kin.model().body(k).inertia.mass * gravity_.dot(ws.r[static_cast<std::size_t>(k)]);
+    return energy;
+}
+
+std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    std::vector<ForceReport> reports;
+    Vector Q = Vector::Zero(q.size());
+    const auto power = [&] {
+        const double P = Q.dot(qd);
+        Q.setZero();
+        return P;
+    };
+    for (const Law& law : laws_) {
+        Vector x(law.K.rows());
+        for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = q(law.at[static_cast<std::size_t>(i)]) - law.rest(i);
+        add_law<double>(law, q, qd, Q);
+        reports.push_back({law.name, x.dot(law.K * x) / 2, power()});
+    }
+    if (has_gravity()) {
+        add_gravity<double>(kin, Q);
+        reports.push_back({"gravity", gravity_energy(kin), power()});
+    }
+    for (const FrameLoad& load : loads_) {
+        add_wrench<double>(load, kin, Q);
+        std::optional<double> energy;  // only a dead force has a potential
+        if (load.axes == WrenchAxes::base && load.wrench.moment.isZero(0))
+            energy = -load.wrench.force.dot(pose(kin, load.frame).p);
+        reports.push_back({load.name, energy, power()});
+    }
+    for (const UserForce& user : users_) {
+        const ForceInput at{time, q, qd, kin};
+        user.force(at, Q);
+        reports.push_back({user.name, user.energy ? std::optional(user.energy(at)) : std::nullopt, power()});
+    }
+    return reports;
+}
+
+double Forces::potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    double sum = 0;
+    for (const ForceReport& element : report(kin, time, q, qd)) sum += element.energy.value_or(0.0);
+    return sum;
+}
+
+template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,
+                                                             VectorInT<double>, VectorOutT<double>) const;
+template void Forces::generalised_forces_of_elements<Complex>(const KinematicsT<Complex>&, VectorInT<Complex>,
+                                                              VectorInT<Complex>, VectorOutT<Complex>) const;
+
+}  // namespace cardan

@@ -1,0 +1,69 @@
+/// @file
+/// Poses of all bodies at q and the kinematic basis functions u, Omega.
+#pragma once
+
+#include "mbs/workspace.hpp"
+
+#include <cassert>
+
+namespace cardan {
+
+/// View of a workspace after kinematics(): the proof that the stage has been done. It goes stale when the workspace is
+/// used for another q (checked in debug builds).
+template <class S>
+class KinematicsT {
+public:
+    const Model& model() const { return *model_; }
+    WorkspaceT<S>& workspace() const {
+        assert(generation_ == workspace_->generation && "stale kinematics: the workspace was used for another q");
+        return *workspace_;
+    }
+
+private:
+    KinematicsT(const Model& model, WorkspaceT<S>& workspace)
+        : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
+    template <class T>
+    friend KinematicsT<T> kinematics(const Model&, const Eigen::Ref<const VectorT<T>>&, WorkspaceT<T>&);
+
+    const Model* model_;
+    WorkspaceT<S>* workspace_;
+    std::uint64_t generation_;
+};
+
+using Kinematics = KinematicsT<double>;
+
+/// Poses of all bodies.
+/// @param q  coordinates, size n, rad or m
+/// Cost O(n), no allocation.
+template <class S>
+KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace);
+inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspace) {
+    return kinematics<double>(model, q, workspace);
+}
+
+/// Kinematic basis functions of body k for coordinate a, in components of body k; both zero unless a precedes k.
+///   velocity of the centre of mass  v_k = u_ka qd^a,  angular velocity  omega_k = Omega_ka qd^a.
+///                                                                              [Zhao et al. 2007, eq. 6]
+template <class S>
+struct BasisFunctions {
+    Vec3T<S> u;      ///< m/rad or 1
+    Vec3T<S> Omega;  ///< 1 or 0
+};
+template <class S>
+BasisFunctions<S> basis_functions(const KinematicsT<S>& kin, int k, int a);
+
+/// Position and rotation (frame -> base) of a frame.
+template <class S>
+struct Pose {
+    Mat3T<S> R;
+    Vec3T<S> p;
+};
+template <class S>
+Pose<S> pose(const KinematicsT<S>& kin, FrameId frame);
+
+/// Jacobian of a frame: [angular velocity; velocity of its origin] = J qd, base axes.
+/// @param J  out, 6 x n, overwritten
+template <class S>
+void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J);
+
+}  // namespace cardan

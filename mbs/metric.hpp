@@ -1,0 +1,49 @@
+/// @file
+/// The Riemannian metric of the configuration space, g_ab.
+#pragma once
+
+#include "mbs/kinematics.hpp"
+
+#include <optional>
+
+namespace cardan {
+
+/// Metric g_ab = sum_k m_k u_ka . u_kb + Omega_ka . J_k Omega_kb, armatures included.      [Zhao et al. 2007, eq. 8]
+/// The sum over k collapses to one composite rigid body per pair, the subtree of the more distal coordinate.
+/// @param g  out, n x n, full and symmetric, kg m^2, kg m or kg; overwritten
+/// Cost O(n d), d the depth of the tree; no allocation.
+template <class S>
+void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
+
+/// Subtrees as composite rigid bodies (mass, centre, Binet tensor about the centre), tip to base. Idempotent per q.
+template <class S>
+void composites(const KinematicsT<S>& kin);
+
+/// Twist of coordinate a at a point C of a body distal to it: angular part w, velocity v (base axes).
+template <class S>
+struct PointTwist {
+    Vec3T<S> w, v;
+};
+template <class S>
+PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
+    const WorkspaceT<S>& ws = kin.workspace();
+    const std::size_t i = static_cast<std::size_t>(a);
+    if (kin.model().body(a).revolute) return {ws.e[i], cross<S>(ws.e[i], C - ws.o[i])};
+    return {Vec3T<S>::Zero(), ws.e[i]};
+}
+
+/// Adds J s s^T of every armature to a metric.
+template <class S>
+void add_armatures(const Model& model, MatrixOutT<S> g);
+
+/// First pivot of a Cholesky factorisation of g that is below 1e-12 of its scale (the diagonal element).
+struct SingularPivot {
+    int index;
+    double value, scale;
+};
+std::optional<SingularPivot> singular_pivot(const Matrix& g);
+
+/// Kinetic energy (1/2) g_ab qd^a qd^b in O(n), J.
+double kinetic_energy(const Kinematics& kin, VectorIn qd);
+
+}  // namespace cardan

@@ -1,0 +1,67 @@
+/// @file
+/// The immutable tree: sorted, welded, checked once. Shareable between threads.
+#pragma once
+
+#include "mbs/tree.hpp"
+
+namespace cardan {
+
+/// Bodies are sorted depth first, so that body index = coordinate index, every parent precedes its children and the
+/// subtree of body i is the index range [i, subtree_end(i)).
+class Model {
+public:
+    struct Body {
+        std::string name;
+        int parent;         ///< -1: base
+        int subtree_end;    ///< one past the last body of the subtree
+        int depth;          ///< number of bodies on the path to the base, itself included
+        bool revolute;      ///< else prismatic
+        Placement joint;    ///< joint frame at q = 0 in the parent body's frame
+        RigidInertia inertia;
+        Mat3 J;             ///< inertia tensor about the centre of mass, body axes
+    };
+    struct Frame {
+        std::string name;
+        int body;  ///< -1: base
+        Placement in_body;
+    };
+    /// Armature in model order; the indices lie on one branch.
+    struct Spin {
+        std::string name;
+        double inertia;
+        std::vector<std::pair<int, double>> spin;
+    };
+
+    /// @throws InputError if the metric of the free coordinates at q = 0 is singular (a pivot below 1e-12 of its scale):
+    /// the coordinate is named.
+    explicit Model(const Tree& tree);
+
+    int size() const { return static_cast<int>(bodies_.size()); }
+    const Body& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
+    const std::vector<Body>& bodies() const { return bodies_; }
+    const std::vector<Frame>& frames() const { return frames_; }
+    const std::vector<Spin>& armatures() const { return armatures_; }
+    const CoordinateTable& coordinates() const { return coordinates_; }
+
+    /// Coordinate (= body) index in the model of a body of the tree.
+    int index(BodyId body) const;
+    int index(std::string_view coordinate) const { return coordinates_.index(coordinate); }
+    FrameId frame(std::string_view name) const;
+    const Frame& frame(FrameId id) const { return frames_[static_cast<std::size_t>(id.index)]; }
+    /// True if a lies on the path from the base to b (or a == b).
+    bool precedes(int a, int b) const { return a <= b && b < body(a).subtree_end; }
+    /// Total mass, kg.
+    double mass() const;
+
+private:
+    void sort(const Tree& tree);
+    void check_metric() const;
+
+    std::vector<Body> bodies_;
+    std::vector<Frame> frames_;
+    std::vector<Spin> armatures_;
+    CoordinateTable coordinates_;
+    std::vector<int> index_of_tree_body_;
+};
+
+}  // namespace cardan

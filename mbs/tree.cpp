@@ -1,0 +1,124 @@
+#include "mbs/tree.hpp"
+
+#include "mbs/error.hpp"
+
+#include <algorithm>
+
+namespace cardan {
+
+namespace {
+
+template <class Range, class NameOf>
+std::string known_names(const Range& range, NameOf name_of) {
+    std::string names;
+    int count = 0;
+    for (const auto& item : range)
+        if (++count <= 12) names += text(count > 1 ? ", '" : "'", name_of(item), "'");
+    return count > 12 ? names + ", ..." : names;
+}
+
+}  // namespace
+
+Tree::Tree() { frames_.push_back({"base", -1, {}}); }
+
+BodyId Tree::add_body(const BodySpec& given) {
+    BodySpec spec = given;
+    const std::string where = text("body '", spec.name, "'");
+    if (spec.name.empty()) throw InputError("a body needs a name");
+    if (std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.spec.name == spec.name; }))
+        throw InputError(where, "name", spec.name, "a name not used before");
+    if (spec.coordinate.name.empty()) spec.coordinate.name = spec.name;
+    if (std::any_of(bodies_.begin(), bodies_.end(),
+                    [&](const Body& b) { return b.spec.coordinate.name == spec.coordinate.name; }))
+        throw InputError(where, "coordinate name", spec.coordinate.name, "a name not used before");
+    require(spec.inboard, where);
+    if (!spec.placement.is_valid())
+        throw InputError(where, "placement", text("R = [", spec.placement.R, "], p = ", spec.placement.p.transpose()),
+                         "finite, R a proper rotation");
+    spec.inertia.check(where);
+    spec.coordinate.unit = spec.joint == JointKind::revolute ? "rad" : "m";
+
+    const Frame& inboard = frames_[static_cast<std::size_t>(spec.inboard.index)];
+    const BodyId id{static_cast<int>(bodies_.size())};
+    const FrameId own{static_cast<int>(frames_.size())};
+    bodies_.push_back({spec, inboard.body, inboard.in_body * spec.placement, own});
+    frames_.push_back({spec.name, id.index, {}});
+    return id;
+}
+
+BodyId Tree::add_body(BodySpec spec, const DhParameters& dh) {
+    spec.placement = dh.placement();
+    return add_body(spec);
+}
+
+FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string name) {
+    const std::string where = text("frame '", name, "'");
+    if (name.empty()) throw InputError("a frame needs a name");
+    if (std::any_of(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.name == name; }))
+        throw InputError(where, "name", name, "a name not used before");
+    require(parent, where);
+    if (!placement.is_valid())
+        throw InputError(where, "placement", text("R = [", placement.R, "], p = ", placement.p.transpose()),
+                         "finite, R a proper rotation");
+    const Frame& carrier = frames_[static_cast<std::size_t>(parent.index)];
+    frames_.push_back({std::move(name), carrier.body, carrier.in_body * placement});
+    return FrameId{static_cast<int>(frames_.size()) - 1};
+}
+
+void Tree::weld(FrameId frame, const RigidInertia& inertia, std::string_view name) {
+    require(frame, name);
+    inertia.check(name);
+    const Frame& at = frames_[static_cast<std::size_t>(frame.index)];
+    if (at.body < 0) return;
+    RigidInertia& body = bodies_[static_cast<std::size_t>(at.body)].spec.inertia;
+    body = body + inertia.in(at.in_body);
+}
+
+void Tree::add_armature(const Armature& armature) {
+    const std::string where = text("armature '", armature.name, "'");
+    if (!std::isfinite(armature.inertia)) throw InputError(where, "inertia", armature.inertia, "finite");
+    if (armature.spin.empty()) throw InputError(where, "number of coordinates", 0, "at least one");
+    int distal = -1;
+    for (const auto& [body, factor] : armature.spin) {
+        require(body, where);
+        if (!std::isfinite(factor)) throw InputError(where, "spin factor", factor, "finite");
+        distal = std::max(distal, body.index);
+    }
+    std::vector<int> branch;
+    for (int k = distal; k >= 0; k = bodies_[static_cast<std::size_t>(k)].parent) branch.push_back(k);
+    for (const auto& [body, factor] : armature.spin)
+        if (std::find(branch.begin(), branch.end(), body.index) == branch.end())
+            throw InputError(text(where, ": the coordinates of its spin must lie on one branch of the tree"));
+    armatures_.push_back(armature);
+}
+
+FrameId Tree::frame_of(BodyId body) const {
+    require(body, "frame_of");
+    return bodies_[static_cast<std::size_t>(body.index)].frame;
+}
+
+FrameId Tree::frame(std::string_view name) const {
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+        if (frames_[i].name == name) return FrameId{static_cast<int>(i)};
+    throw InputError(text("unknown frame '", name, "'; the tree has ",
+                          known_names(frames_, [](const Frame& f) { return f.name; })));
+}
+
+BodyId Tree::body(std::string_view name) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        if (bodies_[i].spec.name == name) return BodyId{static_cast<int>(i)};
+    throw InputError(text("unknown body '", name, "'; the tree has ",
+                          known_names(bodies_, [](const Body& b) { return b.spec.name; })));
+}
+
+void Tree::require(FrameId frame, std::string_view where) const {
+    if (frame.index < 0 || frame.index >= static_cast<int>(frames_.size()))
+        throw InputError(where, "frame", frame.index, text("a frame of this tree, 0 ... ", frames_.size() - 1));
+}
+
+void Tree::require(BodyId body, std::string_view where) const {
+    if (body.index < 0 || body.index >= static_cast<int>(bodies_.size()))
+        throw InputError(where, "body", body.index, text("a body of this tree, 0 ... ", int(bodies_.size()) - 1));
+}
+
+}  // namespace cardan

@@ -1,0 +1,69 @@
+/// @file
+/// Scalar, vector and identifier types.
+///
+/// Numeric kernels are templates on the scalar S and are instantiated for double and std::complex<double>: the complex
+/// step Im f(q + i h e) / h is the test oracle of every analytic derivative. Hence no conjugating operation (dot, cross,
+/// adjoint of Eigen) appears in them.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <compare>
+#include <complex>
+#include <type_traits>
+#include <vector>
+
+namespace cardan {
+
+template <class S>
+using Vec3T = Eigen::Matrix<S, 3, 1>;
+template <class S>
+using Vec6T = Eigen::Matrix<S, 6, 1>;
+template <class S>
+using Mat3T = Eigen::Matrix<S, 3, 3>;
+template <class S>
+using Mat6T = Eigen::Matrix<S, 6, 6>;
+template <class S>
+using VectorT = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+template <class S>
+using MatrixT = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+using Vec3 = Vec3T<double>;
+using Vec6 = Vec6T<double>;
+using Mat3 = Mat3T<double>;
+using Mat6 = Mat6T<double>;
+using Vector = VectorT<double>;
+using Matrix = MatrixT<double>;
+using Complex = std::complex<double>;
+using ComplexVector = VectorT<Complex>;
+using ComplexMatrix = MatrixT<Complex>;
+
+/// Arguments of kernels: contiguous vectors and column-major matrices, never copied when they are of that kind.
+/// (The scalar is taken from the Kinematics argument, so it does not take part in template deduction.)
+template <class S>
+using VectorInT = const Eigen::Ref<const VectorT<std::type_identity_t<S>>>&;
+template <class S>
+using VectorOutT = Eigen::Ref<VectorT<std::type_identity_t<S>>>;
+template <class S>
+using MatrixOutT = Eigen::Ref<MatrixT<std::type_identity_t<S>>>;
+
+using VectorIn = VectorInT<double>;
+using VectorOut = VectorOutT<double>;
+using MatrixIn = const Eigen::Ref<const Matrix>&;
+using MatrixOut = MatrixOutT<double>;
+
+/// A body of a Tree, in the order of insertion. (In the sorted Model a body is its coordinate index.)
+struct BodyId {
+    int index = -1;
+    auto operator<=>(const BodyId&) const = default;
+};
+
+/// A frame of a Tree or Model; frame 0 is the base (the fixed ground frame).
+struct FrameId {
+    int index = 0;
+    auto operator<=>(const FrameId&) const = default;
+};
+
+inline constexpr double pi = 3.14159265358979323846;
+
+}  // namespace cardan

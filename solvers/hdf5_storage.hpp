@@ -1,0 +1,68 @@
+/// @file
+/// What the HDF5 file layer needs from the C library: owned identifiers, the error stack, storage that may fill up.
+/// Internal: includes hdf5.h, not for users of the library.
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+
+namespace cardan::solvers::detail {
+
+/// While it lives, the C library prints no errors on this thread; the setting of the host program returns afterwards.
+class Quiet {
+public:
+    Quiet() {
+        H5Eget_auto2(H5E_DEFAULT, &printer_, &data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    ~Quiet() { H5Eset_auto2(H5E_DEFAULT, printer_, data_); }
+    Quiet(const Quiet&) = delete;
+    Quiet& operator=(const Quiet&) = delete;
+
+private:
+    H5E_auto2_t printer_ = nullptr;
+    void* data_ = nullptr;
+};
+
+/// Description of the innermost failure on the error stack of this thread; empty when there is none.
+[[nodiscard]] std::string innermost_reason();
+
+/// An identifier of the C library with the function that closes it.
+class Handle {
+public:
+    using Closer = herr_t (*)(hid_t);
+    Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(closer_, other.closer_);
+        return *this;
+    }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    ~Handle() { close(); }
+
+    [[nodiscard]] hid_t get() const { return id_; }
+    [[nodiscard]] bool valid() const { return id_ >= 0; }
+    /// Negative on failure: buffered data may be written only now.
+    herr_t close() { return id_ < 0 ? 0 : closer_(std::exchange(id_, -1)); }
+
+private:
+    hid_t id_;
+    Closer closer_;
+};
+
+/// What happened on the disk so far.
+struct DiskState {
+    int error = 0;  ///< errno of the first operation that failed; 0: none
+};
+
+/// File access list for a file to be written. A write that fails (full disk, quota, lost mount) is noted in `state` and
+/// reported to the C library as done: HDF5 1.10 does not survive a failed flush; it can neither close the file nor end
+/// the program without a crash. Whoever writes looks at `state` after each step. `state` outlives the file.
+/// The file is locked against other writers and readers as long as it is open.
+[[nodiscard]] Handle writing_access(DiskState& state);
+
+}  // namespace cardan::solvers::detail
