@@ -73,13 +73,13 @@ void Christoffel::coriolis(VectorIn qd, MatrixOut C) const {
             const int a = on_path[i];
             for (std::size_t j = 0; j < d; ++j) {
                 const int b = on_path[j];
-                C(a, m) += K[i * d + j] * qd(b);          // Gamma_abm qd^b
+                C(a, m) += K[i * d + j] * qd(b);              // Gamma_abm qd^b
                 if (b != m) C(a, b) += K[i * d + j] * qd(m);  // Gamma_amb qd^m
             }
             if (a == m) continue;
             for (std::size_t j = 0; j <= i; ++j) {
                 const int b = on_path[j];
-                C(m, a) -= K[i * d + j] * qd(b);          // Gamma_mba qd^b
+                C(m, a) -= K[i * d + j] * qd(b);  // Gamma_mba qd^b
                 if (b != a) C(m, b) -= K[i * d + j] * qd(a);
             }
         }

@@ -14,11 +14,11 @@ namespace cardan {
 enum class CoordinateRole : std::uint8_t { free, driven };
 
 struct CoordinateInfo {
-    std::string name;       ///< unique, e.g. "blade 1 element 2 flap bending inboard"
-    std::string part = {};  ///< the part it belongs to, e.g. "tower", "drive train", "blade"
-    int blade = 0;          ///< blade number counted from 1, 0: belongs to no blade
+    std::string name;                            ///< unique, e.g. "blade 1 element 2 flap bending inboard"
+    std::string part = {};                       ///< the part it belongs to, e.g. "tower", "drive train", "blade"
+    int blade = 0;                               ///< blade number counted from 1, 0: belongs to no blade
     CoordinateRole role = CoordinateRole::free;  ///< default role; solvers may be told otherwise
-    std::string unit = {};  ///< "rad" or "m"; filled in by the tree
+    std::string unit = {};                       ///< "rad" or "m"; filled in by the tree
 };
 
 /// Coordinates of a model in its order.

@@ -32,8 +32,7 @@ Mat6T<S> velocity_matrix(const Mat6T<S>& I, const Vec6T<S>& v, const Vec6T<S>& m
     crm.template bottomLeftCorner<3, 3>() = skew<S>(v.template tail<3>());
     Mat6T<S> bar = Mat6T<S>::Zero();
     bar.template topLeftCorner<3, 3>() = -skew<S>(momentum.template head<3>());
-    bar.template topRightCorner<3, 3>() = bar.template bottomLeftCorner<3, 3>() =
-        -skew<S>(momentum.template tail<3>());
+    bar.template topRightCorner<3, 3>() = bar.template bottomLeftCorner<3, 3>() = -skew<S>(momentum.template tail<3>());
     return S(0.5) * (bar - crm.transpose() * I - I * crm);
 }
 
@@ -102,9 +101,9 @@ void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, Ve
     }
 }
 
-#define CARDAN_INSTANTIATE(S)                                                                                  \
-    template void inverse_dynamics_derivatives<S>(const KinematicsT<S>&, VectorInT<S>, VectorInT<S>,           \
-                                                  MatrixOutT<S>, MatrixOutT<S>);
+#define CARDAN_INSTANTIATE(S)                                                                                       \
+    template void inverse_dynamics_derivatives<S>(const KinematicsT<S>&, VectorInT<S>, VectorInT<S>, MatrixOutT<S>, \
+                                                  MatrixOutT<S>);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)
 #undef CARDAN_INSTANTIATE

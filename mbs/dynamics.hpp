@@ -1,5 +1,6 @@
 /// @file
-/// O(n) recursions: inverse dynamics (Newton-Euler) and forward dynamics (articulated body). They never form g or Gamma.
+/// O(n) recursions: inverse dynamics (Newton-Euler) and forward dynamics (articulated body). They never form g or
+/// Gamma.
 #pragma once
 
 #include "mbs/metric.hpp"

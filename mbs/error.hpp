@@ -1,5 +1,6 @@
 /// @file
-/// Exceptions. Everything Cardan throws derives from cardan::Error; the message says what, where, the value and the limit.
+/// Exceptions. Everything Cardan throws derives from cardan::Error; the message says what, where, the value and the
+/// limit.
 #pragma once
 
 #include <sstream>
@@ -38,7 +39,8 @@ public:
 class ParseError : public Error {
 public:
     ParseError(std::string_view file, int line, int column, std::string_view message)
-        : Error(column > 0 ? text(file, ":", line, ":", column, ": ", message) : text(file, ":", line, ": ", message)) {}
+        : Error(column > 0 ? text(file, ":", line, ":", column, ": ", message) : text(file, ":", line, ": ", message)) {
+    }
 };
 
 /// A file that cannot be opened, written or completed; the path and the system's reason are part of the message.

@@ -101,7 +101,8 @@ public:
     template <class S>
     void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
                                         VectorOutT<S> Q) const;
-    void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd, ForceDerivatives& out) const;
+    void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                     ForceDerivatives& out) const;
 
     /// Potential energy of everything that has one, J.
     double potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;

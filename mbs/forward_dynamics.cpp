@@ -37,7 +37,9 @@ void add_shifted(Mat6& target, const Mat6& I, const Vec3& arm) {
     target.bottomRightCorner<3, 3>() += M;
 }
 
-int part(const Model::Body& body) { return body.revolute ? 0 : 3; }
+int part(const Model::Body& body) {
+    return body.revolute ? 0 : 3;
+}
 
 }  // namespace
 

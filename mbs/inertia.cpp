@@ -28,8 +28,7 @@ void RigidInertia::check(std::string_view where) const {
     if (!com.allFinite()) throw InputError(where, "centre of mass [m]", com.transpose(), "finite");
     if (!J.allFinite()) throw InputError(where, "inertia tensor [kg m^2]", J, "finite");
     const double size = J.norm();
-    if ((J - J.transpose()).norm() > 1e-12 * size)
-        throw InputError(where, "inertia tensor [kg m^2]", J, "symmetric");
+    if ((J - J.transpose()).norm() > 1e-12 * size) throw InputError(where, "inertia tensor [kg m^2]", J, "symmetric");
     const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();
     if (principal(0) < -1e-9 * size)
         throw InputError(where, "smallest principal moment of inertia [kg m^2]", principal(0), ">= 0");

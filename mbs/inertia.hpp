@@ -10,10 +10,10 @@ namespace cardan {
 
 /// Inertia of a rigid body in a frame fixed to it.
 struct RigidInertia {
-    double mass = 0;           ///< kg, >= 0
-    Vec3 com = Vec3::Zero();   ///< centre of mass in the frame, m
-    Mat3 J = Mat3::Zero();     ///< ordinary inertia tensor about the centre of mass, frame axes, kg m^2
-    bool reduced = false;      ///< only some axes are modelled: the triangle inequality is not asked for
+    double mass = 0;          ///< kg, >= 0
+    Vec3 com = Vec3::Zero();  ///< centre of mass in the frame, m
+    Mat3 J = Mat3::Zero();    ///< ordinary inertia tensor about the centre of mass, frame axes, kg m^2
+    bool reduced = false;     ///< only some axes are modelled: the triangle inequality is not asked for
 
     /// The same body in components of frame a, given the pose of its frame in a.
     RigidInertia in(const Placement& frame_in_a) const;
@@ -26,7 +26,8 @@ struct RigidInertia {
     void check(std::string_view where) const;
 };
 
-/// Binet's tensor int rho x x^T dV = tr(J)/2 1 - J of an ordinary inertia tensor J.          [Zhao et al. 2007, nomenclature]
+/// Binet's tensor int rho x x^T dV = tr(J)/2 1 - J of an ordinary inertia tensor J.          [Zhao et al. 2007,
+/// nomenclature]
 template <class S>
 Mat3T<S> binet_tensor(const Mat3T<S>& J) {
     return (J.trace() / S(2)) * Mat3T<S>::Identity() - J;

@@ -97,11 +97,11 @@ void frame_jacobian(const KinematicsT<S>& kin, FrameId id, MatrixOutT<S> J) {
     }
 }
 
-#define CARDAN_INSTANTIATE(S)                                                                                    \
-    template class WorkspaceT<S>;                                                                                \
-    template KinematicsT<S> kinematics<S>(const Model&, const Eigen::Ref<const VectorT<S>>&, WorkspaceT<S>&);    \
-    template BasisFunctions<S> basis_functions<S>(const KinematicsT<S>&, int, int);                              \
-    template Pose<S> pose<S>(const KinematicsT<S>&, FrameId);                                                    \
+#define CARDAN_INSTANTIATE(S)                                                                                 \
+    template class WorkspaceT<S>;                                                                             \
+    template KinematicsT<S> kinematics<S>(const Model&, const Eigen::Ref<const VectorT<S>>&, WorkspaceT<S>&); \
+    template BasisFunctions<S> basis_functions<S>(const KinematicsT<S>&, int, int);                           \
+    template Pose<S> pose<S>(const KinematicsT<S>&, FrameId);                                                 \
     template void frame_jacobian<S>(const KinematicsT<S>&, FrameId, MatrixOutT<S>);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)

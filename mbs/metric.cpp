@@ -32,7 +32,7 @@ template <class S>
 void add_armatures(const Model& model, MatrixOutT<S> g) {
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, sa] : armature.spin)
-            for (const auto& [b, sb] : armature.spin) g(a, b) += armature.inertia * sa * sb;
+            for (const auto& [b, sb] : armature.spin) g(a, b) += armature.inertia * (sa * sb);
 }
 
 template <class S>
@@ -61,8 +61,7 @@ std::optional<SingularPivot> singular_pivot(const Matrix& g) {
         const double pivot = g(j, j) - L.row(j).head(j).squaredNorm();
         if (!(pivot > 1e-12 * std::abs(g(j, j)))) return SingularPivot{static_cast<int>(j), pivot, g(j, j)};
         L(j, j) = std::sqrt(pivot);
-        for (Eigen::Index i = j + 1; i < n; ++i)
-            L(i, j) = (g(i, j) - L.row(i).head(j).dot(L.row(j).head(j))) / L(j, j);
+        for (Eigen::Index i = j + 1; i < n; ++i) L(i, j) = (g(i, j) - L.row(i).head(j).dot(L.row(j).head(j))) / L(j, j);
     }
     return std::nullopt;
 }
@@ -96,9 +95,9 @@ double kinetic_energy(const Kinematics& kin, VectorIn qd) {
     return twice / 2;
 }
 
-#define CARDAN_INSTANTIATE(S)                                     \
-    template void composites<S>(const KinematicsT<S>&);           \
-    template void add_armatures<S>(const Model&, MatrixOutT<S>);  \
+#define CARDAN_INSTANTIATE(S)                                    \
+    template void composites<S>(const KinematicsT<S>&);          \
+    template void add_armatures<S>(const Model&, MatrixOutT<S>); \
     template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)

@@ -42,8 +42,7 @@ void Model::sort(const Tree& tree) {
     }
     for (int k = size() - 1; k >= 0; --k)
         if (const int p = body(k).parent; p >= 0)
-            bodies_[static_cast<std::size_t>(p)].subtree_end =
-                std::max(body(p).subtree_end, body(k).subtree_end);
+            bodies_[static_cast<std::size_t>(p)].subtree_end = std::max(body(p).subtree_end, body(k).subtree_end);
     coordinates_ = CoordinateTable(std::move(rows));
 }
 

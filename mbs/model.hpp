@@ -12,13 +12,13 @@ class Model {
 public:
     struct Body {
         std::string name;
-        int parent;         ///< -1: base
-        int subtree_end;    ///< one past the last body of the subtree
-        int depth;          ///< number of bodies on the path to the base, itself included
-        bool revolute;      ///< else prismatic
-        Placement joint;    ///< joint frame at q = 0 in the parent body's frame
+        int parent;       ///< -1: base
+        int subtree_end;  ///< one past the last body of the subtree
+        int depth;        ///< number of bodies on the path to the base, itself included
+        bool revolute;    ///< else prismatic
+        Placement joint;  ///< joint frame at q = 0 in the parent body's frame
         RigidInertia inertia;
-        Mat3 J;             ///< inertia tensor about the centre of mass, body axes
+        Mat3 J;  ///< inertia tensor about the centre of mass, body axes
     };
     struct Frame {
         std::string name;
@@ -32,8 +32,8 @@ public:
         std::vector<std::pair<int, double>> spin;
     };
 
-    /// @throws InputError if the metric of the free coordinates at q = 0 is singular (a pivot below 1e-12 of its scale):
-    /// the coordinate is named.
+    /// @throws InputError if the metric of the free coordinates at q = 0 is singular (a pivot below 1e-12 of its
+    /// scale): the coordinate is named.
     explicit Model(const Tree& tree);
 
     int size() const { return static_cast<int>(bodies_.size()); }

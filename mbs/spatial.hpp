@@ -60,7 +60,7 @@ struct Placement {
     /// Finite, and R a proper rotation within 1e-9.
     bool is_valid() const {
         return R.allFinite() && p.allFinite() && (R.transpose() * R - Mat3::Identity()).norm() < 1e-9 &&
-               R.determinant() > 0;
+               dot<double>(cross<double>(R.col(0), R.col(1)), R.col(2)) > 0;
     }
 };
 

@@ -19,7 +19,9 @@ std::string known_names(const Range& range, NameOf name_of) {
 
 }  // namespace
 
-Tree::Tree() { frames_.push_back({"base", -1, {}}); }
+Tree::Tree() {
+    frames_.push_back({"base", -1, {}});
+}
 
 BodyId Tree::add_body(const BodySpec& given) {
     BodySpec spec = given;
@@ -100,8 +102,8 @@ FrameId Tree::frame_of(BodyId body) const {
 FrameId Tree::frame(std::string_view name) const {
     for (std::size_t i = 0; i < frames_.size(); ++i)
         if (frames_[i].name == name) return FrameId{static_cast<int>(i)};
-    throw InputError(text("unknown frame '", name, "'; the tree has ",
-                          known_names(frames_, [](const Frame& f) { return f.name; })));
+    throw InputError(
+        text("unknown frame '", name, "'; the tree has ", known_names(frames_, [](const Frame& f) { return f.name; })));
 }
 
 BodyId Tree::body(std::string_view name) const {

@@ -13,9 +13,9 @@ namespace cardan {
 
 /// What a body needs to be added to a tree. Its own frame has z along the joint axis.
 struct BodySpec {
-    std::string name = {};           ///< unique
-    FrameId inboard = {};            ///< frame that carries the joint
-    Placement placement = {};        ///< joint frame at q = 0 in the inboard frame (see also DhParameters::placement)
+    std::string name = {};     ///< unique
+    FrameId inboard = {};      ///< frame that carries the joint
+    Placement placement = {};  ///< joint frame at q = 0 in the inboard frame (see also DhParameters::placement)
     JointKind joint = JointKind::revolute;
     RigidInertia inertia = {};       ///< in the body's own frame; none for massless intermediate bodies
     CoordinateInfo coordinate = {};  ///< an empty name becomes the body's name
@@ -25,7 +25,7 @@ struct BodySpec {
 /// (generator, gear wheel seen from the slow side): no Christoffel symbols, no reaction on the carrier.
 struct Armature {
     std::string name = {};
-    double inertia = 0;                               ///< J, kg m^2 (rad) or kg (m); negative values are legal as long as the metric stays positive
+    double inertia = 0;  ///< J, kg m^2 (rad) or kg (m); negative values are legal as long as the metric stays positive
     std::vector<std::pair<BodyId, double>> spin = {};  ///< the vector s: coordinates on one branch and their factors
 };
 

@@ -2,8 +2,8 @@
 /// Scalar, vector and identifier types.
 ///
 /// Numeric kernels are templates on the scalar S and are instantiated for double and std::complex<double>: the complex
-/// step Im f(q + i h e) / h is the test oracle of every analytic derivative. Hence no conjugating operation (dot, cross,
-/// adjoint of Eigen) appears in them.
+/// step Im f(q + i h e) / h is the test oracle of every analytic derivative. Hence no conjugating operation (dot,
+/// cross, adjoint of Eigen) appears in them.
 #pragma once
 
 #include <Eigen/Core>

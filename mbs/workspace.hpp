@@ -32,11 +32,11 @@ public:
     Aligned<Mat3T<S>> P;
 
     // Scratch of the recursions.
-    Aligned<Vec3T<S>> w, al, a;    ///< angular velocity and acceleration, acceleration of the joint origin
-    Aligned<Vec3T<S>> F, N;        ///< force and moment about the joint origin
-    Aligned<Vec6T<S>> V, A, S6;    ///< spatial velocity, acceleration and joint axis about the base origin
-    Aligned<Vec6T<S>> U, c, pA;    ///< articulated-body recursion
-    Aligned<Mat6T<S>> IA, B;       ///< articulated (or composite spatial) inertia; composite velocity matrix
+    Aligned<Vec3T<S>> w, al, a;  ///< angular velocity and acceleration, acceleration of the joint origin
+    Aligned<Vec3T<S>> F, N;      ///< force and moment about the joint origin
+    Aligned<Vec6T<S>> V, A, S6;  ///< spatial velocity, acceleration and joint axis about the base origin
+    Aligned<Vec6T<S>> U, c, pA;  ///< articulated-body recursion
+    Aligned<Mat6T<S>> IA, B;     ///< articulated (or composite spatial) inertia; composite velocity matrix
     Aligned<S> D, u;
     VectorT<S> bias, zero;
 };

@@ -1,15 +1,14 @@
 #include "solvers/hdf5_storage.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <mutex>
 #include <new>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
 namespace cardan::solvers::detail {
@@ -32,8 +31,12 @@ struct Storage : H5FD_t {
 constexpr haddr_t max_address = static_cast<haddr_t>(1) << 62;
 constexpr std::size_t max_kept_piece = 65536;  // larger pieces of raw data are never asked for again
 
-Storage& storage(H5FD_t* file) { return *static_cast<Storage*>(file); }
-const Storage& storage(const H5FD_t* file) { return *static_cast<const Storage*>(file); }
+Storage& storage(H5FD_t* file) {
+    return *static_cast<Storage*>(file);
+}
+const Storage& storage(const H5FD_t* file) {
+    return *static_cast<const Storage*>(file);
+}
 
 void note(DiskState& state, int reason) {
     if (state.error == 0) state.error = reason;
@@ -94,14 +97,18 @@ herr_t query_features(const H5FD_t*, unsigned long* flags) noexcept {
     return 0;
 }
 
-haddr_t get_end_allocated(const H5FD_t* file, H5FD_mem_t) noexcept { return storage(file).end_allocated; }
+haddr_t get_end_allocated(const H5FD_t* file, H5FD_mem_t) noexcept {
+    return storage(file).end_allocated;
+}
 
 herr_t set_end_allocated(H5FD_t* file, H5FD_mem_t, haddr_t address) noexcept {
     storage(file).end_allocated = address;
     return 0;
 }
 
-haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) noexcept { return storage(file).end_of_file; }
+haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) noexcept {
+    return storage(file).end_of_file;
+}
 
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) noexcept {
     const Storage& s = storage(file);
@@ -122,7 +129,8 @@ herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
     return 0;
 }
 
-herr_t write_bytes(H5FD_t* file, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size, const void* bytes) noexcept {
+herr_t write_bytes(H5FD_t* file, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size,
+                   const void* bytes) noexcept {
     Storage& s = storage(file);
     const auto* from = static_cast<const char*>(bytes);
     std::size_t done = 0;

@@ -1,12 +1,11 @@
 #include "solvers/pending_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
+#include "mbs/error.hpp"
 
 #include <cerrno>
+#include <fcntl.h>
 #include <system_error>
-
-#include "mbs/error.hpp"
+#include <unistd.h>
 
 namespace cardan::solvers {
 namespace fs = std::filesystem;
@@ -28,7 +27,8 @@ PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(
     }
     const int fd = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (fd < 0) {
-        throw FileError(path_, text("cannot be written: ", std::generic_category().message(errno), " (", partial_, ")"));
+        throw FileError(path_,
+                        text("cannot be written: ", std::generic_category().message(errno), " (", partial_, ")"));
     }
     ::close(fd);
 }

@@ -1,8 +1,8 @@
+cmake_minimum_required(VERSION 3.25)
+
 # Fails when a source includes a header it must not see: mbs <- elements <- turbines, mbs <- solvers; SUNDIALS in
 # solvers only, HDF5 in solvers/hdf5* only, urdfdom in mbs/urdf* only.
 set(seen_by_mbs mbs)
-cmake_minimum_required(VERSION 3.25)
-
 set(seen_by_elements mbs elements)
 set(seen_by_turbines mbs elements turbines)
 set(seen_by_solvers mbs solvers)

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Builds what the demonstration needs, runs it and says where its pictures are.
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+usage: ./demo.sh [--help]
+
+Builds the library and one example (release, build/release) and computes the Campbell diagram of the 600 kW turbine.
+Files go to out/wt600_campbell. Missing Debian packages are installed (root or passwordless sudo); otherwise the
+command that installs them is printed. CARDAN_SKIP_PACKAGES=1 leaves out the check.
+TEXT
+}
+
+case "${1:-}" in
+    "") ;;
+    -h | --help) usage && exit 0 ;;
+    *) usage >&2 && exit 2 ;;
+esac
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+# shellcheck source=cmake/packages.sh
+source cmake/packages.sh
+
+heading() { printf '\n== %s\n' "$*"; }
+trap 'echo "demo.sh: FAILED (line $LINENO)" >&2' ERR
+
+out=out/wt600_campbell
+
+heading "Packages"
+require_packages "${cardan_build_packages[@]}"
+
+heading "Build"
+cmake --preset release
+cmake --build --preset release --target wt600_campbell
+
+heading "Campbell diagram of the 600 kW turbine"
+mkdir -p "$out"
+build/release/examples/wt600_campbell --out "$out"
+
+heading "Results"
+find "$PWD/$out" -type f \( -name '*.svg' -o -name '*.png' -o -name '*.pdf' \) -printf 'picture  %p\n' | sort
+find "$PWD/$out" -type f ! \( -name '*.svg' -o -name '*.png' -o -name '*.pdf' \) -printf 'file     %p\n' | sort

@@ -1,0 +1,129 @@
+/// @file
+/// HDF5 files: self-describing arrays in groups, written so that a broken file never poses as a complete one.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace cardan::solvers {
+
+/// Extents of an array, slowest axis first (row-major); {} is a single number.
+using Shape = std::vector<std::size_t>;
+
+using AttributeValue = std::variant<std::string, double, std::int64_t>;
+
+/// A named remark on a data set or a group.
+struct Attribute {
+    std::string name;
+    AttributeValue value;
+};
+
+using Attributes = std::vector<Attribute>;
+
+/// What every array of numbers says about itself; neither units nor long_name may be empty. A pure number has units
+/// "1".
+struct Description {
+    std::string units;      ///< SI, e.g. "kg m2 s-1"
+    std::string long_name;  ///< one line, e.g. "natural frequency, undamped"
+    Attributes more = {};   ///< frame, point, alias ...
+};
+
+/// A file being written, or open for reading. Names are paths: "modes/frequency"; missing groups are made on the way.
+///
+/// Writing goes to "<path>.partial". finish() completes the file and gives it its name; it must be called. Without it,
+/// the destructor closes the partial file, which stays and can be read, under that name, up to the last thing written.
+/// An older file under `path` is untouched until finish(). The partial file is locked while it is open.
+///
+/// Every failure is a FileError with path, object and reason; a disk that fills up is noticed at the latest by
+/// finish(). After a failed write the file cannot be finished. Misuse (a name used twice, sizes that do not fit, a
+/// missing unit) is an InputError and leaves the file as it was.
+///
+/// Arrays from 64 KiB on are chunked, shuffled, deflated and given checksums. Groups and attributes keep the order in
+/// which they were made; no times are stored: the same data give the same bytes. Complex numbers are compounds {r, i}
+/// of doubles and texts are UTF-8 of variable length, as h5py has them.
+///
+/// One thread at a time for all files together: the high-level part of the C library is not thread-safe.
+class Hdf5File {
+public:
+    /// Begins a new file.
+    [[nodiscard]] static Hdf5File create(const std::filesystem::path& path);
+    /// Opens an existing file for reading.
+    [[nodiscard]] static Hdf5File open(const std::filesystem::path& path);
+
+    Hdf5File(Hdf5File&&) noexcept;
+    Hdf5File& operator=(Hdf5File&&) noexcept;
+    Hdf5File(const Hdf5File&) = delete;
+    Hdf5File& operator=(const Hdf5File&) = delete;
+    ~Hdf5File();
+
+    /// The name given to create() or open().
+    [[nodiscard]] const std::string& path() const;
+
+    /// @name Writing
+    ///@{
+
+    /// A new data set; values.size() is the product of the extents.
+    void write(std::string_view name, std::span<const double> values, const Shape& shape, const Description& about);
+    void write(std::string_view name, std::span<const int> values, const Shape& shape, const Description& about);
+    void write(std::string_view name, std::span<const std::int64_t> values, const Shape& shape,
+               const Description& about);
+    void write(std::string_view name, std::span<const std::complex<double>> values, const Shape& shape,
+               const Description& about);
+    /// Texts have no units; they must not contain the character NUL.
+    void write(std::string_view name, std::span<const std::string> values, const Shape& shape,
+               std::string_view long_name, const Attributes& more = {});
+
+    /// Makes a group with those above it, or adds attributes to an existing one.
+    void make_group(std::string_view name, const Attributes& attributes = {});
+    /// Adds or replaces an attribute of a group or data set; "/" is the root.
+    void set_attribute(std::string_view object, const Attribute& attribute);
+
+    /// Turns a data set with one axis into a dimension scale.
+    void make_dimension(std::string_view name);
+    /// Declares axis `axis` (from 0) of a data set to run over the scale, which has as many values.
+    void attach(std::string_view dataset, std::size_t axis, std::string_view scale);
+
+    /// Hands all to the operating system; a program that ends later without finish() leaves what was written so far.
+    void flush();
+    /// Completes the file and renames it to path(). The object is closed afterwards, also when this throws.
+    void finish();
+    ///@}
+
+    /// @name Reading (also from a file being written)
+    ///@{
+    [[nodiscard]] bool has(std::string_view name) const;
+    [[nodiscard]] bool has_attribute(std::string_view object, std::string_view attribute) const;
+    /// Names within a group in the order of creation (alphabetical in files that do not keep it).
+    [[nodiscard]] std::vector<std::string> children(std::string_view group = "/") const;
+    [[nodiscard]] Shape shape(std::string_view name) const;
+    [[nodiscard]] std::vector<double> read_doubles(std::string_view name) const;
+    /// Refuses floating-point numbers.
+    [[nodiscard]] std::vector<std::int64_t> read_ints(std::string_view name) const;
+    [[nodiscard]] std::vector<std::complex<double>> read_complex(std::string_view name) const;
+    /// Variable or fixed length.
+    [[nodiscard]] std::vector<std::string> read_strings(std::string_view name) const;
+    /// The path of the scale attached to an axis, empty when there is none.
+    [[nodiscard]] std::string dimension(std::string_view dataset, std::size_t axis) const;
+
+    [[nodiscard]] std::string string_attribute(std::string_view object, std::string_view attribute) const;
+    [[nodiscard]] double double_attribute(std::string_view object, std::string_view attribute) const;
+    [[nodiscard]] std::int64_t int_attribute(std::string_view object, std::string_view attribute) const;
+    ///@}
+
+    struct Impl;  ///< internal
+
+private:
+    explicit Hdf5File(std::unique_ptr<Impl> impl);
+    [[nodiscard]] Impl& writable() const;
+    [[nodiscard]] Impl& readable() const;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cardan::solvers

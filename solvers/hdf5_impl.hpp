@@ -1,0 +1,64 @@
+/// @file
+/// The inside of Hdf5File, shared by its writing and its reading half. Internal: not for users of the library.
+#pragma once
+
+#include "mbs/error.hpp"
+#include "solvers/hdf5_file.hpp"
+#include "solvers/hdf5_storage.hpp"
+#include "solvers/pending_file.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cardan::solvers {
+
+struct Hdf5File::Impl {
+    explicit Impl(std::string file_path) : path(std::move(file_path)) {}
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() { close(); }
+
+    std::string path;
+    std::optional<PendingFile> pending;  ///< only when writing
+    detail::DiskState disk;
+    hid_t file = -1;
+    bool failed = false;  ///< a step of writing failed: what is on the disk cannot be trusted
+
+    herr_t close() {
+        const detail::Quiet quiet;
+        return file < 0 ? 0 : H5Fclose(std::exchange(file, -1));
+    }
+
+    /// FileError "<path>: <object>: cannot <action>: <reason>"; an empty object is the file itself.
+    [[noreturn]] void fail(std::string_view object, std::string_view action) const;
+    /// The code, when it is not negative; otherwise fail().
+    template <class Code>
+    Code ok(Code code, std::string_view object, std::string_view action) const {
+        if (code < 0) fail(object, action);
+        return code;
+    }
+    [[nodiscard]] detail::Handle own(hid_t id, detail::Handle::Closer closer, std::string_view object,
+                                     std::string_view action) const {
+        return {ok(id, object, action), closer};
+    }
+
+    /// Does what changes the file; after any failure, also one of the disk, the file counts as failed.
+    template <class Steps>
+    void change(std::string_view object, Steps&& steps) {
+        try {
+            steps();
+            if (disk.error != 0) fail(object, "be written");
+        } catch (...) {
+            failed = true;
+            throw;
+        }
+    }
+
+    [[nodiscard]] bool exists(std::string_view name) const;
+    [[nodiscard]] detail::Handle open_object(std::string_view name) const;
+    [[nodiscard]] detail::Handle open_dataset(std::string_view name) const;
+    [[nodiscard]] Shape shape(hid_t dataset, std::string_view name) const;
+};
+
+}  // namespace cardan::solvers

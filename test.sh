@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# Builds and tests everything; the first failure stops it with a non-zero exit.
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+usage: ./test.sh [--full] [--help]
+
+  (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
+  --full     the same, then clang build and tests, clang-tidy, tests under the address and undefined-behaviour
+             sanitizers, and the slow tests
+
+Everything is written to build/. Missing Debian packages are installed (root or passwordless sudo); otherwise the
+command that installs them is printed. Environment: CARDAN_JOBS, number of parallel jobs (default: all processors);
+CARDAN_SKIP_PACKAGES=1, packages are not checked.
+TEXT
+}
+
+full=0
+for argument in "$@"; do
+    case "$argument" in
+        --full) full=1 ;;
+        -h | --help) usage && exit 0 ;;
+        *) usage >&2 && exit 2 ;;
+    esac
+done
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+# shellcheck source=cmake/packages.sh
+source cmake/packages.sh
+
+jobs="${CARDAN_JOBS:-$(nproc)}"
+step="start"
+heading() {
+    step="$*"
+    printf '\n== %s\n' "$step"
+}
+trap 'echo "test.sh: FAILED in step: $step" >&2' ERR
+
+# The C++ files that git tracks; in a copy without git, all outside build/ and out/.
+sources() {
+    local file listed
+    listed="$(git ls-files -- '*.cpp' '*.hpp' 2>/dev/null || true)"
+    if [[ -z "$listed" ]]; then
+        listed="$(find . \( -path ./build -o -path ./out \) -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print)"
+    fi
+    while IFS= read -r file; do
+        if [[ -f "$file" ]]; then printf '%s\n' "$file"; fi
+    done <<<"$listed"
+}
+
+check_format() {
+    local files
+    mapfile -t files < <(sources)
+    if ((${#files[@]} == 0)); then
+        echo "no C++ files found" >&2
+        return 1
+    fi
+    clang-format --dry-run --Werror "${files[@]}"
+    echo "${#files[@]} files are formatted"
+}
+
+build() { # <preset>
+    cmake --preset "$1"
+    cmake --build --preset "$1" --parallel "$jobs"
+}
+
+# A project of its own, with find_package(cardan) and the compiler's default flags, against an installed copy.
+check_package() {
+    local prefix="$PWD/build/packaging/prefix" consumer="$PWD/build/packaging/consumer"
+    rm -rf build/packaging
+    cmake --install build/release --prefix "$prefix" >/dev/null
+    cmake -S tests/packaging -B "$consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
+    cmake --build "$consumer" --parallel "$jobs"
+    "$consumer/consumer"
+}
+
+check_tidy() {
+    # Every file of the clang build that is ours; what cmake generates is left out.
+    run-clang-tidy -quiet -j "$jobs" -p build/clang "^$PWD/(mbs|elements|turbines|solvers|examples|tests)/.*\.cpp\$"
+}
+
+heading "Packages"
+packages=("${cardan_build_packages[@]}" "${cardan_format_packages[@]}")
+if ((full)); then packages+=("${cardan_check_packages[@]}"); fi
+require_packages "${packages[@]}"
+
+heading "Format"
+check_format
+
+heading "Build with GCC, release"
+build release
+
+heading "Installed package"
+check_package
+
+if ((full)); then
+    heading "Build with clang, release"
+    build clang
+
+    heading "Tests, clang"
+    ctest --preset clang --parallel "$jobs"
+
+    heading "clang-tidy"
+    check_tidy
+
+    heading "Build with sanitizers"
+    build sanitize
+
+    heading "Tests, sanitizers"
+    ctest --preset sanitize --parallel "$jobs"
+
+    heading "Slow tests"
+    ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$'
+fi
+
+heading "Tests, GCC release"
+ctest --preset release --parallel "$jobs"

@@ -1,0 +1,32 @@
+/// @file
+/// Random branched trees with prismatic joints and massless intermediate bodies; random states.
+#pragma once
+
+#include "mbs/system.hpp"
+
+#include <random>
+
+namespace cardan::testing {
+
+using Random = std::mt19937;
+
+double uniform(Random& random, double low, double high);
+Vec3 random_vector(Random& random, double size = 1);
+Mat3 random_rotation(Random& random);
+Placement random_placement(Random& random);
+RigidInertia random_inertia(Random& random);
+Vector random_state(Random& random, int n, double size = 1);
+
+struct RandomTreeOptions {
+    int bodies = 9;
+    double prismatic = 0.35;
+    double massless = 0.25;
+    bool armatures = false;
+    int driven = 0;
+};
+/// Every leaf has mass, so the metric is positive definite almost surely.
+Tree random_tree(Random& random, const RandomTreeOptions& options = {});
+/// Springs, dampers, gravity, dead and follower wrenches on a random tree.
+ForceSet random_forces(Random& random, const Tree& tree);
+
+}  // namespace cardan::testing
