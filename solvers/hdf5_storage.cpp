@@ -165,7 +165,7 @@ hid_t driver() {
     static std::mutex mutex;
     static hid_t id = -1;
     const std::lock_guard lock(mutex);
-    if (id < 0 || H5Iget_type(id) != H5I_VFD) {
+    if (id < 0 || H5Iget_type(id) != H5I_VFL) {
         H5FD_class_t table{};  // zeros: no driver block in the file, one free list for each kind of data
         table.name = "cardan";
         table.maxaddr = max_address;

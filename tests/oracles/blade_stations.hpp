@@ -18,7 +18,7 @@ struct BladeStation {
     double twist;                ///< rad, positive turns the leading edge upwind
     double mass_centre_offset;   ///< from the pitch axis, m, positive toward the trailing edge
     double shear_centre_offset;  ///< from the pitch axis, m, positive toward the trailing edge
-    double polar_inertia;        ///< per length about the mass centre, kg m; split int y'^2 : int z'^2 = EI_edge : EI_flap
+    double polar_inertia;  ///< per length about the mass centre, kg m; split int y'^2 : int z'^2 = EI_edge : EI_flap
 };
 
 /// Continuous distribution through the stations: stiffnesses log-linear, everything else linear in between.

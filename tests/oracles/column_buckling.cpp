@@ -7,9 +7,13 @@
 
 namespace cardan::oracles::column_buckling {
 
-double clamped_free() { return 0.25 * std::numbers::pi * std::numbers::pi; }
+double clamped_free() {
+    return 0.25 * std::numbers::pi * std::numbers::pi;
+}
 
-double hinged_hinged() { return std::numbers::pi * std::numbers::pi; }
+double hinged_hinged() {
+    return std::numbers::pi * std::numbers::pi;
+}
 
 double clamped_free_own_weight() {
     // J_{-1/3}(x) = x^{-1/3} times the series sum_k (-x^2/4)^k / (k! Gamma(k + 2/3)), and x^2/4 = q/9, q = qL^3/EI.

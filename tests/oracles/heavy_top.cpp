@@ -83,7 +83,9 @@ HeavySymmetricTop::Nutation HeavySymmetricTop::nutation(const State& state) cons
     return {u[0], u[1], 0.5 * std::sqrt(beta * spread), std::sqrt((u[1] - u[0]) / spread)};
 }
 
-double HeavySymmetricTop::Nutation::period() const { return 2.0 * complete_elliptic_k(modulus) / rate; }
+double HeavySymmetricTop::Nutation::period() const {
+    return 2.0 * complete_elliptic_k(modulus) / rate;
+}
 
 double HeavySymmetricTop::Nutation::cos_theta(double time) const {
     const double sn = jacobi_elliptic(rate * time, modulus).sn;

@@ -46,12 +46,12 @@ public:
     /// Nutation of the motion with the given constants: u = cos(theta) swings between two roots of a cubic,
     ///     u(t) = lower + (upper - lower) sn^2(rate t, modulus),  t = 0 at the lowest position,  period = 2 K / rate.
     struct Nutation {
-        double lower;    ///< least cos(theta)
-        double upper;    ///< greatest cos(theta)
-        double rate;     ///< 1/s
-        double modulus;  ///< k
-        double period() const;                 ///< s
-        double cos_theta(double time) const;   ///< time from the lowest position, s
+        double lower;                         ///< least cos(theta)
+        double upper;                         ///< greatest cos(theta)
+        double rate;                          ///< 1/s
+        double modulus;                       ///< k
+        double period() const;                ///< s
+        double cos_theta(double time) const;  ///< time from the lowest position, s
     };
     Nutation nutation(const State& state) const;
 

@@ -16,7 +16,9 @@ SwingingPendulum::SwingingPendulum(double omega0, double amplitude) : omega0_(om
     quarter_ = complete_elliptic_k(k_);
 }
 
-double SwingingPendulum::period() const { return 4.0 * quarter_ / omega0_; }
+double SwingingPendulum::period() const {
+    return 4.0 * quarter_ / omega0_;
+}
 
 double SwingingPendulum::angle(double time) const {
     return 2.0 * std::asin(k_ * jacobi_elliptic(omega0_ * time + quarter_, k_).sn);
@@ -38,7 +40,9 @@ RevolvingPendulum::RevolvingPendulum(double omega0, double rate_at_bottom)
     }
 }
 
-double RevolvingPendulum::period() const { return 4.0 * complete_elliptic_k(k_) / rate_at_bottom_; }
+double RevolvingPendulum::period() const {
+    return 4.0 * complete_elliptic_k(k_) / rate_at_bottom_;
+}
 
 double RevolvingPendulum::angle(double time) const {
     return 2.0 * jacobi_elliptic(0.5 * rate_at_bottom_ * time, k_).am;

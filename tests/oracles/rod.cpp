@@ -34,6 +34,8 @@ double clamped_with_tip_body_wave_number(int mode, double ratio) {
                   (mode - 0.5) * pi);
 }
 
-double clamped_free_shape(int mode, double xi) { return std::sin(clamped_free_wave_number(mode) * xi); }
+double clamped_free_shape(int mode, double xi) {
+    return std::sin(clamped_free_wave_number(mode) * xi);
+}
 
 }  // namespace cardan::oracles::rod

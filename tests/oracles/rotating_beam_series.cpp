@@ -27,8 +27,7 @@ double RotatingBeamSeries::root_determinant(double lambda) const {
         int small = 0;
         for (int n = 0; n < most_terms && small < 8; ++n) {
             const Real k = n;
-            const Real right =
-                eta2 * (reach * (k + 1) * (k + 1) * a[1] - 0.5L * k * (k + 1) * a[0]) + lambda_l * a[0];
+            const Real right = eta2 * (reach * (k + 1) * (k + 1) * a[1] - 0.5L * k * (k + 1) * a[0]) + lambda_l * a[0];
             const Real next = right / ((k + 1) * (k + 2) * (k + 3) * (k + 4));
             a = {a[1], a[2], a[3], next};
             const Real power = k + 4;

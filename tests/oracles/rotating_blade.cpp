@@ -9,6 +9,7 @@
 #include <complex>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 namespace cardan::oracles {
 namespace {
@@ -24,7 +25,7 @@ using Vector = std::array<Local, 3>;
 
 /// What the section at one point contributes, as functions of the six local variables.
 struct Section {
-    Local energy;   // elastic, per length
+    Local energy;    // elastic, per length
     Vector tangent;  // r' of the pitch axis
     Vector offset;   // mass centre minus pitch axis
     Vector e2, e3;   // axes of the section
@@ -133,7 +134,7 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
         weight[2][i] *= s.polar_inertia * s.flap_stiffness / sum;
     }
 
-    Assembly out;
+    Assembly out{};
     out.mass = MatrixXd::Zero(3 * n, 3 * n);
     out.coriolis = out.mass;
     out.stiffness = out.mass;
@@ -163,6 +164,7 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
             if (axis == 2) continue;  // no centrifugal force along the axis of rotation
             // - Omega^2 [ dx dx + x d2x ]; d2x of the integrated tangent sits at the point where it turns.
             const VectorXd force = omega2 * weight[vector].cwiseProduct(x);
+            out.load += force.cwiseAbs().sum() * (vector == 0 ? blade_.length() : 1.0);
             out.stiffness -= omega2 * square;
             pull += dx[axis].transpose() * force;
             const VectorXd tension = vector == 0 ? VectorXd(integral.transpose() * force) : VectorXd::Zero(points);
@@ -184,7 +186,6 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
         out.stiffness += rows.transpose() * (hessian[point(i)] * rows);
     }
     out.residual = elastic - pull;
-    out.load = pull.cwiseAbs().maxCoeff();
     return out;
 }
 
@@ -195,7 +196,7 @@ RotatingBlade::Modes RotatingBlade::modes(double rotor_speed, int count, About a
     Modes out{};
     const auto relative = [&] { return a.load > 0.0 ? a.residual.cwiseAbs().maxCoeff() / a.load : 0.0; };
     if (about == About::deflected) {
-        while (relative() > 1e-11) {
+        while (relative() > 1e-13) {
             if (++out.newton_steps > most_steps) throw std::runtime_error("RotatingBlade: no steady state found");
             q -= a.stiffness.ldlt().solve(a.residual);
             a = assemble(q, rotor_speed);

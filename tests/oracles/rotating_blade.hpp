@@ -36,11 +36,11 @@ public:
     enum class About { deflected, undeflected };
 
     struct Modes {
-        Eigen::VectorXd frequency;         ///< natural frequencies, Hz, rising
-        Eigen::Vector3d steady_tip;        ///< displacement of the pitch axis at the tip, m, (x, y, z) as above
-        double steady_tip_twist;           ///< elastic phi at the tip, rad
+        Eigen::VectorXd frequency;   ///< natural frequencies, Hz, rising
+        Eigen::Vector3d steady_tip;  ///< displacement of the pitch axis at the tip, m, (x, y, z) as above
+        double steady_tip_twist;     ///< elastic phi at the tip, rad
         int newton_steps;
-        double residual;                   ///< largest generalised force left over, relative to the largest load
+        double residual;  ///< largest generalised force left over, over (centrifugal force times length)
     };
     /// @param rotor_speed  rad/s
     /// @param count        number of modes
@@ -54,7 +54,7 @@ private:
         Eigen::MatrixXd coriolis;
         Eigen::MatrixXd stiffness;
         Eigen::VectorXd residual;
-        double load;  // largest generalised centrifugal force
+        double load;  // scale of the generalised forces: centrifugal force times length, N m
         Eigen::Vector3d tip;
     };
     Assembly assemble(const Eigen::VectorXd& q, double rotor_speed) const;

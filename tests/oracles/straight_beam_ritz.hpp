@@ -27,7 +27,7 @@ struct StraightBeam {
 /// [Meirovitch, Analytical Methods in Vibrations, 1967, sections 6-4 and 10-4; Wright et al., J. Appl. Mech. 49 (1982)]
 class StraightBeamRitz {
 public:
-    explicit StraightBeamRitz(const StraightBeam& beam, int degree = 14);
+    explicit StraightBeamRitz(const StraightBeam& beam, int degree = 20);
 
     /// The first `count` natural frequencies, rad/s, rising; rigid-body modes come as (numerical) zeros.
     Eigen::VectorXd frequencies(int count) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace cardan::oracles {
 namespace {
@@ -57,9 +58,15 @@ double TimoshenkoBeam::boundary_determinant(Ends ends, double b) const {
         const auto at_1 = solutions(kappa2, b2 * s2_, 1.0);
         for (const auto& [y0, y1] : {std::pair{at_0.first, at_1.first}, std::pair{at_0.second, at_1.second}}) {
             switch (ends) {
-                case Ends::clamped_free: m.col(column) << y0.w, y0.psi, y1.dpsi, y1.dw - y1.psi; break;
-                case Ends::free_free: m.col(column) << y0.dpsi, y0.dw - y0.psi, y1.dpsi, y1.dw - y1.psi; break;
-                case Ends::hinged_hinged: m.col(column) << y0.w, y0.dpsi, y1.w, y1.dpsi; break;
+                case Ends::clamped_free:
+                    m.col(column) << y0.w, y0.psi, y1.dpsi, y1.dw - y1.psi;
+                    break;
+                case Ends::free_free:
+                    m.col(column) << y0.dpsi, y0.dw - y0.psi, y1.dpsi, y1.dw - y1.psi;
+                    break;
+                case Ends::hinged_hinged:
+                    m.col(column) << y0.w, y0.dpsi, y1.w, y1.dpsi;
+                    break;
             }
             m.col(column).normalize();
             ++column;

@@ -27,10 +27,18 @@ Eigen::Vector3d FreeSymmetricTop::angular_velocity(double time) const {
     return {transverse_rate_ * std::cos(angle), transverse_rate_ * std::sin(angle), axial_rate_};
 }
 
-double FreeSymmetricTop::body_rate() const { return (c_ - a_) / a_ * axial_rate_; }
-double FreeSymmetricTop::angular_momentum() const { return std::hypot(a_ * transverse_rate_, c_ * axial_rate_); }
-double FreeSymmetricTop::precession_rate() const { return angular_momentum() / a_; }
-double FreeSymmetricTop::nutation_angle() const { return std::atan2(a_ * transverse_rate_, c_ * axial_rate_); }
+double FreeSymmetricTop::body_rate() const {
+    return (c_ - a_) / a_ * axial_rate_;
+}
+double FreeSymmetricTop::angular_momentum() const {
+    return std::hypot(a_ * transverse_rate_, c_ * axial_rate_);
+}
+double FreeSymmetricTop::precession_rate() const {
+    return angular_momentum() / a_;
+}
+double FreeSymmetricTop::nutation_angle() const {
+    return std::atan2(a_ * transverse_rate_, c_ * axial_rate_);
+}
 
 double FreeSymmetricTop::kinetic_energy() const {
     return 0.5 * (a_ * transverse_rate_ * transverse_rate_ + c_ * axial_rate_ * axial_rate_);
@@ -76,6 +84,8 @@ Eigen::Vector3d FreeAsymmetricTop::angular_velocity(double time) const {
     return amplitude_.cwiseProduct(shape);
 }
 
-double FreeAsymmetricTop::period() const { return 4.0 * complete_elliptic_k(k_) / rate_; }
+double FreeAsymmetricTop::period() const {
+    return 4.0 * complete_elliptic_k(k_) / rate_;
+}
 
 }  // namespace cardan::oracles

@@ -50,7 +50,7 @@ public:
 private:
     bool about_3_;
     double k_;
-    double rate_;               // d tau / dt, 1/s
+    double rate_;                // d tau / dt, 1/s
     Eigen::Vector3d amplitude_;  // rad/s
 };
 

@@ -1,0 +1,58 @@
+#include "elements/timoshenko.hpp"
+
+#include "elements/quadrature.hpp"
+#include "mbs/error.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace cardan {
+
+Mat6 section_forces_by_joint_forces(double x, double L, double delta) {
+    const double x1 = delta * L, x2 = (1 - delta) * L, d = x2 - x1;
+    const double N1 = (x2 - x) / d, N2 = (x - x1) / d;
+    Mat6 H = Mat6::Zero();
+    H(0, 0) = 1;                        // N
+    H(1, 4) = 1 / d, H(1, 5) = -1 / d;  // Vy = (pz1 - pz2) / d
+    H(2, 2) = -1 / d, H(2, 3) = 1 / d;  // Vz = (py2 - py1) / d
+    H(3, 1) = 1;                        // T
+    H(4, 2) = N1, H(4, 3) = N2;         // My
+    H(5, 4) = N1, H(5, 5) = N2;         // Mz
+    return H;
+}
+
+Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta) {
+    return integrate(x0, x0 + L, line.breaks, Mat6(Mat6::Zero()), [&](double x) {
+        const Mat6 H = section_forces_by_joint_forces(x - x0, L, delta);
+        return Mat6(H.transpose() * line.section(x).compliance * H);
+    });
+}
+
+Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,
+                       const std::string& where) {
+    const auto n = static_cast<Eigen::Index>(coordinates.size());
+    const auto at = [&](Eigen::Index i) { return static_cast<Eigen::Index>(coordinates[static_cast<std::size_t>(i)]); };
+    Matrix f(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) f(i, j) = flexibility(at(i), at(j));
+    // Scaled to unit diagonal: metres and radians differ by decades.
+    const Vector scale = f.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::LLT<Matrix> cholesky(scale.asDiagonal() * f * scale.asDiagonal());
+    if (cholesky.info() != Eigen::Success || !(f.diagonal().minCoeff() > 0))
+        throw InputError(where, "flexibility of the free joint coordinates", f.diagonal().transpose(),
+                         "positive definite (a rigid direction must be locked)");
+    Matrix K = scale.asDiagonal() * cholesky.solve(Matrix(scale.asDiagonal()));
+    return (K + K.transpose()) / 2;
+}
+
+SpringConstants spring_constants(double EI, double GA, double GJ, double EA, double L, double delta) {
+    const double lambda = GA * L * L / EI;
+    // Euler-Bernoulli limit lambda -> infinity of eq. (15) and (16).
+    const double c21 = std::isinf(lambda) ? 6 * (1 - 2 * delta) * (1 - 2 * delta) * EI / L
+                                          : 6 * (1 - 2 * delta) * (1 - 2 * delta) / (12 + lambda) * GA * L;
+    const double c22 = std::isinf(lambda)
+                           ? (12 * (delta - delta * delta) - 2) * EI / L
+                           : (12 * (lambda * delta - lambda * delta * delta + 1) - 2 * lambda) / (12 + lambda) * EI / L;
+    return {c21, c22, c21, GJ / L, EA / L};
+}
+
+}  // namespace cardan

@@ -1,0 +1,44 @@
+/// @file
+/// Elastic law of the cardanic joint beam element.
+#pragma once
+
+#include "elements/section.hpp"
+
+#include <Eigen/Core>
+
+namespace cardan {
+
+/// (1 - 1/sqrt 3) / 2: hinges at the Gauss points, the default. Of all places only this one converges at O(h^4) in
+/// bending with true segment masses.
+inline constexpr double delta_gauss = 0.21132486540518711775;
+
+/// Joint coordinates of one element in the order of its law: extension, torsion, rotation about y at hinge 1 and 2,
+/// rotation about z at hinge 1 and 2.
+enum class ElementCoordinate : std::uint8_t { u, phi, ay1, ay2, az1, az2 };
+
+/// Section forces (N, Vy, Vz, T, My, Mz) at x from the forces conjugate to (u, phi, ay1, ay2, az1, az2):
+/// hinge moments are extrapolated linearly over the whole element, My' = Vz and Mz' = -Vy.
+/// @param x      place in the element, 0 ... L, m
+/// @param L      length of the element, m
+/// @param delta  hinges at delta L and (1 - delta) L
+Mat6 section_forces_by_joint_forces(double x, double L, double delta);
+
+/// Flexibility F = int_0^L H^T S H dx of the element that spans [x0, x0 + L] of a beam line; the joint stiffness is its
+/// inverse and reproduces the 6 x 6 tip compliance of any section exactly.
+/// Rows and columns in the order of ElementCoordinate; entries of rigid directions are zero.
+Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
+
+/// Joint stiffness over the chosen coordinates: the inverse of the flexibility without the rows and columns of those
+/// that are locked (condensed at zero force, not clamped).
+/// @throws InputError if the flexibility is singular there (a free direction of a rigid section).
+Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,
+                       const std::string& where);
+
+/// Spring constants of a uniform element.            [Zhao et al. 2007, eq. 14-18; 17 and 18 are interchanged in print]
+struct SpringConstants {
+    double c21, c22, c23;  ///< bending, N m/rad: joint 1, between the terminal bodies, joint 2. c22 may be negative.
+    double c11, c12;       ///< torsion GJ/L, N m/rad; extension EA/L, N/m
+};
+SpringConstants spring_constants(double EI, double GA, double GJ, double EA, double L, double delta);
+
+}  // namespace cardan
