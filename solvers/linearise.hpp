@@ -1,0 +1,42 @@
+/// @file
+/// Linearisation about an operating point, exact and with its parts kept apart.
+#pragma once
+
+#include "solvers/steady_state.hpp"
+
+namespace cardan::solvers {
+
+/// M dq'' + (damping + gyroscopic) dq' + (elastic + gravity + loads + inertial) dq = 0 over all coordinates.
+/// `gyroscopic` is the whole velocity matrix of the inertial forces, 2 Omega Gamma_{a c spin} for a steady spin; at one
+/// azimuth its symmetric part is Mdot / 2, so it is skew only after a multi-blade transformation.
+struct Linearisation {
+    Matrix mass;        ///< g_ab
+    Matrix damping;     ///< -dQ/dqd
+    Matrix gyroscopic;  ///< d(Gamma qd qd)/dqd
+    Matrix elastic;     ///< -dQ/dq of the linear laws
+    Matrix gravity;     ///< -dQ/dq of gravity
+    Matrix loads;       ///< -dQ/dq of wrenches and user forces
+    Matrix inertial;    ///< d(g qdd + Gamma qd qd)/dq
+    OperatingPoint at;
+    CoordinateTable coordinates;
+
+    Matrix velocity() const { return damping + gyroscopic; }
+    Matrix geometric() const { return gravity + loads + inertial; }
+    Matrix stiffness() const { return elastic + geometric(); }
+};
+
+/// Exact: analytic derivatives of the recursions and of the force elements (user forces without a Jacobian are
+/// differenced).
+Linearisation linearise(const System& system, const OperatingPoint& at);
+
+/// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
+struct SecondOrderSystem {
+    Matrix M, C, K, K_elastic;
+    std::vector<int> coordinates;  ///< model index of every row
+    int cyclic = -1;               ///< row of a coordinate on which nothing depends (a free spin), -1: none
+};
+
+/// The rows and columns of `coordinates`. The spin is cyclic if it is among them and no force depends on it.
+SecondOrderSystem restrict_to(const Linearisation& lin, std::vector<int> coordinates, int spin = -1);
+
+}  // namespace cardan::solvers

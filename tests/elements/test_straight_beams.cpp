@@ -1,0 +1,215 @@
+// Frequencies of straight beams by the cardanic element: "discrete" values were computed by an independent
+// implementation of the same formulas (docs/verification.md), exact ones are analytic.
+#include "tests/elements/cantilever.hpp"
+#include "tests/support/catch.hpp"
+
+#include <Eigen/Eigenvalues>
+
+using namespace cardan;
+using namespace cardan::testing;
+
+namespace {
+
+struct Row {
+    const char* name;
+    double delta;
+    Partition partition;
+    int mode;
+    std::vector<std::pair<int, double>> values;
+    int digits;
+};
+
+double order(double coarse, double fine, double exact) {
+    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
+}
+
+}  // namespace
+
+TEST_CASE("Euler-Bernoulli cantilever: discrete frequencies to the printed digit", "[published]") {
+    constexpr auto N = Partition::segment_masses, S = Partition::static_moment;
+    const double G = delta_gauss;
+    const std::vector<Row> rows{
+        {"delta .10, N",
+         .10,
+         N,
+         1,
+         {{1, 3.270894}, {2, 3.478901}, {3, 3.501551}, {4, 3.508277}, {8, 3.514176}, {16, 3.515561}},
+         6},
+        {"delta 1/6, N",
+         1. / 6,
+         N,
+         1,
+         {{1, 3.409471}, {2, 3.502982}, {3, 3.510907}, {4, 3.513259}, {8, 3.515352}, {16, 3.515851}},
+         6},
+        {"delta G, N",
+         G,
+         N,
+         1,
+         {{1, 3.480405}, {2, 3.515360}, {3, 3.515936}, {4, 3.515996}, {8, 3.516014}, {16, 3.516015}},
+         6},
+        {"delta .25, N",
+         .25,
+         N,
+         1,
+         {{1, 3.527617}, {2, 3.523906}, {3, 3.519551}, {4, 3.517998}, {8, 3.516508}, {16, 3.516138}},
+         6},
+        {"delta 1/6, S",
+         1. / 6,
+         S,
+         1,
+         {{1, 3.476196}, {2, 3.513993}, {3, 3.515631}, {4, 3.515895}, {8, 3.516008}, {16, 3.516015}},
+         6},
+        {"delta G, N",
+         G,
+         N,
+         2,
+         {{1, 35.83137}, {2, 21.42407}, {3, 21.98545}, {4, 22.02472}, {8, 22.03420}, {16, 22.03448}},
+         5},
+        {"delta 1/6, S",
+         1. / 6,
+         S,
+         2,
+         {{1, 17.26025}, {2, 21.40808}, {3, 21.93126}, {4, 22.00349}, {8, 22.03265}, {16, 22.03438}},
+         5},
+        {"delta G, N", G, N, 3, {{2, 71.83364}, {3, 59.11636}, {4, 61.32853}, {8, 61.68898}, {16, 61.69689}}, 5},
+        {"delta 1/6, S", 1. / 6, S, 3, {{2, 54.09010}, {3, 59.02535}, {4, 60.97520}, {8, 61.65622}, {16, 61.69471}}, 5},
+    };
+    const BeamLine line = uniform_beam(1, slender(1, 1));
+    for (const Row& row : rows)
+        for (const auto& [elements, expected] : row.values) {
+            INFO(row.name << ", mode " << row.mode << ", N = " << elements);
+            const auto omega = clamped_frequencies(line, bending_only(elements, row.delta, row.partition));
+            CHECK(bending(omega, row.mode) == Approx(expected).margin(1.0 * std::pow(10, -row.digits)).epsilon(0));
+        }
+}
+
+TEST_CASE("Euler-Bernoulli cantilever: orders of convergence from 8 to 16 elements", "[analytic]") {
+    // Roots of cos x cosh x = -1, squared.
+    constexpr double mode1 = 3.516015268532, mode3 = 61.697214413536;
+    const BeamLine line = uniform_beam(1, slender(1, 1));
+    const auto check = [&](CardanBeamOptions options, double order1, double order3) {
+        options.elements = 8;
+        const auto coarse = clamped_frequencies(line, options);
+        options.elements = 16;
+        const auto fine = clamped_frequencies(line, options);
+        CHECK(order(bending(coarse, 1), bending(fine, 1), mode1) == Approx(order1).margin(0.05));
+        CHECK(order(bending(coarse, 3), bending(fine, 3), mode3) == Approx(order3).margin(0.02));
+    };
+    check(bending_only(8, .10), 2.02, 1.94);
+    check(bending_only(8), 4.14, 4.65);
+    check(bending_only(8, .25), 2.00, 1.97);
+    check(bending_only(8, 1. / 6, Partition::static_moment), 4.00, 4.03);
+}
+
+TEST_CASE("Euler-Bernoulli cantilever: a negative armature of M L^2 / 360 lifts partition S to sixth order",
+          "[published]") {
+    const BeamLine line = uniform_beam(1, slender(1, 1));
+    CardanBeamOptions options = bending_only(1, 1. / 6, Partition::static_moment);
+    options.bending_armature = -1. / 360;
+    for (const auto& [elements, expected] : std::vector<std::pair<int, double>>{
+             {1, 3.502911}, {2, 3.515834}, {3, 3.515999}, {4, 3.516012}, {8, 3.516015}, {16, 3.516015}}) {
+        options.elements = elements;
+        CHECK(bending(clamped_frequencies(line, options), 1) == Approx(expected).margin(1e-6).epsilon(0));
+    }
+    options.elements = 4;
+    const double coarse = bending(clamped_frequencies(line, options), 3);
+    options.elements = 8;
+    CHECK(order(coarse, bending(clamped_frequencies(line, options), 3), 61.697214413536) > 5.7);
+}
+
+TEST_CASE("Timoshenko cantilever, r/L = 0.05: discrete values and second order toward the exact ones", "[published]") {
+    // E/(kG) = 3.12. Exact: roots of the transcendental equation, 46.60313987 for mode 3.
+    EngineeringSection s = slender(1, 1);
+    s.GA_y = s.GA_z = 1 / (0.05 * 0.05 * 3.12);
+    s.j_flap = s.j_edge = 0.05 * 0.05;
+    const BeamLine line = uniform_beam(1, s);
+    const auto frequencies = [&](int elements) {
+        return clamped_frequencies(line, bending_only(elements, 1. / 6, Partition::static_moment));
+    };
+    const auto n4 = frequencies(4), n16 = frequencies(16);
+    CHECK(bending(n4, 1) == Approx(3.435622).margin(1e-6).epsilon(0));
+    CHECK(bending(n4, 2) == Approx(19.13658).margin(1e-5).epsilon(0));
+    CHECK(bending(n4, 3) == Approx(46.64463).margin(1e-5).epsilon(0));
+    CHECK(bending(n16, 1) == Approx(3.435304).margin(1e-6).epsilon(0));
+    CHECK(bending(n16, 2) == Approx(19.10767).margin(1e-5).epsilon(0));
+    CHECK(bending(n16, 3) == Approx(46.65033).margin(1e-5).epsilon(0));
+    const double m8 = bending(frequencies(8), 3), m32 = bending(frequencies(32), 3);
+    CHECK(m8 == Approx(46.760366).margin(1e-6).epsilon(0));
+    CHECK(m32 == Approx(46.615411).margin(1e-6).epsilon(0));
+    CHECK(order(bending(n16, 3), m32, 46.60313987) == Approx(2).margin(0.1));
+}
+
+TEST_CASE("torsion and extension, clamped-free: 2 N sin(pi / 4N) for every delta; the armature -1/12 lifts the order",
+          "[analytic]") {
+    EngineeringSection bar = slender(1e4, 1);
+    bar.GJ = 1;
+    bar.j_flap = bar.j_edge = 0.5;  // polar inertia 1
+    EngineeringSection rod = slender(1e4, 1);
+    rod.EA = 1;
+    for (const double delta : {0.1, delta_gauss, 0.3})
+        for (const int elements : {1, 2, 3, 4, 8, 16}) {
+            const double expected = 2 * elements * std::sin(pi / (4 * elements));
+            CardanBeamOptions options = bending_only(elements, delta);
+            options.extension = true;
+            CHECK(clamped_frequencies(uniform_beam(1, rod), options)[0] == Approx(expected).epsilon(1e-7));
+            options.extension = false;
+            options.torsion = true;
+            CHECK(clamped_frequencies(uniform_beam(1, bar), options)[0] == Approx(expected).epsilon(1e-7));
+        }
+    CardanBeamOptions options = bending_only(1);
+    options.torsion = true;
+    options.torsion_armature = -1. / 12;
+    for (const auto& [elements, expected] : std::vector<std::pair<int, double>>{
+             {1, 1.549193}, {2, 1.569522}, {3, 1.570548}, {4, 1.570718}, {8, 1.570791}, {16, 1.570796}}) {
+        options.elements = elements;
+        CHECK(clamped_frequencies(uniform_beam(1, bar), options)[0] == Approx(expected).margin(1e-6).epsilon(0));
+    }
+}
+
+TEST_CASE("tapered cantilever, A ~ (1 - x/2), I ~ (1 - x/2)^3: discrete values, fourth order", "[published]") {
+    constexpr double exact = 3.82378485;  // Bessel functions
+    BeamLine line{1, {}, [](double x) {
+                      const double t = 1 - x / 2;
+                      return slender(t * t * t, t).section();
+                  }};
+    const auto mode1 = [&](int elements, double delta, Partition p) {
+        return bending(clamped_frequencies(line, bending_only(elements, delta, p)), 1);
+    };
+    for (const auto& [elements, s, n] : std::vector<std::tuple<int, double, double>>{{2, 3.810418, 3.814620},
+                                                                                     {3, 3.821364, 3.822298},
+                                                                                     {4, 3.823042, 3.823360},
+                                                                                     {8, 3.823740, 3.823761},
+                                                                                     {16, 3.823782, 3.823783}}) {
+        CHECK(mode1(elements, 1. / 6, Partition::static_moment) == Approx(s).margin(1e-6).epsilon(0));
+        CHECK(mode1(elements, delta_gauss, Partition::segment_masses) == Approx(n).margin(1e-6).epsilon(0));
+    }
+    CHECK(order(mode1(4, delta_gauss, Partition::segment_masses), mode1(8, delta_gauss, Partition::segment_masses),
+                exact) == Approx(4).margin(0.2));
+}
+
+TEST_CASE("column buckling under a dead tip load: discrete values; S is of fourth order, G of second", "[published]") {
+    const auto critical = [](int elements, double delta) {
+        Tree tree;
+        ForceSet forces;
+        const CardanBeam beam = add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, slender(1, 1)), "column",
+                                                {"column"}, bending_only(elements, delta));
+        forces.add_wrench({"tip load", beam.tip(), {Vec3(-1, 0, 0), Vec3::Zero()}, WrenchAxes::base});
+        const System system(tree, forces);
+        const Vector zero = Vector::Zero(system.model.size());
+        const auto lin = solvers::linearise(system, {zero, zero, zero, 0});
+        // (K_elastic + P K_loads) x = 0
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(-lin.loads, lin.elastic);
+        return 1 / solver.eigenvalues().maxCoeff();
+    };
+    for (const auto& [elements, s, g] : std::vector<std::tuple<int, double, double>>{{1, 2.4559963, 2.3316571},
+                                                                                     {2, 2.4667365, 2.4334582},
+                                                                                     {3, 2.4672712, 2.4523058},
+                                                                                     {4, 2.4673602, 2.4589078},
+                                                                                     {8, 2.4673986, 2.4652772}}) {
+        CHECK(critical(elements, 1. / 6) == Approx(s).margin(1e-7).epsilon(0));
+        CHECK(critical(elements, delta_gauss) == Approx(g).margin(1e-7).epsilon(0));
+    }
+    const double exact = pi * pi / 4;
+    CHECK(order(critical(4, 1. / 6), critical(8, 1. / 6), exact) == Approx(4).margin(0.1));
+    CHECK(order(critical(4, delta_gauss), critical(8, delta_gauss), exact) == Approx(2).margin(0.1));
+}
