@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds what the demonstration needs, runs it and says where its pictures are.
-set -euo pipefail
+set -Eeuo pipefail
 
 usage() {
     cat <<'TEXT'

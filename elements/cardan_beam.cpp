@@ -33,15 +33,15 @@ public:
 
     FrameId build(double L, const ElementInertia& inertia) {
         const double delta = options_.delta, half = (0.5 - delta) * L;
-        weld(inertia.body[0], 0, "B1");
+        weld(inertia.body[0], 0);
         rotate(Axis::y, ElementCoordinate::ay1, "bending y1", delta * L);
         rotate(Axis::z, ElementCoordinate::az1, "bending z1", 0);
-        weld(inertia.body[1], delta * L, "B2");
+        weld(inertia.body[1], delta * L);
         step_ = half;
         if (options_.extension) joint(JointKind::prismatic, Axis::x, ElementCoordinate::u, "extension");
         if (options_.torsion) joint(JointKind::revolute, Axis::x, ElementCoordinate::phi, "torsion");
         const double reached = L / 2 - step_;  // the frame reached sits at L/2, or still at the first hinge
-        weld(inertia.body[2], reached, "B3");
+        weld(inertia.body[2], reached);
         const bool mirrored = options_.order == CardanOrder::mirrored;
         const auto second = [&](bool z) {
             rotate(z ? Axis::z : Axis::y, z ? ElementCoordinate::az2 : ElementCoordinate::ay2,
@@ -50,7 +50,7 @@ public:
         step_ += half;
         second(mirrored);
         second(!mirrored);
-        weld(inertia.body[3], (1 - delta) * L, "B4");
+        weld(inertia.body[3], (1 - delta) * L);
         return tree_.add_frame(at_, Placement::translation({delta * L, 0, 0}), name_ + " end");
     }
 
@@ -70,8 +70,8 @@ private:
         bodies.push_back(added.body);
     }
     // Inertias are given from the inboard end of the element; the frame reached sits at x.
-    void weld(const RigidInertia& inertia, double x, const char* body) {
-        tree_.weld(at_, inertia.in(Placement::translation({-x, 0, 0})), name_ + " " + body);
+    void weld(const RigidInertia& inertia, double x) {
+        tree_.weld(at_, inertia.in(Placement::translation({-x, 0, 0})), label_.name());
     }
 
     Tree& tree_;

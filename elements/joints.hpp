@@ -12,6 +12,8 @@ enum class Axis : std::uint8_t { x, y, z };
 struct PartLabel {
     std::string part = {};
     int blade = 0;
+    /// "blade 2", "tower".
+    std::string name() const { return blade > 0 ? part + " " + std::to_string(blade) : part; }
 };
 
 /// A body on a joint, and the frame on it whose axes coincide with the carrier's at q = 0.

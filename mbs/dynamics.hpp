@@ -5,6 +5,8 @@
 
 #include "mbs/metric.hpp"
 
+#include <Eigen/LU>
+
 namespace cardan {
 
 /// Inverse dynamics tau_a = g_ab qdd^b + Gamma_abc qd^b qd^c, armatures included.            [Zhao et al. 2007, eq. 4]
@@ -25,6 +27,7 @@ void inertial_forces(const KinematicsT<S>& kin, VectorInT<S> qd, VectorOutT<S> h
 class ForwardDynamics {
 public:
     /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
+    /// @throws InputError if `driven` has another size.
     explicit ForwardDynamics(const Model& model);
     ForwardDynamics(const Model& model, std::vector<bool> driven);
 
@@ -46,7 +49,8 @@ private:
     std::vector<int> support_;  ///< free coordinates in armatures of several coordinates
     Matrix coupling_;           ///< off-diagonal part of these armatures on the support
     Matrix support_solution_, capacity_;
-    Vector support_rhs_, offset_;
+    Eigen::PartialPivLU<Matrix> capacity_lu_;
+    Vector support_qdd_, support_load_, support_correction_, offset_;
 };
 
 }  // namespace cardan

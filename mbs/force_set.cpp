@@ -66,7 +66,11 @@ Forces::Forces(const ForceSet& set, const Model& model)
     : loads_(set.loads()), users_(set.users()), gravity_(set.gravity()) {
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
-        for (BodyId body : law.coordinates) bound.at.push_back(model.index(body));
+        for (BodyId body : law.coordinates) {
+            if (body.index < 0 || body.index >= model.size())
+                throw InputError(text("force element '", law.name, "'"), "body", body.index, "a body of the tree");
+            bound.at.push_back(model.index(body));
+        }
         laws_.push_back(std::move(bound));
     }
     for (const FrameLoad& load : loads_)

@@ -1,6 +1,6 @@
 #include "mbs/dynamics.hpp"
 
-#include <Eigen/LU>
+#include "mbs/error.hpp"
 
 #include <algorithm>
 
@@ -48,6 +48,8 @@ ForwardDynamics::ForwardDynamics(const Model& model) : ForwardDynamics(model, de
 ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
     : model_(&model), driven_(std::move(driven)) {
     const int n = model.size();
+    if (driven_.size() != static_cast<std::size_t>(n))
+        throw InputError("forward dynamics", "number of driven flags", driven_.size(), text(n, ", one per coordinate"));
     armature_diagonal_.setZero(n);
     qdd_prescribed_.setZero(n);
     zero_.setZero(n);
@@ -72,7 +74,10 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
             }
     support_solution_.setZero(n, r);
     capacity_.setZero(r, r);
-    support_rhs_.setZero(r);
+    support_qdd_.setZero(r);
+    support_load_.setZero(r);
+    support_correction_.setZero(r);
+    capacity_lu_ = Eigen::PartialPivLU<Matrix>(r);
     offset_.setZero(n);
 }
 
@@ -171,14 +176,16 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
             offset_(support_[static_cast<std::size_t>(j)]) = 1;
             sweep(kin, zero_, offset_, zero_, false, support_solution_.col(j));
         }
-        for (Eigen::Index i = 0; i < r; ++i) support_rhs_(i) = qdd(support_[static_cast<std::size_t>(i)]);
+        for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = qdd(support_[static_cast<std::size_t>(i)]);
         capacity_.setIdentity();
         for (Eigen::Index i = 0; i < r; ++i)
             for (Eigen::Index j = 0; j < r; ++j)
                 for (Eigen::Index l = 0; l < r; ++l)
                     capacity_(i, j) += coupling_(i, l) * support_solution_(support_[static_cast<std::size_t>(l)], j);
-        const Vector rhs = coupling_ * support_rhs_;
-        qdd -= support_solution_ * capacity_.partialPivLu().solve(rhs);
+        support_load_.noalias() = coupling_ * support_qdd_;
+        capacity_lu_.compute(capacity_);
+        support_correction_.noalias() = capacity_lu_.solve(support_load_);
+        qdd.noalias() -= support_solution_ * support_correction_;
     }
     inverse_dynamics<double>(kin, qd, qdd, ws.bias);
     for (int k = 0; k < model_->size(); ++k)

@@ -54,16 +54,31 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     add_armatures<S>(model, g);
 }
 
-std::optional<SingularPivot> singular_pivot(const Matrix& g) {
+std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale) {
     const Eigen::Index n = g.rows();
     Matrix L = Matrix::Zero(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
         const double pivot = g(j, j) - L.row(j).head(j).squaredNorm();
-        if (!(pivot > 1e-12 * std::abs(g(j, j)))) return SingularPivot{static_cast<int>(j), pivot, g(j, j)};
+        if (!(pivot > 1e-12 * scale(j))) return SingularPivot{static_cast<int>(j), pivot, scale(j)};
         L(j, j) = std::sqrt(pivot);
         for (Eigen::Index i = j + 1; i < n; ++i) L(i, j) = (g(i, j) - L.row(i).head(j).dot(L.row(j).head(j))) / L(j, j);
     }
     return std::nullopt;
+}
+
+Vector metric_scale(const Kinematics& kin) {
+    composites(kin);
+    const Workspace& ws = kin.workspace();
+    const Model& model = kin.model();
+    Vector scale(model.size());
+    for (int a = 0; a < model.size(); ++a) {
+        const std::size_t i = static_cast<std::size_t>(a);
+        scale(a) = ws.M[i];
+        if (model.body(a).revolute) scale(a) = ws.M[i] * (ws.C[i] - ws.o[i]).squaredNorm() + ws.P[i].trace();
+    }
+    for (const Model::Spin& armature : model.armatures())
+        for (const auto& [a, s] : armature.spin) scale(a) += std::abs(armature.inertia) * s * s;
+    return scale;
 }
 
 double kinetic_energy(const Kinematics& kin, VectorIn qd) {

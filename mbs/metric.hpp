@@ -36,12 +36,18 @@ PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
 template <class S>
 void add_armatures(const Model& model, MatrixOutT<S> g);
 
-/// First pivot of a Cholesky factorisation of g that is below 1e-12 of its scale (the diagonal element).
+/// First pivot of a Cholesky factorisation of g that is below 1e-12 of its scale.
+/// @param scale  size n; a magnitude that does not vanish with g_aa itself, see metric_scale()
 struct SingularPivot {
     int index;
     double value, scale;
 };
-std::optional<SingularPivot> singular_pivot(const Matrix& g);
+std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale);
+
+/// Upper bound of |g_aa| over all directions of axis a: what the subtree would weigh against the worst one. A diagonal
+/// element that is nothing but rounding (a slender body that turns about its own axis) is seen to be small only beside
+/// this.
+Vector metric_scale(const Kinematics& kin);
 
 /// Kinetic energy (1/2) g_ab qd^a qd^b in O(n), J.
 double kinetic_energy(const Kinematics& kin, VectorIn qd);

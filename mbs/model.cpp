@@ -3,6 +3,8 @@
 #include "mbs/error.hpp"
 #include "mbs/metric.hpp"
 
+#include <algorithm>
+
 namespace cardan {
 
 Model::Model(const Tree& tree) {
@@ -11,7 +13,14 @@ Model::Model(const Tree& tree) {
         frames_.push_back({frame.name, frame.body < 0 ? -1 : index(BodyId{frame.body}), frame.in_body});
     for (const Armature& armature : tree.armatures()) {
         Spin spin{armature.name, armature.inertia, {}};
-        for (const auto& [body, factor] : armature.spin) spin.spin.emplace_back(index(body), factor);
+        for (const auto& [body, factor] : armature.spin) {
+            const int at = index(body);
+            const auto known = std::find_if(spin.spin.begin(), spin.spin.end(), [&](auto& s) { return s.first == at; });
+            if (known == spin.spin.end())
+                spin.spin.emplace_back(at, factor);
+            else
+                known->second += factor;
+        }
         armatures_.push_back(spin);
     }
     check_metric();
@@ -71,9 +80,11 @@ void Model::check_metric() const {
     const std::vector<int> free = coordinates_.free();
     Workspace workspace(*this);
     Matrix g(size(), size());
-    metric(kinematics(*this, Vector::Zero(size()), workspace), g);
+    const Kinematics kin = kinematics(*this, Vector::Zero(size()), workspace);
+    metric(kin, g);
     const Matrix g_free = g(free, free);
-    if (const auto pivot = singular_pivot(g_free)) {
+    const Vector scale = metric_scale(kin)(free);
+    if (const auto pivot = singular_pivot(g_free, scale)) {
         const int at = free[static_cast<std::size_t>(pivot->index)];
         throw InputError(text("singular metric: coordinate '", coordinates_[at].name, "' of body '", body(at).name,
                               "' has no inertia of its own (pivot ", pivot->value, ", scale ", pivot->scale,

@@ -25,7 +25,7 @@ public:
         int body;  ///< -1: base
         Placement in_body;
     };
-    /// Armature in model order; the indices lie on one branch.
+    /// Armature in model order; the indices lie on one branch, each occurs once.
     struct Spin {
         std::string name;
         double inertia;

@@ -8,14 +8,13 @@
 
 namespace cardan {
 
-/// Directions in which the modes of a part are named. A part's component mode (everything else clamped) is named after
-/// the direction that has most of its kinetic energy.
+/// How modes of a part are named: after the axis of the coordinates that hold most of the elastic energy of the part's
+/// component mode (everything else clamped).
 struct PartAxes {
     std::string part;                        ///< as in CoordinateInfo::part
-    std::string label;                       ///< how modes of the part begin, e.g. "tower"
-    FrameId axes;                            ///< frame whose x, y, z are the directions (blade 1 for blades)
-    std::array<std::string, 3> translation;  ///< e.g. "fore-aft", "side-side", "axial"
-    std::array<std::string, 3> rotation;     ///< e.g. "", "", "torsion"; an empty name is never chosen
+    FrameId axes;                            ///< frame whose x, y, z are meant below (that of blade 1 for blades)
+    std::array<std::string, 3> translation;  ///< family of coordinates along x, y, z, e.g. "yaw bearing fore-aft"
+    std::array<std::string, 3> rotation;     ///< family of coordinates about x, y, z, e.g. "tower side-side"
 };
 
 /// A line through frames, for pictures: a beam axis, a shaft.
@@ -25,12 +24,19 @@ struct Polyline {
     std::vector<FrameId> points;
 };
 
+/// Two coordinates of a rotating isotropic part that are the y and z components of one vector (shaft bending).
+struct RotatingPair {
+    int y, z;
+    double sense;  ///< +1: the part's x axis points along the rotor axis, -1: against it
+};
+
 /// Rotor, blades, parts and lines of a machine, in indices of its model.
 struct RotorMap {
     std::string machine;
     int spin = -1;                         ///< coordinate that carries the rotor speed; -1: no rotor
     FrameId hub;                           ///< rotating frame: z along the rotor axis, x along blade 1 at azimuth 0
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order
+    std::vector<RotatingPair> rotating_pairs = {};
     std::vector<PartAxes> parts;
     std::vector<Polyline> lines;
 };

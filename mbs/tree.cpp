@@ -27,8 +27,8 @@ BodyId Tree::add_body(const BodySpec& given) {
     BodySpec spec = given;
     const std::string where = text("body '", spec.name, "'");
     if (spec.name.empty()) throw InputError("a body needs a name");
-    if (std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.spec.name == spec.name; }))
-        throw InputError(where, "name", spec.name, "a name not used before");
+    if (std::any_of(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.name == spec.name; }))
+        throw InputError(where, "name", spec.name, "a name not used before by a body or a frame");
     if (spec.coordinate.name.empty()) spec.coordinate.name = spec.name;
     if (std::any_of(bodies_.begin(), bodies_.end(),
                     [&](const Body& b) { return b.spec.coordinate.name == spec.coordinate.name; }))
@@ -43,6 +43,8 @@ BodyId Tree::add_body(const BodySpec& given) {
     const Frame& inboard = frames_[static_cast<std::size_t>(spec.inboard.index)];
     const BodyId id{static_cast<int>(bodies_.size())};
     const FrameId own{static_cast<int>(frames_.size())};
+    if (!spec.inertia.is_massless())
+        pieces_.push_back({spec.coordinate.part.empty() ? spec.name : spec.coordinate.part, id.index, spec.inertia});
     bodies_.push_back({spec, inboard.body, inboard.in_body * spec.placement, own});
     frames_.push_back({spec.name, id.index, {}});
     return id;
@@ -57,7 +59,7 @@ FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string 
     const std::string where = text("frame '", name, "'");
     if (name.empty()) throw InputError("a frame needs a name");
     if (std::any_of(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.name == name; }))
-        throw InputError(where, "name", name, "a name not used before");
+        throw InputError(where, "name", name, "a name not used before by a body or a frame");
     require(parent, where);
     if (!placement.is_valid())
         throw InputError(where, "placement", text("R = [", placement.R, "], p = ", placement.p.transpose()),
@@ -67,13 +69,14 @@ FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string 
     return FrameId{static_cast<int>(frames_.size()) - 1};
 }
 
-void Tree::weld(FrameId frame, const RigidInertia& inertia, std::string_view name) {
-    require(frame, name);
-    inertia.check(name);
+void Tree::weld(FrameId frame, const RigidInertia& inertia, std::string_view part) {
+    require(frame, part);
+    inertia.check(part);
     const Frame& at = frames_[static_cast<std::size_t>(frame.index)];
+    pieces_.push_back({std::string(part), at.body, inertia.in(at.in_body)});
     if (at.body < 0) return;
     RigidInertia& body = bodies_[static_cast<std::size_t>(at.body)].spec.inertia;
-    body = body + inertia.in(at.in_body);
+    body = body + pieces_.back().inertia;
 }
 
 void Tree::add_armature(const Armature& armature) {

@@ -44,6 +44,12 @@ public:
         int body = -1;  ///< -1: base
         Placement in_body;
     };
+    /// One inertia as it was given, before bodies welded together were merged.
+    struct Piece {
+        std::string part;
+        int body = -1;         ///< -1: base
+        RigidInertia inertia;  ///< in the body's own frame
+    };
 
     Tree();
 
@@ -53,8 +59,10 @@ public:
     BodyId add_body(BodySpec spec, const DhParameters& dh);
     /// A frame fixed to the body of `parent`, at `placement` in it.
     FrameId add_frame(FrameId parent, const Placement& placement, std::string name);
-    /// Fixes a rigid inertia, given in components of `frame`, to the body of that frame (ignored on the base).
-    void weld(FrameId frame, const RigidInertia& inertia, std::string_view name = "welded body");
+    /// Fixes a rigid inertia, given in components of `frame`, to the body of that frame. On the base it moves nothing
+    /// but counts in the summary.
+    /// @param part  what the inertia belongs to ("tower", "hub"): the summary adds up masses by part
+    void weld(FrameId frame, const RigidInertia& inertia, std::string_view part = "welded body");
     void add_armature(const Armature& armature);
 
     FrameId frame_of(BodyId body) const;
@@ -64,6 +72,7 @@ public:
     const std::vector<Body>& bodies() const { return bodies_; }
     const std::vector<Frame>& frames() const { return frames_; }
     const std::vector<Armature>& armatures() const { return armatures_; }
+    const std::vector<Piece>& pieces() const { return pieces_; }
 
 private:
     void require(FrameId frame, std::string_view where) const;
@@ -72,6 +81,7 @@ private:
     std::vector<Body> bodies_;
     std::vector<Frame> frames_;
     std::vector<Armature> armatures_;
+    std::vector<Piece> pieces_;
 };
 
 }  // namespace cardan

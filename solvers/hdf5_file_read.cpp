@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <functional>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -100,24 +101,18 @@ struct Source {
         return numbers<std::complex<double>>(memory.get());
     }
 
-    /// Texts that belong to the C library and go back to it.
-    struct Borrowed {
-        const Source& source;
-        std::vector<char*> pointers;
-        ~Borrowed() {
-            if (pointers.empty()) return;
-            H5Dvlen_reclaim(source.type.get(), source.space.get(), H5P_DEFAULT, pointers.data());
-        }
-    };
-
     [[nodiscard]] std::vector<std::string> strings() const {
         if (H5Tget_class(type.get()) != H5T_STRING) refuse("holds no texts");
         std::vector<std::string> result = room<std::string>(count());
         if (H5Tis_variable_str(type.get()) > 0) {
-            Borrowed texts{*this, room<char*>(result.size())};
-            impl.ok(read(type.get(), texts.pointers.data()), what, "be read");
+            std::vector<char*> texts = room<char*>(result.size());
+            const auto give_back = [this](std::vector<char*>* all) {  // the texts belong to the C library
+                if (!all->empty()) H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, all->data());
+            };
+            const std::unique_ptr<std::vector<char*>, decltype(give_back)> borrowed(&texts, give_back);
+            impl.ok(read(type.get(), texts.data()), what, "be read");
             for (std::size_t k = 0; k < result.size(); ++k) {
-                if (texts.pointers[k] != nullptr) result[k] = texts.pointers[k];
+                if (texts[k] != nullptr) result[k] = texts[k];
             }
         } else {
             const std::size_t size = H5Tget_size(type.get());

@@ -17,6 +17,8 @@ struct Hdf5File::Impl {
     explicit Impl(std::string file_path) : path(std::move(file_path)) {}
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
+    Impl(Impl&&) = delete;
+    Impl& operator=(Impl&&) = delete;
     ~Impl() { close(); }
 
     std::string path;

@@ -28,6 +28,11 @@ struct Storage : H5FD_t {
     std::vector<Piece> lost;  ///< what the disk did not take, in order: metadata that HDF5 may ask for again
 };
 
+/// What an access list carries to open_file.
+struct AccessInfo {
+    DiskState* state;
+};
+
 constexpr haddr_t max_address = static_cast<haddr_t>(1) << 62;
 constexpr std::size_t max_kept_piece = 65536;  // larger pieces of raw data are never asked for again
 
@@ -45,9 +50,9 @@ void note(DiskState& state, int reason) {
 // The functions below are called by the C library: none lets an exception out.
 
 H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t) noexcept {
-    const auto* info = static_cast<DiskState* const*>(H5Pget_driver_info(access));
+    const auto* info = static_cast<const AccessInfo*>(H5Pget_driver_info(access));
     if (info == nullptr) return nullptr;
-    DiskState& state = **info;
+    DiskState& state = *info->state;
     const int fd = ::open(name, O_RDWR | O_CLOEXEC | ((flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0), 0666);
     if (fd < 0) {
         note(state, errno);
@@ -170,7 +175,7 @@ hid_t driver() {
         table.name = "cardan";
         table.maxaddr = max_address;
         table.fc_degree = H5F_CLOSE_WEAK;
-        table.fapl_size = sizeof(DiskState*);
+        table.fapl_size = sizeof(AccessInfo);
         table.open = open_file;
         table.close = close_file;
         table.cmp = compare_files;
@@ -205,7 +210,7 @@ std::string innermost_reason() {
 
 Handle writing_access(DiskState& state) {
     Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    DiskState* const info = &state;
+    const AccessInfo info{&state};
     if (list.valid() && H5Pset_driver(list.get(), driver(), &info) < 0) list.close();
     return list;
 }

@@ -20,6 +20,8 @@ public:
     ~Quiet() { H5Eset_auto2(H5E_DEFAULT, printer_, data_); }
     Quiet(const Quiet&) = delete;
     Quiet& operator=(const Quiet&) = delete;
+    Quiet(Quiet&&) = delete;
+    Quiet& operator=(Quiet&&) = delete;
 
 private:
     H5E_auto2_t printer_ = nullptr;

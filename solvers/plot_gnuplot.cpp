@@ -18,8 +18,6 @@
 #include <unistd.h>
 #include <vector>
 
-extern "C" char** environ;
-
 namespace cardan::solvers {
 namespace {
 
@@ -36,12 +34,18 @@ bool is_control(char c) {
 /// A file under the folder for temporary ones that goes away with the object.
 class ScratchFile {
 public:
-    ScratchFile() : path_((fs::temp_directory_path() / "cardan_plot_XXXXXX").string()) {
+    ScratchFile() {
+        std::error_code code;
+        const fs::path folder = fs::temp_directory_path(code);
+        if (code) throw FileError("the folder for temporary files (TMPDIR)", code.message());
+        path_ = (folder / "cardan_plot_XXXXXX").string();
         fd_ = ::mkostemp(path_.data(), O_CLOEXEC);
         if (fd_ < 0) throw FileError(path_, text("cannot be created: ", system_reason(errno)));
     }
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
+    ScratchFile(ScratchFile&&) = delete;
+    ScratchFile& operator=(ScratchFile&&) = delete;
     ~ScratchFile() {
         ::close(fd_);
         ::unlink(path_.c_str());
@@ -84,12 +88,14 @@ int run_and_wait(const std::string& program, const std::string& script_path, int
     posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
     std::vector<std::string> words{program, "-d", script_path};
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t child = 0;
     const int code = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (code == ENOENT) {
+    // EACCES for a bare name: a folder of PATH that may not be searched.
+    if (code == ENOENT || (code == EACCES && program.find('/') == std::string::npos)) {
         throw FileError(program, "not found; pictures need gnuplot (Debian: apt install gnuplot-nox)");
     }
     if (code != 0) throw FileError(program, text("cannot be run: ", system_reason(code)));
@@ -146,7 +152,8 @@ bool complete(const std::string& path, const Kind& kind) {
     std::ifstream in(path, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), {}};
     constexpr std::size_t tail = 64;
-    return all.starts_with(kind.beginning) && all.find(kind.end, all.size() - std::min(tail, all.size())) != all.npos;
+    return all.starts_with(kind.beginning) &&
+           all.find(kind.end, all.size() - std::min(tail, all.size())) != std::string::npos;
 }
 
 }  // namespace
@@ -191,7 +198,7 @@ std::string Gnuplot::run(std::string_view script) const {
     commands.write("\n");
     const int status = run_and_wait(program_, commands.path(), log.fd());
     std::string said = log.trimmed();
-    for (std::size_t at = said.find(commands.path()); at != said.npos; at = said.find(commands.path())) {
+    for (std::size_t at = said.find(commands.path()); at != std::string::npos; at = said.find(commands.path())) {
         said.replace(at, commands.path().size(), "script");
     }
     if (WIFSIGNALED(status)) throw Error(text(program_, ": ended by signal ", WTERMSIG(status), "\n", said));

@@ -139,6 +139,7 @@ auto find_by_name(const Items& items, std::string_view name) -> decltype(items.d
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
     std::vector<std::string> names;
+    names.reserve(items.size());
     for (const auto& item : items) names.push_back(item.name);
     return names;
 }

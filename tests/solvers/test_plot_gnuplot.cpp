@@ -1,47 +1,32 @@
 #include "mbs/error.hpp"
 #include "solvers/plot_gnuplot.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <set>
-#include <sys/resource.h>
 #include <unistd.h>
 #include <vector>
 
 namespace {
 
 namespace fs = std::filesystem;
-using cardan::Error;
 using cardan::FileError;
 using cardan::InputError;
 using cardan::solvers::Gnuplot;
 using cardan::solvers::gnuplot_data;
 using cardan::solvers::gnuplot_text;
+using cardan::test::bytes_of;
+using cardan::test::Folder;
+using cardan::test::message_of;
+using cardan::test::SizeLimit;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
-
-/// A folder of its own that goes away with the test.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / cardan::text("cardan_pictures_", ::getpid());
-    Folder() {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-    [[nodiscard]] std::string operator/(const std::string& name) const { return (path / name).string(); }
-    [[nodiscard]] long files() const { return std::distance(fs::directory_iterator(path), {}); }
-};
-
-std::string bytes_of(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string columns(std::string_view name, const std::vector<std::vector<double>>& values) {
     const std::vector<std::span<const double>> spans(values.begin(), values.end());
@@ -61,31 +46,6 @@ std::string two_lines() {
            "plot $d using 1:2 with lines lt 1 title " +
            gnuplot_text("first_flap") + ", $d using 1:3 with lines lt 2 dt 2 title 'ζ, Ω'";
 }
-
-template <class Action>
-std::string message_of(Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
-}
-
-/// While it lives, no file of this process and its children can grow beyond the limit, as on a full disk.
-struct SizeLimit {
-    rlimit before{};
-    explicit SizeLimit(rlim_t bytes) {
-        std::signal(SIGXFSZ, SIG_IGN);
-        ::getrlimit(RLIMIT_FSIZE, &before);
-        const rlimit small{bytes, before.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &small);
-    }
-    ~SizeLimit() {
-        ::setrlimit(RLIMIT_FSIZE, &before);
-        std::signal(SIGXFSZ, SIG_DFL);
-    }
-};
 
 }  // namespace
 
@@ -194,6 +154,15 @@ TEST_CASE("gnuplot: a missing or broken program is an error that says what to do
     }
     fs::permissions(folder / "dies", fs::perms::owner_all);
     CHECK_THROWS_WITH(Gnuplot(folder / "dies").run("plot x"), Contains("dies: ended by signal 9"));
+}
+
+TEST_CASE("gnuplot: a missing folder for temporary files is an error") {
+    const char* const set = std::getenv("TMPDIR");
+    const std::string before = set == nullptr ? "" : set;
+    ::setenv("TMPDIR", "/no/such/folder", 1);
+    const std::string message = message_of([] { (void)Gnuplot().run("print 1"); });
+    set == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", before.c_str(), 1);
+    CHECK_THAT(message, Contains("TMPDIR"));
 }
 
 TEST_CASE("gnuplot: a path that cannot be written is an error before anything runs") {

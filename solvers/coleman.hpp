@@ -1,0 +1,44 @@
+/// @file
+/// Multi-blade (Coleman) transformation of a linearised machine to the fixed frame.
+#pragma once
+
+#include "solvers/linearise.hpp"
+
+namespace cardan::solvers {
+
+/// What a row of a transformed system is: a coordinate itself, or one multi-blade combination of a blade coordinate.
+enum class MultiBlade : std::uint8_t { none, collective, cosine, sine, differential };
+
+struct MultiBladeRow {
+    MultiBlade kind = MultiBlade::none;
+    int harmonic = 0;           ///< of cosine and sine: 1 ... (B - 1) / 2
+    int blade_coordinate = -1;  ///< place in RotorMap::blades[k]; -1: not a blade coordinate
+};
+
+/// x = T(psi) z over a set of coordinates: blade coordinate i of blade k at azimuth psi_k = psi + 2 pi (k - 1) / B is
+///   x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
+/// T is orthogonal, so symmetric matrices stay symmetric and energies keep their meaning. Rotating pairs (shaft
+/// bending) are turned into the fixed frame. z rows replace the blades' coordinates one to one: the collective row
+/// stands in the place of blade 1, cosine and sine in those of blades 2 and 3, and so on.
+class ColemanTransform {
+public:
+    /// @throws InputError if there are fewer than three blades, or blades differ in their number of coordinates.
+    ColemanTransform(const RotorMap& rotor, std::vector<int> coordinates);
+
+    /// T, dT/dpsi or its second derivative at azimuth psi.
+    Matrix matrix(double psi, int derivative = 0) const;
+    const std::vector<MultiBladeRow>& rows() const { return rows_; }
+
+    /// M x'' + C x' + K x = 0 in z at constant rotor speed Omega; the transformed matrices are constant for an
+    /// isotropic rotor without gravity.
+    SecondOrderSystem transform(const SecondOrderSystem& system, double psi, double rotor_speed) const;
+
+private:
+    int blades_;
+    std::vector<std::vector<int>> at_;  ///< [coordinate in blade][blade] -> row
+    std::vector<std::array<int, 2>> pairs_;
+    std::vector<double> sense_;
+    std::vector<MultiBladeRow> rows_;
+};
+
+}  // namespace cardan::solvers

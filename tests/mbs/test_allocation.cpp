@@ -1,0 +1,110 @@
+// Once workspace and outputs exist, the kernels of a time step allocate nothing.
+#include "mbs/christoffel.hpp"
+#include "mbs/derivatives.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random_tree.hpp"
+
+using namespace cardan;
+using namespace cardan::testing;
+
+namespace {
+
+template <class Call>
+std::size_t allocations(Call&& call) {
+    const AllocationGuard guard;
+    call();
+    return guard.count();
+}
+
+// Every kernel on one system; the second round repeats the first with the same memory.
+void require_no_allocation(const System& system, std::vector<bool> driven, unsigned seed) {
+    const Model& model = system.model;
+    const int n = model.size();
+    Random random(seed);
+    const Vector q = random_state(random, n), qd = random_state(random, n), Q = random_state(random, n);
+    Vector qdd = random_state(random, n), tau(n), h(n), actuator(n);
+    Matrix g(n, n), by_q(n, n), by_qd(n, n), J(6, n);
+    Workspace workspace(model);
+    Christoffel gamma(model);
+    ForwardDynamics forward(model, std::move(driven));
+    const FrameId tip{static_cast<int>(model.frames().size()) - 1};
+    for (int round = 0; round < 2; ++round) {
+        CAPTURE(n, seed, round);
+        CHECK(allocations([&] { kinematics(model, q, workspace); }) == 0);
+        const Kinematics kin = kinematics(model, q, workspace);
+        CHECK(allocations([&] { frame_jacobian<double>(kin, tip, J); }) == 0);
+        CHECK(allocations([&] { metric(kin, g); }) == 0);
+        CHECK(allocations([&] { christoffel_first_kind(kin, gamma); }) == 0);
+        CHECK(allocations([&] { gamma.contract(qd, h); }) == 0);
+        CHECK(allocations([&] { gamma.coriolis(qd, g); }) == 0);
+        CHECK(allocations([&] { inertial_forces<double>(kin, qd, h); }) == 0);
+        CHECK(allocations([&] { inverse_dynamics<double>(kin, qd, qdd, tau); }) == 0);
+        CHECK(allocations([&] { inverse_dynamics_derivatives<double>(kin, qd, qdd, by_q, by_qd); }) == 0);
+        CHECK(allocations([&] { forward.solve(kin, qd, Q, qdd, actuator); }) == 0);
+        CHECK(allocations([&] { system.forces.generalised_forces(kin, 0, q, qd, tau); }) == 0);
+        CHECK(allocations([&] { h(0) = kinetic_energy(kin, qd); }) == 0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("allocation guard: sees what Eigen, operator new and the standard library allocate", "[property]") {
+    if (!AllocationGuard::works()) {
+        WARN("malloc is not replaced in this build: allocations are not counted");
+        return;
+    }
+    const int n = 7;
+    Vector x;
+    CHECK(allocations([&] { x = Vector::Constant(n, 1.5); }) == 1);
+    CHECK(allocations([&] { x *= 2; }) == 0);
+    Matrix A = Matrix::Identity(n, n);
+    CHECK(allocations([&] { x = A * x; }) == 1);  // aliased product: a temporary
+    std::vector<double> values;
+    CHECK(allocations([&] { values.resize(100); }) == 1);
+    CHECK(allocations([&] { values.resize(50); }) == 0);
+    CHECK(x.sum() == 3.0 * n);
+}
+
+TEST_CASE("allocation: no kernel allocates after the workspace is made, on random trees with all force elements",
+          "[property]") {
+    if (!AllocationGuard::works()) return;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        Random random(seed);
+        const Tree tree = random_tree(random, {.bodies = 6 + static_cast<int>(seed)});
+        const System system(tree, random_forces(random, tree));
+        require_no_allocation(system, std::vector<bool>(static_cast<std::size_t>(system.model.size()), false), seed);
+    }
+}
+
+TEST_CASE("allocation: forward dynamics with geared armatures and driven coordinates allocates nothing", "[property]") {
+    if (!AllocationGuard::works()) return;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        Random random(seed);
+        const Tree tree = random_tree(random, {.bodies = 8, .armatures = true});
+        const System system(tree, random_forces(random, tree));
+        std::vector<bool> driven(8, false);
+        if (seed % 2 == 1) driven[seed % 8] = true;
+        require_no_allocation(system, driven, seed);
+    }
+}
+
+TEST_CASE("allocation: nothing is allocated on a deep tree with an armature over many coordinates", "[property]") {
+    if (!AllocationGuard::works()) return;
+    // Large enough for the blocked branches of Eigen's factorisation and products.
+    Random random(5);
+    Tree tree;
+    Armature armature{"gear train", 0.4, {}};
+    FrameId inboard = Tree::base();
+    for (int k = 0; k < 60; ++k) {
+        const BodyId body = tree.add_body({.name = text("link ", k),
+                                           .inboard = inboard,
+                                           .placement = random_placement(random),
+                                           .inertia = random_inertia(random)});
+        inboard = tree.frame_of(body);
+        if (k % 2 == 0) armature.spin.emplace_back(body, uniform(random, -1, 1));
+    }
+    tree.add_armature(armature);
+    const System system(tree, random_forces(random, tree));
+    require_no_allocation(system, std::vector<bool>(60, false), 5);
+}

@@ -1,0 +1,279 @@
+#include "turbines/assembly.hpp"
+
+#include "mbs/error.hpp"
+#include "mbs/summary.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace cardan::turbines {
+
+namespace {
+
+// Hub axes in shaft axes (x downwind along the shaft, z up): z along the shaft, x up.
+const Mat3& hub_axes() {
+    static const Mat3 R = (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
+    return R;
+}
+
+struct DampingTimes {
+    StructuralDamping tower, blade;
+};
+
+CardanBeamOptions beam_options(const AssemblyOptions& options, int elements, const StructuralDamping& damping) {
+    CardanBeamOptions beam;
+    beam.elements = elements;
+    beam.delta = options.delta;
+    beam.partition = options.partition;
+    beam.damping = damping;
+    return beam;
+}
+
+// Builds the tree from the ground up and remembers what the rotor map needs.
+class Assembler {
+public:
+    Assembler(const TurbineDescription& description, const AssemblyOptions& options, const DampingTimes& damping)
+        : d_(description), options_(options), damping_(damping) {
+        if (d_.blades < 1) throw InputError(d_.name, "number of blades", d_.blades, ">= 1");
+        if (!(std::isfinite(options.pitch))) throw InputError(d_.name, "pitch [rad]", options.pitch, "finite");
+        forces.set_gravity(options.gravity);
+    }
+
+    void whole_machine() {
+        const FrameId top = add_tower();
+        const FrameId nacelle = add_yaw_and_nacelle(top);
+        const FrameId shaft = add_tilt(nacelle);
+        const FrameId hub = options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft);
+        add_hub(hub);
+        for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, true);
+        parts.insert(parts.begin(),
+                     {"tower", Tree::base(), {}, {"tower side-side", "tower fore-aft", "tower torsion"}});
+    }
+
+    void one_blade() {
+        const FrameId shaft = Tree::base();
+        const JointedFrame spinner = add_joint(tree, shaft, JointKind::revolute, Axis::x, "spin", {"rotor"});
+        spin = spinner.body;
+        hub_frame = tree.add_frame(spinner.frame, Placement::rotation(hub_axes()), "hub");
+        add_blade(hub_frame, 1, false);
+    }
+
+    Tree tree;
+    ForceSet forces;
+    BodyId spin;
+    FrameId hub_frame;
+    std::vector<std::vector<BodyId>> blades;
+    std::vector<std::array<BodyId, 2>> rotating_pairs;
+    std::vector<PartAxes> parts;
+    std::vector<Polyline> lines;
+    std::vector<std::string> warnings;
+
+private:
+    Spring spring(const Spring& s) const { return {s.stiffness, options_.joint_damping ? s.damping : 0.0}; }
+    JointedFrame sprung_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
+                              const PartLabel& label, const Spring& law, const Vec3& offset = Vec3::Zero()) {
+        const JointedFrame joint = add_joint(tree, carrier, kind, axis, name, label, offset);
+        const Spring s = spring(law);
+        forces.add_spring(name, joint.body, s.stiffness, s.damping);
+        return joint;
+    }
+
+    void keep(const CardanBeam& beam) { warnings.insert(warnings.end(), beam.warnings.begin(), beam.warnings.end()); }
+
+    FrameId add_tower() {
+        const Mat3 upward = axis_rotation(Axis::y);  // x -> z, y -> x, z -> y
+        const FrameId foot = tree.add_frame(Tree::base(), Placement::rotation(upward), "tower foot");
+        const CardanBeam beam = add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
+                                                beam_options(options_, options_.tower_elements, damping_.tower));
+        keep(beam);
+        lines.push_back({"tower", 0, beam.nodes});
+        return tree.add_frame(beam.tip(), Placement::rotation(upward.transpose()), "tower top");
+    }
+
+    FrameId add_yaw_and_nacelle(FrameId top) {
+        const PartLabel label{"yaw"};
+        FrameId at = top;
+        at = sprung_joint(at, JointKind::prismatic, Axis::x, "yaw bearing x", label, d_.yaw.translation).frame;
+        at = sprung_joint(at, JointKind::prismatic, Axis::y, "yaw bearing y", label, d_.yaw.translation).frame;
+        at = sprung_joint(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation).frame;
+        tree.weld(at, d_.nacelle.inertia, "nacelle");
+        parts.push_back(
+            {"yaw", Tree::base(), {"yaw bearing fore-aft", "yaw bearing side-side", ""}, {"", "", "rotor yaw"}});
+        return tree.add_frame(at, {}, "nacelle");
+    }
+
+    FrameId add_tilt(FrameId nacelle) {
+        const Vec3 centre(0, 0, d_.nacelle.shaft_height);
+        const JointedFrame tilt =
+            sprung_joint(nacelle, JointKind::revolute, Axis::y, "tilt", {"tilt"}, d_.nacelle.tilt_bearing, centre);
+        parts.push_back({"tilt", Tree::base(), {}, {"", "rotor tilt", ""}});
+        return tree.add_frame(tilt.frame, Placement::rotation(rot_y(d_.nacelle.tilt)), "shaft");
+    }
+
+    // Generator and gearbox are armatures about the shaft; the coordinates are relative to each other.
+    FrameId add_generator_and_gearbox(FrameId shaft) {
+        const DriveTrainDescription& t = d_.drive_train;
+        const double squared = t.gear_ratio * t.gear_ratio;
+        const PartLabel label{"drive train"};
+        const JointedFrame generator = add_joint(tree, shaft, JointKind::revolute, Axis::x, "generator azimuth", label);
+        const JointedFrame gearbox =
+            sprung_joint(generator.frame, JointKind::revolute, Axis::x, "high-speed shaft twist", label,
+                         {t.high_speed_shaft.stiffness * squared, t.high_speed_shaft.damping * squared});
+        tree.add_armature({"generator", t.generator_inertia * squared, {{generator.body, 1.0}}});
+        tree.add_armature({"gearbox", t.gearbox_inertia, {{generator.body, 1.0}, {gearbox.body, 1.0}}});
+        spin = generator.body;
+        parts.push_back({"drive train", shaft, {}, {"drive-train torsion", "", ""}});
+        return gearbox.frame;
+    }
+
+    FrameId add_drive_train(FrameId shaft) {
+        const FrameId gearbox = add_generator_and_gearbox(shaft);
+        const Vec3 rotor_centre(-d_.nacelle.overhang, 0, 0);
+        const JointedFrame hub = sprung_joint(gearbox, JointKind::revolute, Axis::x, "main shaft twist",
+                                              {"drive train"}, d_.drive_train.main_shaft);
+        return add_hub_frame(shaft, tree.add_frame(hub.frame, Placement::translation(rotor_centre), "rotor centre"));
+    }
+
+    FrameId add_drive_train_with_beam(FrameId shaft) {
+        const FrameId gearbox = add_generator_and_gearbox(shaft);
+        EngineeringSection section;
+        section.EI_flap = section.EI_edge = options_.shaft_beam->EI;
+        section.GJ = d_.drive_train.main_shaft.stiffness * d_.nacelle.overhang;
+        // The beam runs upwind: x reversed.
+        const FrameId start = tree.add_frame(gearbox, Placement::rotation(rot_z(pi)), "shaft start");
+        const BeamLine line = uniform_beam(d_.nacelle.overhang, section, "main shaft");
+        CardanBeamOptions beam_option = beam_options(options_, 1, {});
+        const CardanBeam beam = add_cardan_beam(tree, forces, start, line, "main shaft", {"drive train"}, beam_option);
+        const auto& e = beam.elements.front();
+        if (options_.joint_damping)
+            forces.add_spring("main shaft damper", e.bodies[2], 0, d_.drive_train.main_shaft.damping);
+        rotating_pairs.push_back({e.bodies[0], e.bodies[1]});  // (ay1, az1)
+        rotating_pairs.push_back({e.bodies[4], e.bodies[3]});  // (ay2, az2)
+        parts.back().rotation = {"drive-train torsion", "shaft bending", "shaft bending"};
+        return add_hub_frame(shaft, tree.add_frame(beam.tip(), Placement::rotation(rot_z(pi)), "rotor centre"));
+    }
+
+    FrameId add_hub_frame(FrameId shaft, FrameId rotor_centre) {
+        hub_frame = tree.add_frame(rotor_centre, Placement::rotation(hub_axes()), "hub");
+        lines.push_back({"shaft", 0, {tree.frame("tower top"), shaft, hub_frame}});
+        return hub_frame;
+    }
+
+    void add_hub(FrameId hub) { tree.weld(hub, d_.hub.inertia, "hub"); }
+
+    void add_blade(FrameId hub, int number, bool with_pitch_joint) {
+        const std::string name = text("blade ", number);
+        const Mat3 azimuth = rot_z(2 * pi * (number - 1) / d_.blades), cone = rot_y(-d_.blade.cone);
+        const Placement root_pose = Placement::rotation(azimuth * cone) * Placement::translation({d_.hub.radius, 0, 0});
+        FrameId root = tree.add_frame(hub, root_pose, name + " pitch axis");
+        std::vector<BodyId> coordinates;
+        if (with_pitch_joint) {
+            const JointedFrame pitch =
+                sprung_joint(root, JointKind::revolute, Axis::x, name + " pitch", {"pitch", number}, d_.blade.pitch);
+            coordinates.push_back(pitch.body);
+            root = pitch.frame;
+        }
+        const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-options_.pitch)), name + " root");
+        const CardanBeam beam = add_cardan_beam(tree, forces, axes, d_.blade.line, name, {"blade", number},
+                                                beam_options(options_, options_.blade_elements, damping_.blade));
+        for (const CardanBeam::Element& element : beam.elements)
+            coordinates.insert(coordinates.end(), element.bodies.begin(), element.bodies.end());
+        blades.push_back(coordinates);
+        keep(beam);
+        std::vector<FrameId> points{hub};
+        points.insert(points.end(), beam.nodes.begin(), beam.nodes.end());
+        lines.push_back({"blade", number, points});
+        if (number > 1) return;
+        const FrameId in_plane = tree.frame(name + " pitch axis");
+        if (with_pitch_joint) parts.push_back({"pitch", in_plane, {}, {"blade pitch", "", ""}});
+        parts.push_back({"blade", in_plane, {}, {"blade torsion", "blade flap", "blade edge"}});
+    }
+
+    const TurbineDescription& d_;
+    const AssemblyOptions& options_;
+    const DampingTimes& damping_;
+};
+
+// Lowest frequency of some coordinates with all others clamped at q = 0, Hz.
+double clamped_frequency(const System& system, const std::vector<int>& coordinates) {
+    const auto n = system.model.size();
+    const Vector zero = Vector::Zero(n);
+    Workspace workspace(system.model);
+    const Kinematics kin = kinematics(system.model, zero, workspace);
+    Matrix g(n, n);
+    metric(kin, g);
+    ForceDerivatives forces;
+    system.forces.derivatives(kin, 0, zero, zero, forces);
+    const Matrix M = g(coordinates, coordinates), K = forces.elastic(coordinates, coordinates);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(K, M, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(solver.eigenvalues()(0), 0.0)) / (2 * pi);
+}
+
+// Damping ratios are given for the first mode of each part: a first, undamped assembly tells its frequency.
+DampingTimes damping_times(const TurbineDescription& d, const AssemblyOptions& options) {
+    DampingTimes times;
+    if (!options.structural_damping) return times;
+    Assembler machine(d, options, times), blade(d, options, times);
+    machine.whole_machine();
+    blade.one_blade();
+    const System whole(machine.tree, machine.forces), single(blade.tree, blade.forces);
+    times.tower = {d.tower.first_mode_damping, clamped_frequency(whole, whole.model.coordinates().of_part("tower"))};
+    times.blade = {d.blade.first_flap_damping, clamped_frequency(single, single.model.coordinates().of_part("blade"))};
+    return times;
+}
+
+}  // namespace
+
+void Turbine::finish(Tree tree, const ForceSet& forces, std::string source) {
+    tree_ = std::make_shared<const Tree>(std::move(tree));
+    system_ = std::make_shared<const System>(*tree_, forces);
+    source_ = std::move(source);
+}
+
+std::string Turbine::summary() const {
+    std::string out = text(rotor_.machine, "\n", cardan::summary(*tree_));
+    for (const std::string& warning : warnings_) out += text("\nwarning: ", warning, "\n");
+    return out;
+}
+
+namespace {
+
+RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& name) {
+    RotorMap map;
+    map.machine = name;
+    map.spin = model.index(a.spin);
+    map.hub = a.hub_frame;
+    for (const std::vector<BodyId>& blade : a.blades) {
+        map.blades.emplace_back();
+        for (BodyId body : blade) map.blades.back().push_back(model.index(body));
+    }
+    for (const auto& [y, z] : a.rotating_pairs) map.rotating_pairs.push_back({model.index(y), model.index(z), -1.0});
+    map.parts = a.parts;
+    map.lines = a.lines;
+    return map;
+}
+
+}  // namespace
+
+Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
+    const DampingTimes damping = damping_times(description, options);
+    Assembler assembler(description, options, damping);
+    assembler.whole_machine();
+    Turbine turbine;
+    turbine.warnings_ = assembler.warnings;
+    turbine.finish(assembler.tree, assembler.forces, description.source);
+    turbine.rotor_ = rotor_map(assembler, turbine.system().model, description.name);
+    return turbine;
+}
+
+Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options) {
+    const DampingTimes damping = damping_times(description, options);
+    Assembler assembler(description, options, damping);
+    assembler.one_blade();
+    Turbine turbine;
+    turbine.warnings_ = assembler.warnings;
+    turbine.finish(assembler.tree, assembler.forces, description.source);
+    turbine.rotor_ = rotor_map(assembler, turbine.system().model, description.name + ", isolated blade");
+    return turbine;
+}
+
+}  // namespace cardan::turbines
