@@ -1,6 +1,7 @@
 // Once workspace and outputs exist, the kernels of a time step allocate nothing.
 #include "mbs/christoffel.hpp"
 #include "mbs/derivatives.hpp"
+#include "mbs/error.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"

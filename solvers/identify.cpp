@@ -1,0 +1,183 @@
+#include "solvers/identify.hpp"
+
+#include "mbs/error.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <map>
+
+namespace cardan::solvers {
+
+namespace {
+
+// Joint axes at q = 0, base axes; which of the part's axes each coordinate follows.
+std::vector<std::string> coordinate_families(const Model& model, const PartAxes& part, const std::vector<int>& own) {
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, Vector::Zero(model.size()), workspace);
+    const Mat3 axes = pose(kin, part.axes).R;
+    std::vector<std::string> families;
+    for (int a : own) {
+        const Vec3 along = axes.transpose() * workspace.e[static_cast<std::size_t>(a)];
+        Eigen::Index axis = 0;
+        along.cwiseAbs().maxCoeff(&axis);
+        const auto& names = model.body(a).revolute ? part.rotation : part.translation;
+        const std::string& name = names[static_cast<std::size_t>(axis)];
+        families.push_back(name.empty() ? part.part : name);
+    }
+    return families;
+}
+
+std::string family_of(const Vector& v, const Matrix& K, const std::vector<std::string>& families) {
+    std::map<std::string, double> energy;
+    const Vector force = K * v;
+    for (std::size_t i = 0; i < families.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        energy[families[i]] += v(row) * force(row);
+    }
+    return std::max_element(energy.begin(), energy.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+const char* ordinal_name(int n) {
+    constexpr std::array names{"1st", "2nd", "3rd"};
+    return n <= 3 ? names[static_cast<std::size_t>(n - 1)] : nullptr;
+}
+
+}  // namespace
+
+double Share::of(RotorPattern pattern) const {
+    switch (pattern) {
+        case RotorPattern::none:
+        case RotorPattern::collective:
+            return collective;
+        case RotorPattern::backward:
+            return (cosine + sine) * (1 - whirl) / 2;
+        case RotorPattern::forward:
+            return (cosine + sine) * (1 + whirl) / 2;
+        case RotorPattern::differential:
+            return differential;
+    }
+    return 0;
+}
+
+Identification::Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                               const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows) {
+    for (const PartAxes& part : rotor.parts) {
+        Block block{};
+        std::vector<int> own;  // model indices: of the part, or of the part in blade 1
+        bool blades = false;
+        for (std::size_t i = 0; i < coordinates.size(); ++i) {
+            const CoordinateInfo& info = lin.coordinates[coordinates[i]];
+            if (info.part != part.part) continue;
+            const int row = static_cast<int>(i);
+            switch (rows[i].kind) {
+                case MultiBlade::none:
+                    block.collective.push_back(row);
+                    break;
+                case MultiBlade::collective:
+                    block.collective.push_back(row), blades = true;
+                    break;
+                case MultiBlade::cosine:
+                    if (rows[i].harmonic == 1) block.cosine.push_back(row);
+                    break;
+                case MultiBlade::sine:
+                    if (rows[i].harmonic == 1) block.sine.push_back(row);
+                    break;
+                case MultiBlade::differential:
+                    block.differential.push_back(row);
+                    break;
+            }
+            // The collective row stands in the place of blade 1.
+            if (rows[i].kind == MultiBlade::none || rows[i].kind == MultiBlade::collective)
+                own.push_back(coordinates[i]);
+        }
+        if (!own.empty()) add_part(lin, model, part, blades, own, std::move(block));
+    }
+}
+
+void Identification::add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
+                              const std::vector<int>& own, Block block) {
+    const Matrix K = lin.elastic(own, own), M = lin.mass(own, own);
+    const std::vector<std::string> families = coordinate_families(model, part, own);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(K, M);
+    if (solver.info() != Eigen::Success)
+        throw NumericalError(text("component modes of part '", part.part, "' could not be computed"));
+    block.first_component = static_cast<int>(components_.size());
+    const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+    std::map<std::string, int> count;
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < K.rows(); ++i) {
+        const double squared = solver.eigenvalues()(i);
+        if (!(squared > 1e-12 * largest)) continue;  // rigid: stores no elastic energy
+        kept.push_back(i);
+        const std::string family = family_of(solver.eigenvectors().col(i), K, families);
+        components_.push_back({part.part, family, ++count[family], std::sqrt(squared) / (2 * pi), blades});
+    }
+    block.weights.resize(static_cast<Eigen::Index>(kept.size()), K.cols());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        block.weights.row(static_cast<Eigen::Index>(i)) =
+            (K * solver.eigenvectors().col(kept[i])).transpose() / std::sqrt(solver.eigenvalues()(kept[i]));
+    blocks_.push_back(std::move(block));
+}
+
+std::vector<Share> Identification::shares(const Mode& mode) const {
+    std::vector<Share> shares(components_.size());
+    double total = 0;
+    for (const Block& block : blocks_) {
+        const auto amplitudes = [&](const std::vector<int>& rows) -> ComplexVector {
+            if (rows.empty()) return ComplexVector::Zero(block.weights.rows());
+            return block.weights * mode.shape(rows);
+        };
+        const ComplexVector c0 = amplitudes(block.collective), c = amplitudes(block.cosine), s = amplitudes(block.sine),
+                            d = amplitudes(block.differential);
+        for (Eigen::Index i = 0; i < block.weights.rows(); ++i) {
+            const double forward = std::norm(c(i) + Complex(0, 1) * s(i)),
+                         backward = std::norm(c(i) - Complex(0, 1) * s(i));
+            Share& share = shares[static_cast<std::size_t>(block.first_component + i)];
+            share = {static_cast<int>(block.first_component + i),
+                     std::norm(c0(i)),
+                     std::norm(c(i)),
+                     std::norm(s(i)),
+                     std::norm(d(i)),
+                     forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0};
+            total += share.total();
+        }
+    }
+    for (Share& share : shares)
+        for (double* part : {&share.collective, &share.cosine, &share.sine, &share.differential})
+            *part /= total > 0 ? total : 1;
+    return shares;
+}
+
+std::string Identification::name(int component, RotorPattern pattern) const {
+    const Component& c = components_[static_cast<std::size_t>(component)];
+    const bool only_one = std::count_if(components_.begin(), components_.end(),
+                                        [&](const Component& other) { return other.family == c.family; }) == 1;
+    std::string name;
+    if (!only_one) {
+        const char* ordinal = ordinal_name(c.ordinal);
+        name = ordinal ? text(ordinal, " ") : text(c.ordinal, "th ");
+    }
+    name += c.family;
+    switch (pattern) {
+        case RotorPattern::none:
+            break;
+        case RotorPattern::collective:
+            name += " (collective)";
+            break;
+        case RotorPattern::backward:
+            name += " (backward)";
+            break;
+        case RotorPattern::forward:
+            name += " (forward)";
+            break;
+        case RotorPattern::differential:
+            name += " (differential)";
+            break;
+    }
+    return name;
+}
+
+}  // namespace cardan::solvers

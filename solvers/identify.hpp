@@ -1,0 +1,63 @@
+/// @file
+/// What a mode is: shares of elastic energy by component mode and rotor pattern; names.
+#pragma once
+
+#include "solvers/coleman.hpp"
+#include "solvers/modes.hpp"
+
+#include <string>
+
+namespace cardan::solvers {
+
+/// How the blades take part: a rotor mode is collective or whirls; other parts have no pattern.
+enum class RotorPattern : std::uint8_t { none, collective, backward, forward, differential };
+
+/// One mode of a part with everything else clamped.
+struct Component {
+    std::string part;
+    std::string family;  ///< "tower fore-aft", "blade flap", ...
+    int ordinal = 1;     ///< within its family, by frequency
+    double clamped_hz = 0;
+    bool of_blades = false;
+};
+
+/// The elastic energy of a mode in one component.
+struct Share {
+    int component;
+    double collective, cosine, sine,
+        differential;  ///< parts of the total elastic energy; `collective` holds it all where there is no pattern
+    double whirl;      ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
+    double total() const { return collective + cosine + sine + differential; }
+    double of(RotorPattern pattern) const;
+};
+
+/// Decomposes modes into component modes. In joint coordinates the elastic stiffness is block diagonal by part, and the
+/// component modes of a part are orthogonal in it: the shares add up to one exactly.
+class Identification {
+public:
+    /// @param lin   linearisation whose elastic stiffness and mass define the component modes (standstill, say)
+    /// @param rows  what the rows of the system are (ColemanTransform::rows)
+    Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                   const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
+
+    const std::vector<Component>& components() const { return components_; }
+    /// One entry per component, in the order of components().
+    std::vector<Share> shares(const Mode& mode) const;
+    /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
+    std::string name(int component, RotorPattern pattern) const;
+
+private:
+    // The rows of one part, by pattern (blades) or all together.
+    struct Block {
+        std::vector<int> collective, cosine, sine, differential;
+        Matrix weights;  // V^T K: energy amplitude of each component mode
+        int first_component;
+    };
+    void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
+                  const std::vector<int>& own, Block block);
+
+    std::vector<Component> components_;
+    std::vector<Block> blocks_;
+};
+
+}  // namespace cardan::solvers
