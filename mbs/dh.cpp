@@ -14,8 +14,8 @@ DhParameters dh_parameters(const Placement& placement) {
     const Mat3& R = placement.R;
     const Vec3& p = placement.p;
     const double sine = std::hypot(R(0, 2), R(1, 2));
-    // b and r0 grow like 1 / sine and cancel: the position is lost to rounding / sine. Axes taken for parallel are wrong
-    // by the angle sine. Both losses are 1e-8 here.
+    // b and r0 grow like 1 / sine and cancel: the position is lost to rounding / sine. Axes taken for parallel are
+    // wrong by the angle sine. Both losses are 1e-8 here.
     constexpr double parallel = 1e-8;
     DhParameters dh;
     if (sine > parallel) {

@@ -1,5 +1,4 @@
 #include "mbs/dynamics.hpp"
-
 #include "mbs/error.hpp"
 
 #include <algorithm>

@@ -196,7 +196,10 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     }
     if (sweep.identification) {
         diagram.components = sweep.identification->components();
-        diagram.branches = tracker.branches(diagram.points, *sweep.identification);
+        const bool whirl = options.method == CampbellMethod::coleman &&
+                           std::any_of(diagram.points.begin(), diagram.points.end(),
+                                       [](const CampbellPoint& p) { return p.rotor_speed != 0; });
+        diagram.branches = tracker.branches(diagram.points, *sweep.identification, whirl);
     }
     if (options.method == CampbellMethod::frozen_azimuth && rotor.blades.size() > 2)
         diagram.warning =

@@ -56,6 +56,10 @@ double Share::of(RotorPattern pattern) const {
             return (cosine + sine) * (1 - whirl) / 2;
         case RotorPattern::forward:
             return (cosine + sine) * (1 + whirl) / 2;
+        case RotorPattern::cosine:
+            return cosine;
+        case RotorPattern::sine:
+            return sine;
         case RotorPattern::differential:
             return differential;
     }
@@ -161,23 +165,27 @@ std::string Identification::name(int component, RotorPattern pattern) const {
         name = ordinal ? text(ordinal, " ") : text(c.ordinal, "th ");
     }
     name += c.family;
+    return pattern == RotorPattern::none ? name : text(name, " (", pattern_name(pattern), ")");
+}
+
+const char* pattern_name(RotorPattern pattern) {
     switch (pattern) {
         case RotorPattern::none:
-            break;
+            return "none";
         case RotorPattern::collective:
-            name += " (collective)";
-            break;
+            return "collective";
         case RotorPattern::backward:
-            name += " (backward)";
-            break;
+            return "backward";
         case RotorPattern::forward:
-            name += " (forward)";
-            break;
+            return "forward";
+        case RotorPattern::cosine:
+            return "cosine";
+        case RotorPattern::sine:
+            return "sine";
         case RotorPattern::differential:
-            name += " (differential)";
-            break;
+            return "differential";
     }
-    return name;
+    return "";
 }
 
 }  // namespace cardan::solvers

@@ -9,8 +9,13 @@
 
 namespace cardan::solvers {
 
-/// How the blades take part: a rotor mode is collective or whirls; other parts have no pattern.
-enum class RotorPattern : std::uint8_t { none, collective, backward, forward, differential };
+/// How the blades take part: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
+/// whirls and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Other
+/// parts have no pattern.
+enum class RotorPattern : std::uint8_t { none, collective, backward, forward, cosine, sine, differential };
+
+/// "none", "collective", "backward" ...
+const char* pattern_name(RotorPattern pattern);
 
 /// One mode of a part with everything else clamped.
 struct Component {

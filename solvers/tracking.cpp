@@ -17,7 +17,7 @@ struct Label {
     RotorPattern pattern;
 };
 
-std::vector<Label> possible_labels(const Identification& identification) {
+std::vector<Label> possible_labels(const Identification& identification, bool whirl) {
     std::vector<Label> labels;
     const auto& components = identification.components();
     for (std::size_t i = 0; i < components.size(); ++i) {
@@ -26,8 +26,8 @@ std::vector<Label> possible_labels(const Identification& identification) {
             labels.push_back({c, RotorPattern::none});
             continue;
         }
-        for (RotorPattern p :
-             {RotorPattern::collective, RotorPattern::backward, RotorPattern::forward, RotorPattern::differential})
+        for (RotorPattern p : {RotorPattern::collective, whirl ? RotorPattern::backward : RotorPattern::cosine,
+                               whirl ? RotorPattern::forward : RotorPattern::sine, RotorPattern::differential})
             labels.push_back({c, p});
     }
     return labels;
@@ -40,8 +40,9 @@ double energy(const CampbellMode& mode, const Label& label) {
 
 // Energy under the name's component, whirling in either sense: a name is doubtful if another holds clearly more.
 double component_energy(const Share& share, RotorPattern pattern) {
-    if (pattern == RotorPattern::backward || pattern == RotorPattern::forward) return share.cosine + share.sine;
-    return share.of(pattern);
+    const bool whirls = pattern == RotorPattern::backward || pattern == RotorPattern::forward;
+    const bool pair = whirls || pattern == RotorPattern::cosine || pattern == RotorPattern::sine;
+    return pair ? share.cosine + share.sine : share.of(pattern);
 }
 
 double strongest_component(const CampbellMode& mode) {
@@ -98,9 +99,9 @@ void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
     ++points_;
 }
 
-std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points,
-                                      const Identification& identification) const {
-    const std::vector<Label> labels = possible_labels(identification);
+std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const Identification& identification,
+                                      bool whirl) const {
+    const std::vector<Label> labels = possible_labels(identification, whirl);
     Matrix score = Matrix::Zero(static_cast<Eigen::Index>(tracks_.size()), static_cast<Eigen::Index>(labels.size()));
     for (std::size_t t = 0; t < tracks_.size(); ++t)
         for (std::size_t i = 0; i < points.size(); ++i) {

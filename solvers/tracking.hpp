@@ -14,7 +14,9 @@ public:
 
     /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
     /// the sweep, no name twice (assignment again).
-    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const Identification& identification) const;
+    /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
+    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const Identification& identification,
+                                 bool whirl) const;
 
 private:
     struct Track {

@@ -1,0 +1,194 @@
+// Campbell diagram of the 600 kW three-blade machine.
+//
+// Problem: at every rotor speed the machine of Zhao, Maisser and Wu, Renewable Energy 32 (2007) 532-546, is brought to
+// its steady state and linearised, M x'' + (C + G) x' + K x = 0; the multi-blade transformation makes the equations
+// constant, their eigenvalues are the natural frequencies and damping ratios in the fixed frame.
+// Reference: the values with 3 elements per blade and tower in docs/wt600.md.
+#include "mbs/error.hpp"
+#include "mbs/version.hpp"
+#include "solvers/campbell_csv.hpp"
+#include "solvers/hdf5_campbell.hpp"
+#include "solvers/plot_campbell.hpp"
+#include "turbines/wt600.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <unistd.h>
+
+using namespace cardan;
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+struct Arguments {
+    std::string rpm = "0:40:1";
+    std::string out = "wt600_campbell";
+    std::string data;
+    turbines::AssemblyOptions assembly;
+    bool undamped = false, frozen = false, prescribed = false, modes = false, summary = false;
+    bool gravity = false, shaft_beam = false;
+    double max_frequency = 16;
+};
+
+// FIRST:LAST:STEP or one number.
+std::vector<double> rotor_speeds(const std::string& given) {
+    std::vector<double> numbers;
+    const char* at = given.data();
+    const char* const end = at + given.size();
+    while (true) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || (next != end && *next != ':'))
+            throw InputError("--rpm", "value", given, "FIRST:LAST:STEP or one number, rev/min");
+        numbers.push_back(value);
+        if (next == end) break;
+        at = next + 1;
+    }
+    if (numbers.size() == 1) return solvers::rpm_range(numbers[0], numbers[0], 1);
+    if (numbers.size() != 3) throw InputError("--rpm", "value", given, "FIRST:LAST:STEP or one number, rev/min");
+    return solvers::rpm_range(numbers[0], numbers[1], numbers[2]);
+}
+
+int parse(int argc, char** argv, Arguments& a) {
+    CLI::App app(
+        "Campbell diagram of the 600 kW three-blade machine (Zhao, Maisser, Wu 2007).\n"
+        "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, PREFIX_tower_yaw_tilt.png and "
+        "PREFIX_flap_edge.png, and prints a table.");
+    app.add_option("--rpm", a.rpm, "rotor speeds FIRST:LAST:STEP (or one), rev/min")->capture_default_str();
+    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
+    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
+    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+    app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
+    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    app.add_flag("--undamped", a.undamped, "leave out all damping");
+    app.add_flag("--generator-prescribed", a.prescribed, "generator speed prescribed instead of free");
+    app.add_flag("--frozen-azimuth", a.frozen,
+                 "eigenvalues at one azimuth, as published in 2007 (no motions of the machine)");
+    app.add_flag("--gravity", a.gravity, "with gravity (standstill only: in rotation the steady state is periodic)");
+    app.add_flag("--shaft-beam", a.shaft_beam,
+                 "main shaft as one beam element (EI 2e8 N m^2) instead of a torsion spring");
+    app.add_flag("--modes", a.modes,
+                 "also draw mode shapes at the first and last rotor speed (PREFIX_mode_*.svg, .png)");
+    app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
+    app.set_version_flag("--version", std::string(version()));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
+    if (a.gravity) a.assembly.gravity = {0, 0, -9.80665};
+    if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};
+    return -1;
+}
+
+std::function<void(int, int)> progress_on_terminal() {
+    if (!isatty(STDERR_FILENO)) return {};
+    return [](int done, int total) {
+        std::cerr << "\rrotor speed " << done << " of " << total << (done == total ? "\n" : "") << std::flush;
+    };
+}
+
+// The arrangement of the paper's Figs. 8 and 9.
+void draw_panels(const solvers::Campbell& machine, const solvers::Campbell& blade, const std::string& out) {
+    const auto panel = [](const char* family, const char* title, int ordinal, double f_max) {
+        solvers::CampbellPlotOptions p;
+        p.families = {family};
+        p.title = title;
+        p.ordinal = ordinal;
+        p.max_frequency_hz = f_max;
+        return p;
+    };
+    solvers::plot_panels(machine, out + "_tower_yaw_tilt.png",
+                         {panel("tower side-side", "tower, lateral (side-side)", 0, 6),
+                          panel("tower fore-aft", "tower, longitudinal (fore-aft)", 0, 6),
+                          panel("rotor yaw", "rotor yaw", 0, 2.5), panel("rotor tilt", "rotor tilt", 0, 2.5)});
+    std::vector<solvers::CampbellPlotOptions> blades{
+        panel("blade flap", "first flap", 1, 4), panel("blade flap", "second flap", 2, 8),
+        panel("blade edge", "first lag (edge)", 1, 10), panel("blade edge", "second lag (edge)", 2, 18)};
+    for (auto& p : blades) p.isolated_blade = &blade;
+    solvers::plot_panels(machine, out + "_flap_edge.png", blades);
+}
+
+void draw_modes(const solvers::Campbell& diagram, const std::string& out) {
+    std::vector<std::size_t> points{0};
+    if (diagram.points.size() > 1) points.push_back(diagram.points.size() - 1);
+    for (const solvers::Branch& branch : diagram.branches)
+        for (std::size_t point : points) {
+            if (branch.mode[point] < 0) continue;
+            std::string name;
+            for (char c : branch.name)
+                if (std::isalnum(static_cast<unsigned char>(c)))
+                    name += c;
+                else if (!name.empty() && name.back() != '_')
+                    name += '_';
+            while (!name.empty() && name.back() == '_') name.pop_back();
+            const auto rpm = std::lround(diagram.points[point].rotor_speed * 30 / pi);
+            for (const char* kind : {".svg", ".png"})
+                solvers::plot_mode(diagram, branch, point, text(out, "_mode_", name, "_", rpm, "rpm", kind));
+        }
+}
+
+int run(const Arguments& a) {
+    const std::vector<double> speeds = rotor_speeds(a.rpm);
+    const turbines::TurbineDescription description =
+        a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
+    const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
+    if (a.summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+
+    solvers::CampbellOptions options;
+    options.method = a.frozen ? solvers::CampbellMethod::frozen_azimuth : solvers::CampbellMethod::coleman;
+    options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
+    options.max_frequency_hz = a.max_frequency;
+    options.progress = progress_on_terminal();
+    options.cancelled = [] { return interrupted.load(); };
+    // Files that cannot be written are found out before the work, not after it.
+    const std::filesystem::path folder = std::filesystem::path(a.out).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw FileError(a.out, text("the folder '", folder.string(), "' does not exist"));
+
+    solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    diagram.source = turbine.source();
+    std::cout << solvers::table(diagram);
+    if (diagram.points.empty()) return 130;
+    solvers::write_hdf5(diagram, a.out + ".h5");
+    solvers::write_csv(diagram, a.out + ".csv");
+    solvers::CampbellPlotOptions picture;
+    picture.max_frequency_hz = std::min(a.max_frequency, 10.0);  // the panels show the rest
+    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, a.out + kind, picture);
+    if (diagram.complete && speeds.size() > 1) {
+        solvers::CampbellOptions blade_options = options;
+        blade_options.progress = {};
+        const turbines::Turbine blade = turbines::isolated_blade(description, a.assembly);
+        draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
+    }
+    if (a.modes) draw_modes(diagram, a.out);
+    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png\n";
+    return diagram.complete ? 0 : 130;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        Arguments arguments;
+        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
+        std::signal(SIGINT, [](int) { interrupted = true; });
+        return run(arguments);
+    } catch (const Error& error) {
+        std::cerr << "wt600_campbell: " << error.what() << "\n";
+        return 1;
+    } catch (const std::exception& error) {
+        std::cerr << "wt600_campbell: unexpected: " << error.what() << "\n";
+        return 1;
+    }
+}

@@ -1,0 +1,234 @@
+#include "solvers/hdf5_campbell.hpp"
+
+#include "mbs/version.hpp"
+#include "solvers/hdf5_file.hpp"
+
+#include <limits>
+#include <numeric>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+template <class Range, class F>
+auto column(const Range& range, F value) {
+    std::vector<decltype(value(*range.begin()))> values;
+    for (const auto& item : range) values.push_back(value(item));
+    return values;
+}
+
+class Writer {
+public:
+    Writer(const Campbell& diagram, const std::filesystem::path& path)
+        : d_(diagram),
+          file_(Hdf5File::create(path)),
+          points_(diagram.points.size()),
+          branches_(diagram.branches.size()) {}
+
+    void write() {
+        header();
+        axes();
+        branches();
+        components();
+        crossings();
+        coordinates();
+        if (!d_.motions.empty()) shapes();
+        file_.finish();
+    }
+
+private:
+    void header() {
+        for (const auto& [name, value] :
+             std::vector<std::pair<std::string, std::string>>{{"title", "Campbell diagram: " + d_.machine},
+                                                              {"machine", d_.machine},
+                                                              {"method", d_.method},
+                                                              {"warning", d_.warning},
+                                                              {"Conventions", "CF-1.8"},
+                                                              {"program", "cardan"},
+                                                              {"version", std::string(version())}})
+            file_.set_attribute("/", {name, value});
+        file_.set_attribute("/", {"complete", std::int64_t{d_.complete}});
+        file_.set_attribute("/", {"number_of_blades", std::int64_t{d_.blades}});
+        file_.write("input_description", std::vector<std::string>{d_.source}, {},
+                    "text that the machine was read from");
+    }
+
+    void scale(const std::string& name, std::size_t count, const std::string& long_name) {
+        std::vector<int> index(count);
+        std::iota(index.begin(), index.end(), 0);
+        file_.write(name, index, {count}, {"1", long_name});
+        file_.make_dimension(name);
+    }
+
+    void axes() {
+        const std::vector<double> speed = d_.rotor_speeds();
+        file_.write("rotor_speed", speed, {points_}, {"rad s-1", "rotor speed"});
+        file_.make_dimension("rotor_speed");
+        scale("branch", branches_, "index of the branch (a mode followed over rotor speed); names in branches/name");
+        scale("component", d_.components.size(), "index of the component mode; names in components/name");
+        scale("coordinate", static_cast<std::size_t>(d_.coordinates.size()), "index of the coordinate");
+    }
+
+    // value(point, branch), rotor speed by branch
+    template <class T, class F>
+    void over_speed(const std::string& name, const Description& about, F value) {
+        std::vector<T> values;
+        for (std::size_t i = 0; i < points_; ++i)
+            for (const Branch& branch : d_.branches) values.push_back(value(i, branch));
+        file_.write(name, values, {points_, branches_}, about);
+        file_.attach(name, 0, "rotor_speed");
+        file_.attach(name, 1, "branch");
+    }
+
+    void names(const std::string& name, const std::vector<std::string>& values, const std::string& long_name,
+               const std::string& axis) {
+        file_.write(name, values, {values.size()}, long_name);
+        if (!axis.empty()) file_.attach(name, 0, axis);
+    }
+
+    void branches() {
+        const auto& b = d_.branches;
+        names("branches/name", column(b, [](const Branch& x) { return x.name; }), "name of the mode", "branch");
+        names("branches/family", column(b, [](const Branch& x) { return x.family; }), "family of the mode", "branch");
+        names("branches/pattern", column(b, [](const Branch& x) { return std::string(pattern_name(x.pattern)); }),
+              "rotor pattern", "branch");
+        over_speed<double>("branches/natural_frequency", {"Hz", "natural frequency |lambda| / 2 pi"},
+                           [&](std::size_t i, const Branch& x) { return d_.natural_hz(x, i); });
+        over_speed<double>("branches/damped_frequency", {"Hz", "damped frequency Im lambda / 2 pi"},
+                           [&](std::size_t i, const Branch& x) { return d_.damped_hz(x, i); });
+        over_speed<double>("branches/damping_ratio", {"1", "damping ratio -Re lambda / |lambda|, of critical"},
+                           [&](std::size_t i, const Branch& x) { return d_.damping_ratio(x, i); });
+        over_speed<Complex>("branches/eigenvalue", {"s-1", "eigenvalue lambda"}, [&](std::size_t i, const Branch& x) {
+            const CampbellMode* mode = mode_of(i, x);
+            return mode ? mode->mode.eigenvalue : Complex(nan, nan);
+        });
+        over_speed<double>("branches/mac", {"1", "complex energy MAC with the rotor speed before"},
+                           [](std::size_t i, const Branch& x) { return x.mac[i]; });
+        over_speed<int>("branches/doubtful", {"1", "1 where name or tracking is doubtful"},
+                        [](std::size_t i, const Branch& x) { return x.doubtful[i] ? 1 : 0; });
+        shares();
+    }
+
+    const CampbellMode* mode_of(std::size_t point, const Branch& branch) const {
+        const int index = branch.mode[point];
+        return index < 0 ? nullptr : &d_.points[point].modes[static_cast<std::size_t>(index)];
+    }
+
+    void shares() {
+        const std::size_t components = d_.components.size();
+        std::vector<double> share, whirl;
+        for (std::size_t i = 0; i < points_; ++i)
+            for (const Branch& branch : d_.branches)
+                for (std::size_t c = 0; c < components; ++c) {
+                    const CampbellMode* mode = mode_of(i, branch);
+                    share.push_back(mode ? mode->shares[c].total() : nan);
+                    whirl.push_back(mode ? mode->shares[c].whirl : nan);
+                }
+        const auto write = [&](const char* name, const std::vector<double>& values, const char* long_name) {
+            file_.write(name, values, {points_, branches_, components}, {"1", long_name});
+            file_.attach(name, 0, "rotor_speed");
+            file_.attach(name, 1, "branch");
+            file_.attach(name, 2, "component");
+        };
+        write("branches/energy_share", share, "share of the elastic energy by component mode");
+        write("branches/whirl", whirl, "(forward - backward) / (forward + backward) of the whirling part of the share");
+    }
+
+    void components() {
+        const auto& c = d_.components;
+        names("components/part", column(c, [](const Component& x) { return x.part; }), "part of the machine",
+              "component");
+        names("components/name", column(c, [](const Component& x) { return x.family; }), "family", "component");
+        file_.write("components/ordinal", column(c, [](const Component& x) { return x.ordinal; }), {c.size()},
+                    {"1", "number within the family, from 1"});
+        file_.write("components/clamped_frequency", column(c, [](const Component& x) { return x.clamped_hz; }),
+                    {c.size()}, {"Hz", "frequency with all other parts clamped"});
+        for (const char* name : {"components/ordinal", "components/clamped_frequency"})
+            file_.attach(name, 0, "component");
+    }
+
+    void crossings() {
+        const auto& x = d_.crossings;
+        if (x.empty()) return;
+        file_.write("crossings/branch", column(x, [](const Crossing& c) { return c.branch; }), {x.size()},
+                    {"1", "index of the branch"});
+        file_.write("crossings/multiple", column(x, [](const Crossing& c) { return c.multiple; }), {x.size()},
+                    {"1", "n of the line nP"});
+        file_.write("crossings/rotor_speed", column(x, [](const Crossing& c) { return c.rotor_speed; }), {x.size()},
+                    {"rad s-1", "rotor speed at the crossing"});
+        file_.write("crossings/frequency", column(x, [](const Crossing& c) { return c.frequency_hz; }), {x.size()},
+                    {"Hz", "frequency at the crossing"});
+    }
+
+    void coordinates() {
+        const auto& c = d_.coordinates;
+        const std::size_t n = static_cast<std::size_t>(c.size());
+        using Info = CoordinateInfo;
+        names("coordinates/name", column(c, [](const Info& x) { return x.name; }), "name", "coordinate");
+        names("coordinates/unit", column(c, [](const Info& x) { return x.unit; }), "unit", "coordinate");
+        names("coordinates/part", column(c, [](const Info& x) { return x.part; }), "part", "coordinate");
+        file_.write("coordinates/blade", column(c, [](const Info& x) { return x.blade; }), {n},
+                    {"1", "blade number from 1, 0: no blade"});
+        std::vector<double> q;
+        for (const CampbellPoint& point : d_.points) q.insert(q.end(), point.at.q.begin(), point.at.q.end());
+        file_.write("steady_state/q", q, {points_, n}, {"rad or m", "coordinates in the steady state, azimuth 0"});
+        file_.attach("steady_state/q", 0, "rotor_speed");
+        file_.attach("steady_state/q", 1, "coordinate");
+    }
+
+    void shapes() {
+        const std::size_t frames = d_.frames.size();
+        scale("frame", frames, "index of the frame; names in frames/name");
+        names("frames/name", d_.frames, "name of the frame", "frame");
+        std::vector<double> position;
+        for (const Vec3& p : d_.frame_positions) position.insert(position.end(), p.begin(), p.end());
+        file_.write("frames/position", position, {frames, 3},
+                    {"m", "position undeformed at azimuth 0, ground axes (x downwind, z up)"});
+        file_.attach("frames/position", 0, "frame");
+        std::vector<Complex> motion;
+        for (std::size_t i = 0; i < points_; ++i)
+            for (const Branch& branch : d_.branches) {
+                const int mode = branch.mode[i];
+                for (std::size_t f = 0; f < frames; ++f)
+                    for (Eigen::Index k = 0; k < 6; ++k)
+                        motion.push_back(mode < 0 ? Complex(nan, nan)
+                                                  : d_.motions[i][static_cast<std::size_t>(mode)][f].motion(k));
+            }
+        file_.write("branches/frame_motion", motion, {points_, branches_, frames, 6},
+                    {"rad or m",
+                     "mode shape: complex rotation (x, y, z) and displacement (x, y, z) of every frame, ground axes, "
+                     "azimuth 0, at 1 J of modal energy"});
+        file_.attach("branches/frame_motion", 0, "rotor_speed");
+        file_.attach("branches/frame_motion", 1, "branch");
+        file_.attach("branches/frame_motion", 2, "frame");
+        lines();
+    }
+
+    void lines() {
+        std::vector<int> line, frame;
+        for (std::size_t l = 0; l < d_.lines.size(); ++l)
+            for (FrameId point : d_.lines[l].points) {
+                line.push_back(static_cast<int>(l));
+                frame.push_back(point.index);
+            }
+        names("lines/part", column(d_.lines, [](const Polyline& x) { return x.part; }), "part that the line shows", "");
+        file_.write("lines/blade", column(d_.lines, [](const Polyline& x) { return x.blade; }), {d_.lines.size()},
+                    {"1", "blade number from 1, 0: no blade"});
+        file_.write("lines/point_line", line, {line.size()}, {"1", "line that the point belongs to, in order"});
+        file_.write("lines/point_frame", frame, {frame.size()}, {"1", "index of the frame at the point"});
+    }
+
+    const Campbell& d_;
+    Hdf5File file_;
+    std::size_t points_, branches_;
+};
+
+}  // namespace
+
+void write_hdf5(const Campbell& diagram, const std::filesystem::path& path) {
+    Writer(diagram, path).write();
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,81 @@
+#include "tests/support/tree_tools.hpp"
+
+#include "mbs/error.hpp"
+
+#include <Eigen/Geometry>
+
+#include <numeric>
+
+namespace cardan::testing {
+
+Mat3 axis_frame(const Vec3& axis) {
+    return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+}
+
+BodySpec joint_spec(std::string name, FrameId inboard, JointKind kind, const Vec3& axis) {
+    BodySpec spec;
+    spec.name = std::move(name);
+    spec.inboard = inboard;
+    spec.joint = kind;
+    spec.placement = Placement::rotation(axis_frame(axis));
+    return spec;
+}
+
+std::vector<BodyId> transplant(Tree& target, FrameId onto, const Tree& source, std::vector<int> order) {
+    const std::size_t n = source.bodies().size();
+    if (order.empty()) {
+        order.resize(n);
+        std::iota(order.begin(), order.end(), 0);
+    }
+    std::vector<BodyId> added(n);
+    for (const int k : order) {
+        const Tree::Body& body = source.bodies()[static_cast<std::size_t>(k)];
+        BodySpec spec = body.spec;
+        spec.inboard = body.parent < 0 ? onto : target.frame_of(added[static_cast<std::size_t>(body.parent)]);
+        spec.placement = body.in_parent;
+        added[static_cast<std::size_t>(k)] = target.add_body(spec);
+    }
+    for (Armature armature : source.armatures()) {
+        for (auto& [body, factor] : armature.spin) body = added[static_cast<std::size_t>(body.index)];
+        target.add_armature(armature);
+    }
+    return added;
+}
+
+FrameId add_floating_base(Tree& tree) {
+    FrameId at = Tree::base();
+    // Every joint frame lies along the base axes again, so that the next axis is named in them.
+    const auto add = [&](JointKind kind, const char* kind_name, int axis) {
+        const std::string name = text(kind_name, " ", "xyz"[axis]);
+        const BodySpec spec = joint_spec(name, at, kind, Vec3::Unit(axis));
+        const BodyId body = tree.add_body(spec);
+        at = tree.add_frame(tree.frame_of(body), spec.placement.inverse(), name + " axes");
+    };
+    for (int axis = 0; axis < 3; ++axis) add(JointKind::prismatic, "translation", axis);
+    for (int axis = 0; axis < 3; ++axis) add(JointKind::revolute, "rotation", axis);
+    return at;
+}
+
+Momentum momentum(const Kinematics& kin, VectorIn qd) {
+    const Model& model = kin.model();
+    Momentum total;
+    for (int k = 0; k < model.size(); ++k) {
+        const Model::Body& body = model.body(k);
+        const std::size_t i = static_cast<std::size_t>(k);
+        const Mat3& E = kin.workspace().E[i];
+        const Vec3& r = kin.workspace().r[i];
+        Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  // body axes
+        for (int a = k; a >= 0; a = model.body(a).parent) {
+            const BasisFunctions<double> basis = basis_functions(kin, k, a);
+            v += basis.u * qd(a);
+            omega += basis.Omega * qd(a);
+        }
+        const Vec3 linear = body.inertia.mass * (E * v);
+        total.linear += linear;
+        total.angular += r.cross(linear) + E * (body.J * omega);
+        total.centre += body.inertia.mass * r / model.mass();
+    }
+    return total;
+}
+
+}  // namespace cardan::testing
