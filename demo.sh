@@ -7,7 +7,7 @@ usage() {
 usage: ./demo.sh [--help]
 
 Builds the library and one example (release, build/release) and computes the Campbell diagram of the 600 kW turbine.
-Files go to out/wt600_campbell. Missing Debian packages are installed (root or passwordless sudo); otherwise the
+Files go to out/ (wt600_campbell.h5, .csv, .svg, .png and the mode shapes). Missing Debian packages are installed (root or passwordless sudo); otherwise the
 command that installs them is printed. CARDAN_SKIP_PACKAGES=1 leaves out the check.
 TEXT
 }
@@ -25,7 +25,7 @@ source cmake/packages.sh
 heading() { printf '\n== %s\n' "$*"; }
 trap 'echo "demo.sh: FAILED (line $LINENO)" >&2' ERR
 
-out=out/wt600_campbell
+out=out
 
 heading "Packages"
 require_packages "${cardan_build_packages[@]}"
@@ -36,8 +36,10 @@ cmake --build --preset release --target wt600_campbell
 
 heading "Campbell diagram of the 600 kW turbine"
 mkdir -p "$out"
-build/release/examples/wt600_campbell --out "$out"
+build/release/examples/wt600_campbell --modes --out "$out/wt600_campbell"
 
 heading "Results"
-find "$PWD/$out" -type f \( -name '*.svg' -o -name '*.png' -o -name '*.pdf' \) -printf 'picture  %p\n' | sort
-find "$PWD/$out" -type f ! \( -name '*.svg' -o -name '*.png' -o -name '*.pdf' \) -printf 'file     %p\n' | sort
+echo "Campbell diagram  $PWD/$out/wt600_campbell.png (.svg)"
+echo "by families       $PWD/$out/wt600_campbell_tower_yaw_tilt.png, wt600_campbell_flap_edge.png"
+echo "mode shapes       $PWD/$out/wt600_campbell_modes/"
+echo "data              $PWD/$out/wt600_campbell.h5, wt600_campbell.csv"

@@ -76,7 +76,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--shaft-beam", a.shaft_beam,
                  "main shaft as one beam element (EI 2e8 N m^2) instead of a torsion spring");
     app.add_flag("--modes", a.modes,
-                 "also draw mode shapes at the first and last rotor speed (PREFIX_mode_*.svg, .png)");
+                 "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     app.set_version_flag("--version", std::string(version()));
     try {
@@ -118,22 +118,31 @@ void draw_panels(const solvers::Campbell& machine, const solvers::Campbell& blad
     solvers::plot_panels(machine, out + "_flap_edge.png", blades);
 }
 
-void draw_modes(const solvers::Campbell& diagram, const std::string& out) {
+std::string file_name(const std::string& mode) {
+    std::string name;
+    for (char c : mode)
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            name += c;
+        else if (!name.empty() && name.back() != '_')
+            name += '_';
+    while (!name.empty() && name.back() == '_') name.pop_back();
+    return name;
+}
+
+// Mode shapes at the first and the last rotor speed (the paper's Figs. 4-7).
+void draw_modes(const solvers::Campbell& diagram, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw FileError(folder.string(), error.message());
     std::vector<std::size_t> points{0};
     if (diagram.points.size() > 1) points.push_back(diagram.points.size() - 1);
     for (const solvers::Branch& branch : diagram.branches)
         for (std::size_t point : points) {
             if (branch.mode[point] < 0) continue;
-            std::string name;
-            for (char c : branch.name)
-                if (std::isalnum(static_cast<unsigned char>(c)))
-                    name += c;
-                else if (!name.empty() && name.back() != '_')
-                    name += '_';
-            while (!name.empty() && name.back() == '_') name.pop_back();
             const auto rpm = std::lround(diagram.points[point].rotor_speed * 30 / pi);
             for (const char* kind : {".svg", ".png"})
-                solvers::plot_mode(diagram, branch, point, text(out, "_mode_", name, "_", rpm, "rpm", kind));
+                solvers::plot_mode(diagram, branch, point,
+                                   folder / text(file_name(branch.name), "_", rpm, "rpm", kind));
         }
 }
 
@@ -171,8 +180,9 @@ int run(const Arguments& a) {
         const turbines::Turbine blade = turbines::isolated_blade(description, a.assembly);
         draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
     }
-    if (a.modes) draw_modes(diagram, a.out);
-    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png\n";
+    if (a.modes) draw_modes(diagram, a.out + "_modes");
+    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png"
+              << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";
     return diagram.complete ? 0 : 130;
 }
 

@@ -74,7 +74,7 @@ public:
             text("set title ", gnuplot_text(title()), "\n", x_range(), "set yrange [0:", f_max_, "]\n",
                  "set format y '%g'\nset ylabel 'damped frequency, Hz'\n", x_label_command(x_label), multiples_labels(),
                  legend ? "set key at screen 0.71,0.945 left top Left reverse\n"
-                        : "set key below Left reverse maxcols 2 font ',9'\n");
+                        : "set key at graph 0.5,-0.22 center top Left reverse font ',9'\n");
         std::string plots;
         for (int n : multiples())
             plots += text(plots.empty() ? "" : ", ", n, "*x/60.0 with lines lc rgb '#999999' dt 3 lw 1 notitle");
@@ -150,7 +150,7 @@ private:
         return text("set xrange [", low, ":", high, "]\n");
     }
     static std::string x_label_command(bool shown) {
-        return shown ? "set xlabel 'rotor speed, rev/min' offset 0,0.6\nset format x '%g'\n"
+        return shown ? "set xlabel 'rotor speed, rev/min'\nset format x '%g'\n"
                      : "unset xlabel\nset format x ''\n";
     }
 
@@ -210,7 +210,7 @@ void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
     const std::size_t rows = (panels.size() + 1) / 2;
     std::string script;
     for (std::size_t i = 0; i < panels.size(); ++i) script += Panels(diagram, panels[i], text(i)).data();
-    script += text("set multiplot layout ", rows, ",2\nset lmargin 9\nset rmargin 4\n");
+    script += text("set multiplot layout ", rows, ",2\nset lmargin 9\nset rmargin 4\nset bmargin 9\n");
     for (std::size_t i = 0; i < panels.size(); ++i)
         script += Panels(diagram, panels[i], text(i)).frequency_panel(false, true);
     static_cast<void>(

@@ -136,6 +136,7 @@ private:
     FrameId add_drive_train_with_beam(FrameId shaft) {
         const FrameId gearbox = add_generator_and_gearbox(shaft);
         EngineeringSection section;
+        section.mass = options_.shaft_beam->mass;
         section.EI_flap = section.EI_edge = options_.shaft_beam->EI;
         section.GJ = d_.drive_train.main_shaft.stiffness * d_.nacelle.overhang;
         // The beam runs upwind: x reversed.

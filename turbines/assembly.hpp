@@ -14,7 +14,8 @@ namespace cardan::turbines {
 /// The main shaft as one beam element instead of a torsion spring: bending stiffness of its own, torsion from the
 /// description (GJ = stiffness x overhang). It reaches from the tilt joint to the hub.
 struct ShaftBeam {
-    double EI = 0;  ///< N m^2
+    double EI = 0;    ///< N m^2
+    double mass = 1;  ///< kg/m; not zero, for nothing else gives the tilt joint an inertia apart from the hub's
 };
 
 struct AssemblyOptions {

@@ -178,10 +178,9 @@ struct OnMovingBase {
     explicit OnMovingBase(unsigned seed) : random(seed), source(random_tree(random, {.bodies = 8})) {
         FrameId at = Tree::base();
         for (int axis = 0; axis < 3; ++axis) {
-            BodySpec spec = joint_spec(text("base ", "xyz"[axis]), at, JointKind::prismatic, Vec3::Unit(axis));
-            spec.coordinate.role = CoordinateRole::driven;
-            const BodyId body = moving.add_body(spec);
-            at = moving.add_frame(moving.frame_of(body), spec.placement.inverse(), text("base axes ", axis));
+            Joint joint{text("base ", "xyz"[axis]), at, JointKind::prismatic, Vec3::Unit(axis)};
+            joint.role = CoordinateRole::driven;
+            at = add_joint(moving, joint).axes;
         }
         bodies = transplant(moving, at, source);
         for (int k = 0; k < 8; ++k) {
@@ -241,7 +240,7 @@ TEST_CASE("galilei: the motion of a tree on a steadily moving base is the motion
         Vector q(11), qd(11);
         q << Vec3(1, 2, 3), s.q;
         const Vec3 velocity(7, -5, 3);
-        qd << velocity, 0.3 * s.qd;  // both models keep the order of the source where it is depth first
+        qd << velocity, 0.3 * s.qd;
         std::vector<int> to(11);
         for (int k = 0; k < 3; ++k) to[static_cast<std::size_t>(k)] = k;
         for (int k = 0; k < 8; ++k)

@@ -21,6 +21,15 @@ BodySpec joint_spec(std::string name, FrameId inboard, JointKind kind, const Vec
     return spec;
 }
 
+Link add_joint(Tree& tree, const Joint& joint) {
+    BodySpec spec = joint_spec(joint.name, joint.inboard, joint.kind, joint.axis);
+    const Placement back = spec.placement.inverse();
+    spec.inertia = joint.inertia.in(back);
+    spec.coordinate.role = joint.role;
+    const BodyId body = tree.add_body(spec);
+    return {body, tree.add_frame(tree.frame_of(body), back, joint.name + " axes")};
+}
+
 std::vector<BodyId> transplant(Tree& target, FrameId onto, const Tree& source, std::vector<int> order) {
     const std::size_t n = source.bodies().size();
     if (order.empty()) {
@@ -44,15 +53,11 @@ std::vector<BodyId> transplant(Tree& target, FrameId onto, const Tree& source, s
 
 FrameId add_floating_base(Tree& tree) {
     FrameId at = Tree::base();
-    // Every joint frame lies along the base axes again, so that the next axis is named in them.
-    const auto add = [&](JointKind kind, const char* kind_name, int axis) {
-        const std::string name = text(kind_name, " ", "xyz"[axis]);
-        const BodySpec spec = joint_spec(name, at, kind, Vec3::Unit(axis));
-        const BodyId body = tree.add_body(spec);
-        at = tree.add_frame(tree.frame_of(body), spec.placement.inverse(), name + " axes");
-    };
-    for (int axis = 0; axis < 3; ++axis) add(JointKind::prismatic, "translation", axis);
-    for (int axis = 0; axis < 3; ++axis) add(JointKind::revolute, "rotation", axis);
+    for (const JointKind kind : {JointKind::prismatic, JointKind::revolute})
+        for (int axis = 0; axis < 3; ++axis) {
+            const char* motion = kind == JointKind::prismatic ? "translation" : "rotation";
+            at = add_joint(tree, {text(motion, " ", "xyz"[axis]), at, kind, Vec3::Unit(axis)}).axes;
+        }
     return at;
 }
 

@@ -12,6 +12,23 @@ Mat3 axis_frame(const Vec3& axis);
 /// A massless body on a joint along or about `axis` of `inboard`; its own frame has z along the axis.
 BodySpec joint_spec(std::string name, FrameId inboard, JointKind kind, const Vec3& axis);
 
+/// A joint at the origin of `inboard`; axis and inertia are given in the axes of `inboard`.
+struct Joint {
+    std::string name;
+    FrameId inboard = {};
+    JointKind kind = JointKind::revolute;
+    Vec3 axis = Vec3::UnitZ();
+    RigidInertia inertia = {};
+    CoordinateRole role = CoordinateRole::free;
+};
+/// The body behind a joint and its frame "<name> axes", which lies like that of `inboard` at q = 0: so a chain is
+/// written down in one set of axes.
+struct Link {
+    BodyId body;
+    FrameId axes;
+};
+Link add_joint(Tree& tree, const Joint& joint);
+
 /// Adds the bodies and armatures of `source` to `target`; what stood on the base stands on `onto`.
 /// @param order  body indices of `source`, parents before children; empty: as they are
 /// @return the new bodies, by index in `source`

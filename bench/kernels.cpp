@@ -1,0 +1,88 @@
+// Kernels on the tree of the 600 kW machine (70 coordinates with 3 elements per part; 3 or 12 elements).
+#include "mbs/christoffel.hpp"
+#include "mbs/derivatives.hpp"
+#include "turbines/wt600.hpp"
+
+#include <benchmark/benchmark.h>
+
+using namespace cardan;
+
+namespace {
+
+struct Fixture {
+    explicit Fixture(benchmark::State& state)
+        : turbine(turbines::wt600({.tower_elements = static_cast<int>(state.range(0)),
+                                   .blade_elements = static_cast<int>(state.range(0))})),
+          model(turbine.system().model),
+          workspace(model),
+          n(model.size()),
+          q(Vector::Constant(n, 0.01)),
+          qd(Vector::Constant(n, 0.1)),
+          qdd(Vector::Constant(n, 1.0)),
+          tau(n),
+          other(n),
+          A(n, n),
+          B(n, n) {
+        state.counters["coordinates"] = static_cast<double>(n);
+    }
+    Kinematics kin() { return kinematics(model, q, workspace); }
+
+    turbines::Turbine turbine;
+    const Model& model;
+    Workspace workspace;
+    Eigen::Index n;
+    Vector q, qd, qdd, tau, other;
+    Matrix A, B;
+};
+
+void kinematics_only(benchmark::State& state) {
+    Fixture f(state);
+    for (auto _ : state) benchmark::DoNotOptimize(f.kin());
+}
+void inverse_dynamics_newton_euler(benchmark::State& state) {
+    Fixture f(state);
+    for (auto _ : state) {
+        inverse_dynamics<double>(f.kin(), f.qd, f.qdd, f.tau);
+        benchmark::ClobberMemory();
+    }
+}
+void metric_full(benchmark::State& state) {
+    Fixture f(state);
+    for (auto _ : state) {
+        metric<double>(f.kin(), f.A);
+        benchmark::ClobberMemory();
+    }
+}
+void christoffel_all(benchmark::State& state) {
+    Fixture f(state);
+    Christoffel gamma(f.model);
+    state.counters["symbols"] = static_cast<double>(gamma.stored());
+    for (auto _ : state) {
+        christoffel_first_kind(f.kin(), gamma);
+        benchmark::ClobberMemory();
+    }
+}
+void forward_dynamics_articulated_body(benchmark::State& state) {
+    Fixture f(state);
+    ForwardDynamics forward(f.model);
+    for (auto _ : state) {
+        forward.solve(f.kin(), f.qd, f.qdd, f.tau, f.other);
+        benchmark::ClobberMemory();
+    }
+}
+void inverse_dynamics_partial_derivatives(benchmark::State& state) {
+    Fixture f(state);
+    for (auto _ : state) {
+        inverse_dynamics_derivatives<double>(f.kin(), f.qd, f.qdd, f.A, f.B);
+        benchmark::ClobberMemory();
+    }
+}
+
+BENCHMARK(kinematics_only)->Arg(3)->Arg(12);
+BENCHMARK(inverse_dynamics_newton_euler)->Arg(3)->Arg(12);
+BENCHMARK(metric_full)->Arg(3)->Arg(12);
+BENCHMARK(christoffel_all)->Arg(3)->Arg(12);
+BENCHMARK(forward_dynamics_articulated_body)->Arg(3)->Arg(12);
+BENCHMARK(inverse_dynamics_partial_derivatives)->Arg(3)->Arg(12);
+
+}  // namespace

@@ -1,0 +1,25 @@
+// The script of the README: a Campbell diagram in a few lines, and what happens with a stiffer yaw drive.
+#include "mbs/error.hpp"
+#include "solvers/hdf5_campbell.hpp"
+#include "solvers/plot_campbell.hpp"
+#include "turbines/wt600.hpp"
+
+#include <iostream>
+
+int main() try {
+    using namespace cardan;
+    turbines::TurbineDescription machine = turbines::wt600_description();
+    machine.yaw.rotation.stiffness *= 2;  // N m/rad
+
+    const turbines::Turbine turbine = turbines::assemble(machine, {.blade_elements = 4});
+    const solvers::Campbell diagram =
+        solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 33, 1));
+
+    std::cout << solvers::table(diagram);
+    solvers::write_hdf5(diagram, "stiff_yaw.h5");
+    solvers::plot(diagram, "stiff_yaw.svg");
+    return 0;
+} catch (const cardan::Error& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+}
