@@ -16,7 +16,8 @@ WorkspaceT<S>::WorkspaceT(const Model& model) {
 }
 
 template <class S>
-KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& ws) {
+KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace) {
+    WorkspaceT<S>& ws = workspace;
     using std::cos;
     using std::sin;
     assert(q.size() == model.size());
@@ -71,22 +72,22 @@ BasisFunctions<S> basis_functions(const KinematicsT<S>& kin, int k, int a) {
 }
 
 template <class S>
-Pose<S> pose(const KinematicsT<S>& kin, FrameId id) {
-    const Model::Frame& frame = kin.model().frame(id);
-    const Mat3T<S> R = frame.in_body.R.template cast<S>();
-    const Vec3T<S> p = frame.in_body.p.template cast<S>();
-    if (frame.body < 0) return {R, p};
+Pose<S> pose(const KinematicsT<S>& kin, FrameId frame) {
+    const Model::Frame& at = kin.model().frame(frame);
+    const Mat3T<S> R = at.in_body.R.template cast<S>();
+    const Vec3T<S> p = at.in_body.p.template cast<S>();
+    if (at.body < 0) return {R, p};
     const WorkspaceT<S>& ws = kin.workspace();
-    const std::size_t k = static_cast<std::size_t>(frame.body);
+    const std::size_t k = static_cast<std::size_t>(at.body);
     return {ws.E[k] * R, ws.E[k] * p + ws.o[k]};
 }
 
 template <class S>
-void frame_jacobian(const KinematicsT<S>& kin, FrameId id, MatrixOutT<S> J) {
+void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J) {
     J.setZero();
     const WorkspaceT<S>& ws = kin.workspace();
-    const Vec3T<S> point = pose(kin, id).p;
-    for (int a = kin.model().frame(id).body; a >= 0; a = kin.model().body(a).parent) {
+    const Vec3T<S> point = pose(kin, frame).p;
+    for (int a = kin.model().frame(frame).body; a >= 0; a = kin.model().body(a).parent) {
         const std::size_t i = static_cast<std::size_t>(a);
         if (kin.model().body(a).revolute) {
             J.col(a).template head<3>() = ws.e[i];

@@ -23,7 +23,8 @@ private:
     KinematicsT(const Model& model, WorkspaceT<S>& workspace)
         : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
     template <class T>
-    friend KinematicsT<T> kinematics(const Model&, const Eigen::Ref<const VectorT<T>>&, WorkspaceT<T>&);
+    friend KinematicsT<T> kinematics(const Model& model, const Eigen::Ref<const VectorT<T>>& q,
+                                     WorkspaceT<T>& workspace);
 
     const Model* model_;
     WorkspaceT<S>* workspace_;

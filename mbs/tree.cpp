@@ -23,8 +23,7 @@ Tree::Tree() {
     frames_.push_back({"base", -1, {}});
 }
 
-BodyId Tree::add_body(const BodySpec& given) {
-    BodySpec spec = given;
+BodyId Tree::add_body(BodySpec spec) {
     const std::string where = text("body '", spec.name, "'");
     if (spec.name.empty()) throw InputError("a body needs a name");
     if (std::any_of(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.name == spec.name; }))

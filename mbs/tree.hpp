@@ -55,7 +55,7 @@ public:
 
     static FrameId base() { return FrameId{0}; }
 
-    BodyId add_body(const BodySpec& spec);
+    BodyId add_body(BodySpec spec);
     BodyId add_body(BodySpec spec, const DhParameters& dh);
     /// A frame fixed to the body of `parent`, at `placement` in it.
     FrameId add_frame(FrameId parent, const Placement& placement, std::string name);

@@ -43,7 +43,8 @@ public:
         for (Mode& mode : modes(current)) {
             if (mode.natural_hz() > options_.max_frequency_hz) continue;
             std::vector<Share> shares = identification->shares(mode);
-            point.modes.push_back({std::move(mode), std::move(shares)});
+            Vector row_shares = energy_by_row(current, mode);
+            point.modes.push_back({std::move(mode), std::move(shares), std::move(row_shares)});
         }
         return point;
     }
@@ -63,6 +64,20 @@ public:
             for (std::size_t m = 0; m < motions.size(); ++m) motions[m].push_back({J * point.modes[m].mode.shape});
         }
         return motions;
+    }
+
+    // Blade coordinates are named after blade 1, with the pattern that their row stands for.
+    std::vector<std::string> row_names() const {
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < unknowns.size(); ++i) {
+            const MultiBladeRow& row = rows()[i];
+            const bool blade = row.kind != MultiBlade::none;
+            const int coordinate =
+                blade ? rotor_.blades[0][static_cast<std::size_t>(row.blade_coordinate)] : unknowns[i];
+            const std::string& name = system_.model.coordinates()[coordinate].name;
+            names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);
+        }
+        return names;
     }
 
     std::vector<int> unknowns;
@@ -182,6 +197,7 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     diagram.method = method_name(options.method, rotor.blades.size());
     diagram.coordinates = system.model.coordinates();
     diagram.unknowns = sweep.unknowns;
+    diagram.rows = sweep.row_names();
     const std::vector<FrameId> frames = frames_on_lines(system, rotor, diagram);
     Tracker tracker;
     for (std::size_t i = 0; i < rotor_speed.size(); ++i) {

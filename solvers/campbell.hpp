@@ -38,6 +38,7 @@ struct CampbellOptions {
 struct CampbellMode {
     Mode mode;
     std::vector<Share> shares;  ///< of the elastic energy, by component
+    Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
 };
 
 struct CampbellPoint {
@@ -74,8 +75,9 @@ struct FrameMotion {
 struct Campbell {
     std::string machine, source, method, warning;
     int blades = 0;
-    CoordinateTable coordinates;  ///< all coordinates of the model
-    std::vector<int> unknowns;    ///< model index of every row of the modes' shapes
+    CoordinateTable coordinates;    ///< all coordinates of the model
+    std::vector<int> unknowns;      ///< model index of every row of the modes' shapes
+    std::vector<std::string> rows;  ///< their names; blade coordinates with their rotor pattern
     std::vector<Component> components;
     std::vector<std::string> frames;    ///< names of the frames whose motions are kept
     std::vector<Vec3> frame_positions;  ///< undeformed, azimuth 0, m

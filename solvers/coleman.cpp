@@ -28,6 +28,22 @@ double harmonic(bool cosine, int n, double psi, int d) {
 
 }  // namespace
 
+std::string multi_blade_name(const MultiBladeRow& row) {
+    switch (row.kind) {
+        case MultiBlade::none:
+            return {};
+        case MultiBlade::collective:
+            return "collective";
+        case MultiBlade::cosine:
+            return text("cosine ", row.harmonic);
+        case MultiBlade::sine:
+            return text("sine ", row.harmonic);
+        case MultiBlade::differential:
+            return "differential";
+    }
+    return {};
+}
+
 ColemanTransform::ColemanTransform(const RotorMap& rotor, std::vector<int> coordinates)
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
     if (blades_ < 3)

@@ -4,6 +4,8 @@
 
 #include "solvers/linearise.hpp"
 
+#include <string>
+
 namespace cardan::solvers {
 
 /// What a row of a transformed system is: a coordinate itself, or one multi-blade combination of a blade coordinate.
@@ -14,6 +16,9 @@ struct MultiBladeRow {
     int harmonic = 0;           ///< of cosine and sine: 1 ... (B - 1) / 2
     int blade_coordinate = -1;  ///< place in RotorMap::blades[k]; -1: not a blade coordinate
 };
+
+/// "collective", "cosine 1", "sine 1", "differential"; empty for a coordinate itself.
+std::string multi_blade_name(const MultiBladeRow& row);
 
 /// x = T(psi) z over a set of coordinates: blade coordinate i of blade k at azimuth psi_k = psi + 2 pi (k - 1) / B is
 ///   x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).

@@ -68,6 +68,7 @@ private:
         file_.make_dimension("rotor_speed");
         scale("branch", branches_, "index of the branch (a mode followed over rotor speed); names in branches/name");
         scale("component", d_.components.size(), "index of the component mode; names in components/name");
+        scale("row", d_.rows.size(), "index of the row of the linear system; names in rows/name");
         scale("coordinate", static_cast<std::size_t>(d_.coordinates.size()), "index of the coordinate");
     }
 
@@ -116,24 +117,33 @@ private:
         return index < 0 ? nullptr : &d_.points[point].modes[static_cast<std::size_t>(index)];
     }
 
-    void shares() {
-        const std::size_t components = d_.components.size();
-        std::vector<double> share, whirl;
+    // value(mode, k) for k < count, NaN without a mode: rotor speed by branch by axis
+    template <class F>
+    void over_axis(const std::string& name, const std::string& axis, std::size_t count, const char* long_name,
+                   F value) {
+        std::vector<double> values;
         for (std::size_t i = 0; i < points_; ++i)
-            for (const Branch& branch : d_.branches)
-                for (std::size_t c = 0; c < components; ++c) {
-                    const CampbellMode* mode = mode_of(i, branch);
-                    share.push_back(mode ? mode->shares[c].total() : nan);
-                    whirl.push_back(mode ? mode->shares[c].whirl : nan);
-                }
-        const auto write = [&](const char* name, const std::vector<double>& values, const char* long_name) {
-            file_.write(name, values, {points_, branches_, components}, {"1", long_name});
-            file_.attach(name, 0, "rotor_speed");
-            file_.attach(name, 1, "branch");
-            file_.attach(name, 2, "component");
-        };
-        write("branches/energy_share", share, "share of the elastic energy by component mode");
-        write("branches/whirl", whirl, "(forward - backward) / (forward + backward) of the whirling part of the share");
+            for (const Branch& branch : d_.branches) {
+                const CampbellMode* mode = mode_of(i, branch);
+                for (std::size_t k = 0; k < count; ++k) values.push_back(mode ? value(*mode, k) : nan);
+            }
+        file_.write(name, values, {points_, branches_, count}, {"1", long_name});
+        file_.attach(name, 0, "rotor_speed");
+        file_.attach(name, 1, "branch");
+        file_.attach(name, 2, axis);
+    }
+
+    void shares() {
+        over_axis("branches/energy_share", "component", d_.components.size(),
+                  "share of the elastic energy by component mode",
+                  [](const CampbellMode& mode, std::size_t c) { return mode.shares[c].total(); });
+        over_axis("branches/whirl", "component", d_.components.size(),
+                  "(forward - backward) / (forward + backward) of the whirling part of the share",
+                  [](const CampbellMode& mode, std::size_t c) { return mode.shares[c].whirl; });
+        names("rows/name", d_.rows, "coordinate, blade coordinates with their rotor pattern", "row");
+        over_axis(
+            "branches/row_share", "row", d_.rows.size(), "share of the elastic energy by row (coordinate)",
+            [](const CampbellMode& mode, std::size_t r) { return mode.row_shares(static_cast<Eigen::Index>(r)); });
     }
 
     void components() {

@@ -8,7 +8,8 @@ namespace cardan::solvers {
 
 /// M dq'' + (damping + gyroscopic) dq' + (elastic + gravity + loads + inertial) dq = 0 over all coordinates.
 /// `gyroscopic` is the whole velocity matrix of the inertial forces, 2 Omega Gamma_{a c spin} for a steady spin; at one
-/// azimuth its symmetric part is Mdot / 2, so it is skew only after a multi-blade transformation.
+/// azimuth its symmetric part is Mdot (G = 2 C_coriolis and C + C^T = Mdot), so it is skew only after a multi-blade
+/// transformation.
 struct Linearisation {
     Matrix mass;        ///< g_ab
     Matrix damping;     ///< -dQ/dqd

@@ -30,6 +30,13 @@ Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mod
            std::conj(x.eigenvalue) * y.eigenvalue * x.shape.dot(system.M * y.shape);
 }
 
+Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
+    const ComplexVector force = system.K_elastic * mode.shape;
+    const Vector energy = (mode.shape.conjugate().array() * force.array()).real();
+    const double total = energy.sum();
+    return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());
+}
+
 // The eigenvalues of S = (A - sigma)^-1, A the state matrix, sigma real, positive and below the lowest frequency:
 //   x = -K_s^-1 [(C + sigma M) a + M b],  y = a + sigma x,  K_s = K + sigma C + sigma^2 M.
 // In joint coordinates flexibilities are known with small relative error, so the low modes, which are the large

@@ -150,8 +150,7 @@ private:
         return text("set xrange [", low, ":", high, "]\n");
     }
     static std::string x_label_command(bool shown) {
-        return shown ? "set xlabel 'rotor speed, rev/min'\nset format x '%g'\n"
-                     : "unset xlabel\nset format x ''\n";
+        return shown ? "set xlabel 'rotor speed, rev/min'\nset format x '%g'\n" : "unset xlabel\nset format x ''\n";
     }
 
     // 1P, 2P, 3P and the first multiples of the blade count.

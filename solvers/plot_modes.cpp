@@ -78,7 +78,8 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
     script += text("set multiplot layout 1,3 title ",
                    gnuplot_text(text(branch.name, ", ", std::round(1e4 * diagram.damped_hz(branch, point)) / 1e4,
                                      " Hz at ", rpm, " rpm (displacements enlarged)")),
-                   "\nset size ratio -1\nset bmargin 7\nset xtics 10\nset ytics 10\nset key at screen 0.5,0.07 center center horizontal maxrows 1 font ',11'\n");
+                   "\nset size ratio -1\nset bmargin 7\nset xtics 10\nset ytics 10\nset key at screen 0.5,0.07 center "
+                   "center horizontal maxrows 1 font ',11'\n");
     struct View {
         const char* title;
         const char* horizontal;
