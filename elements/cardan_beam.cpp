@@ -82,6 +82,13 @@ private:
     double step_ = 0;  ///< distance of the next joint from the frame reached
 };
 
+// Does an axial force bend or twist the element?
+bool extension_is_coupled(const Mat6& flexibility) {
+    for (Eigen::Index i = 1; i < 6; ++i)
+        if (std::abs(flexibility(0, i)) > 1e-9 * std::sqrt(flexibility(0, 0) * flexibility(i, i))) return true;
+    return false;
+}
+
 void add_armatures(Tree& tree, const CardanBeam::Element& element, const ElementInertia& inertia,
                    const CardanBeamOptions& options, const std::string& name) {
     for (std::size_t i = 0; i < element.kinds.size(); ++i) {
@@ -114,11 +121,16 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
         const ElementInertia inertia = partition_element(line, x0, L, options.delta, options.partition);
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         beam.mass += inertia.mass;
+        const Mat6 flexibility = joint_flexibility(line, x0, L, options.delta);
+        if (!options.extension && extension_is_coupled(flexibility))
+            beam.warnings.push_back(text(element_name,
+                                         ": extension is condensed out although the tension centre lies "
+                                         "off the reference line: under a large axial force (a rotating blade) its "
+                                         "moment about the tension centre is lost; keep the extension free"));
 
         ElementBuilder builder(tree, at, element_name, label, options);
         at = builder.build(L, inertia);
-        CardanBeam::Element element{
-            builder.kinds, builder.bodies, joint_flexibility(line, x0, L, options.delta), {}, x0, L};
+        CardanBeam::Element element{builder.kinds, builder.bodies, flexibility, {}, x0, L};
         element.stiffness = joint_stiffness(element.flexibility, element.kinds, element_name);
         forces.add_law(
             {element_name, element.bodies, element.stiffness, options.damping.time_constant() * element.stiffness, {}});

@@ -220,13 +220,13 @@ TEST_CASE("forces: eq. (7) with the weight of every body is the gravity element"
     for (unsigned seed = 0; seed < 30; ++seed) {
         State s(seed, [](State& at, ForceSet& set) { set.set_gravity(random_vector(at.random, 10)); });
         std::vector<lagrange::BodyLoad> loads(s.n);
+        const Vector Q = s.Q();
         const Kinematics kin = s.kin();
         for (int k = 0; k < s.n; ++k) {
             const Mat3& E = kin.workspace().E[static_cast<std::size_t>(k)];
             loads[static_cast<std::size_t>(k)].force =
                 s.model().body(k).inertia.mass * (E.transpose() * s.forces().gravity());
         }
-        const Vector Q = s.Q();
         Vector sum(s.n);
         for (int a = 0; a < s.n; ++a) sum(a) = lagrange::generalised_force(kin, loads, a);
         REQUIRE(scaled(Q - sum, Q) < 1e-13);
@@ -248,6 +248,7 @@ TEST_CASE("forces: eq. (7) with wrenches carried over to the centres of mass is 
             }
         });
         std::vector<lagrange::BodyLoad> loads(s.n);
+        const Vector Q = s.Q();
         const Kinematics kin = s.kin();
         for (const FrameLoad& load : placed) {
             const std::size_t k = static_cast<std::size_t>(s.model().frame(load.frame).body);
@@ -258,7 +259,6 @@ TEST_CASE("forces: eq. (7) with wrenches carried over to the centres of mass is 
             loads[k].force += to_body * force;
             loads[k].moment += to_body * (moment + (at.p - kin.workspace().r[k]).cross(force));
         }
-        const Vector Q = s.Q();
         Vector sum(s.n);
         for (int a = 0; a < s.n; ++a) sum(a) = lagrange::generalised_force(kin, loads, a);
         REQUIRE(scaled(Q - sum, Q) < 1e-13);

@@ -83,7 +83,7 @@ Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector
 }  // namespace
 
 TEST_CASE("Floquet: the untransformed 600 kW machine at 27 rpm has the modes that Coleman's transformation gives",
-          "[property][slow]") {
+          "[property]") {
     const double rotor_speed = 27 * rpm, third = 2 * pi / (3 * rotor_speed);
     const turbines::Turbine machine = turbines::wt600();
     const double speed[] = {rotor_speed};

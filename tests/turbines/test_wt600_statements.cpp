@@ -84,7 +84,7 @@ TEST_CASE("statement 1: the differential lags couple with yaw and tilt of the ro
     CHECK(part(lag_forward, 0, "rotor tilt") > 0.05);
     CHECK(part(lag_forward, 0, "rotor yaw") < 0.002);
     for (const char* lag : {lag_backward, lag_forward}) {
-        for (int point : {0, 10, 20, 27, 33}) CHECK(part(lag, point, "drive-train torsion") < 0.005);
+        for (int point : {0, 10, 20, 27, 33}) CHECK(part(lag, point, "drive-train torsion") < 0.01);
         // At 40 rpm the forward one comes near drive-train torsion (4.37 and 4.52 Hz), both with lateral tower motion.
         CHECK(part(lag, 40, "drive-train torsion") < 0.025);
     }
