@@ -208,9 +208,12 @@ TEST_CASE("assembly: weight on the tower lowers its first frequencies, weight th
     turbines::AssemblyOptions down = undamped(), up = undamped();
     down.gravity = Vec3(0, 0, -9.80665);
     up.gravity = Vec3(0, 0, 9.80665);
-    const std::vector<double> without = frequencies(turbines::wt600(undamped()), 0),
-                              hanging = frequencies(turbines::wt600(up), 0),
-                              standing = frequencies(turbines::wt600(down), 0);
+    // Generator locked: blades that sag leave the free rotor a little stiffness (a motion at 2e-4 Hz).
+    solvers::CampbellOptions locked;
+    locked.spin = solvers::RotorSpin::prescribed;
+    const std::vector<double> without = frequencies(turbines::wt600(undamped()), 0, locked),
+                              hanging = frequencies(turbines::wt600(up), 0, locked),
+                              standing = frequencies(turbines::wt600(down), 0, locked);
     for (std::size_t i : {0u, 1u}) {
         CHECK(standing.at(i) < 0.995 * without[i]);
         CHECK(hanging.at(i) > 1.005 * without[i]);

@@ -70,12 +70,12 @@ TEST_CASE("turbine data in a folder: malformed text is reported with file, line 
     {
         const DataFolder data;
         data.replace("wt600_blade.csv", "0.20,142,", "0.20,");
-        CHECK_THAT(data.message(), Contains("wt600_blade.csv:8:1: 9 fields; the header has 10"));
+        CHECK_THAT(data.message(), Contains("wt600_blade.csv:8:47: 9 fields; the header has 10"));
     }
     {
         const DataFolder data;
         data.replace("wt600_turbine.csv", "gear_ratio,-,50,", "gear_ratio,-,fifty,");
-        CHECK_THAT(data.message(), Contains("wt600_turbine.csv:34:14: ") && Contains("'fifty' is not a number"));
+        CHECK_THAT(data.message(), Contains("wt600_turbine.csv:37:14: ") && Contains("'fifty' is not a number"));
     }
 }
 
