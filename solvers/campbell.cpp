@@ -89,7 +89,7 @@ private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
 
     SecondOrderSystem in_fixed_frame(const Linearisation& lin, double rotor_speed) {
-        const SecondOrderSystem own = restrict_to(lin, unknowns, rotor_.spin);
+        SecondOrderSystem own = restrict_to(lin, unknowns, rotor_.spin);
         if (!coleman_) return own;
         if (options_.method == CampbellMethod::frozen_azimuth) return coleman_->transform(own, 0, 0);
         SecondOrderSystem z = coleman_->transform(own, 0, rotor_speed);

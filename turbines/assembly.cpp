@@ -28,6 +28,8 @@ CardanBeamOptions beam_options(const AssemblyOptions& options, int elements, con
     return beam;
 }
 
+}  // namespace
+
 // Builds the tree from the ground up and remembers what the rotor map needs.
 class Assembler {
 public:
@@ -194,6 +196,8 @@ private:
     const DampingTimes& damping_;
 };
 
+namespace {
+
 // Lowest frequency of some coordinates with all others clamped at q = 0, Hz.
 double clamped_frequency(const System& system, const std::vector<int>& coordinates) {
     const auto n = system.model.size();
@@ -224,12 +228,6 @@ DampingTimes damping_times(const TurbineDescription& d, const AssemblyOptions& o
 
 }  // namespace
 
-void Turbine::finish(Tree tree, const ForceSet& forces, std::string source) {
-    tree_ = std::make_shared<const Tree>(std::move(tree));
-    system_ = std::make_shared<const System>(*tree_, forces);
-    source_ = std::move(source);
-}
-
 std::string Turbine::summary() const {
     std::string out = text(rotor_.machine, "\n", cardan::summary(*tree_));
     for (const std::string& warning : warnings_) out += text("\nwarning: ", warning, "\n");
@@ -255,14 +253,20 @@ RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& na
 
 }  // namespace
 
+void Turbine::finish(const Assembler& assembler, const std::string& name, std::string source) {
+    tree_ = std::make_shared<const Tree>(assembler.tree);
+    system_ = std::make_shared<const System>(assembler.tree, assembler.forces);
+    rotor_ = rotor_map(assembler, system_->model, name);
+    warnings_ = assembler.warnings;
+    source_ = std::move(source);
+}
+
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
     const DampingTimes damping = damping_times(description, options);
     Assembler assembler(description, options, damping);
     assembler.whole_machine();
     Turbine turbine;
-    turbine.warnings_ = assembler.warnings;
-    turbine.finish(assembler.tree, assembler.forces, description.source);
-    turbine.rotor_ = rotor_map(assembler, turbine.system().model, description.name);
+    turbine.finish(assembler, description.name, description.source);
     return turbine;
 }
 
@@ -271,9 +275,7 @@ Turbine isolated_blade(const TurbineDescription& description, const AssemblyOpti
     Assembler assembler(description, options, damping);
     assembler.one_blade();
     Turbine turbine;
-    turbine.warnings_ = assembler.warnings;
-    turbine.finish(assembler.tree, assembler.forces, description.source);
-    turbine.rotor_ = rotor_map(assembler, turbine.system().model, description.name + ", isolated blade");
+    turbine.finish(assembler, description.name + ", isolated blade", description.source);
     return turbine;
 }
 

@@ -45,7 +45,7 @@ private:
     friend Turbine assemble(const TurbineDescription&, const AssemblyOptions&);
     friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&);
     Turbine() = default;
-    void finish(Tree tree, const ForceSet& forces, std::string source);
+    void finish(const class Assembler& assembler, const std::string& name, std::string source);
 
     std::shared_ptr<const Tree> tree_;
     std::shared_ptr<const System> system_;
