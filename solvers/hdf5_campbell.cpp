@@ -3,6 +3,7 @@
 #include "mbs/version.hpp"
 #include "solvers/hdf5_file.hpp"
 
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -15,6 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 template <class Range, class F>
 auto column(const Range& range, F value) {
     std::vector<decltype(value(*range.begin()))> values;
+    values.reserve(static_cast<std::size_t>(std::distance(range.begin(), range.end())));
     for (const auto& item : range) values.push_back(value(item));
     return values;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double degree = pi / 180;
 
 std::vector<double> several(const CsvQuantities& q, const char* name, const char* unit, std::size_t count) {
-    const std::vector<double> values = q.numbers(name, unit);
+    std::vector<double> values = q.numbers(name, unit);
     if (values.size() != count)
         throw InputError(text(q.file(), ", ", name), "number of values", values.size(),
                          text(count, ", separated by /"));

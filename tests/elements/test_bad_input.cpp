@@ -1,131 +1,138 @@
-// What the element library refuses, and how it says so.
+// Beams that must be refused: what, where, the value, what is allowed.
 #include "elements/cardan_beam.hpp"
-#include "mbs/error.hpp"
 #include "tests/elements/cantilever.hpp"
-#include "tests/support/catch.hpp"
-
-#include <limits>
+#include "tests/support/refusal.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
-using Catch::Contains;
 
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
-void add(const BeamLine& line, const CardanBeamOptions& options = {}) {
+template <class Change>
+void check_beam_refused(Change change, std::initializer_list<std::string> parts) {
+    BeamLine line = uniform_beam(10, slender(2, 3), "spar");
+    CardanBeamOptions options = bending_only(2);
+    change(line, options);
     Tree tree;
     ForceSet forces;
-    add_cardan_beam(tree, forces, Tree::base(), line, "blade 2", {"blade", 2}, options);
+    check_refused([&] { add_cardan_beam(tree, forces, Tree::base(), line, "spar", {"wing"}, options); }, parts);
 }
+using L = BeamLine;
+using O = CardanBeamOptions;
 
-BeamLine good() {
-    return uniform_beam(2, slender(1, 1));
+template <class Change>
+void check_section_refused(Change change, std::initializer_list<std::string> parts) {
+    EngineeringSection s = slender(2, 3);
+    change(s);
+    check_refused([&] { (void)uniform_beam(10, s, "spar"); }, parts);
 }
+using S = EngineeringSection;
+
+template <class Change>
+void check_tube_refused(Change change, std::initializer_list<std::string> parts) {
+    TubeSpec spec;
+    spec.length = 50, spec.diameter_base = 3, spec.diameter_top = 2, spec.wall_thickness = {0.02, 0.01};
+    spec.E = 2.1e11, spec.G = 8e10, spec.density = 7850;
+    CHECK_NOTHROW(tube(spec, "tower"));
+    change(spec);
+    check_refused([&] { (void)tube(spec, "tower"); }, parts);
+}
+using T = TubeSpec;
 
 }  // namespace
 
-TEST_CASE("beam: delta must lie between 0 and 0.5") {
-    for (const double delta : {0.0, 0.5, -0.1, 0.7, not_a_number})
-        CHECK_THROWS_WITH(add(good(), bending_only(2, delta)),
-                          Contains("blade 2: delta = ") && Contains("0 < delta < 0.5"));
+TEST_CASE("beam: delta must lie inside (0, 0.5)", "[property]") {
+    for (const auto& [value, shown] : {std::pair{0.0, "= 0;"}, {0.5, "= 0.5;"}, {-0.1, "= -0.1;"}, {0.7, "= 0.7;"},
+                                       {not_a_number, "= nan;"}})
+        check_beam_refused([&](L&, O& o) { o.delta = value; }, {"spar: delta", shown, "0 < delta < 0.5"});
 }
 
-TEST_CASE("beam: elements and boundaries") {
-    CHECK_THROWS_WITH(add(good(), bending_only(0)), Contains("number of elements = 0"));
-    CardanBeamOptions options = bending_only(2);
-    options.boundaries = {0, 1.5, 1.0, 2};
-    CHECK_THROWS_WITH(add(good(), options), Contains("element boundary 3") && Contains("increasing"));
-    options.boundaries = {0, 1};
-    CHECK_THROWS_WITH(add(good(), options), Contains("from 0 to the length 2"));
-    options.boundaries = {0, not_a_number, 2};
-    CHECK_THROWS_AS(add(good(), options), InputError);
-    options.boundaries = {0, 0.3, 2};
-    CHECK_NOTHROW(add(good(), options));
-    options.damping = {-0.1, 1};
-    CHECK_THROWS_WITH(add(good(), options), Contains("damping ratio"));
+TEST_CASE("beam: at least one element; boundaries increase from 0 to the length", "[property]") {
+    check_beam_refused([](L&, O& o) { o.elements = 0; }, {"spar: number of elements = 0; allowed: >= 1"});
+    check_beam_refused([](L&, O& o) { o.elements = -2; }, {"spar: number of elements = -2"});
+    check_beam_refused([](L&, O& o) { o.boundaries = {0}; }, {"spar: element boundaries [m] = 0 ... 0", "length 10"});
+    check_beam_refused([](L&, O& o) { o.boundaries = {0, 9}; }, {"spar: element boundaries [m] = 0 ... 9"});
+    check_beam_refused([](L&, O& o) { o.boundaries = {1, 10}; }, {"spar: element boundaries [m] = 1 ... 10"});
+    check_beam_refused([](L&, O& o) { o.boundaries = {0, 6, 4, 10}; },
+                       {"spar: element boundary 3 [m] = 4; allowed: increasing"});
+    check_beam_refused([](L&, O& o) { o.boundaries = {0, not_a_number, 10}; },
+                       {"spar: element boundary 2 [m] = nan; allowed: increasing"});
 }
 
-TEST_CASE("beam: length") {
-    for (const double length : {0.0, -1.0, not_a_number, std::numeric_limits<double>::infinity()})
-        CHECK_THROWS_WITH(uniform_beam(length, slender(1, 1), "tower"), Contains("tower: length [m] = "));
-    CHECK_THROWS_WITH(add(BeamLine{1, {}, {}, "empty"}), Contains("section function is missing"));
-    CHECK_THROWS_WITH(add(BeamLine{1, {0.5, 0.2}, good().section, "line"}),
-                      Contains("station 2") && Contains("increasing"));
+TEST_CASE("beam: its length must be finite and positive, its breaks increase, its section exist", "[property]") {
+    check_beam_refused([](L& l, O&) { l.length = 0; }, {"spar: length [m] = 0; allowed: finite and > 0"});
+    check_beam_refused([](L& l, O&) { l.length = -3; }, {"spar: length [m] = -3"});
+    check_beam_refused([](L& l, O&) { l.length = not_a_number; }, {"spar: length [m] = nan"});
+    check_beam_refused([](L& l, O&) { l.length = infinite; }, {"spar: length [m] = inf"});
+    check_beam_refused([](L& l, O&) { l.section = {}; }, {"spar: the section function is missing"});
+    check_beam_refused([](L& l, O&) { l.breaks = {0, 5, 5, 10}; }, {"spar: station 3 [m] = 5", "increasing"});
+    check_refused([] { (void)uniform_beam(-1, slender(2, 3), "spar"); }, {"spar: length [m] = -1"});
 }
 
-TEST_CASE("beam: a rigid direction that is left free is named") {
-    CardanBeamOptions options = bending_only(1);
-    options.extension = true;  // EA is infinite
-    CHECK_THROWS_WITH(add(good(), options), Contains("blade 2 element 1") && Contains("must be locked"));
+TEST_CASE("beam: a negative damping ratio, or one at no frequency, is refused", "[property]") {
+    check_beam_refused([](L&, O& o) { o.damping = {-0.01, 2}; }, {"spar: damping ratio", "-0.01 at 2", "ratio >= 0"});
+    check_beam_refused([](L&, O& o) { o.damping = {0.01, 0}; }, {"spar: damping ratio", "0.01 at 0", "frequency > 0"});
+    check_beam_refused([](L&, O& o) { o.damping = {not_a_number, 1}; }, {"spar: damping ratio", "nan at 1"});
 }
 
-TEST_CASE("beam: torsion without polar inertia is a singular metric that names the coordinate") {
-    EngineeringSection s = slender(1, 1);
-    s.GJ = 1;
+TEST_CASE("beam: a free direction of a rigid section is refused with the element named", "[property]") {
+    check_beam_refused([](L&, O& o) { o.torsion = true; }, {"spar element 1", "a rigid direction must be locked"});
+    check_beam_refused([](L&, O& o) { o.extension = true; }, {"spar element 1", "a rigid direction must be locked"});
+}
+
+TEST_CASE("beam: a second one of the same name is refused", "[property]") {
     Tree tree;
     ForceSet forces;
-    add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, s), "rod", {"rod"}, {.elements = 1});
-    CHECK_THROWS_WITH(Model(tree), Contains("rod element 1") && Contains("singular metric"));
-}
-
-TEST_CASE("section: every bad value is refused with its name") {
-    const auto refuse = [](auto change, const char* quantity) {
-        EngineeringSection s = slender(1, 1);
-        change(s);
-        CHECK_THROWS_WITH(uniform_beam(1, s, "tower"), Contains("tower: ") && Contains(quantity));
+    const auto add = [&] {
+        add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, slender(1, 1)), "spar", {"wing"}, bending_only(1));
     };
-    for (const double bad : {-1.0, not_a_number}) {
-        refuse([bad](auto& s) { s.mass = bad; }, "mass per length [kg/m]");
-        refuse([bad](auto& s) { s.EI_flap = bad; }, "EI flap");
-        refuse([bad](auto& s) { s.EI_edge = bad; }, "EI edge");
-        refuse([bad](auto& s) { s.GJ = bad; }, "GJ");
-        refuse([bad](auto& s) { s.EA = bad; }, "EA");
-        refuse([bad](auto& s) { s.GA_y = bad; }, "GA y");
-        refuse([bad](auto& s) { s.j_edge = bad; }, "edge inertia");
-    }
-    refuse([](auto& s) { s.EI_flap = 0; }, "EI flap");
-    refuse([](auto& s) { s.beta = not_a_number; }, "twist");
-    refuse([](auto& s) { s.mass_centre.y = not_a_number; }, "offset");
+    CHECK_NOTHROW(add());
+    check_refused(add, {"'spar node 0'", "a name not used before"});
 }
 
-TEST_CASE("section table: stations increase, one section each, the bad station is named") {
-    const auto s = slender(1, 1);
-    auto bad = s;
-    bad.mass = -2;
-    using T = Interpolation;
-    CHECK_THROWS_WITH(SectionTable("blade", {0, 1, 1}, {s, s, s}, T::linear), Contains("station 3 [m] = 1"));
-    CHECK_THROWS_WITH(SectionTable("blade", {0, not_a_number}, {s, s}, T::linear), Contains("station 2"));
-    CHECK_THROWS_WITH(SectionTable("blade", {0}, {s}, T::linear), Contains("at least 2"));
-    CHECK_THROWS_WITH(SectionTable("blade", {0, 1}, {s}, T::linear), Contains("one per station"));
-    CHECK_THROWS_WITH(SectionTable("blade", {0, 4}, {s, bad}, T::linear),
-                      Contains("station 2 (x = 4 m)") && Contains("= -2"));
+TEST_CASE("section: bad constants are refused with the quantity and its unit", "[property]") {
+    check_section_refused([](S& s) { s.mass = -1; }, {"spar: mass per length [kg/m] = -1; allowed: finite and >= 0"});
+    check_section_refused([](S& s) { s.mass = not_a_number; }, {"spar: mass per length [kg/m] = nan"});
+    check_section_refused([](S& s) { s.mass = infinite; }, {"spar: mass per length [kg/m] = inf"});
+    check_section_refused([](S& s) { s.EI_flap = 0; }, {"spar: EI flap [N m^2] = 0; allowed: > 0"});
+    check_section_refused([](S& s) { s.EI_edge = -5; }, {"spar: EI edge [N m^2] = -5"});
+    check_section_refused([](S& s) { s.EA = 0; }, {"spar: EA [N] = 0"});
+    check_section_refused([](S& s) { s.GJ = not_a_number; }, {"spar: GJ [N m^2] = nan"});
+    check_section_refused([](S& s) { s.GA_y = -1; }, {"spar: GA y [N] = -1"});
+    check_section_refused([](S& s) { s.GA_z = 0; }, {"spar: GA z [N] = 0"});
+    check_section_refused([](S& s) { s.j_flap = -1; }, {"spar: flap inertia per length [kg m] = -1"});
+    check_section_refused([](S& s) { s.j_edge = not_a_number; }, {"spar: edge inertia per length [kg m] = nan"});
+    check_section_refused([](S& s) { s.beta = infinite; }, {"spar: twist [rad] or offset [m] = inf"});
+    check_section_refused([](S& s) { s.mass_centre.y = not_a_number; }, {"spar: twist [rad] or offset [m] = nan"});
 }
 
-TEST_CASE("section table: linear and log-linear interpolation between stations") {
-    EngineeringSection a = slender(1, 2), b = slender(16, 4);
-    a.beta = 0.1, b.beta = 0.3;
-    const SectionTable log("blade", {1, 3}, {a, b}, Interpolation::log_linear_stiffness);
-    CHECK(log.at(2).EI_flap == Approx(4));
-    CHECK(log.at(2).mass == Approx(3));
-    CHECK(log.at(2).beta == Approx(0.2));
-    CHECK(SectionTable("blade", {1, 3}, {a, b}, Interpolation::linear).at(2).EI_flap == Approx(8.5));
-    CHECK(log.line().length == Approx(2));
+TEST_CASE("section table: too few stations, stations that do not increase, a bad one among them", "[property]") {
+    const S s = slender(2, 3);
+    const auto make = [](std::vector<double> x, std::vector<S> sections) {
+        return [=] { (void)SectionTable("blade", x, sections, Interpolation::linear); };
+    };
+    check_refused(make({0}, {s}), {"blade: number of stations = 1; allowed: at least 2"});
+    check_refused(make({0, 1, 2}, {s, s}), {"blade: number of sections = 2; allowed: 3, one per station"});
+    check_refused(make({0, 2, 2}, {s, s, s}), {"blade: station 3 [m] = 2; allowed: finite and increasing"});
+    check_refused(make({0, 2, 1}, {s, s, s}), {"blade: station 3 [m] = 1"});
+    check_refused(make({0, not_a_number}, {s, s}), {"blade: station 2 [m] = nan"});
+    S bad = s;
+    bad.EI_edge = -2;
+    check_refused(make({0, 1.5, 4}, {s, bad, s}), {"blade, station 2 (x = 1.5 m): EI edge [N m^2] = -2"});
 }
 
-TEST_CASE("tube: wall, diameters and material") {
-    TubeSpec t{10, 2, 1, {0.02, 0.01}, 2.1e11, 8e10, 7850, 0.5};
-    // mass of a truncated cone of constant wall: pi rho t L (mean diameter - t)
-    const BeamLine line = tube(t, "tower");
-    const double half = pi * 7850 * 5;
-    const ElementInertia whole = partition_element(line, 0, 10, 0.2, Partition::segment_masses);
-    CHECK(whole.mass == Approx(half * (0.02 * (1.75 - 0.02) + 0.01 * (1.25 - 0.01))).epsilon(1e-12));
-    t.wall_thickness = {0.02, 0.6};
-    CHECK_THROWS_WITH(tube(t, "tower"), Contains("tower: wall thickness [m] = 0.6"));
-    t.wall_thickness = {};
-    CHECK_THROWS_AS(tube(t), InputError);
-    t.wall_thickness = {0.01};
-    t.density = -1;
-    CHECK_THROWS_WITH(tube(t, "tower"), Contains("density"));
+TEST_CASE("tube: walls thicker than the radius, missing walls, dimensions that are not positive", "[property]") {
+    check_tube_refused([](T& t) { t.wall_thickness = {0.02, 1.2}; }, {"tower: wall thickness [m] = 1.2; allowed: 0 ... 1"});
+    check_tube_refused([](T& t) { t.wall_thickness = {0}; }, {"tower: wall thickness [m] = 0"});
+    check_tube_refused([](T& t) { t.wall_thickness = {}; }, {"tower: number of wall thicknesses = 0"});
+    check_tube_refused([](T& t) { t.length = -50; }, {"tower: length [m] = -50; allowed: finite and > 0"});
+    check_tube_refused([](T& t) { t.diameter_base = 0; }, {"tower: diameter at the base [m] = 0"});
+    check_tube_refused([](T& t) { t.diameter_top = not_a_number; }, {"tower: diameter at the top [m] = nan"});
+    check_tube_refused([](T& t) { t.E = 0; }, {"tower: E [Pa] = 0"});
+    check_tube_refused([](T& t) { t.G = -1; }, {"tower: G [Pa] = -1"});
+    check_tube_refused([](T& t) { t.density = infinite; }, {"tower: density [kg/m^3] = inf"});
+    check_tube_refused([](T& t) { t.shear_factor = 0; }, {"tower: shear factor = 0"});
 }

@@ -270,6 +270,20 @@ TEST_CASE("singular metric: two joints that do the same are found behind one ano
     check_refused([&] { Model{tree}; }, {"singular metric", "coordinate 'second'"});
 }
 
+TEST_CASE("singular metric: one armature is not inertia enough for two coordinates, however its factors round",
+          "[property]") {
+    for (int i = 1; i <= 20; ++i) {
+        Tree tree;
+        const BodyId first = tree.add_body(joint_spec("first", Tree::base(), JointKind::revolute, Vec3::UnitZ()));
+        const BodyId second =
+            tree.add_body(joint_spec("second", tree.frame_of(first), JointKind::revolute, Vec3::UnitZ()));
+        tree.add_armature({"shared", 0.7, {{first, 0.1 * i}, {second, 0.3}}});
+        check_refused([&] { Model{tree}; }, {"singular metric", "coordinate 'second'"});
+        tree.add_armature({"own", 0.2, {{second, 1}}});
+        CHECK(Model(tree).size() == 2);
+    }
+}
+
 TEST_CASE("singular metric: a negative armature is legal as long as the metric stays positive", "[property]") {
     const auto make = [](double J) {
         Tree tree;
