@@ -99,10 +99,9 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
                        "]\nset yrange [", box.low(view.y), ":", box.high(view.y), "]\n");
         const std::string columns = text(" using ", view.x + 1, ":", view.y + 1, " with linespoints pt 7 ps 0.4 ");
         const auto titled = [&](const char* title) { return keyed ? text("title '", title, "'") : text("notitle"); };
-        script += "plot $rest" + columns + "lc rgb '#bbbbbb' lw 1.5 " + titled("undeformed") + ", $quarter" + columns +
-                  "lc rgb '" + std::string(colour(4).hex) + "' lw 1 dt 2 " + titled("a quarter period later") +
-                  ", $now" + columns + "lc rgb '" + std::string(colour(0).hex) + "' lw 2 " +
-                  titled("largest displacement") + "\n";
+        script += text("plot $rest", columns, "lc rgb '#bbbbbb' lw 1.5 ", titled("undeformed"), ", $quarter", columns,
+                       "lc rgb '", colour(4).hex, "' lw 1 dt 2 ", titled("a quarter period later"), ", $now", columns,
+                       "lc rgb '", colour(0).hex, "' lw 2 ", titled("largest displacement"), "\n");
     }
     static_cast<void>(Gnuplot().write_picture(path, script + "unset multiplot\n", {1300, 620}));
 }

@@ -1,1 +1,205 @@
+// What a mode is: component modes, shares of the elastic energy, names.
+#include "mbs/error.hpp"
+#include "solvers/identify.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/random_tree.hpp"
+#include "tests/support/tree_tools.hpp"
+
+#include <numeric>
+
+using namespace cardan;
+using namespace cardan::solvers;
+using namespace cardan::testing;
+
+namespace {
+
+struct Machine {
+    Tree tree = {};
+    ForceSet forces = {};
+    RotorMap map = {};
+
+    Link add(const std::string& name, const std::string& part, FrameId inboard, JointKind kind, const Vec3& axis,
+             const RigidInertia& inertia, double stiffness) {
+        BodySpec spec = joint_spec(name, inboard, kind, axis);
+        const Placement back = spec.placement.inverse();
+        spec.inertia = inertia.in(back);
+        spec.coordinate.part = part;
+        const BodyId body = tree.add_body(spec);
+        if (stiffness > 0) forces.add_spring(name, body, stiffness);
+        return {body, tree.add_frame(tree.frame_of(body), back, name + " axes")};
+    }
+};
+
+Linearisation at_rest(const System& system) {
+    const int n = system.model.size();
+    return linearise(system, {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0.0});
+}
+
+std::vector<MultiBladeRow> plain(const System& system) {
+    return std::vector<MultiBladeRow>(static_cast<std::size_t>(system.model.size()));
+}
+
+// A mast of five levels, each with a hinge about y and one about z, that carries a car on a rail along x.
+Machine mast() {
+    Machine m;
+    FrameId at = Tree::base();
+    for (int i = 1; i <= 5; ++i) {
+        const FrameId level = m.tree.add_frame(at, Placement::translation({i == 1 ? 0.0 : 2.0, 0, 0}), text("level ", i));
+        const Link y = m.add(text("y ", i), "mast", level, JointKind::revolute, Vec3::UnitY(), {}, 4e4);
+        const Link z = m.add(text("z ", i), "mast", y.axes, JointKind::revolute, -Vec3::UnitZ(), {8, {2, 0, 0}}, 9e4);
+        at = z.axes;
+    }
+    m.add("car", "car", at, JointKind::prismatic, Vec3::UnitX(), {3, Vec3::Zero()}, 700);
+    m.map.parts = {{"mast", Tree::base(), {}, {"mast torsion", "mast fore-aft", "mast side-side"}},
+                   {"car", Tree::base(), {"car on its rail", "", ""}, {}},
+                   {"a part that is not there", Tree::base(), {}, {}}};
+    return m;
+}
+
+// Rigid hub about z with hinged point masses.
+struct Rotor {
+    explicit Rotor(int blades) : machine(make(blades)), system(machine.tree, machine.forces) {
+        machine.map.spin = system.model.index("spin");
+        for (int k = 1; k <= blades; ++k) {
+            machine.map.blades.push_back({system.model.index(text("flap ", k))});
+            unknowns.push_back(machine.map.blades.back()[0]);
+        }
+        machine.map.parts = {{"blade", system.model.frame("root 1"), {}, {"", "blade flap", "blade lag"}}};
+    }
+    static Machine make(int blades) {
+        Machine m;
+        const Link spin = m.add("spin", "hub", Tree::base(), JointKind::revolute, Vec3::UnitZ(),
+                                {5, Vec3::Zero(), Mat3::Identity()}, 0);
+        for (int k = 1; k <= blades; ++k) {
+            const FrameId root =
+                m.tree.add_frame(spin.axes, Placement::rotation(rot_z(2 * pi * (k - 1) / blades)), text("root ", k));
+            m.add(text("flap ", k), "blade", root, JointKind::revolute, -Vec3::UnitY(), {3, {4, 0, 0}}, 2000);
+        }
+        return m;
+    }
+    Identification identification() const {
+        return {at_rest(system), system.model, machine.map, unknowns,
+                ColemanTransform(machine.map, unknowns).rows()};
+    }
+    Machine machine;
+    System system;
+    std::vector<int> unknowns;
+};
+
+double sum(const std::vector<Share>& shares) {
+    return std::accumulate(shares.begin(), shares.end(), 0.0,
+                           [](double total, const Share& share) { return total + share.total(); });
+}
+
+}  // namespace
+
+TEST_CASE("identify: components are named after the axis of their coordinates and counted within the family",
+          "[analytic]") {
+    const Machine m = mast();
+    const System system(m.tree, m.forces);
+    const std::vector<int> all = system.model.coordinates().free();
+    const Identification identification(at_rest(system), system.model, m.map, all, plain(system));
+    std::vector<std::string> names;
+    double last = 0;
+    for (std::size_t i = 0; i < identification.components().size(); ++i) {
+        const Component& c = identification.components()[i];
+        CHECK_FALSE(c.of_blades);
+        names.push_back(identification.name(static_cast<int>(i), RotorPattern::none));
+        if (c.part != "mast") continue;
+        CHECK(c.clamped_hz >= last);
+        last = c.clamped_hz;
+    }
+    REQUIRE(names.size() == 11);
+    for (const char* family : {"mast fore-aft", "mast side-side"})
+        for (const char* ordinal : {"1st", "2nd", "3rd", "4th", "5th"})
+            CHECK(std::count(names.begin(), names.end(), text(ordinal, " ", family)) == 1);
+    // The softer plane comes first, the only member of a family has no ordinal.
+    CHECK(names.front() == "1st mast fore-aft");
+    CHECK(names.back() == "car on its rail");
+    // With everything else clamped the car is a mass on a spring.
+    CHECK(identification.components().back().clamped_hz == Approx(std::sqrt(700.0 / 3) / (2 * pi)).epsilon(1e-12));
+    CHECK(identification.components().back().part == "car");
+}
+
+TEST_CASE("identify: shares of random shapes add up to one and follow the stiffness of the parts", "[property]") {
+    const Machine m = mast();
+    const System system(m.tree, m.forces);
+    const std::vector<int> all = system.model.coordinates().free();
+    const Linearisation lin = at_rest(system);
+    const Identification identification(lin, system.model, m.map, all, plain(system));
+    const SecondOrderSystem whole = restrict_to(lin, all);
+    Random random(5);
+    for (int i = 0; i < 20; ++i) {
+        const Mode mode{Complex(0, 1), random_state(random, system.model.size()).cast<Complex>() +
+                                           Complex(0, 1) * random_state(random, system.model.size())};
+        const std::vector<Share> shares = identification.shares(mode);
+        REQUIRE(sum(shares) == Approx(1).epsilon(1e-12));
+        const int car = system.model.index("car");
+        REQUIRE(shares.back().total() == Approx(energy_by_row(whole, mode)(car)).epsilon(1e-10));
+        for (const Share& share : shares) {
+            REQUIRE(share.total() >= 0);
+            REQUIRE(share.of(RotorPattern::none) == share.total());
+        }
+    }
+    // No energy at all: no shares, and no division by zero.
+    CHECK(sum(identification.shares({Complex(0, 1), ComplexVector::Zero(system.model.size())})) == 0);
+}
+
+TEST_CASE("identify: a part without a family name is called by its own; rigid motions are no components",
+          "[analytic]") {
+    Machine m;
+    const Link free = m.add("slide", "sledge", Tree::base(), JointKind::prismatic, Vec3::UnitY(),
+                            {4, Vec3::Zero()}, 0);
+    m.add("swing", "sledge", free.axes, JointKind::revolute, Vec3::UnitX(), {2, {0, 0, 1.0}}, 50);
+    m.map.parts = {{"sledge", Tree::base(), {}, {}}};
+    const System system(m.tree, m.forces);
+    const Identification identification(at_rest(system), system.model, m.map, system.model.coordinates().free(),
+                                        plain(system));
+    REQUIRE(identification.components().size() == 1);
+    CHECK(identification.name(0, RotorPattern::none) == "sledge");
+    // Two bodies that move against each other: the slider takes part, omega^2 = k / (m l^2) (M + m) / M.
+    CHECK(identification.components()[0].clamped_hz == Approx(std::sqrt(50.0 / 2 * 6 / 4) / (2 * pi)).epsilon(1e-12));
+}
+
+TEST_CASE("identify: the phase between cosine and sine tells the whirl of a rotor of three or four blades",
+          "[analytic]") {
+    for (const int blades : {3, 4}) {
+        CAPTURE(blades);
+        const Rotor rotor(blades);
+        const Identification identification = rotor.identification();
+        REQUIRE(identification.components().size() == 1);
+        CHECK(identification.components()[0].of_blades);
+        CHECK(identification.components()[0].clamped_hz ==
+              Approx(std::sqrt(2000.0 / (3 * 16)) / (2 * pi)).epsilon(1e-12));
+        CHECK(identification.name(0, RotorPattern::backward) == "blade flap (backward)");
+        const auto share = [&](Complex collective, Complex cosine, Complex sine, Complex differential) {
+            ComplexVector shape = ComplexVector::Zero(blades);
+            shape.head(3) << collective, cosine, sine;
+            if (blades == 4) shape(3) = differential;
+            return identification.shares({Complex(0, 1), shape})[0];
+        };
+        const Complex i(0, 1);
+        // cos(w t - psi) = Re (cos psi - i sin psi) exp(i w t) runs ahead with rising azimuth.
+        CHECK(share(0, 1, -i, 0).of(RotorPattern::forward) == Approx(1).epsilon(1e-13));
+        CHECK(share(0, 1, -i, 0).of(RotorPattern::backward) == Approx(0).margin(1e-13));
+        CHECK(share(0, 2, 2.0 * i, 0).of(RotorPattern::backward) == Approx(1).epsilon(1e-13));
+        CHECK(share(0, 1, 1, 0).whirl == Approx(0).margin(1e-13));
+        CHECK(share(0, 3, 1, 0).of(RotorPattern::cosine) == Approx(0.9).epsilon(1e-13));
+        CHECK(share(0, 3, 1, 0).of(RotorPattern::sine) == Approx(0.1).epsilon(1e-13));
+        CHECK(share(1, 1, 0, 0).of(RotorPattern::collective) == Approx(0.5).epsilon(1e-13));
+        if (blades == 4) CHECK(share(1, 0, 0, 3).of(RotorPattern::differential) == Approx(0.9).epsilon(1e-13));
+        // Backward and forward share what cosine and sine hold.
+        const Share mixed = share(0.3, Complex(1, 2), Complex(-0.4, 0.7), 0.2);
+        CHECK(mixed.of(RotorPattern::backward) + mixed.of(RotorPattern::forward) ==
+              Approx(mixed.cosine + mixed.sine).epsilon(1e-13));
+        CHECK(mixed.total() == Approx(1).epsilon(1e-13));
+    }
+}
+
+TEST_CASE("identify: every rotor pattern has its name", "[property]") {
+    const RotorPattern all[] = {RotorPattern::none,   RotorPattern::collective, RotorPattern::backward,
+                                RotorPattern::forward, RotorPattern::cosine,    RotorPattern::sine,
+                                RotorPattern::differential};
+    const std::string names[] = {"none", "collective", "backward", "forward", "cosine", "sine", "differential"};
+    for (std::size_t i = 0; i < 7; ++i) CHECK(pattern_name(all[i]) == names[i]);
+}
