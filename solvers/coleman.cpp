@@ -44,7 +44,7 @@ std::string multi_blade_name(const MultiBladeRow& row) {
     return {};
 }
 
-ColemanTransform::ColemanTransform(const RotorMap& rotor, std::vector<int> coordinates)
+ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
     if (blades_ < 3)
         throw InputError(rotor.machine, "number of blades", blades_,

@@ -28,7 +28,7 @@ std::string multi_blade_name(const MultiBladeRow& row);
 class ColemanTransform {
 public:
     /// @throws InputError if there are fewer than three blades, or blades differ in their number of coordinates.
-    ColemanTransform(const RotorMap& rotor, std::vector<int> coordinates);
+    ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
 
     /// T, dT/dpsi or its second derivative at azimuth psi.
     Matrix matrix(double psi, int derivative = 0) const;

@@ -18,7 +18,7 @@ double lowest_scale(const SecondOrderSystem& system) {
     double lowest = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < system.M.rows(); ++i) {
         const double k = std::abs(system.K(i, i));
-        if (k > 1e-12 * system.K.norm()) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
+        if (k > 1e-14 * system.K.norm()) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
     }
     return std::isfinite(lowest) ? lowest : 1.0;
 }

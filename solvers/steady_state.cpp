@@ -167,6 +167,9 @@ SteadyState steady_state(const System& system, int spin, const SteadyOptions& op
                          text(options.rotor_speed, ", ", options.azimuth), "finite");
     if (spin < 0 && options.rotor_speed != 0)
         throw InputError("steady state", "rotor speed [rad/s]", options.rotor_speed, "0 for a system without rotor");
+    if (options.initial.size() != 0 && options.initial.size() != system.model.size())
+        throw InputError("steady state", "size of the starting point", options.initial.size(),
+                         text(system.model.size(), ", one per coordinate, or empty"));
     Residual residual(system, spin, options);
     SteadyState result;
     const auto n = static_cast<sunindextype>(residual.unknowns.size());

@@ -98,8 +98,9 @@ TEST_CASE("static moments: the chain has the linear momentum of the static shape
     }
     for (int i : {0, 1}) {
         for (int j : {0, 1})
-            flexibility(i, j) = grid.weights().dot(Eigen::VectorXd(
-                (moment[i].array() * moment[j].array() * bending.array()) + force[i].array() * force[j].array() * shear.array()));
+            flexibility(i, j) =
+                grid.weights().dot(Eigen::VectorXd((moment[i].array() * moment[j].array() * bending.array()) +
+                                                   force[i].array() * force[j].array() * shear.array()));
         const Eigen::VectorXd slope = grid.running_integral() * Eigen::VectorXd(moment[i].array() * bending.array());
         const Eigen::VectorXd strain = force[i].array() * shear.array();
         const Eigen::VectorXd w = grid.running_integral() * (slope + strain);
@@ -123,7 +124,8 @@ TEST_CASE("static moments: without mass in a segment they cannot be, which is sa
     CHECK_NOTHROW(partition_element(line, 0, 1, 1. / 6, Partition::segment_masses));
 }
 
-TEST_CASE("600 kW blade: static moments are far off with few elements and say so, segment masses are not", "[published]") {
+TEST_CASE("600 kW blade: static moments are far off with few elements and say so, segment masses are not",
+          "[published]") {
     // EI falls 3000 to 1 from root to tip. Numbers of an independent implementation of both partitions; 5.539 Hz exact.
     for (const auto& [elements, moments, segments] :
          {std::tuple{2, 2.708, 5.318}, {3, 4.486, 5.233}, {4, 5.261, 5.404}, {6, 5.498, 5.512}}) {

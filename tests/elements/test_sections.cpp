@@ -113,7 +113,8 @@ TEST_CASE("section: the compliance of any section is symmetric and positive", "[
 TEST_CASE("section table: every column is kept at the stations and linear between them; infinite stays infinite",
           "[analytic]") {
     EngineeringSection a = some_section(), b = some_section();
-    b.mass = 60, b.mass_centre = {-0.4, 0.2}, b.shear_centre.y = 0.1, b.tension_centre.z = 0.3, b.j_edge = 1, b.j_flap = 2;
+    b.mass = 60, b.mass_centre = {-0.4, 0.2}, b.shear_centre.y = 0.1, b.tension_centre.z = 0.3, b.j_edge = 1,
+    b.j_flap = 2;
     a.GA_y = b.GA_y = infinite;
     for (const Interpolation kind : {Interpolation::linear, Interpolation::log_linear_stiffness}) {
         const SectionTable table("blade", {1, 3, 7}, {a, b, a}, kind);

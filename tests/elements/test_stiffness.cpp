@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 
 using namespace cardan;
-using namespace cardan::testing;
 
 namespace {
 
@@ -20,7 +19,7 @@ BeamLine general_line() {
     line.section = [](double x) {
         const double t = 1 - 0.25 * x;
         EngineeringSection s;
-        s.mass = 5 * t;
+        s.mass = 5 * t, s.j_flap = 0.1, s.j_edge = 0.2;
         s.EA = 8e4 * t, s.GJ = 3e2 * t * t * t, s.EI_flap = 4e2 * t * t * t, s.EI_edge = 3e3 * t * t;
         s.GA_y = 1e4 * t, s.GA_z = 7e3 * t;
         s.beta = 0.3 + 0.4 * x;
@@ -38,10 +37,10 @@ Mat6 continuum_tip_compliance(const BeamLine& line) {
     Mat6 C = Mat6::Zero();
     for (Eigen::Index i = 0; i < rule.point.size(); ++i) {
         const double x = line.length / 2 * (1 + rule.point[i]), arm = line.length - x;
-        Mat6 B = Mat6::Zero();                 // (N, Vy, Vz, T, My, Mz) by [moment; force]
-        B(0, 3) = B(1, 4) = B(2, 5) = 1;       // N = Fx, Vy = Fy, Vz = Fz
-        B(3, 0) = B(4, 1) = B(5, 2) = 1;       // T = Mx ...
-        B(4, 5) = -arm, B(5, 4) = arm;         // arm x F
+        Mat6 B = Mat6::Zero();            // (N, Vy, Vz, T, My, Mz) by [moment; force]
+        B(0, 3) = B(1, 4) = B(2, 5) = 1;  // N = Fx, Vy = Fy, Vz = Fz
+        B(3, 0) = B(4, 1) = B(5, 2) = 1;  // T = Mx ...
+        B(4, 5) = -arm, B(5, 4) = arm;    // arm x F
         C += line.length / 2 * rule.weight[i] * B.transpose() * line.section(x).compliance * B;
     }
     return C;
@@ -82,7 +81,8 @@ double difference(const Mat6& A, const Mat6& B) {
 
 TEST_CASE("stiffness: section forces by joint forces are in equilibrium along the element", "[analytic]") {
     constexpr double L = 1.7, delta = 0.23, h = 0.25;
-    const Mat6 at = section_forces_by_joint_forces(0.4, L, delta), next = section_forces_by_joint_forces(0.4 + h, L, delta);
+    const Mat6 at = section_forces_by_joint_forces(0.4, L, delta),
+               next = section_forces_by_joint_forces(0.4 + h, L, delta);
     const auto N = [](const Mat6& H) { return H.row(0); };
     const auto Vy = [](const Mat6& H) { return H.row(1); };
     const auto Vz = [](const Mat6& H) { return H.row(2); };
@@ -138,4 +138,3 @@ TEST_CASE("stiffness: torsion locked leaves bending as it is where the shear cen
     CHECK((A - B).norm() < 1e-12 * B.norm());
     CHECK(chain.row(0).norm() < 1e-14 * chain.norm());
 }
-

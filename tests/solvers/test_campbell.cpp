@@ -40,7 +40,8 @@ Rotor make_rotor(const RotorSpec& spec = {}) {
     Tree tree;
     ForceSet forces;
     const Link spin = add_joint(
-        tree, {.name = "spin", .inertia = {10, Vec3::Zero(), Vec3(hub_inertia, hub_inertia, hub_inertia).asDiagonal()}});
+        tree,
+        {.name = "spin", .inertia = {10, Vec3::Zero(), Vec3(hub_inertia, hub_inertia, hub_inertia).asDiagonal()}});
     std::vector<BodyId> blades;
     std::vector<FrameId> roots;
     for (std::size_t k = 0; k < spec.stiffness.size(); ++k) {
@@ -54,8 +55,8 @@ Rotor make_rotor(const RotorSpec& spec = {}) {
         blades.push_back(tree.add_body(body));
         forces.add_spring(text("hinge ", k + 1), blades.back(), spec.stiffness[k], spec.damping);
     }
-    const FrameId tip = tree.add_frame(tree.frame_of(blades[0]),
-                                       Placement::translation(tree.bodies().back().spec.inertia.com), "tip");
+    const FrameId tip =
+        tree.add_frame(tree.frame_of(blades[0]), Placement::translation(tree.bodies().back().spec.inertia.com), "tip");
     forces.set_gravity(spec.gravity);
     Rotor rotor{System(tree, forces), {}};
     rotor.map.machine = "small rotor";
@@ -71,8 +72,8 @@ Campbell diagram_of(const Rotor& rotor, const std::vector<double>& speeds, const
     return campbell(rotor.system, rotor.map, speeds, options);
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -91,9 +92,9 @@ TEST_CASE("rpm_range: what is no range is refused with the range as given", "[pr
     check_refused([] { (void)rpm_range(0, 10, 0); }, {"0:10:0", "STEP > 0"});
     check_refused([] { (void)rpm_range(0, 10, -1); }, {"0:10:-1", "STEP > 0"});
     check_refused([] { (void)rpm_range(10, 0, 1); }, {"10:0:1", "FIRST <= LAST"});
-    check_refused([] { (void)rpm_range(nan, 10, 1); }, {"nan:10:1", "finite"});
-    check_refused([] { (void)rpm_range(0, inf, 1); }, {"0:inf:1", "finite"});
-    check_refused([] { (void)rpm_range(0, 10, nan); }, {"0:10:nan", "finite"});
+    check_refused([] { (void)rpm_range(not_a_number, 10, 1); }, {"nan:10:1", "finite"});
+    check_refused([] { (void)rpm_range(0, infinite, 1); }, {"0:inf:1", "finite"});
+    check_refused([] { (void)rpm_range(0, 10, not_a_number); }, {"0:10:nan", "finite"});
 }
 
 TEST_CASE("campbell: flap of a hinged rotor is collective at w, backward at w - Omega and forward at w + Omega",
@@ -119,8 +120,9 @@ TEST_CASE("campbell: flap of a hinged rotor is collective at w, backward at w - 
     for (std::size_t i = 0; i < speeds.size(); ++i) {
         CAPTURE(i);
         const double Omega = speeds[i], w = flap_frequency(Omega), damped = std::sqrt(w * w - decay * decay);
-        for (const auto& [name, shift] :
-             {std::pair{"blade flap (backward)", -1.0}, {"blade flap (collective)", 0.0}, {"blade flap (forward)", 1.0}}) {
+        for (const auto& [name, shift] : {std::pair{"blade flap (backward)", -1.0},
+                                          {"blade flap (collective)", 0.0},
+                                          {"blade flap (forward)", 1.0}}) {
             const Branch& branch = d.branch(name);
             const double f = damped + shift * Omega;
             CHECK(branch.family == "blade flap");
@@ -295,10 +297,13 @@ TEST_CASE("campbell: a cancelled sweep keeps what was computed and says so", "[p
 TEST_CASE("campbell: what has no diagram is refused", "[property]") {
     const Rotor rotor = make_rotor();
     check_refused([&] { (void)diagram_of(rotor, {}); }, {"number of rotor speeds = 0", "at least one"});
-    check_refused([&] { (void)diagram_of(rotor, {1.0, nan}); }, {"rotor speed number 2", "nan", "finite"});
-    check_refused([&] { (void)diagram_of(rotor, {inf}); }, {"rotor speed number 1", "inf"});
-    check_refused([&] { (void)diagram_of(make_rotor({.stiffness = {2000, 2000}}), {1.0}); },
-                  {"small rotor", "number of blades = 2", "two blades"});
+    check_refused([&] { (void)diagram_of(rotor, {1.0, not_a_number}); }, {"rotor speed number 2", "nan", "finite"});
+    check_refused([&] { (void)diagram_of(rotor, {infinite}); }, {"rotor speed number 1", "inf"});
+    check_refused(
+        [&] {
+            (void)diagram_of(make_rotor({.stiffness = {2000, 2000}}), {1.0});
+        },
+        {"small rotor", "number of blades = 2", "two blades"});
     const Campbell d = diagram_of(rotor, {1.0});
     check_refused([&] { (void)d.branch("blade flop"); },
                   {"unknown mode 'blade flop'", "'blade flap (backward)'", "'blade flap (forward)'"});

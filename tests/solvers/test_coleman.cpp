@@ -72,8 +72,8 @@ SmallRotor small_rotor(int blades, bool elastic_support, bool lag = false) {
         forces.add_spring(text("flap ", k + 1), flap.body, stiffness, 2);
         bodies[static_cast<std::size_t>(k)].push_back(flap.body);
         if (!lag) continue;
-        const Link hinge = add_joint(
-            tree, {.name = text("lag ", k + 1), .inboard = flap.axes, .axis = Vec3::UnitZ(), .inertia = tip});
+        const Link hinge =
+            add_joint(tree, {.name = text("lag ", k + 1), .inboard = flap.axes, .axis = Vec3::UnitZ(), .inertia = tip});
         forces.add_spring(text("lag ", k + 1), hinge.body, 3 * stiffness, 4);
         bodies[static_cast<std::size_t>(k)].push_back(hinge.body);
     }
@@ -171,11 +171,11 @@ TEST_CASE("coleman: one unit of each multi-blade coordinate moves the blades as 
             CHECK(row.blade_coordinate == 0);
             for (int k = 0; k < blades; ++k) {
                 const double psi_k = psi + 2 * pi * k / blades;
-                const double expected = row.kind == MultiBlade::collective     ? std::sqrt(1.0 / blades)
-                                        : row.kind == MultiBlade::differential ? std::sqrt(1.0 / blades) * (k % 2 ? -1 : 1)
-                                        : row.kind == MultiBlade::cosine
-                                            ? std::sqrt(2.0 / blades) * std::cos(row.harmonic * psi_k)
-                                            : std::sqrt(2.0 / blades) * std::sin(row.harmonic * psi_k);
+                const double expected =
+                    row.kind == MultiBlade::collective     ? std::sqrt(1.0 / blades)
+                    : row.kind == MultiBlade::differential ? std::sqrt(1.0 / blades) * (k % 2 ? -1 : 1)
+                    : row.kind == MultiBlade::cosine       ? std::sqrt(2.0 / blades) * std::cos(row.harmonic * psi_k)
+                                                           : std::sqrt(2.0 / blades) * std::sin(row.harmonic * psi_k);
                 CHECK(M(2 + k, 2 + j) == Approx(expected).margin(1e-15));
             }
         }
@@ -307,8 +307,11 @@ TEST_CASE("coleman: two blades and unequal blades are refused", "[property]") {
     unequal.blades[1].pop_back();
     check_refused([&] { ColemanTransform(unequal, first(8)); }, {"coordinates of a blade = 1", "2, as blade 1 has"});
     // A blade coordinate that is an unknown on two of three blades.
-    check_refused([&] { ColemanTransform(imagined(3, 1), {0, 1, 2, 4}); },
-                  {"blade coordinate number = 1", "all blades or on none"});
+    check_refused(
+        [&] {
+            ColemanTransform(imagined(3, 1), {0, 1, 2, 4});
+        },
+        {"blade coordinate number = 1", "all blades or on none"});
     // On none of them it just does not appear.
     const ColemanTransform T(imagined(3, 2), {0, 1, 2, 4, 6});
     CHECK(T.rows()[4].kind == MultiBlade::sine);

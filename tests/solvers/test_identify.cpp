@@ -44,7 +44,8 @@ Machine mast() {
     Machine m;
     FrameId at = Tree::base();
     for (int i = 1; i <= 5; ++i) {
-        const FrameId level = m.tree.add_frame(at, Placement::translation({i == 1 ? 0.0 : 2.0, 0, 0}), text("level ", i));
+        const FrameId level =
+            m.tree.add_frame(at, Placement::translation({i == 1 ? 0.0 : 2.0, 0, 0}), text("level ", i));
         const Link y = m.add(text("y ", i), "mast", level, JointKind::revolute, Vec3::UnitY(), {}, 4e4);
         const Link z = m.add(text("z ", i), "mast", y.axes, JointKind::revolute, -Vec3::UnitZ(), {8, {2, 0, 0}}, 9e4);
         at = z.axes;
@@ -78,8 +79,7 @@ struct Rotor {
         return m;
     }
     Identification identification() const {
-        return {at_rest(system), system.model, machine.map, unknowns,
-                ColemanTransform(machine.map, unknowns).rows()};
+        return {at_rest(system), system.model, machine.map, unknowns, ColemanTransform(machine.map, unknowns).rows()};
     }
     Machine machine;
     System system;
@@ -148,8 +148,7 @@ TEST_CASE("identify: shares of random shapes add up to one and follow the stiffn
 TEST_CASE("identify: a part without a family name is called by its own; rigid motions are no components",
           "[analytic]") {
     Machine m;
-    const Link free = m.add("slide", "sledge", Tree::base(), JointKind::prismatic, Vec3::UnitY(),
-                            {4, Vec3::Zero()}, 0);
+    const Link free = m.add("slide", "sledge", Tree::base(), JointKind::prismatic, Vec3::UnitY(), {4, Vec3::Zero()}, 0);
     m.add("swing", "sledge", free.axes, JointKind::revolute, Vec3::UnitX(), {2, {0, 0, 1.0}}, 50);
     m.map.parts = {{"sledge", Tree::base(), {}, {}}};
     const System system(m.tree, m.forces);
@@ -197,8 +196,8 @@ TEST_CASE("identify: the phase between cosine and sine tells the whirl of a roto
 }
 
 TEST_CASE("identify: every rotor pattern has its name", "[property]") {
-    const RotorPattern all[] = {RotorPattern::none,   RotorPattern::collective, RotorPattern::backward,
-                                RotorPattern::forward, RotorPattern::cosine,    RotorPattern::sine,
+    const RotorPattern all[] = {RotorPattern::none,        RotorPattern::collective, RotorPattern::backward,
+                                RotorPattern::forward,     RotorPattern::cosine,     RotorPattern::sine,
                                 RotorPattern::differential};
     const std::string names[] = {"none", "collective", "backward", "forward", "cosine", "sine", "differential"};
     for (std::size_t i = 0; i < 7; ++i) CHECK(pattern_name(all[i]) == names[i]);

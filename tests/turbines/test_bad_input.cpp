@@ -107,8 +107,7 @@ TEST_CASE("turbine data in a folder: a missing quantity, another unit, a wrong n
     {
         const DataFolder data;
         data.replace("wt600_blade.csv", "flap_stiffness[N m^2]", "flap_stiffness[N mm^2]");
-        CHECK_THAT(data.message(),
-                   Contains("column 'flap_stiffness': unit N m^2 expected, N mm^2 found"));
+        CHECK_THAT(data.message(), Contains("column 'flap_stiffness': unit N m^2 expected, N mm^2 found"));
     }
 }
 

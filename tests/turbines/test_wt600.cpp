@@ -1,7 +1,8 @@
 // The 600 kW machine: masses, first moments, places and directions.
+#include "tests/turbines/test_wt600.hpp"
+
 #include "tests/oracles/wt600_stations.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/turbines/test_wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -32,8 +32,8 @@ inline std::vector<double> frequencies(const turbines::Turbine& turbine, double 
     return f;
 }
 
-/// Diagram of the machine as it comes (three elements, damped, generator free) from 0 to 40 rpm in steps of 1: the point
-/// number is the rotor speed in rpm. Computed once.
+/// Diagram of the machine as it comes (three elements, damped, generator free) from 0 to 40 rpm in steps of 1: the
+/// point number is the rotor speed in rpm. Computed once.
 inline const solvers::Campbell& diagram(solvers::CampbellMethod method = solvers::CampbellMethod::coleman) {
     const auto compute = [](solvers::CampbellMethod m) {
         solvers::CampbellOptions options;
@@ -92,7 +92,8 @@ inline double pattern_hz(const solvers::Campbell& d, int point, const char* fami
 inline Vec6T<Complex> motion_of(const solvers::Campbell& d, const char* branch, int point, const std::string& frame) {
     const auto found = std::find(d.frames.begin(), d.frames.end(), frame);
     if (found == d.frames.end()) throw Error(text("no frame ", frame));
-    return d.motion(d.branch(branch), static_cast<std::size_t>(point))[static_cast<std::size_t>(found - d.frames.begin())]
+    return d
+        .motion(d.branch(branch), static_cast<std::size_t>(point))[static_cast<std::size_t>(found - d.frames.begin())]
         .motion;
 }
 

@@ -39,8 +39,8 @@ struct Radau {
             right.middleRows(i * n, n) = -s.C * v - s.K * (q + c(i) * h * v);
         }
         const Matrix a = left.partialPivLu().solve(right);  // accelerations at the stages
-        const Matrix q_end = q + h * v + h * h * (AA(2, 0) * a.topRows(n) + AA(2, 1) * a.middleRows(n, n) +
-                                                  AA(2, 2) * a.bottomRows(n));
+        const Matrix q_end =
+            q + h * v + h * h * (AA(2, 0) * a.topRows(n) + AA(2, 1) * a.middleRows(n, n) + AA(2, 2) * a.bottomRows(n));
         x.bottomRows(n) += h * (A(2, 0) * a.topRows(n) + A(2, 1) * a.middleRows(n, n) + A(2, 2) * a.bottomRows(n));
         x.topRows(n) = q_end;
     }
@@ -64,7 +64,8 @@ Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector
     const Radau radau;
     Matrix x = Matrix::Identity(2 * n, 2 * n);
     for (int i = 0; i < steps; ++i)
-        radau.step(h, [&](Eigen::Index s) { return at_azimuth(rotor_speed * (i + radau.c(s)) * h); }, x);
+        radau.step(
+            h, [&](Eigen::Index s) { return at_azimuth(rotor_speed * (i + radau.c(s)) * h); }, x);
     std::vector<Eigen::Index> from(static_cast<std::size_t>(2 * n));
     for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<Eigen::Index>(i);
     const auto row = [&](int coordinate) {

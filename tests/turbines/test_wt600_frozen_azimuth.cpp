@@ -52,8 +52,8 @@ TEST_CASE("frozen azimuth: is the same as the fixed frame at rest and nowhere el
         CHECK(f[0].modes[i].mode.natural_hz() == Approx(c[0].modes[i].mode.natural_hz()).epsilon(1e-10));
     double difference = 0;
     for (std::size_t i = 0; i < 16; ++i)
-        difference = std::max(difference,
-                              std::abs(f[20].modes[i].mode.natural_hz() - c[20].modes[i].mode.natural_hz()));
+        difference =
+            std::max(difference, std::abs(f[20].modes[i].mode.natural_hz() - c[20].modes[i].mode.natural_hz()));
     CHECK(difference > 0.25);
 }
 

@@ -86,23 +86,3 @@ TEST_CASE("600 kW machine: elastic and damping matrices give the forces of the s
     CHECK(lin.gravity.norm() == 0);
     CHECK(lin.loads.norm() == 0);
 }
-
-TEST_CASE("600 kW machine: at a frozen azimuth the gyroscopic matrix is skew up to half the rate of the metric",
-          "[property]") {
-    const turbines::Turbine machine = turbines::wt600();
-    const Model& model = machine.system().model;
-    const int n = model.size(), spin = machine.rotor().spin;
-    const double rotor_speed = 27 * rpm;
-    solvers::OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
-    at.q(spin) = 0.4;
-    at.qd(spin) = rotor_speed;
-    const Matrix G = solvers::linearise(machine.system(), at).gyroscopic;
-    WorkspaceT<Complex> workspace(model);
-    VectorT<Complex> q = at.q.cast<Complex>();
-    q(spin) += Complex(0, 1e-30);
-    MatrixT<Complex> g(n, n);
-    metric<Complex>(kinematics<Complex>(model, q, workspace), g);
-    const Matrix rate = g.imag() / 1e-30 * rotor_speed;
-    CHECK((G + G.transpose() - 2 * rate).norm() < 1e-12 * G.norm());
-    CHECK(rate.norm() > 0.01 * G.norm());
-}

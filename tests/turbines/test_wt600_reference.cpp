@@ -50,8 +50,7 @@ turbines::TurbineDescription with_wrong_twist() {
 
 TEST_CASE("600 kW machine: fourteen modes with three elements, to the digit, at 0 and 27 rpm", "[published]") {
     const turbines::Turbine machine = turbines::wt600(undamped(3));
-    const solvers::Campbell d =
-        solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 27, 1));
+    const solvers::Campbell d = solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 27, 1));
     for (const Row& row : rows) {
         INFO(row.branch);
         CHECK(hz(d, row.branch, 0) == Approx(row.n3_at_0).margin(last_digit).epsilon(0));

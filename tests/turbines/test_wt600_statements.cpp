@@ -106,7 +106,8 @@ TEST_CASE("statement 1: the differential lags couple with yaw and tilt of the ro
 TEST_CASE("statement 1 in operation: in the fixed frame the differential lags split by twice the rotor speed",
           "[published]") {
     // The paper says that they stay close; that is so in frozen-azimuth eigenvalues only. Two motions of nearly one
-    // frequency in the rotating frame, delta apart at rest, come out sqrt(delta^2 + (2 Omega)^2) apart in the fixed one.
+    // frequency in the rotating frame, delta apart at rest, come out sqrt(delta^2 + (2 Omega)^2) apart in the fixed
+    // one.
     const double apart = hz(diagram(), lag_forward, 0) - hz(diagram(), lag_backward, 0);
     for (int point = 1; point <= 20; ++point)
         CHECK(hz(diagram(), lag_forward, point) - hz(diagram(), lag_backward, point) ==
@@ -236,8 +237,7 @@ TEST_CASE("statement 5: yaw and tilt do not interact at rest; in operation each 
 
 TEST_CASE("statement 6: lag frequencies rise only slightly with rotor speed", "[published]") {
     const auto rise = [](double at_40, double at_0) { return at_40 / at_0 - 1; };
-    const double isolated =
-        rise(hz(blade_diagram(), "1st blade edge", 40), hz(blade_diagram(), "1st blade edge", 0));
+    const double isolated = rise(hz(blade_diagram(), "1st blade edge", 40), hz(blade_diagram(), "1st blade edge", 0));
     const double collective = rise(hz(diagram(), lag_collective, 40), hz(diagram(), lag_collective, 0));
     CHECK(isolated > 0);
     CHECK(isolated < 0.012);
