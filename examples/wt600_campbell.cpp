@@ -8,6 +8,7 @@
 #include "mbs/version.hpp"
 #include "solvers/campbell_csv.hpp"
 #include "solvers/hdf5_campbell.hpp"
+#include "solvers/pending_file.hpp"
 #include "solvers/plot_campbell.hpp"
 #include "turbines/wt600.hpp"
 
@@ -146,6 +147,16 @@ void draw_modes(const solvers::Campbell& diagram, const std::filesystem::path& f
         }
 }
 
+// Files that cannot be written are found out before the work, not after it.
+void check_outputs(const std::string& prefix) {
+    const std::filesystem::path path(prefix), folder = path.parent_path();
+    if (path.filename().empty()) throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw FileError(prefix, text("the folder '", folder.string(), "' does not exist"));
+    for (const char* ending : {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"})
+        solvers::PendingFile(prefix + ending).discard();
+}
+
 int run(const Arguments& a) {
     const std::vector<double> speeds = rotor_speeds(a.rpm);
     const turbines::TurbineDescription description =
@@ -160,14 +171,11 @@ int run(const Arguments& a) {
     options.max_frequency_hz = a.max_frequency;
     options.progress = progress_on_terminal();
     options.cancelled = [] { return interrupted.load(); };
-    // Files that cannot be written are found out before the work, not after it.
-    const std::filesystem::path folder = std::filesystem::path(a.out).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw FileError(a.out, text("the folder '", folder.string(), "' does not exist"));
-
-    solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
-    diagram.source = turbine.source();
-    std::cout << solvers::table(diagram);
+    check_outputs(a.out);
+    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    std::signal(SIGINT, SIG_DFL);  // what follows is short and may be stopped at once
+    std::cout << solvers::table(diagram) << std::flush;
+    if (!std::cout) throw FileError("standard output", "the table could not be written");
     if (diagram.points.empty()) return 130;
     solvers::write_hdf5(diagram, a.out + ".h5");
     solvers::write_csv(diagram, a.out + ".csv");
@@ -180,8 +188,8 @@ int run(const Arguments& a) {
         const turbines::Turbine blade = turbines::isolated_blade(description, a.assembly);
         draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
     }
-    if (a.modes) draw_modes(diagram, a.out + "_modes");
-    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png"
+    if (a.modes && diagram.complete) draw_modes(diagram, a.out + "_modes");
+    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _tower_yaw_tilt.png, _flap_edge.png"
               << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";
     return diagram.complete ? 0 : 130;
 }

@@ -33,6 +33,7 @@ struct RotatingPair {
 /// Rotor, blades, parts and lines of a machine, in indices of its model.
 struct RotorMap {
     std::string machine;
+    std::string description = {};          ///< what the machine was made from, in words; kept with every result
     int spin = -1;                         ///< coordinate that carries the rotor speed; -1: no rotor
     FrameId hub;                           ///< rotating frame: z along the rotor axis, x along blade 1 at azimuth 0
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order

@@ -10,7 +10,7 @@
 namespace cardan::solvers {
 
 /// Rotor speeds first, first + step, ... up to last (kept if reached within 1e-9 step), rev/min -> rad/s.
-/// @throws InputError: NaN, step not positive, last below first.
+/// @throws InputError: NaN, step not positive, last below first, more than 100000 speeds.
 std::vector<double> rpm_range(double first, double last, double step);
 
 /// The spin coordinate of the rotor: free in the linearised system (its zero pair is left out), or prescribed.
@@ -26,8 +26,9 @@ enum class CampbellMethod : std::uint8_t {
 struct CampbellOptions {
     RotorSpin spin = RotorSpin::free;
     CampbellMethod method = CampbellMethod::coleman;
-    double max_frequency_hz = 10;  ///< branches are followed up to about this natural frequency
-    bool keep_shapes = true;       ///< motions of the frames on the machine's lines, for pictures and files
+    double max_frequency_hz =
+        10;                   ///< branches that stay above are left out (all modes take part in tracking and naming)
+    bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
     /// Called after every rotor speed with the numbers done and to do.
     std::function<void(int done, int total)> progress = {};
     /// Asked before every rotor speed: true ends the sweep; what was computed is kept and `complete` is false.
@@ -53,9 +54,11 @@ struct Branch {
     std::string family;  ///< "blade flap"
     int component = -1;  ///< of Campbell::components
     RotorPattern pattern = RotorPattern::none;
-    std::vector<int> mode;       ///< at every point the index in CampbellPoint::modes, -1: none
-    std::vector<double> mac;     ///< complex energy MAC with the point before, 1 at the first
-    std::vector<bool> doubtful;  ///< tracked with MAC below 0.6, or another name holds clearly more energy there
+    int harmonic = 1;                 ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
+    std::vector<int> mode;            ///< at every point the index in CampbellPoint::modes, -1: none
+    std::vector<double> mac;          ///< complex energy MAC with the point before, 1 at the first
+    std::vector<bool> doubtful;       ///< tracked with MAC below 0.6, or another name holds clearly more energy there
+    std::vector<std::string> mostly;  ///< the name that holds most elastic energy at the point; empty without a mode
 };
 
 /// A branch meets a multiple of the rotor speed.
@@ -74,6 +77,7 @@ struct FrameMotion {
 
 struct Campbell {
     std::string machine, source, method, warning;
+    RotorSpin spin = RotorSpin::free;
     int blades = 0;
     CoordinateTable coordinates;    ///< all coordinates of the model
     std::vector<int> unknowns;      ///< model index of every row of the modes' shapes
@@ -102,11 +106,14 @@ struct Campbell {
 
 /// Modes at every rotor speed: steady state, linearisation, Coleman transformation, eigenvalues; then identification
 /// and tracking by optimal assignment on the complex energy MAC.
-/// @throws InputError for an empty or non-finite list of speeds, or fewer than three blades (a rotor with one blade,
-/// the isolated blade, is taken in its rotating frame); NumericalError where no constant steady state exists or is
-/// found.
+/// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, or fewer
+/// than three blades (a rotor with one blade, the isolated blade, is taken in its rotating frame); NumericalError where
+/// no constant steady state exists or is found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options = {});
+
+/// Multiples n of the rotor speed that are drawn and looked for crossings: 1, 2, 3 and B, 2B, 3B, 4B.
+std::vector<int> rotor_multiples(int blades);
 
 /// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings, for a
 /// terminal.

@@ -15,13 +15,14 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
     out << "# Campbell diagram: " << diagram.machine << "; " << diagram.method << "; cardan " << version() << "\n";
     if (!diagram.warning.empty()) out << "# warning: " << diagram.warning << "\n";
     if (!diagram.complete) out << "# the sweep was interrupted\n";
-    out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-]\n";
+    out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"
+           "mostly[-]\n";
     for (std::size_t i = 0; i < diagram.points.size(); ++i)
         for (const Branch& branch : diagram.branches) {
             if (branch.mode[i] < 0) continue;
             out << diagram.points[i].rotor_speed * 30 / pi << ',' << branch.name << ',' << diagram.natural_hz(branch, i)
                 << ',' << diagram.damped_hz(branch, i) << ',' << diagram.damping_ratio(branch, i) << ','
-                << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0) << '\n';
+                << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0) << ',' << branch.mostly[i] << '\n';
         }
     out.close();
     if (!out) throw FileError(path.string(), "the table could not be written completely (is the disk full?)");

@@ -42,14 +42,15 @@ public:
 
 private:
     void header() {
-        for (const auto& [name, value] :
-             std::vector<std::pair<std::string, std::string>>{{"title", "Campbell diagram: " + d_.machine},
-                                                              {"machine", d_.machine},
-                                                              {"method", d_.method},
-                                                              {"warning", d_.warning},
-                                                              {"Conventions", "CF-1.8"},
-                                                              {"program", "cardan"},
-                                                              {"version", std::string(version())}})
+        for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
+                 {"title", "Campbell diagram: " + d_.machine},
+                 {"machine", d_.machine},
+                 {"method", d_.method},
+                 {"warning", d_.warning},
+                 {"rotor_spin", d_.spin == RotorSpin::free ? "free" : "prescribed"},
+                 {"Conventions", "CF-1.8"},
+                 {"program", "cardan"},
+                 {"version", std::string(version())}})
             file_.set_attribute("/", {name, value});
         file_.set_attribute("/", {"complete", std::int64_t{d_.complete}});
         file_.set_attribute("/", {"number_of_blades", std::int64_t{d_.blades}});
@@ -111,6 +112,12 @@ private:
                            [](std::size_t i, const Branch& x) { return x.mac[i]; });
         over_speed<int>("branches/doubtful", {"1", "1 where name or tracking is doubtful"},
                         [](std::size_t i, const Branch& x) { return x.doubtful[i] ? 1 : 0; });
+        std::vector<std::string> mostly;
+        for (std::size_t i = 0; i < points_; ++i)
+            for (const Branch& branch : d_.branches) mostly.push_back(branch.mostly[i]);
+        file_.write("branches/mostly", mostly, {points_, branches_}, "name that holds most of the elastic energy");
+        file_.attach("branches/mostly", 0, "rotor_speed");
+        file_.attach("branches/mostly", 1, "branch");
         shares();
     }
 

@@ -47,11 +47,8 @@ const char* ordinal_name(int n) {
 
 }  // namespace
 
-double Share::of(RotorPattern pattern) const {
+double WhirlShare::of(RotorPattern pattern) const {
     switch (pattern) {
-        case RotorPattern::none:
-        case RotorPattern::collective:
-            return collective;
         case RotorPattern::backward:
             return (cosine + sine) * (1 - whirl) / 2;
         case RotorPattern::forward:
@@ -60,16 +57,34 @@ double Share::of(RotorPattern pattern) const {
             return cosine;
         case RotorPattern::sine:
             return sine;
-        case RotorPattern::differential:
-            return differential;
+        default:
+            return 0;
     }
-    return 0;
+}
+
+double Share::of(RotorPattern pattern, int harmonic) const {
+    if (pattern == RotorPattern::none || pattern == RotorPattern::collective) return collective;
+    if (pattern == RotorPattern::differential) return differential;
+    if (harmonic == 1) return WhirlShare{cosine, sine, whirl}.of(pattern);
+    const auto at = static_cast<std::size_t>(harmonic - 2);
+    return at < higher.size() ? higher[at].of(pattern) : 0;
+}
+
+double Share::total() const {
+    double sum = collective + cosine + sine + differential;
+    for (const WhirlShare& pair : higher) sum += pair.cosine + pair.sine;
+    return sum;
 }
 
 Identification::Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                                const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows) {
     for (const PartAxes& part : rotor.parts) {
         Block block{};
+        const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {
+            harmonics_ = std::max(harmonics_, harmonic);
+            lists.resize(std::max(lists.size(), static_cast<std::size_t>(harmonic)));
+            return lists[static_cast<std::size_t>(harmonic - 1)];
+        };
         std::vector<int> own;  // model indices: of the part, or of the part in blade 1
         bool blades = false;
         for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -84,10 +99,10 @@ Identification::Identification(const Linearisation& lin, const Model& model, con
                     block.collective.push_back(row), blades = true;
                     break;
                 case MultiBlade::cosine:
-                    if (rows[i].harmonic == 1) block.cosine.push_back(row);
+                    at_harmonic(block.cosine, rows[i].harmonic).push_back(row);
                     break;
                 case MultiBlade::sine:
-                    if (rows[i].harmonic == 1) block.sine.push_back(row);
+                    at_harmonic(block.sine, rows[i].harmonic).push_back(row);
                     break;
                 case MultiBlade::differential:
                     block.differential.push_back(row);
@@ -134,28 +149,39 @@ std::vector<Share> Identification::shares(const Mode& mode) const {
             if (rows.empty()) return ComplexVector::Zero(block.weights.rows());
             return block.weights * mode.shape(rows);
         };
-        const ComplexVector c0 = amplitudes(block.collective), c = amplitudes(block.cosine), s = amplitudes(block.sine),
-                            d = amplitudes(block.differential);
+        const auto share_of = [&](Eigen::Index i) -> Share& {
+            return shares[static_cast<std::size_t>(block.first_component + i)];
+        };
+        const ComplexVector c0 = amplitudes(block.collective), d = amplitudes(block.differential);
         for (Eigen::Index i = 0; i < block.weights.rows(); ++i) {
-            const double forward = std::norm(c(i) + Complex(0, 1) * s(i)),
-                         backward = std::norm(c(i) - Complex(0, 1) * s(i));
-            Share& share = shares[static_cast<std::size_t>(block.first_component + i)];
-            share = {static_cast<int>(block.first_component + i),
-                     std::norm(c0(i)),
-                     std::norm(c(i)),
-                     std::norm(s(i)),
-                     std::norm(d(i)),
-                     forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0};
-            total += share.total();
+            share_of(i) = {static_cast<int>(block.first_component + i), std::norm(c0(i)), 0, 0, std::norm(d(i)), 0};
+            total += std::norm(c0(i)) + std::norm(d(i));
+        }
+        for (std::size_t n = 0; n < block.cosine.size(); ++n) {
+            const ComplexVector c = amplitudes(block.cosine[n]), s = amplitudes(block.sine[n]);
+            for (Eigen::Index i = 0; i < block.weights.rows(); ++i) {
+                const double forward = std::norm(c(i) + Complex(0, 1) * s(i)),
+                             backward = std::norm(c(i) - Complex(0, 1) * s(i));
+                const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
+                const WhirlShare pair{std::norm(c(i)), std::norm(s(i)), whirl};
+                Share& share = share_of(i);
+                if (n == 0)
+                    share.cosine = pair.cosine, share.sine = pair.sine, share.whirl = pair.whirl;
+                else
+                    share.higher.push_back(pair);
+                total += pair.cosine + pair.sine;
+            }
         }
     }
-    for (Share& share : shares)
-        for (double* part : {&share.collective, &share.cosine, &share.sine, &share.differential})
-            *part /= total > 0 ? total : 1;
+    const double scale = total > 0 ? 1 / total : 0.0;
+    for (Share& share : shares) {
+        for (double* part : {&share.collective, &share.cosine, &share.sine, &share.differential}) *part *= scale;
+        for (WhirlShare& pair : share.higher) pair.cosine *= scale, pair.sine *= scale;
+    }
     return shares;
 }
 
-std::string Identification::name(int component, RotorPattern pattern) const {
+std::string Identification::name(int component, RotorPattern pattern, int harmonic) const {
     const Component& c = components_[static_cast<std::size_t>(component)];
     const bool only_one = std::count_if(components_.begin(), components_.end(),
                                         [&](const Component& other) { return other.family == c.family; }) == 1;
@@ -165,7 +191,9 @@ std::string Identification::name(int component, RotorPattern pattern) const {
         name = ordinal ? text(ordinal, " ") : text(c.ordinal, "th ");
     }
     name += c.family;
-    return pattern == RotorPattern::none ? name : text(name, " (", pattern_name(pattern), ")");
+    return pattern == RotorPattern::none
+               ? name
+               : text(name, " (", pattern_name(pattern), harmonic > 1 ? text(", ", harmonic) : "", ")");
 }
 
 const char* pattern_name(RotorPattern pattern) {

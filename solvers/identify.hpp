@@ -26,14 +26,22 @@ struct Component {
     bool of_blades = false;
 };
 
+/// Energy of a whirling pair of one harmonic n of the azimuth.
+struct WhirlShare {
+    double cosine = 0, sine = 0;
+    double whirl = 0;  ///< (forward - backward) / (forward + backward) in -1 ... 1
+    double of(RotorPattern pattern) const;
+};
+
 /// The elastic energy of a mode in one component.
 struct Share {
     int component;
     double collective, cosine, sine,
         differential;  ///< parts of the total elastic energy; `collective` holds it all where there is no pattern
     double whirl;      ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
-    double total() const { return collective + cosine + sine + differential; }
-    double of(RotorPattern pattern) const;
+    std::vector<WhirlShare> higher = {};  ///< harmonics 2, 3, ... (five and more blades)
+    double total() const;
+    double of(RotorPattern pattern, int harmonic = 1) const;
 };
 
 /// Decomposes modes into component modes. In joint coordinates the elastic stiffness is block diagonal by part, and the
@@ -49,18 +57,22 @@ public:
     /// One entry per component, in the order of components().
     std::vector<Share> shares(const Mode& mode) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
-    std::string name(int component, RotorPattern pattern) const;
+    std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
+    /// Largest harmonic of the azimuth: 1 for three and four blades, 2 for five and six.
+    int harmonics() const { return harmonics_; }
 
 private:
     // The rows of one part, by pattern (blades) or all together.
     struct Block {
-        std::vector<int> collective, cosine, sine, differential;
-        Matrix weights;  // V^T K: energy amplitude of each component mode
+        std::vector<int> collective, differential;
+        std::vector<std::vector<int>> cosine, sine;  // by harmonic, from 1
+        Matrix weights;                              // V^T K: energy amplitude of each component mode
         int first_component;
     };
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);
 
+    int harmonics_ = 1;
     std::vector<Component> components_;
     std::vector<Block> blocks_;
 };

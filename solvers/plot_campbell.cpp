@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace cardan::solvers {
 
@@ -76,7 +75,7 @@ public:
                  legend ? "set key at screen 0.71,0.945 left top Left reverse\n"
                         : "set key at graph 0.5,-0.22 center top Left reverse font ',9'\n");
         std::string plots;
-        for (int n : multiples())
+        for (int n : rotor_multiples(d_.blades))
             plots += text(plots.empty() ? "" : ", ", n, "*x/60.0 with lines lc rgb '#999999' dt 3 lw 1 notitle");
         for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 2, 4, true);
         if (const Campbell* blade = options_.isolated_blade)
@@ -153,16 +152,10 @@ private:
         return shown ? "set xlabel 'rotor speed, rev/min'\nset format x '%g'\n" : "unset xlabel\nset format x ''\n";
     }
 
-    // 1P, 2P, 3P and the first multiples of the blade count.
-    std::vector<int> multiples() const {
-        std::set<int> n{1, 2, 3};
-        for (int k = 1; k <= 4 && d_.blades > 0; ++k) n.insert(k * d_.blades);
-        return {n.begin(), n.end()};
-    }
     std::string multiples_labels() const {
         std::string labels;
         const double x_max = rpm_.back() > rpm_.front() ? rpm_.back() : rpm_.front() + 1;
-        for (int n : multiples()) {
+        for (int n : rotor_multiples(d_.blades)) {
             const bool leaves_on_top = n * x_max / 60 > f_max_;
             const double x = leaves_on_top ? f_max_ * 60 / n : x_max, y = leaves_on_top ? f_max_ : n * x_max / 60;
             if (x <= rpm_.front()) continue;

@@ -75,9 +75,11 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
                          lines_data(diagram, "now", motion, scale, largest.phase) +
                          lines_data(diagram, "quarter", motion, scale, largest.phase + pi / 2);
     const double rpm = diagram.points[point].rotor_speed * 30 / pi;
+    const std::string doubt =
+        branch.doubtful[point] ? text("; the name is doubtful here: mostly ", branch.mostly[point]) : std::string();
     script += text("set multiplot layout 1,3 title ",
                    gnuplot_text(text(branch.name, ", ", std::round(1e4 * diagram.damped_hz(branch, point)) / 1e4,
-                                     " Hz at ", rpm, " rpm (displacements enlarged)")),
+                                     " Hz at ", rpm, " rpm (displacements enlarged)", doubt)),
                    "\nset size ratio -1\nset bmargin 7\nset xtics 10\nset ytics 10\nset key at screen 0.5,0.07 center "
                    "center horizontal maxrows 1 font ',11'\n");
     struct View {

@@ -15,40 +15,39 @@ constexpr double new_track_mac = 0.1;  // below: not the same mode at all
 struct Label {
     int component;
     RotorPattern pattern;
+    int harmonic = 1;
 };
 
 std::vector<Label> possible_labels(const Identification& identification, bool whirl) {
     std::vector<Label> labels;
     const auto& components = identification.components();
+    const RotorPattern first = whirl ? RotorPattern::backward : RotorPattern::cosine,
+                       second = whirl ? RotorPattern::forward : RotorPattern::sine;
     for (std::size_t i = 0; i < components.size(); ++i) {
         const int c = static_cast<int>(i);
         if (!components[i].of_blades) {
             labels.push_back({c, RotorPattern::none});
             continue;
         }
-        for (RotorPattern p : {RotorPattern::collective, whirl ? RotorPattern::backward : RotorPattern::cosine,
-                               whirl ? RotorPattern::forward : RotorPattern::sine, RotorPattern::differential})
-            labels.push_back({c, p});
+        labels.push_back({c, RotorPattern::collective});
+        for (int n = 1; n <= identification.harmonics(); ++n) {
+            labels.push_back({c, first, n});
+            labels.push_back({c, second, n});
+        }
+        labels.push_back({c, RotorPattern::differential});
     }
     return labels;
 }
 
 // Elastic energy of a mode under a label. At standstill there is no whirl: backward and forward share evenly.
 double energy(const CampbellMode& mode, const Label& label) {
-    return mode.shares[static_cast<std::size_t>(label.component)].of(label.pattern);
+    return mode.shares[static_cast<std::size_t>(label.component)].of(label.pattern, label.harmonic);
 }
 
-// Energy under the name's component, whirling in either sense: a name is doubtful if another holds clearly more.
-double component_energy(const Share& share, RotorPattern pattern) {
-    const bool whirls = pattern == RotorPattern::backward || pattern == RotorPattern::forward;
-    const bool pair = whirls || pattern == RotorPattern::cosine || pattern == RotorPattern::sine;
-    return pair ? share.cosine + share.sine : share.of(pattern);
-}
-
-double strongest_component(const CampbellMode& mode) {
-    double strongest = 0;
-    for (const Share& share : mode.shares)
-        strongest = std::max({strongest, share.collective, share.cosine + share.sine, share.differential});
+std::size_t strongest_label(const CampbellMode& mode, const std::vector<Label>& labels) {
+    std::size_t strongest = 0;
+    for (std::size_t l = 1; l < labels.size(); ++l)
+        if (energy(mode, labels[l]) > energy(mode, labels[strongest])) strongest = l;
     return strongest;
 }
 
@@ -118,19 +117,19 @@ std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, 
         Branch branch;
         branch.component = label.component;
         branch.pattern = label.pattern;
-        branch.name = identification.name(label.component, label.pattern);
+        branch.harmonic = label.harmonic;
+        branch.name = identification.name(label.component, label.pattern, label.harmonic);
         branch.family = identification.components()[static_cast<std::size_t>(label.component)].family;
         branch.mode = tracks_[t].mode;
         branch.mac = tracks_[t].mac;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            bool doubtful = false;
-            if (branch.mode[i] >= 0) {
-                const CampbellMode& mode = points[i].modes[static_cast<std::size_t>(branch.mode[i])];
-                const Share& own = mode.shares[static_cast<std::size_t>(label.component)];
-                doubtful =
-                    branch.mac[i] < sure_mac || component_energy(own, label.pattern) < 0.8 * strongest_component(mode);
-            }
-            branch.doubtful.push_back(doubtful);
+            branch.doubtful.push_back(false);
+            branch.mostly.emplace_back();
+            if (branch.mode[i] < 0) continue;
+            const CampbellMode& mode = points[i].modes[static_cast<std::size_t>(branch.mode[i])];
+            const Label& strongest = labels[strongest_label(mode, labels)];
+            branch.doubtful.back() = branch.mac[i] < sure_mac || energy(mode, label) < 0.8 * energy(mode, strongest);
+            branch.mostly.back() = identification.name(strongest.component, strongest.pattern, strongest.harmonic);
         }
         branches.push_back(std::move(branch));
     }

@@ -37,6 +37,15 @@ public:
         : d_(description), options_(options), damping_(damping) {
         if (d_.blades < 1) throw InputError(d_.name, "number of blades", d_.blades, ">= 1");
         if (!(std::isfinite(options.pitch))) throw InputError(d_.name, "pitch [rad]", options.pitch, "finite");
+        positive("hub radius [m]", d_.hub.radius);
+        positive("overhang [m]", d_.nacelle.overhang);
+        positive("gear ratio", d_.drive_train.gear_ratio);
+        positive("generator inertia [kg m^2]", d_.drive_train.generator_inertia);
+        not_negative("gearbox inertia [kg m^2]", d_.drive_train.gearbox_inertia);
+        not_negative("tower damping ratio", d_.tower.first_mode_damping);
+        not_negative("blade damping ratio", d_.blade.first_flap_damping);
+        for (int elements : {options.tower_elements, options.blade_elements})
+            if (elements > 1000) throw InputError(d_.name, "number of elements", elements, "1 ... 1000");
         forces.set_gravity(options.gravity);
     }
 
@@ -70,6 +79,12 @@ public:
     std::vector<std::string> warnings;
 
 private:
+    void positive(const char* quantity, double value) const {
+        if (!(value > 0) || std::isinf(value)) throw InputError(d_.name, quantity, value, "finite and > 0");
+    }
+    void not_negative(const char* quantity, double value) const {
+        if (!(value >= 0) || std::isinf(value)) throw InputError(d_.name, quantity, value, "finite and >= 0");
+    }
     Spring spring(const Spring& s) const { return {s.stiffness, options_.joint_damping ? s.damping : 0.0}; }
     JointedFrame sprung_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
                               const PartLabel& label, const Spring& law, const Vec3& offset = Vec3::Zero()) {
@@ -253,20 +268,37 @@ RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& na
 
 }  // namespace
 
-void Turbine::finish(const Assembler& assembler, const std::string& name, std::string source) {
+void Turbine::finish(const Assembler& assembler, const std::string& name, std::string source,
+                     const std::string& settings) {
     tree_ = std::make_shared<const Tree>(assembler.tree);
     system_ = std::make_shared<const System>(assembler.tree, assembler.forces);
     rotor_ = rotor_map(assembler, system_->model, name);
     warnings_ = assembler.warnings;
     source_ = std::move(source);
+    rotor_.description =
+        text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_);
 }
+
+namespace {
+
+// The options of an assembly in words.
+std::string settings(const AssemblyOptions& o) {
+    return text(o.tower_elements, " tower elements, ", o.blade_elements, " elements per blade, delta ", o.delta,
+                o.partition == Partition::segment_masses ? ", segment masses" : ", static moments", ", pitch ", o.pitch,
+                " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2), ") m/s^2, structural damping ",
+                o.structural_damping ? "on" : "off", ", joint damping ", o.joint_damping ? "on" : "off",
+                ", main shaft ",
+                o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"));
+}
+
+}  // namespace
 
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
     const DampingTimes damping = damping_times(description, options);
     Assembler assembler(description, options, damping);
     assembler.whole_machine();
     Turbine turbine;
-    turbine.finish(assembler, description.name, description.source);
+    turbine.finish(assembler, description.name, description.source, settings(options));
     return turbine;
 }
 
@@ -275,7 +307,7 @@ Turbine isolated_blade(const TurbineDescription& description, const AssemblyOpti
     Assembler assembler(description, options, damping);
     assembler.one_blade();
     Turbine turbine;
-    turbine.finish(assembler, description.name + ", isolated blade", description.source);
+    turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(options));
     return turbine;
 }
 

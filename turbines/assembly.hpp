@@ -45,7 +45,8 @@ private:
     friend Turbine assemble(const TurbineDescription&, const AssemblyOptions&);
     friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&);
     Turbine() = default;
-    void finish(const class Assembler& assembler, const std::string& name, std::string source);
+    void finish(const class Assembler& assembler, const std::string& name, std::string source,
+                const std::string& settings);
 
     std::shared_ptr<const Tree> tree_;
     std::shared_ptr<const System> system_;

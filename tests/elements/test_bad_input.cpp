@@ -45,9 +45,9 @@ using T = TubeSpec;
 }  // namespace
 
 TEST_CASE("beam: delta must lie inside (0, 0.5)", "[property]") {
-    for (const auto& [value, shown] : {std::pair{0.0, "= 0;"}, {0.5, "= 0.5;"}, {-0.1, "= -0.1;"}, {0.7, "= 0.7;"},
-                                       {not_a_number, "= nan;"}})
-        check_beam_refused([&](L&, O& o) { o.delta = value; }, {"spar: delta", shown, "0 < delta < 0.5"});
+    for (const auto& [value, shown] :
+         {std::pair{0.0, "= 0;"}, {0.5, "= 0.5;"}, {-0.1, "= -0.1;"}, {0.7, "= 0.7;"}, {not_a_number, "= nan;"}})
+        check_beam_refused([delta = value](L&, O& o) { o.delta = delta; }, {"spar: delta", shown, "0 < delta < 0.5"});
 }
 
 TEST_CASE("beam: at least one element; boundaries increase from 0 to the length", "[property]") {
@@ -56,10 +56,16 @@ TEST_CASE("beam: at least one element; boundaries increase from 0 to the length"
     check_beam_refused([](L&, O& o) { o.boundaries = {0}; }, {"spar: element boundaries [m] = 0 ... 0", "length 10"});
     check_beam_refused([](L&, O& o) { o.boundaries = {0, 9}; }, {"spar: element boundaries [m] = 0 ... 9"});
     check_beam_refused([](L&, O& o) { o.boundaries = {1, 10}; }, {"spar: element boundaries [m] = 1 ... 10"});
-    check_beam_refused([](L&, O& o) { o.boundaries = {0, 6, 4, 10}; },
-                       {"spar: element boundary 3 [m] = 4; allowed: increasing"});
-    check_beam_refused([](L&, O& o) { o.boundaries = {0, not_a_number, 10}; },
-                       {"spar: element boundary 2 [m] = nan; allowed: increasing"});
+    check_beam_refused(
+        [](L&, O& o) {
+            o.boundaries = {0, 6, 4, 10};
+        },
+        {"spar: element boundary 3 [m] = 4; allowed: increasing"});
+    check_beam_refused(
+        [](L&, O& o) {
+            o.boundaries = {0, not_a_number, 10};
+        },
+        {"spar: element boundary 2 [m] = nan; allowed: increasing"});
 }
 
 TEST_CASE("beam: its length must be finite and positive, its breaks increase, its section exist", "[property]") {
@@ -125,7 +131,11 @@ TEST_CASE("section table: too few stations, stations that do not increase, a bad
 }
 
 TEST_CASE("tube: walls thicker than the radius, missing walls, dimensions that are not positive", "[property]") {
-    check_tube_refused([](T& t) { t.wall_thickness = {0.02, 1.2}; }, {"tower: wall thickness [m] = 1.2; allowed: 0 ... 1"});
+    check_tube_refused(
+        [](T& t) {
+            t.wall_thickness = {0.02, 1.2};
+        },
+        {"tower: wall thickness [m] = 1.2; allowed: 0 ... 1"});
     check_tube_refused([](T& t) { t.wall_thickness = {0}; }, {"tower: wall thickness [m] = 0"});
     check_tube_refused([](T& t) { t.wall_thickness = {}; }, {"tower: number of wall thicknesses = 0"});
     check_tube_refused([](T& t) { t.length = -50; }, {"tower: length [m] = -50; allowed: finite and > 0"});

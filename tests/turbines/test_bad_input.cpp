@@ -141,8 +141,11 @@ TEST_CASE("turbine description: refused with the part named", "[property]") {
     check_machine_refused([](D& d, O&) { d.tower.line.length = 0; }, {"tower", "length [m] = 0"});
     check_machine_refused([](D& d, O&) { d.blade.line.section = {}; }, {"blade", "section function is missing"});
     check_machine_refused([](D& d, O& o) { d.blade.first_flap_damping = -0.1, o.structural_damping = true; },
-                          {"blade 1", "damping ratio", "-0.1"});
-    check_machine_refused([](D& d, O&) { d.nacelle.overhang = not_a_number; }, {"rotor centre", "placement", "nan"});
+                          {"blade damping ratio", "-0.1"});
+    check_machine_refused([](D& d, O&) { d.nacelle.overhang = not_a_number; }, {"overhang [m]", "nan", "> 0"});
+    check_machine_refused([](D& d, O&) { d.hub.radius = -3; }, {"hub radius [m] = -3", "> 0"});
+    check_machine_refused([](D& d, O&) { d.drive_train.gear_ratio = -50; }, {"gear ratio = -50", "> 0"});
+    check_machine_refused([](D& d, O&) { d.drive_train.gearbox_inertia = -1; }, {"gearbox inertia", "-1", ">= 0"});
 }
 
 TEST_CASE("assembly options: refused with the value and what is allowed", "[property]") {
