@@ -44,10 +44,20 @@ double energy(const CampbellMode& mode, const Label& label) {
     return mode.shares[static_cast<std::size_t>(label.component)].of(label.pattern, label.harmonic);
 }
 
-std::size_t strongest_label(const CampbellMode& mode, const std::vector<Label>& labels) {
-    std::size_t strongest = 0;
-    for (std::size_t l = 1; l < labels.size(); ++l)
-        if (energy(mode, labels[l]) > energy(mode, labels[strongest])) strongest = l;
+// Nothing whirls at standstill: a name there holds the energy of its pair.
+double held_energy(const CampbellPoint& point, const CampbellMode& mode, const Label& label) {
+    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
+    if (!whirls || point.rotor_speed != 0) return energy(mode, label);
+    return energy(mode, {label.component, RotorPattern::backward, label.harmonic}) +
+           energy(mode, {label.component, RotorPattern::forward, label.harmonic});
+}
+
+// The label that holds most energy; `own` where none holds more.
+Label strongest_label(const CampbellPoint& point, const CampbellMode& mode, const Label& own,
+                      const std::vector<Label>& labels) {
+    Label strongest = own;
+    for (const Label& label : labels)
+        if (held_energy(point, mode, label) > held_energy(point, mode, strongest)) strongest = label;
     return strongest;
 }
 
@@ -127,8 +137,9 @@ std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, 
             branch.mostly.emplace_back();
             if (branch.mode[i] < 0) continue;
             const CampbellMode& mode = points[i].modes[static_cast<std::size_t>(branch.mode[i])];
-            const Label& strongest = labels[strongest_label(mode, labels)];
-            branch.doubtful.back() = branch.mac[i] < sure_mac || energy(mode, label) < 0.8 * energy(mode, strongest);
+            const Label strongest = strongest_label(points[i], mode, label, labels);
+            branch.doubtful.back() = branch.mac[i] < sure_mac || held_energy(points[i], mode, label) <
+                                                                     0.8 * held_energy(points[i], mode, strongest);
             branch.mostly.back() = identification.name(strongest.component, strongest.pattern, strongest.harmonic);
         }
         branches.push_back(std::move(branch));
