@@ -35,10 +35,10 @@ struct WhirlShare {
 
 /// The elastic energy of a mode in one component.
 struct Share {
-    int component;
-    double collective, cosine, sine,
-        differential;  ///< parts of the total elastic energy; `collective` holds it all where there is no pattern
-    double whirl;      ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
+    int component = -1;
+    /// Parts of the total elastic energy; `collective` holds it all where there is no pattern.
+    double collective = 0, cosine = 0, sine = 0, differential = 0;
+    double whirl = 0;  ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
     std::vector<WhirlShare> higher = {};  ///< harmonics 2, 3, ... (five and more blades)
     double total() const;
     double of(RotorPattern pattern, int harmonic = 1) const;
