@@ -3,7 +3,7 @@
 
 cardan_build_packages=(
     g++ cmake ninja-build
-    libeigen3-dev libsundials-dev liburdfdom-dev libhdf5-dev libcli11-dev catch2 libbenchmark-dev gnuplot-nox
+    libeigen3-dev libsundials-dev liburdfdom-dev libhdf5-dev libcli11-dev catch2 libbenchmark-dev libboost-dev gnuplot-nox
 )
 cardan_format_packages=(clang-format)
 cardan_check_packages=(clang clang-tidy)

@@ -31,6 +31,7 @@ public:
                    const CardanBeamOptions& options)
         : tree_(tree), at_(start), name_(name), label_(label), options_(options) {}
 
+    /// Returns the frame at the outboard end, element axes.
     FrameId build(double L, const ElementInertia& inertia) {
         const double delta = options_.delta, half = (0.5 - delta) * L;
         weld(inertia.body[0], 0);
@@ -56,6 +57,7 @@ public:
 
     std::vector<ElementCoordinate> kinds;
     std::vector<BodyId> bodies;
+    std::vector<CardanBeam::Segment> segments;
 
 private:
     void rotate(Axis axis, ElementCoordinate kind, const char* what, double step) {
@@ -71,6 +73,7 @@ private:
     }
     // Inertias are given from the inboard end of the element; the frame reached sits at x.
     void weld(const RigidInertia& inertia, double x) {
+        segments.push_back({at_, x});
         tree_.weld(at_, inertia.in(Placement::translation({-x, 0, 0})), label_.name());
     }
 
@@ -89,6 +92,24 @@ bool extension_is_coupled(const Mat6& flexibility) {
     return false;
 }
 
+// D = K_q (int H^T G H) K_q with the section's dissipation G; for one time constant D = tau K_q.
+Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element, const CardanBeamOptions& options) {
+    const std::array<double, 6>& tau = options.damping.time_constants;
+    if (std::all_of(tau.begin(), tau.end(), [&](double t) { return t == tau[0]; })) return tau[0] * element.stiffness;
+    BeamLine dissipating = line;
+    dissipating.section = [&line, &tau](double x) {
+        BeamSection section = line.section(x);
+        section.compliance = dissipation(section, tau);
+        return section;
+    };
+    const Mat6 F = joint_flexibility(ElementLine(dissipating, element.start, element.start + element.arc),
+                                     options.delta, options.curved_flexibility);
+    std::vector<int> free;
+    for (ElementCoordinate kind : element.kinds) free.push_back(static_cast<int>(kind));
+    const Matrix D = element.stiffness * F(free, free) * element.stiffness;
+    return (D + D.transpose()) / 2;
+}
+
 void add_armatures(Tree& tree, const CardanBeam::Element& element, const ElementInertia& inertia,
                    const CardanBeamOptions& options, const std::string& name) {
     for (std::size_t i = 0; i < element.kinds.size(); ++i) {
@@ -101,43 +122,116 @@ void add_armatures(Tree& tree, const CardanBeam::Element& element, const Element
     }
 }
 
+// Bends the beam as its options say: K q, or the gradient of a better energy.
+void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string& name) {
+    const CardanBeamOptions& options = beam.options;
+    std::vector<HingeLawElement> elements;
+    for (std::size_t e = 0; e < beam.elements.size(); ++e) {
+        const CardanBeam::Element& element = beam.elements[e];
+        const auto n = static_cast<Eigen::Index>(element.bodies.size());
+        const bool linear = options.hinge_law.is_linear();
+        const Matrix damping = element_damping(beam.line, element, options);
+        if (linear || !damping.isZero(0))
+            forces.add_law({text(name, " element ", e + 1),
+                            element.bodies,
+                            linear ? element.stiffness : Matrix(Matrix::Zero(n, n)),
+                            damping,
+                            {}});
+        elements.push_back({element.bodies, element.kinds, element.stiffness});
+    }
+    if (!options.hinge_law.is_linear())
+        forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
+}
+
+// Damping that is told by the modes of the beam alone: they are computed from a beam clamped at its root.
+void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::string& name) {
+    if (!beam.options.damping.needs_modes()) return;
+    CardanBeamOptions undamped = beam.options;
+    undamped.damping = {};
+    undamped.hinge_law = {};
+    Tree tree;
+    ForceSet springs;
+    const CardanBeam clamped = add_cardan_beam(tree, springs, Tree::base(), beam.line, name, {"beam"}, undamped);
+    const Model model(tree);
+    const auto n = static_cast<Eigen::Index>(model.size());
+    Matrix M(n, n), K = Matrix::Zero(n, n);
+    std::vector<int> direction(static_cast<std::size_t>(n));
+    std::vector<BodyId> bodies(static_cast<std::size_t>(n));
+    for (std::size_t e = 0; e < clamped.elements.size(); ++e) {
+        const CardanBeam::Element& element = clamped.elements[e];
+        std::vector<int> at;
+        for (std::size_t i = 0; i < element.bodies.size(); ++i) {
+            at.push_back(model.index(element.bodies[i]));
+            constexpr std::array<int, 6> of_kind{0, 1, 2, 2, 3, 3};
+            direction[static_cast<std::size_t>(at.back())] = of_kind[static_cast<std::size_t>(element.kinds[i])];
+            bodies[static_cast<std::size_t>(at.back())] = beam.elements[e].bodies[i];
+        }
+        K(at, at) += element.stiffness;
+    }
+    Workspace workspace(model);
+    metric(kinematics(model, Vector::Zero(n), workspace), M);
+    forces.add_law({name + " damping of modes",
+                    bodies,
+                    Matrix::Zero(n, n),
+                    component_damping(M, K, direction, beam.options.damping),
+                    {}});
+}
+
 }  // namespace
 
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,
                            const PartLabel& label, const CardanBeamOptions& options) {
     line.check();
     if (!(options.delta > 0 && options.delta < 0.5)) throw InputError(name, "delta", options.delta, "0 < delta < 0.5");
-    if (!(options.damping.ratio >= 0 && options.damping.frequency_hz > 0))
-        throw InputError(name, "damping ratio at frequency [Hz]",
-                         text(options.damping.ratio, " at ", options.damping.frequency_hz),
-                         "ratio >= 0, frequency > 0");
+    options.damping.check(name);
     const std::vector<double> ends = element_ends(line, options);
     CardanBeam beam;
-    beam.nodes.push_back(tree.add_frame(root, {}, name + " node 0"));
+    beam.line = line;
+    beam.options = options;
+    Placement reached;  // axes of the frame `at` in beam axes at rest
     FrameId at = root;
+    const auto turn_to = [&](const Placement& axes, const std::string& frame_name) {
+        at = tree.add_frame(at, reached.inverse() * axes, frame_name);
+        reached = axes;
+    };
+    const auto add_node = [&](std::size_t i) {
+        const Placement axes = line.is_straight() ? reached : line.pose(ends[i]);
+        beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", i)));
+    };
+    add_node(0);
     for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
         const std::string element_name = text(name, " element ", e + 1);
-        const double x0 = ends[e], L = ends[e + 1] - ends[e];
-        const ElementInertia inertia = partition_element(line, x0, L, options.delta, options.partition);
+        const ElementLine span(line, ends[e], ends[e + 1]);
+        const ElementInertia inertia = partition_element(span, options.delta, options.partition);
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         beam.mass += inertia.mass;
-        const Mat6 flexibility = joint_flexibility(line, x0, L, options.delta);
+        const Mat6 flexibility = joint_flexibility(span, options.delta, options.curved_flexibility);
         if (!options.extension && extension_is_coupled(flexibility))
             beam.warnings.push_back(text(element_name,
                                          ": extension is condensed out although the tension centre lies "
                                          "off the reference line: under a large axial force (a rotating blade) its "
                                          "moment about the tension centre is lost; keep the extension free"));
 
+        if (!line.is_straight()) turn_to(span.axes(), element_name + " start");
         ElementBuilder builder(tree, at, element_name, label, options);
-        at = builder.build(L, inertia);
-        CardanBeam::Element element{builder.kinds, builder.bodies, flexibility, {}, x0, L};
-        element.stiffness = joint_stiffness(element.flexibility, element.kinds, element_name);
-        forces.add_law(
-            {element_name, element.bodies, element.stiffness, options.damping.time_constant() * element.stiffness, {}});
+        at = builder.build(span.chord(), inertia);
+        reached = reached * Placement::translation({span.chord(), 0, 0});
+        CardanBeam::Element element{builder.kinds,
+                                    builder.bodies,
+                                    flexibility,
+                                    joint_stiffness(flexibility, builder.kinds, element_name),
+                                    ends[e],
+                                    span.chord(),
+                                    ends[e + 1] - ends[e],
+                                    span.axes(),
+                                    {}};
+        std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
         add_armatures(tree, element, inertia, options, element_name);
         beam.elements.push_back(std::move(element));
-        beam.nodes.push_back(tree.add_frame(at, {}, text(name, " node ", e + 1)));
+        add_node(e + 1);
     }
+    add_elastic_law(forces, beam, name);
+    add_component_damping(forces, beam, name);
     return beam;
 }
 

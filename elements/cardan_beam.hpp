@@ -9,6 +9,8 @@
 /// and B1 of the next are one body.
 #pragma once
 
+#include "elements/damping.hpp"
+#include "elements/hinge_law.hpp"
 #include "elements/joints.hpp"
 #include "elements/partition.hpp"
 #include "elements/timoshenko.hpp"
@@ -18,45 +20,52 @@ namespace cardan {
 
 enum class CardanOrder : std::uint8_t { mirrored, same };
 
-/// Stiffness-proportional damping that gives the ratio at the frequency: D = zeta / (pi f) K.
-struct StructuralDamping {
-    double ratio = 0;         ///< zeta, of critical
-    double frequency_hz = 1;  ///< f, Hz
-    double time_constant() const { return ratio / (pi * frequency_hz); }
-};
-
 struct CardanBeamOptions {
     int elements = 3;                     ///< equal lengths, unless `boundaries` is given
     std::vector<double> boundaries = {};  ///< element ends from 0 to the length of the beam, m
     double delta = delta_gauss;           ///< 0 < delta < 0.5
     Partition partition = Partition::segment_masses;
     CardanOrder order = CardanOrder::mirrored;
+    CurvedFlexibility curved_flexibility = CurvedFlexibility::curve;
+    HingeLaw hinge_law = {};
     bool extension = false;  ///< free, else condensed out of the flexibility
     bool torsion = true;     ///< free, else condensed
-    StructuralDamping damping = {};
+    BeamDamping damping = {};
     double bending_armature = 0;  ///< on each bending coordinate, times M L^2 of the element
     double torsion_armature = 0;  ///< on the torsion coordinate, times the polar inertia of the element
 };
 
 /// What was added to the tree.
 struct CardanBeam {
+    /// A rigid body B1 ... B4 of an element.
+    struct Segment {
+        FrameId carrier;  ///< a frame on the body with element axes
+        double x;         ///< place of its origin along the chord, m from the inboard end of the element
+    };
     struct Element {
         std::vector<ElementCoordinate> kinds;  ///< those that are free
         std::vector<BodyId> bodies;            ///< one per kind, the same order
         Mat6 flexibility;
         Matrix stiffness;      ///< over `bodies`
-        double start, length;  ///< m along the beam
+        double start, length;  ///< m along the reference line; of the chord
+        double arc;            ///< m along the reference line
+        Placement axes;        ///< element axes in beam axes at rest, origin at the inboard end
+        std::array<Segment, 4> segments;
     };
     std::vector<Element> elements;
-    std::vector<FrameId> nodes;  ///< element ends from root to tip, beam axes; named "<name> node <i>", i = 0, 1, ...
-    double mass = 0;             ///< kg
+    std::vector<FrameId>
+        nodes;        ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
+    double mass = 0;  ///< kg
     std::vector<std::string> warnings;
+    BeamLine line;              ///< what it was made from
+    CardanBeamOptions options;  ///< and how
     FrameId tip() const { return nodes.back(); }
 };
 
-/// Adds a beam that starts at `root` along its x axis.
+/// Adds a beam that starts at `root`, whose axes are the beam axes. Every element is straight along its chord; on a
+/// curved line the chords meet at fixed kinks.
 /// @throws InputError: delta outside (0, 0.5), fewer than one element, boundaries not increasing from 0 to the length,
-/// bad line.
+/// bad line, bad damping.
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,
                            const PartLabel& label, const CardanBeamOptions& options = {});
 

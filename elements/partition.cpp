@@ -1,6 +1,5 @@
 #include "elements/partition.hpp"
 
-#include "elements/quadrature.hpp"
 #include "mbs/error.hpp"
 
 #include <Eigen/LU>
@@ -12,11 +11,11 @@ namespace {
 // Mass, first moment and second moments (Binet tensor about the origin of the element) of a line of point masses.
 using Moments = Eigen::Matrix<double, 4, 4>;  // int mu (1, r)(1, r)^T dx
 
-RigidInertia line_mass(const BeamLine& line, double x0, double a, double b) {
-    const Moments m = integrate(x0 + a, x0 + b, line.breaks, Moments(Moments::Zero()), [&](double x) {
-        const BeamSection s = line.section(x);
+RigidInertia line_mass(const ElementLine& element, double from, double to) {
+    const Moments m = element.integral(from, to, Moments(Moments::Zero()), [&](double x) {
+        const BeamSection s = element.line().section(x);
         Eigen::Vector4d r;
-        r << 1.0, x - x0, s.centre(1), s.centre(2);
+        r << 1.0, element.pose(x) * s.centre;
         return Moments(s.mass * r * r.transpose());
     });
     RigidInertia body;
@@ -28,9 +27,11 @@ RigidInertia line_mass(const BeamLine& line, double x0, double a, double b) {
     return body;
 }
 
-Mat3 rotary_inertia(const BeamLine& line, double x0, double a, double b) {
-    return integrate(x0 + a, x0 + b, line.breaks, Mat3(Mat3::Zero()),
-                     [&](double x) { return Mat3(line.section(x).J); });
+Mat3 rotary_inertia(const ElementLine& element, double from, double to) {
+    return element.integral(from, to, Mat3(Mat3::Zero()), [&](double x) {
+        const Mat3 R = element.pose(x).R;
+        return Mat3(R * element.line().section(x).J * R.transpose());
+    });
 }
 
 // Axial centres and slender inertias of the static-moment partition, one bending plane with the mean compliance of
@@ -85,9 +86,12 @@ StaticMoment static_moment(const BeamLine& line, double x0, double L, double del
     return r;
 }
 
-void move_to_static_moment(const BeamLine& line, double x0, double L, double delta, ElementInertia& element) {
+void move_to_static_moment(const ElementLine& on, double delta, ElementInertia& element) {
     auto& b = element.body;
-    const StaticMoment s = static_moment(line, x0, L, delta, {b[0].mass, b[1].mass, b[2].mass, b[3].mass});
+    const double L = on.chord(), arc = on.end() - on.start(), straight = L / arc;
+    StaticMoment s = static_moment(on.line(), on.start(), arc, delta, {b[0].mass, b[1].mass, b[2].mass, b[3].mass});
+    for (double* x : {&s.X1, &s.Xb, &s.X4}) *x *= straight;
+    s.D *= straight * straight;
     const auto slender = [](double J) { return Mat3(Vec3(0, J, J).asDiagonal()); };
     b[0].com(0) = s.X1;
     b[3].com(0) = s.X4;
@@ -107,7 +111,7 @@ void move_to_static_moment(const BeamLine& line, double x0, double L, double del
     }
     const double limit = 0.1 * L, x1 = delta * L, x2 = (1 - delta) * L;
     if (std::abs(s.X1 - x1) > limit || std::abs(s.X4 - x2) > limit || s.D <= 0 || own <= 0)
-        element.warning = text(line.name, ", element at ", x0,
+        element.warning = text(on.line().name, ", element at ", on.start(),
                                " m: the static-moment partition puts the terminal "
                                "centres of mass at ",
                                s.X1, " and ", s.X4, " m, more than 0.1 L from the hinges at ", x1, " and ", x2,
@@ -118,10 +122,14 @@ void move_to_static_moment(const BeamLine& line, double x0, double L, double del
 }  // namespace
 
 ElementInertia partition_element(const BeamLine& line, double x0, double L, double delta, Partition partition) {
-    const std::array<double, 5> ends{0, delta * L, L / 2, (1 - delta) * L, L};
+    return partition_element(ElementLine(line, x0, x0 + L), delta, partition);
+}
+
+ElementInertia partition_element(const ElementLine& on, double delta, Partition partition) {
+    const std::array<double, 5> ends{0, delta, 0.5, 1 - delta, 1};
     ElementInertia element;
     for (std::size_t k = 0; k < 4; ++k) {
-        element.body[k] = line_mass(line, x0, ends[k], ends[k + 1]);
+        element.body[k] = line_mass(on, ends[k], ends[k + 1]);
         element.mass += element.body[k].mass;
         element.polar_inertia +=
             element.body[k].J(0, 0) + element.body[k].mass * element.body[k].com.tail<2>().squaredNorm();
@@ -129,11 +137,12 @@ ElementInertia partition_element(const BeamLine& line, double x0, double L, doub
     if (partition == Partition::static_moment && element.mass > 0) {
         for (std::size_t k = 0; k < 4; ++k)
             if (!(element.body[k].mass > 0))
-                throw InputError(text(line.name, ", element at ", x0, " m"), text("mass of segment ", k + 1, " [kg]"),
-                                 element.body[k].mass, "> 0 with the static-moment partition");
-        move_to_static_moment(line, x0, L, delta, element);
+                throw InputError(text(on.line().name, ", element at ", on.start(), " m"),
+                                 text("mass of segment ", k + 1, " [kg]"), element.body[k].mass,
+                                 "> 0 with the static-moment partition");
+        move_to_static_moment(on, delta, element);
     }
-    const Mat3 left = rotary_inertia(line, x0, 0, L / 2), right = rotary_inertia(line, x0, L / 2, L);
+    const Mat3 left = rotary_inertia(on, 0, 0.5), right = rotary_inertia(on, 0.5, 1);
     element.body[0].J += left;
     element.body[3].J += right;
     element.polar_inertia += left(0, 0) + right(0, 0);

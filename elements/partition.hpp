@@ -2,7 +2,7 @@
 /// How the mass of a beam element is given to its four rigid bodies.
 #pragma once
 
-#include "elements/section.hpp"
+#include "elements/element_line.hpp"
 #include "mbs/inertia.hpp"
 
 #include <array>
@@ -25,6 +25,8 @@ struct ElementInertia {
 
 /// Bodies of the element [x0, x0 + L] of a line, hinges at delta L and (1 - delta) L. Sectional rotary inertia goes to
 /// the terminal bodies: that of the left half to B1, of the right half to B4.
+/// On a curve the segments are cut at the same fractions of the arc and keep their true mass, centre and tensor.
+ElementInertia partition_element(const ElementLine& element, double delta, Partition partition);
 ElementInertia partition_element(const BeamLine& line, double x0, double L, double delta, Partition partition);
 
 }  // namespace cardan

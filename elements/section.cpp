@@ -25,6 +25,7 @@ BeamSection EngineeringSection::section() const {
     s.mass = mass;
     s.centre = to_principal.transpose() * Vec3(0, mass_centre.y, mass_centre.z);
     s.J = to_principal.transpose() * Vec3(j_flap + j_edge, j_flap, j_edge).asDiagonal() * to_principal;
+    s.beta = beta;
     return s;
 }
 
@@ -57,17 +58,23 @@ void BeamLine::check() const {
             throw InputError(name, text("station ", i + 1, " [m]"), breaks[i], "finite and increasing");
 }
 
+void check_stations(const std::string& name, const std::vector<double>& x, std::size_t sections) {
+    if (x.size() < 2) throw InputError(name, "number of stations", x.size(), "at least 2");
+    if (x.size() != sections)
+        throw InputError(name, "number of sections", sections, text(x.size(), ", one per station"));
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (!std::isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
+            throw InputError(
+                name, text("station ", i + 1, " [m]"), x[i],
+                i > 0 && x[i] == x[i - 1] ? "finite and increasing (the same station twice)" : "finite and increasing");
+}
+
 SectionTable::SectionTable(std::string name, std::vector<double> x, std::vector<EngineeringSection> sections,
                            Interpolation interpolation)
     : name_(std::move(name)), x_(std::move(x)), sections_(std::move(sections)), interpolation_(interpolation) {
-    if (x_.size() < 2) throw InputError(name_, "number of stations", x_.size(), "at least 2");
-    if (x_.size() != sections_.size())
-        throw InputError(name_, "number of sections", sections_.size(), text(x_.size(), ", one per station"));
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-        if (!std::isfinite(x_[i]) || (i > 0 && !(x_[i] > x_[i - 1])))
-            throw InputError(name_, text("station ", i + 1, " [m]"), x_[i], "finite and increasing");
+    check_stations(name_, x_, sections_.size());
+    for (std::size_t i = 0; i < x_.size(); ++i)
         sections_[i].check(text(name_, ", station ", i + 1, " (x = ", x_[i], " m)"));
-    }
 }
 
 EngineeringSection SectionTable::at(double x) const {

@@ -7,7 +7,7 @@
 /// edge are negative y'.
 #pragma once
 
-#include "mbs/types.hpp"
+#include "mbs/spatial.hpp"
 
 #include <functional>
 #include <limits>
@@ -22,6 +22,7 @@ struct BeamSection {
     double mass = 0;   ///< kg/m
     Vec3 centre = Vec3::Zero();  ///< centre of mass (0, y, z), m
     Mat3 J = Mat3::Zero();       ///< inertia per length about the centre of mass, kg m; Jxx = Jyy + Jzz
+    double beta = 0;             ///< angle of the section's own axes about +x, rad: directions of damping and loads
 };
 
 /// A point of a section in its principal axes, m.
@@ -44,20 +45,30 @@ struct EngineeringSection {
     double j_edge = 0;  ///< int rho y'^2 dA about the mass centre (turning about z'), kg m
 
     BeamSection section() const;
-    /// @throws InputError naming `where`: negative or NaN mass, stiffness or inertia; a bending stiffness of zero.
+    /// @throws InputError naming `where`: negative or NaN mass, stiffness or inertia; a bending stiffness of zero; a
+    /// twist beyond half a turn (degrees?).
     void check(const std::string& where) const;
 };
 
-/// Sections along a straight beam of given length.
+/// Sections along a beam: straight along x, or along the curve `axis`.
 struct BeamLine {
-    double length = 0;                                  ///< m
-    std::vector<double> breaks = {};                    ///< where the section has kinks or jumps, ascending, m
-    std::function<BeamSection(double x)> section = {};  ///< section at 0 <= x <= length
+    double length = 0;                                  ///< along the reference line, m
+    std::vector<double> breaks = {};                    ///< where section or curve have kinks or jumps, ascending, m
+    std::function<BeamSection(double x)> section = {};  ///< section at 0 <= x <= length, in the axes of that place
     std::string name = "beam";
+    /// Pose of the section axes (x tangent) in beam axes; empty: straight, no rotation. See
+    /// elements/reference_line.hpp.
+    std::function<Placement(double x)> axis = {};
 
+    bool is_straight() const { return !axis; }
+    Placement pose(double x) const { return axis ? axis(x) : Placement::translation({x, 0, 0}); }
     /// @throws InputError: length not positive, breaks not increasing, no section.
     void check() const;
 };
+
+/// @throws InputError: fewer than two stations, stations not finite and increasing (a station given twice is named), or
+/// another number of sections.
+void check_stations(const std::string& name, const std::vector<double>& x, std::size_t sections);
 
 /// How columns of a table are interpolated between stations.
 enum class Interpolation : std::uint8_t { linear, log_linear_stiffness };

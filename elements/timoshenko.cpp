@@ -1,6 +1,5 @@
 #include "elements/timoshenko.hpp"
 
-#include "elements/quadrature.hpp"
 #include "mbs/error.hpp"
 
 #include <Eigen/Cholesky>
@@ -21,10 +20,37 @@ Mat6 section_forces_by_joint_forces(double x, double L, double delta) {
 }
 
 Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta) {
-    return integrate(x0, x0 + L, line.breaks, Mat6(Mat6::Zero()), [&](double x) {
-        const Mat6 H = section_forces_by_joint_forces(x - x0, L, delta);
-        return Mat6(H.transpose() * line.section(x).compliance * H);
+    return joint_flexibility(ElementLine(line, x0, x0 + L), delta);
+}
+
+namespace {
+
+// Section forces at the pose (in element axes) from those at the chord point below it, in element axes.
+Mat6 to_section(const Placement& pose) {
+    Mat6 X = Mat6::Zero();
+    const Mat3 R = pose.R.transpose();
+    X.topLeftCorner<3, 3>() = X.bottomRightCorner<3, 3>() = R;
+    X.bottomLeftCorner<3, 3>() = -R * skew<double>(Vec3(0, pose.p(1), pose.p(2)));
+    return X;
+}
+
+}  // namespace
+
+Mat6 joint_flexibility(const ElementLine& element, double delta, CurvedFlexibility rule) {
+    const double L = element.chord();
+    const bool on_curve = rule == CurvedFlexibility::curve && !element.line().is_straight();
+    const double arc = element.end() - element.start();
+    Mat6 F = element.integral(0, 1, Mat6(Mat6::Zero()), [&](double s) {
+        const Mat6 compliance = element.line().section(s).compliance;
+        if (on_curve) {
+            const Placement pose = element.pose(s);
+            const Mat6 H = to_section(pose) * section_forces_by_joint_forces(pose.p(0), L, delta);
+            return Mat6(H.transpose() * compliance * H);
+        }
+        const Mat6 H = section_forces_by_joint_forces((s - element.start()) * L / arc, L, delta);
+        return Mat6(H.transpose() * compliance * H);
     });
+    return on_curve ? F : Mat6(F * (L / arc));
 }
 
 Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,

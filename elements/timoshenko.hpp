@@ -2,7 +2,7 @@
 /// Elastic law of the cardanic joint beam element.
 #pragma once
 
-#include "elements/section.hpp"
+#include "elements/element_line.hpp"
 
 #include <Eigen/Core>
 
@@ -27,6 +27,14 @@ Mat6 section_forces_by_joint_forces(double x, double L, double delta);
 /// inverse and reproduces the 6 x 6 tip compliance of any section exactly.
 /// Rows and columns in the order of ElementCoordinate; entries of rigid directions are zero.
 Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
+
+/// How an element on a curve gets its flexibility.
+enum class CurvedFlexibility : std::uint8_t {
+    curve,  ///< section forces taken where the material lies, in its axes: exact tip compliance of the curved piece
+    chord   ///< the sections laid along the chord
+};
+/// The same for an element on any line.
+Mat6 joint_flexibility(const ElementLine& element, double delta, CurvedFlexibility rule = CurvedFlexibility::curve);
 
 /// Joint stiffness over the chosen coordinates: the inverse of the flexibility without the rows and columns of those
 /// that are locked (condensed at zero force, not clamped).

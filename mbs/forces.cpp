@@ -113,7 +113,7 @@ void Forces::user_derivatives(const UserForce& user, const ForceInput& at, Force
             by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
         }
     }
-    out.loads -= by_q;
+    (user.elastic ? out.elastic : out.loads) -= by_q;
     out.damping -= by_qd;
 }
 

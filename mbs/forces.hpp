@@ -34,6 +34,8 @@ struct UserForce {
     std::function<void(const ForceInput&, Matrix& dQ_dq, Matrix& dQ_dqd)> jacobian = {};
     /// Potential energy, J, if there is one.
     std::function<double(const ForceInput&)> energy = {};
+    /// A spring rather than a load: -dQ/dq counts as elastic stiffness.
+    bool elastic = false;
 };
 
 /// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint spring).
@@ -83,9 +85,9 @@ struct ForceReport {
 
 /// Stiffness and damping of the force elements at a state: -dQ/dq and -dQ/dqd, n x n, by origin.
 struct ForceDerivatives {
-    Matrix elastic;  ///< -dQ/dq of linear laws
+    Matrix elastic;  ///< -dQ/dq of linear laws and elastic user forces
     Matrix gravity;  ///< -dQ/dq of gravity
-    Matrix loads;    ///< -dQ/dq of wrenches and user forces
+    Matrix loads;    ///< -dQ/dq of wrenches and other user forces
     Matrix damping;  ///< -dQ/dqd of all
 };
 

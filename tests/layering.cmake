@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Fails when a source includes a header it must not see: mbs <- elements <- turbines, mbs <- solvers; SUNDIALS in
-# solvers only, HDF5 in solvers/hdf5* only, urdfdom in mbs/urdf* only.
+# solvers only, HDF5 in solvers/hdf5* only, urdfdom in mbs/urdf* only, Boost in elements/reference_line only.
 set(seen_by_mbs mbs)
 set(seen_by_elements mbs elements)
 set(seen_by_turbines mbs elements turbines)
@@ -28,6 +28,8 @@ foreach(folder IN ITEMS mbs elements turbines solvers)
             elseif(header MATCHES "^${sundials}" AND NOT folder STREQUAL "solvers")
                 set(allowed FALSE)
             elseif(header MATCHES "^(hdf5|H5)" AND NOT name MATCHES "^solvers/hdf5")
+                set(allowed FALSE)
+            elseif(header MATCHES "^boost/" AND NOT name MATCHES "^elements/reference_line")
                 set(allowed FALSE)
             elseif(header MATCHES "^(urdf|tinyxml|console_bridge)" AND NOT name MATCHES "^mbs/urdf")
                 set(allowed FALSE)

@@ -15,11 +15,11 @@ const Mat3& hub_axes() {
     return R;
 }
 
-struct DampingTimes {
-    StructuralDamping tower, blade;
+struct PartDamping {
+    BeamDamping tower, blade;
 };
 
-CardanBeamOptions beam_options(const AssemblyOptions& options, int elements, const StructuralDamping& damping) {
+CardanBeamOptions beam_options(const AssemblyOptions& options, int elements, const BeamDamping& damping) {
     CardanBeamOptions beam;
     beam.elements = elements;
     beam.delta = options.delta;
@@ -33,7 +33,7 @@ CardanBeamOptions beam_options(const AssemblyOptions& options, int elements, con
 // Builds the tree from the ground up and remembers what the rotor map needs.
 class Assembler {
 public:
-    Assembler(const TurbineDescription& description, const AssemblyOptions& options, const DampingTimes& damping)
+    Assembler(const TurbineDescription& description, const AssemblyOptions& options, const PartDamping& damping)
         : d_(description), options_(options), damping_(damping) {
         if (d_.blades < 1) throw InputError(d_.name, "number of blades", d_.blades, ">= 1");
         if (!(std::isfinite(options.pitch))) throw InputError(d_.name, "pitch [rad]", options.pitch, "finite");
@@ -208,7 +208,7 @@ private:
 
     const TurbineDescription& d_;
     const AssemblyOptions& options_;
-    const DampingTimes& damping_;
+    const PartDamping& damping_;
 };
 
 namespace {
@@ -229,15 +229,17 @@ double clamped_frequency(const System& system, const std::vector<int>& coordinat
 }
 
 // Damping ratios are given for the first mode of each part: a first, undamped assembly tells its frequency.
-DampingTimes damping_times(const TurbineDescription& d, const AssemblyOptions& options) {
-    DampingTimes times;
+PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& options) {
+    PartDamping times;
     if (!options.structural_damping) return times;
     Assembler machine(d, options, times), blade(d, options, times);
     machine.whole_machine();
     blade.one_blade();
     const System whole(machine.tree, machine.forces), single(blade.tree, blade.forces);
-    times.tower = {d.tower.first_mode_damping, clamped_frequency(whole, whole.model.coordinates().of_part("tower"))};
-    times.blade = {d.blade.first_flap_damping, clamped_frequency(single, single.model.coordinates().of_part("blade"))};
+    times.tower = BeamDamping::ratio_at(d.tower.first_mode_damping,
+                                        clamped_frequency(whole, whole.model.coordinates().of_part("tower")));
+    times.blade = BeamDamping::ratio_at(d.blade.first_flap_damping,
+                                        clamped_frequency(single, single.model.coordinates().of_part("blade")));
     return times;
 }
 
@@ -294,7 +296,7 @@ std::string settings(const AssemblyOptions& o) {
 }  // namespace
 
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
-    const DampingTimes damping = damping_times(description, options);
+    const PartDamping damping = part_damping(description, options);
     Assembler assembler(description, options, damping);
     assembler.whole_machine();
     Turbine turbine;
@@ -303,7 +305,7 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
 }
 
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options) {
-    const DampingTimes damping = damping_times(description, options);
+    const PartDamping damping = part_damping(description, options);
     Assembler assembler(description, options, damping);
     assembler.one_blade();
     Turbine turbine;

@@ -79,9 +79,19 @@ TEST_CASE("beam: its length must be finite and positive, its breaks increase, it
 }
 
 TEST_CASE("beam: a negative damping ratio, or one at no frequency, is refused", "[property]") {
-    check_beam_refused([](L&, O& o) { o.damping = {-0.01, 2}; }, {"spar: damping ratio", "-0.01 at 2", "ratio >= 0"});
-    check_beam_refused([](L&, O& o) { o.damping = {0.01, 0}; }, {"spar: damping ratio", "0.01 at 0", "frequency > 0"});
-    check_beam_refused([](L&, O& o) { o.damping = {not_a_number, 1}; }, {"spar: damping ratio", "nan at 1"});
+    const auto refused = [](double ratio, double frequency, std::initializer_list<std::string> said) {
+        check_refused([&] { (void)BeamDamping::ratio_at(ratio, frequency); }, said);
+    };
+    refused(-0.01, 2, {"ratio at frequency [Hz]", "-0.01 at 2", "ratio >= 0"});
+    refused(0.01, 0, {"0.01 at 0", "frequency > 0"});
+    refused(not_a_number, 1, {"nan at 1"});
+    check_beam_refused([](L&, O& o) { o.damping.time_constants[4] = -1e-3; },
+                       {"spar: damping time constant [s] = -0.001; allowed: finite and >= 0"});
+    check_beam_refused([](L&, O& o) { o.damping.mass_proportional = not_a_number; },
+                       {"spar: mass-proportional damping [1/s] = nan"});
+    check_beam_refused([](L&, O& o) { o.damping.modal.torsion = {0.01, -2}; }, {"spar: modal damping ratio = -2"});
+    check_beam_refused([](L&, O& o) { o.damping.modal = {.all = {0.01}, .torsion = {0.01}}; },
+                       {"spar: modal damping", "one of them"});
 }
 
 TEST_CASE("beam: a free direction of a rigid section is refused with the element named", "[property]") {

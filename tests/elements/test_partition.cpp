@@ -89,7 +89,7 @@ TEST_CASE("static moments: a strongly tapered element is warned about, with its 
 
 TEST_CASE("structural damping: the ratio comes out at the given frequency and grows in proportion", "[analytic]") {
     CardanBeamOptions options = bending_only(6);
-    options.damping = {0.01, 3.516015 / (2 * pi)};
+    options.damping = BeamDamping::ratio_at(0.01, 3.516015 / (2 * pi));
     Tree tree;
     ForceSet forces;
     add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, slender(1, 1)), "beam", {"beam"}, options);
