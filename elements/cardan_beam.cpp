@@ -130,12 +130,11 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
         const CardanBeam::Element& element = beam.elements[e];
         const auto n = static_cast<Eigen::Index>(element.bodies.size());
         const bool linear = options.hinge_law.is_linear();
-        const Matrix damping = element_damping(beam.line, element, options);
-        if (linear || !damping.isZero(0))
+        if (linear || !element.damping.isZero(0))
             forces.add_law({text(name, " element ", e + 1),
                             element.bodies,
                             linear ? element.stiffness : Matrix(Matrix::Zero(n, n)),
-                            damping,
+                            element.damping,
                             {}});
         elements.push_back({element.bodies, element.kinds, element.stiffness});
     }
@@ -220,11 +219,13 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     builder.bodies,
                                     flexibility,
                                     joint_stiffness(flexibility, builder.kinds, element_name),
+                                    {},
                                     ends[e],
                                     span.chord(),
                                     ends[e + 1] - ends[e],
                                     span.axes(),
                                     {}};
+        element.damping = element_damping(line, element, options);
         std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
         add_armatures(tree, element, inertia, options, element_name);
         beam.elements.push_back(std::move(element));

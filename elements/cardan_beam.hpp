@@ -47,6 +47,7 @@ struct CardanBeam {
         std::vector<BodyId> bodies;            ///< one per kind, the same order
         Mat6 flexibility;
         Matrix stiffness;      ///< over `bodies`
+        Matrix damping;        ///< over `bodies`, without what is told by modes of the whole beam
         double start, length;  ///< m along the reference line; of the chord
         double arc;            ///< m along the reference line
         Placement axes;        ///< element axes in beam axes at rest, origin at the inboard end

@@ -128,6 +128,17 @@ Response respond(const HingeLaw& law, const HingeLawElement& element, const Vect
 
 }  // namespace
 
+Vector hinge_arguments(const HingeLaw& law, const std::vector<ElementCoordinate>& kinds, const Vector& q) {
+    Vec6 all = Vec6::Zero();
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+        all(static_cast<Eigen::Index>(kinds[i])) = q(static_cast<Eigen::Index>(i));
+    const std::array<Jet, 6> y = arguments(law, all);
+    Vector values(q.size());
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+        values(static_cast<Eigen::Index>(i)) = y[static_cast<std::size_t>(kinds[i])].value;
+    return values;
+}
+
 UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements) {
     // Calls f(indices in the model, response) for every element.
     const auto each = [law, elements = std::move(elements)](const ForceInput& at, const auto& f) {

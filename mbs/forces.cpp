@@ -75,11 +75,16 @@ void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
     }
 }
 
+Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin) const {
+    if (load.axes == WrenchAxes::base) return load.wrench;
+    const Mat3 R = pose(kin, load.frame).R;
+    return {R * load.wrench.force, R * load.wrench.moment};
+}
+
 void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const {
     const Pose<double> at = pose(kin, load.frame);
     const bool follower = load.axes == WrenchAxes::frame;
-    const Vec3 force = follower ? Vec3(at.R * load.wrench.force) : load.wrench.force;
-    const Vec3 moment = follower ? Vec3(at.R * load.wrench.moment) : load.wrench.moment;
+    const auto [force, moment] = at_frame(load, kin);
     const Model& model = kin.model();
     const int tip = model.frame(load.frame).body;
     for (int a = tip; a >= 0; a = model.body(a).parent)

@@ -110,6 +110,9 @@ public:
     double potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
     std::vector<ForceReport> report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
 
+    const std::vector<FrameLoad>& loads() const { return loads_; }
+    /// A load as it acts now: force and moment at the frame's origin, base axes.
+    Wrench at_frame(const FrameLoad& load, const Kinematics& kin) const;
     const Vec3& gravity() const { return gravity_; }
     bool has_gravity() const { return !gravity_.isZero(0); }
     /// The same forces under another gravity, or without any damping.

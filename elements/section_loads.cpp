@@ -1,0 +1,172 @@
+#include "elements/section_loads.hpp"
+
+#include "mbs/error.hpp"
+
+namespace cardan {
+
+namespace {
+
+// A place on an element and the rigid segment it belongs to.
+struct Cut {
+    const CardanBeam::Element* element;
+    ElementLine line;
+    std::size_t segment;  // 0 ... 3
+    double s, x;          // along the reference line; along the chord
+};
+
+double fraction(const Cut& cut) {
+    return (cut.s - cut.element->start) / cut.element->arc;
+}
+
+Cut cut_at(const CardanBeam& beam, double s) {
+    const double length = beam.line.length, tolerance = 1e-12 * length;
+    if (!(s >= -tolerance && s <= length + tolerance))
+        throw InputError(beam.line.name, "place of the section [m]", s, text("0 ... ", length));
+    std::size_t e = 0;
+    while (e + 1 < beam.elements.size() && s > beam.elements[e].start + beam.elements[e].arc + tolerance) ++e;
+    const CardanBeam::Element& element = beam.elements[e];
+    Cut cut{&element, ElementLine(beam.line, element.start, element.start + element.arc), 0, s, 0};
+    const double delta = beam.options.delta, t = fraction(cut);
+    cut.segment = t < delta ? 0 : t < 0.5 ? 1 : t < 1 - delta ? 2 : 3;
+    cut.x = cut.line.pose(s).p(0);
+    return cut;
+}
+
+// Axes of an element as its segment carries them, in base axes.
+Placement carried_axes(const CardanBeam::Element& element, std::size_t segment, const Kinematics& kin) {
+    const Pose<double> at = pose(kin, element.segments[segment].carrier);
+    return Placement{at.R, at.p} * Placement::translation({-element.segments[segment].x, 0, 0});
+}
+
+// Sum of wrenches about a point.
+class WrenchSum {
+public:
+    explicit WrenchSum(const Vec3& about) : about_(about) {}
+    void add(const Vec3& force, const Vec3& moment, const Vec3& at) {
+        force_ += force;
+        moment_ += moment + cross<double>(at - about_, force);
+    }
+    Vec6 in(const Mat3& R) const { return (Vec6() << R.transpose() * force_, R.transpose() * moment_).finished(); }
+
+private:
+    Vec3 about_, force_ = Vec3::Zero(), moment_ = Vec3::Zero();
+};
+
+// Inertia less weight of the material of a rigid segment between two places, times `sign`.
+void add_material(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, const Vec3& gravity,
+                  double from, double to, double sign) {
+    const BeamLine& line = cut.line.line();
+    const double arc = cut.element->arc, start = cut.element->start;
+    using Load = Vec6;
+    const Vec3 about = axes.p;
+    const Load load = cut.line.integral((from - start) / arc, (to - start) / arc, Load(Load::Zero()), [&](double s) {
+        const BeamSection section = line.section(s);
+        const Vec3 r = axes * (cut.line.pose(s) * section.centre);
+        const Vec3 force = section.mass * (motion.at(r) - gravity);
+        return Load((Load() << force, cross<double>(r - about, force)).finished());
+    });
+    sum.add(sign * load.head<3>(), sign * load.tail<3>(), about);
+}
+
+// The sectional inertia of half an element sits on its terminal body: the share of it between s and the hinge.
+void add_rotary(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, double delta,
+                double sign) {
+    const bool first = cut.segment == 0;
+    const double t = fraction(cut), share = first ? (delta - t) / delta : (t - (1 - delta)) / delta;
+    const Mat3 J = cut.line.integral(first ? 0.0 : 0.5, first ? 0.5 : 1.0, Mat3(Mat3::Zero()), [&](double s) {
+        const Mat3 R = cut.line.pose(s).R;
+        return Mat3(R * cut.line.line().section(s).J * R.transpose());
+    });
+    const Mat3 J_base = axes.R * J * axes.R.transpose();
+    const Vec3& w = motion.angular_velocity;
+    sum.add(Vec3::Zero(), sign * share * (J_base * motion.angular_acceleration + cross<double>(w, Vec3(J_base * w))),
+            axes.p);
+}
+
+// Wrenches on the segment between two places along the chord, times `sign`.
+void add_wrenches(WrenchSum& sum, const Cut& cut, const Placement& axes, const Kinematics& kin, const Forces& forces,
+                  double from, double to, double sign) {
+    const Model& model = kin.model();
+    const int body = model.frame(cut.element->segments[cut.segment].carrier).body;
+    for (const FrameLoad& load : forces.loads()) {
+        if (model.frame(load.frame).body != body) continue;
+        const Vec3 at = pose(kin, load.frame).p;
+        const double x = (axes.inverse() * at)(0), tolerance = 1e-9 * cut.element->length;
+        if (x <= from + tolerance || x >= to - tolerance) continue;
+        const auto [force, moment] = forces.at_frame(load, kin);
+        sum.add(-sign * force, -sign * moment, at);
+    }
+}
+
+BodyId joint_of(const CardanBeam::Element& element, ElementCoordinate kind) {
+    for (std::size_t i = 0; i < element.kinds.size(); ++i)
+        if (element.kinds[i] == kind) return element.bodies[i];
+    throw InputError("section loads: the element has no bending coordinates");
+}
+
+}  // namespace
+
+SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, const Vector& q, const Vector& qd,
+                                double s) {
+    const Cut cut = cut_at(beam, s);
+    const CardanBeam::Element& element = *cut.element;
+    const auto n = static_cast<Eigen::Index>(element.bodies.size());
+    Vector x(n), v(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const int at = model.index(element.bodies[static_cast<std::size_t>(i)]);
+        x(i) = q(at);
+        v(i) = qd(at);
+    }
+    const Vector p =
+        element.stiffness * hinge_arguments(beam.options.hinge_law, element.kinds, x) + element.damping * v;
+    Vec6 forces = Vec6::Zero();
+    for (std::size_t i = 0; i < element.kinds.size(); ++i)
+        forces(static_cast<Eigen::Index>(element.kinds[i])) = p(static_cast<Eigen::Index>(i));
+    const Placement pose = cut.line.pose(s);
+    const Vec6 chord = section_forces_by_joint_forces(cut.x, element.length, beam.options.delta) * forces;
+    // From the chord to the reference line, in its axes.
+    const Vec3 force = chord.head<3>(), moment = chord.tail<3>(), offset(0, pose.p(1), pose.p(2));
+    SectionLoads loads;
+    loads.values << pose.R.transpose() * force, pose.R.transpose() * (moment - cross<double>(offset, force));
+    loads.axial_known = beam.options.extension;
+    loads.torsion_known = beam.options.torsion;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (!loads.axial_known) loads.values(0) = unknown;
+    if (!loads.torsion_known) loads.values(3) = unknown;
+    return loads;
+}
+
+SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
+                               const Transmission& carried, double s) {
+    const Cut cut = cut_at(beam, s);
+    const CardanBeam::Element& element = *cut.element;
+    const Model& model = kin.model();
+    const Placement axes = carried_axes(element, cut.segment, kin);
+    const Placement here = axes * cut.line.pose(s);
+    // B1 and B3 are reached from the hinge outboard of them, B2 and B4 from the hinge inboard.
+    const bool mirrored = beam.options.order == CardanOrder::mirrored;
+    const std::array<ElementCoordinate, 4> joints{ElementCoordinate::ay1, ElementCoordinate::az1,
+                                                  mirrored ? ElementCoordinate::az2 : ElementCoordinate::ay2,
+                                                  mirrored ? ElementCoordinate::ay2 : ElementCoordinate::az2};
+    const double delta = beam.options.delta;
+    const std::array<double, 4> hinge{delta, delta, 1 - delta, 1 - delta};
+    const bool inward = cut.segment == 0 || cut.segment == 2;
+    const auto joint = static_cast<std::size_t>(model.index(joint_of(element, joints[cut.segment])));
+    const double hinge_s = element.start + hinge[cut.segment] * element.arc;
+    const double hinge_x = hinge[cut.segment] * element.length;
+
+    WrenchSum sum(here.p);
+    sum.add(carried.joint[joint].force, carried.joint[joint].moment, carried.motion[joint].origin);
+    const int body = model.frame(element.segments[cut.segment].carrier).body;
+    BodyMotion motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // a beam clamped to the base
+    if (body >= 0) motion = carried.motion[static_cast<std::size_t>(body)];
+    const double sign = inward ? 1 : -1;
+    add_material(sum, cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s), sign);
+    add_wrenches(sum, cut, axes, kin, forces, std::min(cut.x, hinge_x), std::max(cut.x, hinge_x), sign);
+    if (cut.segment == 0 || cut.segment == 3) add_rotary(sum, cut, axes, motion, delta, sign);
+    SectionLoads loads;
+    loads.values = -sum.in(here.R);
+    return loads;
+}
+
+}  // namespace cardan

@@ -1,0 +1,36 @@
+/// @file
+/// Section loads of beams, constitutive and by equilibrium.
+///
+/// Forces (N, Vy, Vz) and moments (T, My, Mz) that the outboard part of the beam exerts on the inboard part, about the
+/// point of the reference line, in the section axes of the rigid segment there (x tangent, y and z those of the line,
+/// not of the principal axes): N > 0 is tension; My' = Vz and Mz' = -Vy without distributed loads.
+#pragma once
+
+#include "elements/cardan_beam.hpp"
+#include "mbs/system.hpp"
+#include "mbs/transmitted.hpp"
+
+namespace cardan {
+
+struct SectionLoads {
+    Vec6 values = Vec6::Zero();  ///< N, Vy, Vz (N), T, My, Mz (N m); what is not known is NaN
+    bool axial_known = true;     ///< false: extension is condensed out, so the springs do not tell the axial force
+    bool torsion_known = true;   ///< false: torsion is condensed out
+};
+
+/// Loads from the springs and dampers of an element: H(x) (K q + D q') with the section forces H of section 2 of the
+/// theory. Exact for a load at the ends of the beam and small angles; O(h^2) otherwise. Damping that is told by modes
+/// of the whole beam has no place along it and is left out.
+/// @param s  place along the reference line, 0 ... length of the beam; at a node: the element inboard of it
+/// @throws InputError if s lies outside of the beam
+SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, const Vector& q, const Vector& qd,
+                                double s);
+
+/// Loads by equilibrium of everything outboard of s: inertial forces, gravity and wrenches. What the rigid segment at s
+/// carries between the next hinge and s is counted with the true mass of the line (with the static-moment partition
+/// that agrees with the masses of the bodies to the order of the discretisation only). At a node: just inboard of it,
+/// whatever is fixed to the node included. User forces are not known as wrenches and are left out.
+SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
+                               const Transmission& carried, double s);
+
+}  // namespace cardan
