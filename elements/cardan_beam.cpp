@@ -33,26 +33,26 @@ public:
 
     /// Returns the frame at the outboard end, element axes.
     FrameId build(double L, const ElementInertia& inertia) {
-        const double delta = options_.delta, half = (0.5 - delta) * L;
+        const double x1 = inertia.hinges.first * L, x2 = inertia.hinges.second * L, middle = inertia.hinges.middle * L;
         weld(inertia.body[0], 0);
-        rotate(Axis::y, ElementCoordinate::ay1, "bending y1", delta * L);
+        rotate(Axis::y, ElementCoordinate::ay1, "bending y1", x1);
         rotate(Axis::z, ElementCoordinate::az1, "bending z1", 0);
-        weld(inertia.body[1], delta * L);
-        step_ = half;
+        weld(inertia.body[1], x1);
+        step_ = middle - x1;
         if (options_.extension) joint(JointKind::prismatic, Axis::x, ElementCoordinate::u, "extension");
         if (options_.torsion) joint(JointKind::revolute, Axis::x, ElementCoordinate::phi, "torsion");
-        const double reached = L / 2 - step_;  // the frame reached sits at L/2, or still at the first hinge
+        const double reached = middle - step_;  // the frame reached sits at the middle, or still at the first hinge
         weld(inertia.body[2], reached);
         const bool mirrored = options_.order == CardanOrder::mirrored;
         const auto second = [&](bool z) {
             rotate(z ? Axis::z : Axis::y, z ? ElementCoordinate::az2 : ElementCoordinate::ay2,
                    z ? "bending z2" : "bending y2", 0);
         };
-        step_ += half;
+        step_ += x2 - middle;
         second(mirrored);
         second(!mirrored);
-        weld(inertia.body[3], (1 - delta) * L);
-        return tree_.add_frame(at_, Placement::translation({delta * L, 0, 0}), name_ + " end");
+        weld(inertia.body[3], x2);
+        return tree_.add_frame(at_, Placement::translation({L - x2, 0, 0}), name_ + " end");
     }
 
     std::vector<ElementCoordinate> kinds;
@@ -103,7 +103,7 @@ Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element,
         return section;
     };
     const Mat6 F = joint_flexibility(ElementLine(dissipating, element.start, element.start + element.arc),
-                                     options.delta, options.curved_flexibility);
+                                     element.hinges, options.curved_flexibility);
     std::vector<int> free;
     for (ElementCoordinate kind : element.kinds) free.push_back(static_cast<int>(kind));
     const Matrix D = element.stiffness * F(free, free) * element.stiffness;
@@ -204,7 +204,7 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
         const ElementInertia inertia = partition_element(span, options.delta, options.partition);
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         beam.mass += inertia.mass;
-        const Mat6 flexibility = joint_flexibility(span, options.delta, options.curved_flexibility);
+        const Mat6 flexibility = joint_flexibility(span, inertia.hinges, options.curved_flexibility);
         if (!options.extension && extension_is_coupled(flexibility))
             beam.warnings.push_back(text(element_name,
                                          ": extension is condensed out although the tension centre lies "
@@ -224,7 +224,8 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     span.chord(),
                                     ends[e + 1] - ends[e],
                                     span.axes(),
-                                    {}};
+                                    {},
+                                    inertia.hinges};
         element.damping = element_damping(line, element, options);
         std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
         add_armatures(tree, element, inertia, options, element_name);

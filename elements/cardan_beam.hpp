@@ -52,6 +52,7 @@ struct CardanBeam {
         double arc;            ///< m along the reference line
         Placement axes;        ///< element axes in beam axes at rest, origin at the inboard end
         std::array<Segment, 4> segments;
+        Hinges hinges;
     };
     std::vector<Element> elements;
     std::vector<FrameId>

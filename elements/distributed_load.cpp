@@ -23,13 +23,14 @@ void add_distributed_load(Tree& tree, ForceSet& forces, const CardanBeam& beam, 
     if (!load.per_length) throw InputError(text("load '", load.name, "': the function per length is missing"));
     std::vector<double> breaks = load.breaks;
     breaks.insert(breaks.end(), beam.line.breaks.begin(), beam.line.breaks.end());
-    const double delta = beam.options.delta, root = std::sqrt(0.6);
+    const double root = std::sqrt(0.6);
     constexpr std::array<double, 3> weight{5. / 18, 8. / 18, 5. / 18};
     const std::array<double, 3> node{0.5 - root / 2, 0.5, 0.5 + root / 2};
-    const std::array<double, 5> ends{0, delta, 0.5, 1 - delta, 1};
     int number = 0;
     for (const CardanBeam::Element& element : beam.elements) {
         const ElementLine line(beam.line, element.start, element.start + element.arc);
+        const Hinges& h = element.hinges;
+        const std::array<double, 5> ends{0, h.first, h.middle, h.second, 1};
         for (std::size_t k = 0; k < 4; ++k) {
             const CardanBeam::Segment& segment = element.segments[k];
             const std::vector<double> cuts = pieces(breaks, line.place(ends[k]), line.place(ends[k + 1]));

@@ -128,6 +128,7 @@ ElementInertia partition_element(const BeamLine& line, double x0, double L, doub
 ElementInertia partition_element(const ElementLine& on, double delta, Partition partition) {
     const std::array<double, 5> ends{0, delta, 0.5, 1 - delta, 1};
     ElementInertia element;
+    element.hinges = Hinges::symmetric(delta);
     for (std::size_t k = 0; k < 4; ++k) {
         element.body[k] = line_mass(on, ends[k], ends[k + 1]);
         element.mass += element.body[k].mass;

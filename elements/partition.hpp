@@ -2,7 +2,7 @@
 /// How the mass of a beam element is given to its four rigid bodies.
 #pragma once
 
-#include "elements/element_line.hpp"
+#include "elements/timoshenko.hpp"
 #include "mbs/inertia.hpp"
 
 #include <array>
@@ -18,6 +18,7 @@ enum class Partition : std::uint8_t {
 /// Inertias of the bodies B1 ... B4 in beam axes, origin at the inboard end of the element.
 struct ElementInertia {
     std::array<RigidInertia, 4> body;
+    Hinges hinges = Hinges::symmetric(delta_gauss);
     double mass = 0;           ///< of the element, kg
     double polar_inertia = 0;  ///< int (Jxx + mu (y^2 + z^2)) dx about the reference line, kg m^2
     std::string warning = {};  ///< empty, or what is unsound about the partition here

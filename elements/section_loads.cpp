@@ -26,8 +26,9 @@ Cut cut_at(const CardanBeam& beam, double s) {
     while (e + 1 < beam.elements.size() && s > beam.elements[e].start + beam.elements[e].arc + tolerance) ++e;
     const CardanBeam::Element& element = beam.elements[e];
     Cut cut{&element, ElementLine(beam.line, element.start, element.start + element.arc), 0, s, 0};
-    const double delta = beam.options.delta, t = fraction(cut);
-    cut.segment = t < delta ? 0 : t < 0.5 ? 1 : t < 1 - delta ? 2 : 3;
+    const Hinges& hinges = element.hinges;
+    const double t = fraction(cut);
+    cut.segment = t < hinges.first ? 0 : t < hinges.middle ? 1 : t < hinges.second ? 2 : 3;
     cut.x = cut.line.pose(s).p(0);
     return cut;
 }
@@ -69,10 +70,11 @@ void add_material(WrenchSum& sum, const Cut& cut, const Placement& axes, const B
 }
 
 // The sectional inertia of half an element sits on its terminal body: the share of it between s and the hinge.
-void add_rotary(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, double delta,
-                double sign) {
+void add_rotary(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, double sign) {
     const bool first = cut.segment == 0;
-    const double t = fraction(cut), share = first ? (delta - t) / delta : (t - (1 - delta)) / delta;
+    const Hinges& hinges = cut.element->hinges;
+    const double t = fraction(cut);
+    const double share = first ? (hinges.first - t) / hinges.first : (t - hinges.second) / (1 - hinges.second);
     const Mat3 J = cut.line.integral(first ? 0.0 : 0.5, first ? 0.5 : 1.0, Mat3(Mat3::Zero()), [&](double s) {
         const Mat3 R = cut.line.pose(s).R;
         return Mat3(R * cut.line.line().section(s).J * R.transpose());
@@ -123,7 +125,7 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
     for (std::size_t i = 0; i < element.kinds.size(); ++i)
         forces(static_cast<Eigen::Index>(element.kinds[i])) = p(static_cast<Eigen::Index>(i));
     const Placement pose = cut.line.pose(s);
-    const Vec6 chord = section_forces_by_joint_forces(cut.x, element.length, beam.options.delta) * forces;
+    const Vec6 chord = section_forces_by_joint_forces(cut.x, element.length, element.hinges) * forces;
     // From the chord to the reference line, in its axes.
     const Vec3 force = chord.head<3>(), moment = chord.tail<3>(), offset(0, pose.p(1), pose.p(2));
     SectionLoads loads;
@@ -148,8 +150,8 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const std::array<ElementCoordinate, 4> joints{ElementCoordinate::ay1, ElementCoordinate::az1,
                                                   mirrored ? ElementCoordinate::az2 : ElementCoordinate::ay2,
                                                   mirrored ? ElementCoordinate::ay2 : ElementCoordinate::az2};
-    const double delta = beam.options.delta;
-    const std::array<double, 4> hinge{delta, delta, 1 - delta, 1 - delta};
+    const Hinges& h = element.hinges;
+    const std::array<double, 4> hinge{h.first, h.first, h.second, h.second};
     const bool inward = cut.segment == 0 || cut.segment == 2;
     const auto joint = static_cast<std::size_t>(model.index(joint_of(element, joints[cut.segment])));
     const double hinge_s = element.start + hinge[cut.segment] * element.arc;
@@ -163,7 +165,7 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const double sign = inward ? 1 : -1;
     add_material(sum, cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s), sign);
     add_wrenches(sum, cut, axes, kin, forces, std::min(cut.x, hinge_x), std::max(cut.x, hinge_x), sign);
-    if (cut.segment == 0 || cut.segment == 3) add_rotary(sum, cut, axes, motion, delta, sign);
+    if (cut.segment == 0 || cut.segment == 3) add_rotary(sum, cut, axes, motion, sign);
     SectionLoads loads;
     loads.values = -sum.in(here.R);
     return loads;

@@ -6,8 +6,8 @@
 
 namespace cardan {
 
-Mat6 section_forces_by_joint_forces(double x, double L, double delta) {
-    const double x1 = delta * L, x2 = (1 - delta) * L, d = x2 - x1;
+Mat6 section_forces_by_joint_forces(double x, double L, const Hinges& hinges) {
+    const double x1 = hinges.first * L, x2 = hinges.second * L, d = x2 - x1;
     const double N1 = (x2 - x) / d, N2 = (x - x1) / d;
     Mat6 H = Mat6::Zero();
     H(0, 0) = 1;                        // N
@@ -20,7 +20,7 @@ Mat6 section_forces_by_joint_forces(double x, double L, double delta) {
 }
 
 Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta) {
-    return joint_flexibility(ElementLine(line, x0, x0 + L), delta);
+    return joint_flexibility(ElementLine(line, x0, x0 + L), Hinges::symmetric(delta));
 }
 
 namespace {
@@ -36,7 +36,7 @@ Mat6 to_section(const Placement& pose) {
 
 }  // namespace
 
-Mat6 joint_flexibility(const ElementLine& element, double delta, CurvedFlexibility rule) {
+Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule) {
     const double L = element.chord();
     const bool on_curve = rule == CurvedFlexibility::curve && !element.line().is_straight();
     const double arc = element.end() - element.start();
@@ -44,10 +44,10 @@ Mat6 joint_flexibility(const ElementLine& element, double delta, CurvedFlexibili
         const Mat6 compliance = element.line().section(s).compliance;
         if (on_curve) {
             const Placement pose = element.pose(s);
-            const Mat6 H = to_section(pose) * section_forces_by_joint_forces(pose.p(0), L, delta);
+            const Mat6 H = to_section(pose) * section_forces_by_joint_forces(pose.p(0), L, hinges);
             return Mat6(H.transpose() * compliance * H);
         }
-        const Mat6 H = section_forces_by_joint_forces((s - element.start()) * L / arc, L, delta);
+        const Mat6 H = section_forces_by_joint_forces((s - element.start()) * L / arc, L, hinges);
         return Mat6(H.transpose() * compliance * H);
     });
     return on_curve ? F : Mat6(F * (L / arc));

@@ -12,6 +12,13 @@ namespace cardan {
 /// bending with true segment masses.
 inline constexpr double delta_gauss = 0.21132486540518711775;
 
+/// Where the joints of an element sit, as fractions of its length.
+struct Hinges {
+    double first, second;  ///< cardan joints
+    double middle;         ///< cylindrical joint, between them
+    static Hinges symmetric(double delta) { return {delta, 1 - delta, 0.5}; }
+};
+
 /// Joint coordinates of one element in the order of its law: extension, torsion, rotation about y at hinge 1 and 2,
 /// rotation about z at hinge 1 and 2.
 enum class ElementCoordinate : std::uint8_t { u, phi, ay1, ay2, az1, az2 };
@@ -20,21 +27,21 @@ enum class ElementCoordinate : std::uint8_t { u, phi, ay1, ay2, az1, az2 };
 /// hinge moments are extrapolated linearly over the whole element, My' = Vz and Mz' = -Vy.
 /// @param x      place in the element, 0 ... L, m
 /// @param L      length of the element, m
-/// @param delta  hinges at delta L and (1 - delta) L
-Mat6 section_forces_by_joint_forces(double x, double L, double delta);
-
-/// Flexibility F = int_0^L H^T S H dx of the element that spans [x0, x0 + L] of a beam line; the joint stiffness is its
-/// inverse and reproduces the 6 x 6 tip compliance of any section exactly.
-/// Rows and columns in the order of ElementCoordinate; entries of rigid directions are zero.
-Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
+/// @param hinges  any places 0 <= first < second <= 1
+Mat6 section_forces_by_joint_forces(double x, double L, const Hinges& hinges);
 
 /// How an element on a curve gets its flexibility.
 enum class CurvedFlexibility : std::uint8_t {
     curve,  ///< section forces taken where the material lies, in its axes: exact tip compliance of the curved piece
     chord   ///< the sections laid along the chord
 };
-/// The same for an element on any line.
-Mat6 joint_flexibility(const ElementLine& element, double delta, CurvedFlexibility rule = CurvedFlexibility::curve);
+/// Flexibility F = int H^T S H ds of an element; the joint stiffness is its inverse and reproduces the 6 x 6 tip
+/// compliance of any section exactly, wherever the hinges are.
+/// Rows and columns in the order of ElementCoordinate; entries of rigid directions are zero.
+Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges,
+                       CurvedFlexibility rule = CurvedFlexibility::curve);
+/// The element [x0, x0 + L] of a line, hinges at delta L and (1 - delta) L.
+Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
 
 /// Joint stiffness over the chosen coordinates: the inverse of the flexibility without the rows and columns of those
 /// that are locked (condensed at zero force, not clamped).

@@ -81,8 +81,8 @@ double difference(const Mat6& A, const Mat6& B) {
 
 TEST_CASE("stiffness: section forces by joint forces are in equilibrium along the element", "[analytic]") {
     constexpr double L = 1.7, delta = 0.23, h = 0.25;
-    const Mat6 at = section_forces_by_joint_forces(0.4, L, delta),
-               next = section_forces_by_joint_forces(0.4 + h, L, delta);
+    const Mat6 at = section_forces_by_joint_forces(0.4, L, Hinges::symmetric(delta)),
+               next = section_forces_by_joint_forces(0.4 + h, L, Hinges::symmetric(delta));
     const auto N = [](const Mat6& H) { return H.row(0); };
     const auto Vy = [](const Mat6& H) { return H.row(1); };
     const auto Vz = [](const Mat6& H) { return H.row(2); };
@@ -92,8 +92,8 @@ TEST_CASE("stiffness: section forces by joint forces are in equilibrium along th
     CHECK(((next.row(4) - at.row(4)) / h - Vz(at)).norm() < 1e-14);  // My' = Vz
     CHECK(((next.row(5) - at.row(5)) / h + Vy(at)).norm() < 1e-14);  // Mz' = -Vy
     // At the hinges the bending moments are the joint moments themselves.
-    const Mat6 hinge1 = section_forces_by_joint_forces(delta * L, L, delta);
-    const Mat6 hinge2 = section_forces_by_joint_forces((1 - delta) * L, L, delta);
+    const Mat6 hinge1 = section_forces_by_joint_forces(delta * L, L, Hinges::symmetric(delta));
+    const Mat6 hinge2 = section_forces_by_joint_forces((1 - delta) * L, L, Hinges::symmetric(delta));
     CHECK((hinge1.row(4) - Vec6::Unit(2).transpose()).norm() < 1e-14);
     CHECK((hinge2.row(4) - Vec6::Unit(3).transpose()).norm() < 1e-14);
     CHECK((hinge1.row(5) - Vec6::Unit(4).transpose()).norm() < 1e-14);
