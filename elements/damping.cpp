@@ -3,6 +3,7 @@
 #include "mbs/error.hpp"
 #include "mbs/spatial.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 namespace cardan {
@@ -55,12 +56,18 @@ Mat6 dissipation(const BeamSection& section, const std::array<double, 6>& time_c
     }
     const Vec6 inverse = scale.cwiseInverse();
     const Mat6 unit = inverse.asDiagonal() * S * inverse.asDiagonal();
-    // Rigid directions have no stiffness: the generalised inverse leaves them out.
-    const Eigen::SelfAdjointEigenSolver<Mat6> solver(unit);
+    // Rigid directions have no stiffness: the generalised inverse leaves out strains that follow from others (shear by
+    // the twist about an offset shear centre). Torsion and bending are taken first, so they keep their own coefficient.
+    std::vector<Eigen::Index> kept;
+    for (const Eigen::Index i : {3, 4, 5, 1, 2, 0}) {
+        const Vector beside = unit(kept, i);
+        const double left = unit(i, i) - (beside.transpose() * Matrix(unit(kept, kept)).llt().solve(beside)).sum();
+        if (left > 1e-12) kept.push_back(i);
+    }
     Mat6 K = Mat6::Zero();
-    for (Eigen::Index i = 0; i < 6; ++i)
-        if (solver.eigenvalues()(i) > 1e-12)
-            K += solver.eigenvectors().col(i) * solver.eigenvectors().col(i).transpose() / solver.eigenvalues()(i);
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    const Matrix K_kept = Matrix(unit(kept, kept)).llt().solve(Matrix::Identity(n, n));
+    K(kept, kept) = K_kept;
     const Mat6 half = unit * root.asDiagonal();
     const Mat6 G = scale.asDiagonal() * Mat6(half * K * half.transpose()) * scale.asDiagonal();
     return X.transpose() * G * X;

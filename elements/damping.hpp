@@ -24,6 +24,7 @@ struct ModalRatios {
 
 /// Damping of a beam. What is given adds up; the default is none.
 struct BeamDamping {
+    BeamDamping() = default;  // no aggregate: two bare numbers would say nothing
     /// Stiffness-proportional by direction of strain, in the section's own axes, s: extension, shear y, shear z,
     /// torsion, bending about y', bending about z'. Stress of damping = tau^(1/2) K tau^(1/2) strain rate, so equal
     /// entries give D = tau K also for coupled sections.
@@ -43,7 +44,10 @@ struct BeamDamping {
 };
 
 /// Dissipation per length S tau^(1/2) S^-1 tau^(1/2) S of section forces, in the axes of the compliance:
-/// power = F^T G F for the section forces F of the strain rates.
+/// power = F^T G F for the section forces F of the strain rates. Strains are those at the reference line: bending about
+/// a tension centre at a distance c stretches it, so with unequal coefficients of extension and bending the damping of
+/// bending grows by EA c^2 (difference of tau^(1/2))^2; likewise torsion by the shear stiffness. Rigid directions
+/// dissipate nothing; bending and torsion beside them keep their own coefficients.
 Mat6 dissipation(const BeamSection& section, const std::array<double, 6>& time_constants);
 
 /// Damping matrix from the mass and stiffness of a clamped beam: sum of 2 zeta_i omega_i (M phi_i)(M phi_i)^T with

@@ -48,6 +48,7 @@ void EngineeringSection::check(const std::string& where) const {
     for (double value :
          {beta, mass_centre.y, mass_centre.z, shear_centre.y, shear_centre.z, tension_centre.y, tension_centre.z})
         if (!std::isfinite(value)) throw InputError(where, "twist [rad] or offset [m]", value, "finite");
+    if (std::abs(beta) > pi + 1e-9) throw InputError(where, "twist [rad]", beta, "-pi ... pi (given in degrees?)");
 }
 
 void BeamLine::check() const {

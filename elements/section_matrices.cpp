@@ -30,13 +30,14 @@ double unit_scale(double diagonal) {
 
 void check_stiffness(const Mat6& K, const std::string& where) {
     if (!K.allFinite()) throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "finite");
-    if ((K - K.transpose()).cwiseAbs().maxCoeff() > 1e-6 * K.cwiseAbs().maxCoeff())
-        throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "symmetric");
     for (Eigen::Index i = 0; i < 6; ++i)
         if (!(K(i, i) > 0)) throw InputError(where, text("6 x 6 stiffness, diagonal entry ", i + 1), K(i, i), "> 0");
-    // Newtons and N m^2 differ by decades: eigenvalues of the matrix scaled to unit diagonal.
+    // Newtons and N m^2 differ by decades: symmetry and eigenvalues of the matrix scaled to unit diagonal.
     const Vec6 d = K.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Mat6> solver(d.asDiagonal() * K * d.asDiagonal());
+    const Mat6 unit = d.asDiagonal() * K * d.asDiagonal();
+    if ((unit - unit.transpose()).cwiseAbs().maxCoeff() > 1e-6)
+        throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "symmetric");
+    const Eigen::SelfAdjointEigenSolver<Mat6> solver(unit);
     if (!(solver.eigenvalues()(0) > 1e-12)) {
         const Vec6 direction = d.asDiagonal() * solver.eigenvectors().col(0);
         throw InputError(where, "smallest eigenvalue of the 6 x 6 stiffness (scaled to unit diagonal)",
@@ -57,25 +58,28 @@ void check_mass(const Mat6& M, const std::string& where) {
     if (linear.cwiseAbs().maxCoeff() > 1e-6 * std::max(mass, 1e-12 * scale))
         throw InputError(where, "6 x 6 mass, upper left block", text("\n", M.topLeftCorner<3, 3>(), "\n"),
                          "mass per length times the identity");
-    if ((offset + offset.transpose()).norm() > 1e-6 * (offset.norm() + 1e-12 * scale))
+    // 1e-6 of mass times a radius of gyration: an offset that is zero comes as rounding.
+    const double gyration = std::sqrt(mass * std::max(0.0, M.bottomRightCorner<3, 3>().trace()));
+    if ((offset + offset.transpose()).norm() > 1e-6 * gyration + 1e-12 * scale)
         throw InputError(where, "6 x 6 mass, upper right block", text("\n", offset, "\n"), "skew (a mass centre)");
     if (std::abs(M(1, 5)) > 1e-6 * scale)
         throw InputError(where, "6 x 6 mass, entry (2, 6) [kg]", M(1, 5), "0: the mass centre lies in the section");
 }
 
-// Polar inertia of a plane section: the sum of the two others.
-Mat3 plane_inertia(Mat3 J, const std::string& where) {
+// Polar inertia of a plane section: the sum of the two others. What is not larger than `rounding` is zero.
+Mat3 plane_inertia(Mat3 J, double rounding, const std::string& where) {
+    if (J.cwiseAbs().maxCoeff() <= rounding) return Mat3::Zero();
     const double sum = J(1, 1) + J(2, 2);
-    if (std::abs(J(0, 0) - sum) > 1e-2 * std::max(std::abs(J(0, 0)), std::abs(sum)))
+    if (std::abs(J(0, 0) - sum) > 1e-2 * std::max(std::abs(J(0, 0)), std::abs(sum)) + rounding)
         throw InputError(where, "polar inertia per length about the mass centre [kg m]", J(0, 0),
                          text(sum, ", the sum of the two others (within 1 %)"));
-    if (std::hypot(J(0, 1), J(0, 2)) > 1e-2 * std::abs(sum))
+    if (std::hypot(J(0, 1), J(0, 2)) > 1e-2 * std::abs(sum) + rounding)
         throw InputError(where, "products of inertia with the beam axis per length [kg m]",
                          text(J(0, 1), ", ", J(0, 2)), "0 for a plane section");
     J(0, 0) = sum;
     J(0, 1) = J(1, 0) = J(0, 2) = J(2, 0) = 0;
     const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(J.bottomRightCorner<2, 2>()).eigenvalues()(0);
-    if (lowest < -1e-9 * std::abs(sum))
+    if (lowest < -1e-9 * std::abs(sum) - rounding)
         throw InputError(where, "smallest eigenvalue of the inertia per length about the mass centre [kg m]", lowest,
                          ">= 0");
     return J;
@@ -118,7 +122,9 @@ BeamSection beam_section(const SectionMatrices& section, const std::string& wher
     // p = m (v + omega x c): the upper right block is -m c~.
     if (s.mass > 0) s.centre = Vec3(M(1, 5) - M(2, 4), M(2, 3) - M(0, 5), M(0, 4) - M(1, 3)) / (2 * s.mass);
     const Mat3 c = skew<double>(s.centre);
-    s.J = plane_inertia(Mat3(M.bottomRightCorner<3, 3>() + s.mass * c * c), where);
+    // The inertia about the centre is a difference; a radius of gyration below 1e-7 m is none.
+    const Mat3 about_reference = M.bottomRightCorner<3, 3>();
+    s.J = plane_inertia(about_reference + s.mass * c * c, 1e-12 * about_reference.norm() + 1e-14 * s.mass, where);
     return s;
 }
 
@@ -166,18 +172,17 @@ EngineeringForm engineering_form(const BeamSection& section) {
     e.mass = section.mass;
     // Principal axes of bending: S_kk in axes turned by beta is diagonal.
     const Eigen::Matrix2d S_kk = S.block<2, 2>(4, 4);
-    e.beta =
-        S_kk(0, 1) == 0 && S_kk(0, 0) == S_kk(1, 1) ? 0.0 : std::atan2(2 * S_kk(0, 1), S_kk(0, 0) - S_kk(1, 1)) / 2;
-    if (e.beta > pi / 4) e.beta -= pi / 2;
-    if (e.beta <= -pi / 4) e.beta += pi / 2;
+    const double sine = 2 * S_kk(0, 1), cosine = S_kk(0, 0) - S_kk(1, 1), bending = S_kk.trace();
+    const bool alike = std::hypot(sine, cosine) <= 1e-12 * bending;  // any axes will do: the section's own
+    e.beta = std::remainder(alike ? section.beta : std::atan2(sine, cosine) / 2, pi / 2);
     const Mat6 X = both(rot_x(e.beta).transpose());
     const Mat6 P = X * S * X.transpose();
-    e.EI_flap = 1 / P(4, 4);
-    e.EI_edge = 1 / P(5, 5);
-    // A force N at the tension centre leaves no curvature: (My, Mz) = (cz, -cy) N.
-    const Eigen::Vector2d at = -P.block<2, 2>(4, 4).inverse() * P.block<2, 1>(4, 0);
-    e.tension_centre = {-at(1), at(0)};
-    e.EA = inverse_of(P(0, 0) + P.block<1, 2>(0, 4) * at, P(0, 0));
+    e.EI_flap = inverse_of(P(4, 4), bending);
+    e.EI_edge = inverse_of(P(5, 5), bending);
+    // A force N at the tension centre leaves no curvature: (My, Mz) = (cz, -cy) N. Rigid in bending: no such centre.
+    if (std::isfinite(e.EI_flap)) e.tension_centre.z = -P(4, 0) / P(4, 4);
+    if (std::isfinite(e.EI_edge)) e.tension_centre.y = P(5, 0) / P(5, 5);
+    e.EA = inverse_of(P(0, 0) + P(0, 4) * e.tension_centre.z - P(0, 5) * e.tension_centre.y, P(0, 0));
     // Shear at the shear centre leaves no twist: T = ey Vz - ez Vy.
     e.GJ = inverse_of(P(3, 3), 1 / std::numeric_limits<double>::max());
     if (P(3, 3) > 0) e.shear_centre = {-P(3, 2) / P(3, 3), P(3, 1) / P(3, 3)};

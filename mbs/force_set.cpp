@@ -3,6 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
+
 namespace cardan {
 
 namespace {
@@ -22,6 +24,28 @@ void require_semidefinite(const Matrix& A, std::size_t n, const std::string& whe
     }
     const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(unit, Eigen::EigenvaluesOnly).eigenvalues()(0);
     if (lowest < -1e-9) throw InputError(where, text(quantity, ", lowest scaled eigenvalue"), lowest, ">= 0");
+}
+
+// What a user force adds goes into zeros first: it adds to what is there already.
+UserForce scaled(const UserForce& user, double factor) {
+    UserForce other{user.name,
+                    [force = user.force, factor](const ForceInput& at, Vector& Q) {
+                        Vector own = Vector::Zero(Q.size());
+                        force(at, own);
+                        Q += factor * own;
+                    },
+                    {},
+                    {}};
+    if (user.jacobian)
+        other.jacobian = [jacobian = user.jacobian, factor](const ForceInput& at, Matrix& by_q, Matrix& by_qd) {
+            Matrix own_q = Matrix::Zero(by_q.rows(), by_q.cols()), own_qd = Matrix::Zero(by_qd.rows(), by_qd.cols());
+            jacobian(at, own_q, own_qd);
+            by_q += factor * own_q;
+            by_qd += factor * own_qd;
+        };
+    if (user.energy)
+        other.energy = [energy = user.energy, factor](const ForceInput& at) { return factor * energy(at); };
+    return other;
 }
 
 }  // namespace
@@ -87,6 +111,19 @@ Forces Forces::with_gravity(const Vec3& g) const {
 Forces Forces::undamped() const {
     Forces other = *this;
     for (Law& law : other.laws_) law.D.setZero();
+    return other;
+}
+
+Forces Forces::with_load_factor(double factor, bool gravity_too) const {
+    if (!std::isfinite(factor)) throw InputError("forces", "load factor", factor, "finite");
+    Forces other = *this;
+    for (FrameLoad& load : other.loads_) {
+        load.wrench.force *= factor;
+        load.wrench.moment *= factor;
+    }
+    for (UserForce& user : other.users_)
+        if (!user.elastic) user = scaled(user, factor);
+    if (gravity_too) other.gravity_ *= factor;
     return other;
 }
 

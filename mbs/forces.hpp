@@ -118,6 +118,10 @@ public:
     /// The same forces under another gravity, or without any damping.
     Forces with_gravity(const Vec3& g) const;
     Forces undamped() const;
+    /// The same forces with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian
+    /// and energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
+    /// @throws InputError if the factor is not finite.
+    Forces with_load_factor(double factor, bool gravity_too) const;
 
 private:
     struct Law {

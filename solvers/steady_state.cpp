@@ -76,6 +76,8 @@ public:
         by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
         return by_q_(unknowns, unknowns);
     }
+    // Of the springs alone, at the place of the last call of jacobian().
+    Vector elastic_diagonal() const { return Matrix(forces_.elastic(unknowns, unknowns)).diagonal(); }
 
     std::vector<int> unknowns;
     OperatingPoint at;
@@ -187,12 +189,14 @@ SteadyState steady_state(const System& system, int spin, const SteadyOptions& op
     const SolverPtr linear(SUNLinSol_Dense(x.get(), J.get(), raw_context));
     const KinsolPtr kinsol(KINCreate(raw_context));
 
-    // Residuals are measured by the stiffness on the diagonal, so that they read as rad or m.
+    // Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the
+    // springs at least, for at a critical load they and the loads cancel.
     const Matrix J0 = residual.jacobian();
-    const double stiffest = std::max(J0.diagonal().cwiseAbs().maxCoeff(), 1e-300);
+    const Vector springs = residual.elastic_diagonal().cwiseAbs();
+    const double stiffest = std::max({J0.diagonal().cwiseAbs().maxCoeff(), springs.maxCoeff(), 1e-280});
     Vector scale(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-        scale(i) = 1 / std::max(std::abs(J0(i, i)), 1e-12 * stiffest);
+        scale(i) = 1 / std::max({std::abs(J0(i, i)), 1e-6 * springs(i), 1e-12 * stiffest});
         N_VGetArrayPointer(x.get())[i] = residual.at.q(residual.unknowns[static_cast<std::size_t>(i)]);
         N_VGetArrayPointer(f_scale.get())[i] = scale(i);
     }

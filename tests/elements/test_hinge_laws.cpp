@@ -1,0 +1,261 @@
+// The laws of the hinges at large angles: exact derivatives, the same at rest, what they gain.
+#include "elements/cardan_beam.hpp"
+#include "solvers/modes.hpp"
+#include "tests/elements/cantilever.hpp"
+#include "tests/oracles/cosserat_rod.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random_tree.hpp"
+
+#include <Eigen/LU>
+
+using namespace cardan;
+using namespace cardan::testing;
+
+namespace {
+
+constexpr std::array<HingeLaw, 3> laws{HingeLaw{.isotropic = true}, HingeLaw{.section_frame = true},
+                                       HingeLaw{.isotropic = true, .section_frame = true}};
+
+// Everything coupled.
+EngineeringSection general_section() {
+    EngineeringSection s;
+    s.mass = 2, s.j_flap = 0.01, s.j_edge = 0.03;
+    s.EA = 60, s.GJ = 0.8, s.EI_flap = 1, s.EI_edge = 4, s.GA_y = 30, s.GA_z = 20;
+    s.beta = 0.3;
+    s.shear_centre = {0.05, -0.02}, s.tension_centre = {-0.03, 0.04};
+    return s;
+}
+
+CardanBeamOptions bent(int elements, HingeLaw law, bool extension = true) {
+    CardanBeamOptions options;
+    options.elements = elements;
+    options.extension = extension;
+    options.hinge_law = law;
+    return options;
+}
+
+struct Beam {
+    Tree tree;
+    ForceSet forces;
+    CardanBeam beam;
+    System system;
+    Workspace workspace;
+
+    Beam(const EngineeringSection& section, const CardanBeamOptions& options)
+        : beam(add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, section), "beam", {"beam"}, options)),
+          system(tree, forces),
+          workspace(system.model) {}
+    Vector zero() const { return Vector::Zero(system.model.size()); }
+    double energy(const Vector& q) {
+        return system.forces.potential_energy(kinematics(system.model, q, workspace), 0, q, zero());
+    }
+    Vector force(const Vector& q) {
+        Vector Q = zero();
+        system.forces.generalised_forces(kinematics(system.model, q, workspace), 0, q, zero(), Q);
+        return Q;
+    }
+    Matrix stiffness(const Vector& q) {
+        ForceDerivatives d;
+        system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, zero(), d);
+        CHECK(d.loads.isZero(0));  // a spring, not a load
+        return d.elastic;
+    }
+    // Coordinate of element 1.
+    double& at(Vector& q, ElementCoordinate kind) const {
+        const CardanBeam::Element& element = beam.elements[0];
+        const auto i = std::find(element.kinds.begin(), element.kinds.end(), kind) - element.kinds.begin();
+        return q(system.model.index(element.bodies[static_cast<std::size_t>(i)]));
+    }
+};
+
+// Derivative of f along direction i: central differences of order 6.
+template <class F>
+auto differenced(const F& f, const Vector& q, Eigen::Index i, double h) {
+    const auto odd = [&](double k) {
+        Vector plus = q, minus = q;
+        plus(i) += k * h, minus(i) -= k * h;
+        return decltype(f(q))(f(plus) - f(minus));
+    };
+    return decltype(f(q))((45 * odd(1) - 9 * odd(2) + odd(3)) / (60 * h));
+}
+
+// Swing vector of a rotation: turns x to R x about an axis across both.
+Vec3 swing_vector(const Mat3& R) {
+    const Vec3 d = R.col(0), axis(0, -d.z(), d.y());
+    return axis.norm() > 0 ? Vec3(axis * std::atan2(axis.norm(), d.x()) / axis.norm()) : axis;
+}
+
+double tip_error(const Vec6& stiffness, const Vec3& force, int elements, double delta, HingeLaw law) {
+    oracles::CosseratRod rod;
+    rod.strain = oracles::linear_strain(stiffness);
+    oracles::RodLoad load;
+    load.force = force;
+    const Vec3 exact = oracles::RodSolution(rod, load).tip().position;
+
+    EngineeringSection s;
+    s.mass = 1, s.j_flap = s.j_edge = 0.01;
+    s.GJ = stiffness(3), s.EI_flap = stiffness(4), s.EI_edge = stiffness(5);
+    CardanBeamOptions options = bent(elements, law, false);
+    options.delta = delta;
+    Tree tree;
+    ForceSet forces;
+    const CardanBeam beam = add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, s), "beam", {"beam"}, options);
+    Vector q;
+    Vec3 tip;
+    constexpr int steps = 5;
+    for (int i = 1; i <= steps; ++i) {
+        ForceSet loads = forces;
+        loads.add_wrench({"tip force", beam.tip(), {force * i / steps, Vec3::Zero()}, WrenchAxes::base});
+        const System system(tree, loads);
+        solvers::SteadyOptions steady;
+        steady.initial = q;
+        const solvers::SteadyState state = solvers::steady_state(system, -1, steady);
+        INFO(state.message);
+        REQUIRE(state.converged);
+        q = state.at.q;
+        Workspace workspace(system.model);
+        tip = pose(kinematics(system.model, q, workspace), beam.tip()).p;
+    }
+    return (tip - exact).norm();
+}
+
+struct Errors {
+    std::vector<double> of;  // N = 3, 6, 12
+    double order() const { return std::log2(of[1] / of[2]); }
+};
+Errors tip_errors(const Vec6& stiffness, const Vec3& force, double delta, HingeLaw law) {
+    Errors e;
+    for (int n : {3, 6, 12}) e.of.push_back(tip_error(stiffness, force, n, delta, law));
+    return e;
+}
+
+constexpr double rigid = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("hinge law: forces are the gradient of the energy, the Jacobian is that of the forces", "[property]") {
+    Random random(41);
+    for (const HingeLaw& law : laws) {
+        Beam beam(general_section(), bent(2, law));
+        const auto n = beam.system.model.size();
+        // Up to 1 rad; about the place where the series gives way to the closed form (0.2 rad); small; none.
+        for (const double size : {1.0, 1.0, 0.6, 0.2, 1e-2, 1e-4, 0.0}) {
+            const Vector q = Vector::NullaryExpr(n, [&] { return size * uniform(random, -1, 1); });
+            const Vector Q = beam.force(q);
+            const Matrix K = beam.stiffness(q);
+            for (Eigen::Index i = 0; i < n; ++i) {
+                const double slope = differenced([&](const Vector& x) { return beam.energy(x); }, q, i, 4e-3);
+                const Vector column = differenced([&](const Vector& x) { return beam.force(x); }, q, i, 4e-3);
+                CAPTURE(law.isotropic, law.section_frame, size, i);
+                CHECK(std::abs(slope + Q(i)) < 1e-9 * (K.norm() + Q.norm()));
+                CHECK((column + K.col(i)).norm() < 1e-9 * K.norm());
+            }
+            CHECK((K - K.transpose()).norm() < 1e-14 * K.norm());
+        }
+    }
+}
+
+TEST_CASE("hinge law: at rest it is the linear law, and to first order about it", "[property]") {
+    Beam linear(general_section(), bent(3, {}));
+    const Matrix K = linear.stiffness(linear.zero());
+    Random random(42);
+    const Vector q = Vector::NullaryExpr(linear.system.model.size(), [&] { return 1e-5 * uniform(random, -1, 1); });
+    for (const HingeLaw& law : laws) {
+        Beam beam(general_section(), bent(3, law));
+        CHECK((beam.stiffness(beam.zero()) - K).norm() < 1e-12 * K.norm());
+        CHECK(beam.force(beam.zero()).norm() == 0);
+        CHECK((beam.force(q) - linear.force(q)).norm() < 1e-4 * linear.force(q).norm());
+        CHECK(beam.energy(q) == Approx(linear.energy(q)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("hinge law: frequencies at rest do not depend on it", "[property]") {
+    const BeamLine line = uniform_beam(1, general_section());
+    const std::vector<double> omega = clamped_frequencies(line, bent(3, {}));
+    for (const HingeLaw& law : laws) {
+        const std::vector<double> same = clamped_frequencies(line, bent(3, law));
+        REQUIRE(same.size() == omega.size());
+        for (std::size_t i = 0; i < omega.size(); ++i) CHECK(same[i] == Approx(omega[i]).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("hinge law: isotropic, the arguments of the springs are the swing vectors of the two joints", "[analytic]") {
+    Beam beam(general_section(), bent(1, {.isotropic = true}));
+    const Mat6 K = beam.beam.elements[0].flexibility.inverse();
+    Random random(43);
+    for (int i = 0; i < 20; ++i) {
+        const Vec6 a = Vec6::NullaryExpr([&] { return uniform(random, -1.2, 1.2); });
+        Vector q = beam.zero();
+        for (int k = 0; k < 6; ++k) beam.at(q, static_cast<ElementCoordinate>(k)) = a(k);
+        // From B1 to the middle and from the middle to B4; each swing seen from the terminal body.
+        const Vec3 first = swing_vector(rot_y(a(2)) * rot_z(a(4)));
+        const Vec3 second = -swing_vector((rot_z(a(5)) * rot_y(a(3))).transpose());
+        Vec6 y;
+        y << a(0), a(1), first.y(), second.y(), first.z(), second.z();
+        CHECK(beam.energy(q) == Approx(y.dot(K * y) / 2).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("hinge law: isotropic, a round beam stores the same energy whichever way its hinges bend", "[property]") {
+    EngineeringSection s;
+    s.mass = 1, s.j_flap = s.j_edge = 0.01, s.GJ = 0.8, s.EI_flap = s.EI_edge = 1;
+    for (const bool isotropic : {true, false}) {
+        Beam beam(s, bent(1, {.isotropic = isotropic}, false));
+        std::vector<double> energy;
+        constexpr double bend = 0.8;
+        for (double direction : {0.0, 0.4, 0.9, 1.4}) {
+            // Both hinges turn x by `bend` toward the direction.
+            const Vec3 d(std::cos(bend), std::sin(bend) * std::cos(direction), std::sin(bend) * std::sin(direction));
+            Vector q = beam.zero();
+            using enum ElementCoordinate;
+            beam.at(q, az1) = beam.at(q, az2) = std::asin(d.y());
+            beam.at(q, ay1) = beam.at(q, ay2) = -std::atan2(d.z(), d.x());
+            energy.push_back(beam.energy(q));
+        }
+        const auto [least, most] = std::minmax_element(energy.begin(), energy.end());
+        if (isotropic)
+            CHECK(*most - *least < 1e-13 * *most);
+        else
+            CHECK(*most - *least > 0.01 * *most);
+    }
+}
+
+TEST_CASE("hinge law: isotropic, a round beam bent diagonally gains two orders with delta = 1/6", "[analytic]") {
+    // Dead tip force P L^2 / EI = 5 between y and z; torsionally stiff or soft, it does not matter.
+    const Vec3 F = Vec3(0, 5, 5) / std::sqrt(2.0);
+    for (const double GJ : {1.0, 1e3}) {
+        const Vec6 round = (Vec6() << rigid, rigid, rigid, GJ, 1, 1).finished();
+        const Errors linear = tip_errors(round, F, 1. / 6, {}),
+                     swing = tip_errors(round, F, 1. / 6, {.isotropic = true});
+        CAPTURE(linear.of, swing.of, linear.order(), swing.order());
+        CHECK(linear.of[0] == Approx(7.23e-3).epsilon(0.01));
+        CHECK(swing.of[0] == Approx(4.65e-4).epsilon(0.01));
+        CHECK(linear.order() == Approx(2).margin(0.05));
+        CHECK(swing.order() == Approx(4).margin(0.05));
+        // At the Gauss points planar bending is of order 2 at large angles already; the law still gains a factor.
+        const Errors gauss = tip_errors(round, F, delta_gauss, {}),
+                     gauss_swing = tip_errors(round, F, delta_gauss, {.isotropic = true});
+        CHECK(gauss.of[0] == Approx(9.08e-3).epsilon(0.01));
+        CHECK(gauss_swing.of[0] == Approx(2.38e-3).epsilon(0.01));
+        CHECK(gauss_swing.order() == Approx(2).margin(0.05));
+    }
+}
+
+TEST_CASE("hinge law: in the section's frame, unequal stiffnesses with torsion keep order 2 and gain a factor 3",
+          "[analytic]") {
+    const Vec6 flat = (Vec6() << rigid, rigid, rigid, 0.8, 1, 4).finished();
+    const auto errors = [&](double delta, HingeLaw law) { return tip_errors(flat, {0, 4, 1.5}, delta, law); };
+    struct Row {
+        double delta;
+        HingeLaw law;
+        double error;  // N = 3
+    };
+    for (const Row& row : {Row{1. / 6, {}, 2.026e-2}, Row{1. / 6, {.section_frame = true}, 6.29e-3},
+                           Row{1. / 6, laws[2], 8.58e-3}, Row{delta_gauss, {}, 1.724e-2},
+                           Row{delta_gauss, {.section_frame = true}, 5.44e-3}, Row{delta_gauss, laws[2], 7.71e-3}}) {
+        const Errors e = errors(row.delta, row.law);
+        CAPTURE(row.delta, row.law.isotropic, row.law.section_frame, e.of, e.order());
+        CHECK(e.of[0] == Approx(row.error).epsilon(0.01));
+        CHECK(e.order() == Approx(2).margin(0.05));
+    }
+}

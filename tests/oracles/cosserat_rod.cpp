@@ -1,0 +1,145 @@
+#include "tests/oracles/cosserat_rod.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace cardan::oracles {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+std::function<RodVector6(double, const RodVector6&)> linear_strain(const RodVector6& stiffness) {
+    const RodVector6 compliance = stiffness.cwiseInverse();
+    return [compliance](double, const RodVector6& forces) { return RodVector6(compliance.cwiseProduct(forces)); };
+}
+
+std::function<RodVector6(double, const RodVector6&)> linear_strain(const RodMatrix6& compliance) {
+    return [compliance](double, const RodVector6& forces) { return RodVector6(compliance * forces); };
+}
+
+namespace {
+
+// The quaternion need not be of unit length: only its direction counts.
+Matrix3d rotation_of(const Eigen::Matrix<double, 13, 1>& x) {
+    return Eigen::Quaterniond(x(3), x(4), x(5), x(6)).normalized().toRotationMatrix();
+}
+
+}  // namespace
+
+RodSolution::State RodSolution::derivative(double s, const State& x) const {
+    const Matrix3d R = rotation_of(x);
+    const Vector3d f = x.segment<3>(7), mu = x.tail<3>();
+    RodVector6 forces;
+    forces << R.transpose() * f, R.transpose() * mu;
+    const RodVector6 strain = rod_.strain(s, forces);
+    Vector3d k = strain.tail<3>();
+    if (rod_.initial_curvature) k += rod_.initial_curvature(s);
+    const double w = x(3);
+    const Vector3d v = x.segment<3>(4);
+    State d;
+    d.head<3>() = R * (Vector3d::UnitX() + strain.head<3>());
+    d(3) = -v.dot(k) / 2;
+    d.segment<3>(4) = (w * k + v.cross(k)) / 2;
+    d.segment<3>(7) = -load_.distributed;
+    d.tail<3>() = -d.head<3>().cross(f);
+    return d;
+}
+
+RodSolution::State RodSolution::advanced(double s, const State& x, double h) const {
+    const State k1 = derivative(s, x);
+    const State k2 = derivative(s + h / 5, x + h * k1 / 5);
+    const State k3 = derivative(s + h * 3 / 10, x + h * (3. / 40 * k1 + 9. / 40 * k2));
+    const State k4 = derivative(s + h * 4 / 5, x + h * (44. / 45 * k1 - 56. / 15 * k2 + 32. / 9 * k3));
+    const State k5 = derivative(
+        s + h * 8 / 9, x + h * (19372. / 6561 * k1 - 25360. / 2187 * k2 + 64448. / 6561 * k3 - 212. / 729 * k4));
+    const State k6 = derivative(
+        s + h, x + h * (9017. / 3168 * k1 - 355. / 33 * k2 + 46732. / 5247 * k3 + 49. / 176 * k4 - 5103. / 18656 * k5));
+    return x + h * (35. / 384 * k1 + 500. / 1113 * k3 + 125. / 192 * k4 - 2187. / 6784 * k5 + 11. / 84 * k6);
+}
+
+RodSolution::State RodSolution::start(const RodVector6& root) const {
+    const Eigen::Quaterniond q(rod_.root_rotation);
+    State x;
+    x << rod_.root_position, q.w(), q.x(), q.y(), q.z(), root.head<3>(), root.tail<3>();
+    return x;
+}
+
+RodSolution::State RodSolution::end(const RodVector6& root) const {
+    State x = start(root);
+    const double h = rod_.length / rod_.steps;
+    for (int i = 0; i < rod_.steps; ++i) x = advanced(i * h, x, h);
+    return x;
+}
+
+// Force and moment at the tip less the `share` of the load, over their scales.
+RodVector6 RodSolution::miss(const RodVector6& root, double share) const {
+    const State x = end(root);
+    const Matrix3d turn = load_.follower ? rotation_of(x) : Matrix3d::Identity();
+    RodVector6 r;
+    r << x.segment<3>(7) - share * turn * load_.force, x.tail<3>() - share * turn * load_.moment;
+    return r.cwiseQuotient(scale_);
+}
+
+// Forward differences: Newton's method still gains six digits or so per step.
+bool RodSolution::newton(RodVector6& root, double share) {
+    RodVector6 r = miss(root, share);
+    double before = r.norm();
+    for (int iteration = 0; iteration < 25; ++iteration) {
+        RodMatrix6 J;
+        for (Eigen::Index i = 0; i < 6; ++i) {
+            const double step = 1e-7 * scale_(i);
+            J.col(i) = (miss(root + step * RodVector6::Unit(i), share) - r) / 1e-7;
+        }
+        const RodVector6 change = -scale_.cwiseProduct(J.fullPivLu().solve(r));
+        root += change;
+        r = miss(root, share);
+        residual_ = r.norm();
+        if (!std::isfinite(residual_) || residual_ > 1e3) return false;
+        if (residual_ < 1e-10 && residual_ > before / 2) return true;  // as good as rounding allows
+        if (residual_ < 1e-14) return true;
+        before = residual_;
+    }
+    return residual_ < 1e-10;
+}
+
+RodSolution::RodSolution(const CosseratRod& rod, const RodLoad& load, int load_steps) : rod_(rod), load_(load) {
+    if (!rod_.strain || !(rod_.length > 0) || rod_.steps < 1 || load_steps < 1)
+        throw std::invalid_argument("CosseratRod: a strain law, a length and at least one step are needed");
+    const Vector3d p = load_.distributed;
+    const double moment = load_.moment.norm() + (load_.force.norm() + p.norm() * rod_.length) * rod_.length;
+    scale_ << Vector3d::Constant(moment > 0 ? moment / rod_.length : 1), Vector3d::Constant(moment > 0 ? moment : 1);
+    RodVector6 root = RodVector6::Zero(), last = RodVector6::Zero();
+    double reached = 0, before = 0, step = 1.0 / load_steps;
+    while (reached < 1) {
+        const double share = std::min(1.0, reached + step);
+        load_.distributed = share * p;
+        RodVector6 guess = root;
+        if (reached > before) guess += (share - reached) / (reached - before) * (root - last);
+        if (newton(guess, share)) {
+            last = root, before = reached;
+            root = guess, reached = share;
+        } else {
+            step /= 2;
+            if (step < 1e-6) throw std::runtime_error("RodSolution: Newton's method does not converge");
+        }
+    }
+    const double h = rod_.length / rod_.steps;
+    states_.push_back(start(root));
+    for (int i = 0; i < rod_.steps; ++i) states_.push_back(advanced(i * h, states_.back(), h));
+}
+
+RodState RodSolution::at(double s) const {
+    const double h = rod_.length / rod_.steps;
+    const double cell = std::clamp(std::floor(s / h), 0.0, static_cast<double>(rod_.steps));
+    const State& from = states_[static_cast<std::size_t>(cell)];
+    const State x = s == cell * h ? from : advanced(cell * h, from, s - cell * h);
+    RodState out{x.head<3>(), rotation_of(x), {}};
+    out.forces << out.rotation.transpose() * x.segment<3>(7), out.rotation.transpose() * x.tail<3>();
+    return out;
+}
+
+}  // namespace cardan::oracles

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace cardan::oracles {
+
+using RodVector6 = Eigen::Matrix<double, 6, 1>;
+using RodMatrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// A geometrically exact rod at rest under load, clamped at s = 0 and loaded at s = L; no restriction on displacements
+/// and rotations. Section axes R = (e1 normal to the section, e2, e3), s arc length of the unloaded rod:
+///     r' = R (e1 + Gamma),  R' = R (k0 + kappa)^,  f' = -p,  mu' = -r' x f,
+/// (Gamma, kappa) = strain(s; R^T f, R^T mu), force f and moment mu of the outboard part upon the inboard one.
+/// [Reissner, ZAMP 32 (1981) 734-744; Simo, Comput. Methods Appl. Mech. Eng. 49 (1985) 55-70]
+/// Shooting: the force and moment at the clamp are found by Newton's method with continuation in the load; the ordinary
+/// differential equations are integrated by Dormand and Prince's formula of order 5 with fixed steps, the rotation as
+/// a quaternion. [Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, table II.5.2]
+struct CosseratRod {
+    double length = 1;  ///< m
+    /// Curvature of the unloaded rod in section axes, 1/m; empty: straight.
+    std::function<Eigen::Vector3d(double s)> initial_curvature = {};
+    /// Strains (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z) under (N, Vy, Vz, T, My, Mz) in section axes, N and
+    /// m.
+    std::function<RodVector6(double s, const RodVector6& forces)> strain = {};
+    Eigen::Vector3d root_position = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d root_rotation = Eigen::Matrix3d::Identity();
+    int steps = 256;  ///< of the integrator
+};
+
+/// Linear law of a uniform rod with its section axes along the principal ones: EA, GA_y, GA_z, GJ, EI_y, EI_z (N and
+/// N m^2; infinite: rigid).
+std::function<RodVector6(double, const RodVector6&)> linear_strain(const RodVector6& stiffness);
+/// The same for a full 6 x 6 compliance.
+std::function<RodVector6(double, const RodVector6&)> linear_strain(const RodMatrix6& compliance);
+
+struct RodLoad {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< at the tip, N and N m
+    bool follower = false;                                  ///< both in the section axes of the tip, else in fixed axes
+    Eigen::Vector3d distributed = Eigen::Vector3d::Zero();  ///< per length of the unloaded rod, fixed axes, N/m
+};
+
+struct RodState {
+    Eigen::Vector3d position;  ///< m
+    Eigen::Matrix3d rotation;  ///< section axes -> fixed axes
+    RodVector6 forces;         ///< (N, Vy, Vz, T, My, Mz) in section axes, N and N m
+};
+
+/// The solution; states between the steps are integrated from the step before.
+class RodSolution {
+public:
+    /// @throws std::runtime_error if Newton's method fails even with tiny steps of the load
+    /// @param load_steps  first guess; halved where needed
+    RodSolution(const CosseratRod& rod, const RodLoad& load, int load_steps = 4);
+
+    RodState at(double s) const;
+    RodState tip() const { return at(rod_.length); }
+    /// What is left over at the tip, relative to the load.
+    double residual() const { return residual_; }
+
+private:
+    using State = Eigen::Matrix<double, 13, 1>;  // r, quaternion (w, x, y, z), f, mu
+    State derivative(double s, const State& x) const;
+    State advanced(double s, const State& x, double h) const;
+    State start(const RodVector6& root) const;
+    State end(const RodVector6& root) const;
+    RodVector6 miss(const RodVector6& root, double share) const;
+    bool newton(RodVector6& root, double share);
+
+    CosseratRod rod_;
+    RodLoad load_;
+    RodVector6 scale_;
+    double residual_ = 0;
+    std::vector<State> states_;
+};
+
+}  // namespace cardan::oracles
