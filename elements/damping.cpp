@@ -60,8 +60,11 @@ Mat6 dissipation(const BeamSection& section, const std::array<double, 6>& time_c
     // the twist about an offset shear centre). Torsion and bending are taken first, so they keep their own coefficient.
     std::vector<Eigen::Index> kept;
     for (const Eigen::Index i : {3, 4, 5, 1, 2, 0}) {
-        const Vector beside = unit(kept, i);
-        const double left = unit(i, i) - (beside.transpose() * Matrix(unit(kept, kept)).llt().solve(beside)).sum();
+        double left = unit(i, i);  // what does not follow from those kept
+        if (!kept.empty()) {
+            const Vector beside = unit(kept, i);
+            left -= beside.cwiseProduct(Matrix(unit(kept, kept)).llt().solve(beside)).sum();
+        }
         if (left > 1e-12) kept.push_back(i);
     }
     Mat6 K = Mat6::Zero();

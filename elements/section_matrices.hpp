@@ -31,9 +31,10 @@ SectionMatrices moved(const SectionMatrices& section, const Vec3& to);
 
 /// A section from its matrices in beam axes.
 /// @param where  named in errors, e.g. "blade, station 3 (x = 4.1 m)"
-/// @throws InputError: not finite, not symmetric (1e-6 relative), an eigenvalue of the stiffness or of the mass
-/// inertia about its centre not positive (which one, and its value: of the matrix scaled to unit diagonal); a mass
-/// matrix that is not that of a plane section (mass terms unequal, polar inertia more than 1 % off the sum of both).
+/// @throws InputError: not finite, not symmetric (1e-6; the stiffness scaled to unit diagonal), an eigenvalue of the
+/// stiffness not positive (its value: of the matrix scaled to unit diagonal) or of the inertia about the mass centre
+/// negative; a mass matrix that is not that of a plane section (mass terms unequal, polar inertia more than 1 % off the
+/// sum of both). A radius of gyration below 1e-7 m counts as none.
 BeamSection beam_section(const SectionMatrices& section, const std::string& where);
 
 /// Matrices of a section.
