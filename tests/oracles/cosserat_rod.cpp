@@ -1,5 +1,7 @@
 #include "tests/oracles/cosserat_rod.hpp"
 
+#include "tests/oracles/root_finding.hpp"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -140,6 +142,39 @@ RodState RodSolution::at(double s) const {
     RodState out{x.head<3>(), rotation_of(x), {}};
     out.forces << out.rotation.transpose() * x.segment<3>(7), out.rotation.transpose() * x.tail<3>();
     return out;
+}
+
+namespace {
+
+Matrix3d skew(const Vector3d& a) {
+    return (Matrix3d() << 0, -a(2), a(1), a(2), 0, -a(0), -a(1), a(0), 0).finished();
+}
+
+}  // namespace
+
+std::vector<double> VibratingArc::frequencies(int count) const {
+    const double L = radius * angle;
+    const auto determinant = [&](double omega) {
+        using Matrix12 = Eigen::Matrix<double, 12, 12>;  // over (u, theta, f, m)
+        const Matrix3d k = skew(Vector3d(0, 0, 1 / radius)), e1 = skew(Vector3d::UnitX());
+        Matrix12 A = Matrix12::Zero();
+        for (Eigen::Index i = 0; i < 12; i += 3) A.block<3, 3>(i, i) = -k;
+        A.block<3, 3>(0, 3) = -e1;
+        A(0, 6) = 1 / EA;
+        A.block<3, 3>(3, 9) = Vector3d(1 / GJ, 1 / EI_y, 1 / EI_z).asDiagonal();
+        A.block<3, 3>(6, 0) = -omega * omega * mass * Matrix3d::Identity();
+        A.block<3, 3>(9, 3) = -omega * omega * Vector3d(J_y + J_z, J_y, J_z).asDiagonal();
+        A.block<3, 3>(9, 6) = -e1;
+        // exp(A L): Taylor's series of a small part of it, squared again and again.
+        constexpr int squarings = 8;
+        A *= L / (1 << squarings);
+        Matrix12 E = Matrix12::Identity();
+        for (int n = 16; n >= 1; --n) E = Matrix12::Identity() + A * E / n;
+        for (int i = 0; i < squarings; ++i) E = Matrix12(E * E);
+        return E.bottomRightCorner<6, 6>().determinant();
+    };
+    const double unit = std::sqrt(std::min({EI_y, EI_z, GJ}) / mass) / (L * L);
+    return first_zeros(determinant, 1e-3 * unit, 0.05 * unit, count);
 }
 
 }  // namespace cardan::oracles

@@ -76,4 +76,20 @@ private:
     std::vector<State> states_;
 };
 
+/// Small vibrations of a uniform circular arc, clamped at one end and free at the other, shear rigid: x tangent, y
+/// toward the centre, z out of the plane. In section axes, k = (0, 0, 1 / radius), all harmonic with omega:
+///     u' = -k x u + theta x e1 + eps e1,  theta' = -k x theta + kappa,
+///     f' = -k x f - mass omega^2 u,       m' = -k x m - e1 x f - J omega^2 theta.
+/// The frequencies are the zeros of a subdeterminant of the transfer matrix. [Love, A Treatise on the Mathematical
+/// Theory of Elasticity, 4th ed., chapter XXI]
+struct VibratingArc {
+    double radius = 1, angle = 1;               ///< m, rad
+    double mass = 1;                            ///< kg/m
+    double EA = 1, GJ = 1, EI_y = 1, EI_z = 1;  ///< N and N m^2
+    double J_y = 0, J_z = 0;                    ///< inertia per length about y and z, kg m; J_x is their sum
+
+    /// The lowest `count`, rad/s, in plane and out of plane together.
+    std::vector<double> frequencies(int count) const;
+};
+
 }  // namespace cardan::oracles

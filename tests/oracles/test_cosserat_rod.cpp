@@ -194,3 +194,52 @@ TEST_CASE("cosserat rod: the error of the integrator falls with order 5", "[orac
     CHECK(order > 4.5);
     CHECK(order < 6.5);
 }
+
+TEST_CASE("vibrating arc: nearly straight it has the frequencies of a cantilever", "[oracles][analytic]") {
+    VibratingArc arc{.radius = 1e4, .angle = 1e-4, .mass = 1, .EA = 1e4, .GJ = 0.7, .EI_y = 1, .EI_z = 1.5};
+    arc.J_y = 2e-7, arc.J_z = 3e-7;
+    const std::vector<double> omega = arc.frequencies(4);
+    CHECK(omega[0] == Approx(3.5160152685).epsilon(1e-6));
+    CHECK(omega[1] == Approx(3.5160152685 * std::sqrt(1.5)).epsilon(1e-6));
+    CHECK(omega[2] == Approx(22.0344915647).epsilon(1e-5));
+    CHECK(omega[3] == Approx(22.0344915647 * std::sqrt(1.5)).epsilon(1e-5));
+    // Torsion (2 n - 1) pi / 2 sqrt(GJ / J_x), here below bending; extension likewise with EA / mass.
+    arc = {.radius = 1e4,
+           .angle = 1e-4,
+           .mass = 1,
+           .EA = 0.5,
+           .GJ = 0.02,
+           .EI_y = 1,
+           .EI_z = 1.5,
+           .J_y = 0.02,
+           .J_z = 0.03};
+    const std::vector<double> low = arc.frequencies(2);
+    CHECK(low[0] == Approx(pi / 2 * std::sqrt(0.02 / 0.05)).epsilon(1e-6));
+    CHECK(low[1] == Approx(pi / 2 * std::sqrt(0.5)).epsilon(1e-6));
+}
+
+TEST_CASE("vibrating arc: the quotient of the deflection under a uniform load bounds its lowest frequency closely",
+          "[oracles][crosscheck]") {
+    // Rayleigh's quotient; without rotary inertia.
+    const VibratingArc arc{.radius = 1, .angle = pi / 2, .mass = 1, .EA = 1e4, .GJ = 0.7, .EI_y = 1, .EI_z = 1.5};
+    CosseratRod rod;
+    rod.length = pi / 2;
+    rod.initial_curvature = [](double) { return Vector3d(0, 0, 1); };
+    RodVector6 K;
+    K << 1e4, rigid, rigid, 0.7, 1, 1.5;
+    rod.strain = linear_strain(K);
+    RodLoad load;
+    load.distributed = Vector3d(0, 0, 1e-4);
+    const RodSolution bent(rod, load), rest(rod, {});
+    double work = 0, square = 0;
+    constexpr int n = 2000;
+    for (int i = 0; i < n; ++i) {
+        const double s = rod.length * (i + 0.5) / n;
+        const double w = (bent.at(s).position - rest.at(s).position).z();
+        work += 1e-4 * w, square += w * w;
+    }
+    const double bound = std::sqrt(work / square), lowest = arc.frequencies(1)[0];
+    CAPTURE(bound, lowest);
+    CHECK(lowest < bound);
+    CHECK(lowest > 0.99 * bound);
+}
