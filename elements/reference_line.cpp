@@ -3,8 +3,10 @@
 #include "elements/quadrature.hpp"
 #include "mbs/error.hpp"
 
+#include <Eigen/LU>
+
 #include <array>
-#include <boost/math/interpolators/makima.hpp>
+#include <boost/math/interpolators/cubic_hermite.hpp>
 
 namespace cardan {
 
@@ -33,7 +35,35 @@ Mat3 carried(const Mat3& R, const Vec3& step, const Vec3& tangent) {
     return (Mat3() << tangent, straight, cross<double>(tangent, straight)).finished();
 }
 
-using Spline = boost::math::interpolators::makima<std::vector<double>>;
+using Spline = boost::math::interpolators::cubic_hermite<std::vector<double>>;
+
+// Slopes of the cubic spline with continuous curvature; the two pieces at either end are one cubic (not-a-knot), so
+// that the ends are as exact as the rest, O(h^4). [de Boor, A Practical Guide to Splines, ch. IV]
+Matrix spline_slopes(const std::vector<double>& t, const std::vector<Vec3>& points) {
+    const auto n = static_cast<Eigen::Index>(t.size());
+    const auto h = [&t](Eigen::Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        return t[k + 1] - t[k];
+    };
+    const auto slope = [&](Eigen::Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        return Eigen::RowVector3d((points[k + 1] - points[k]).transpose() / h(i));
+    };
+    Matrix A = Matrix::Zero(n, n), b(n, 3);
+    for (Eigen::Index i = 1; i < n - 1; ++i) {
+        A.row(i).segment<3>(i - 1) << h(i), 2 * (h(i - 1) + h(i)), h(i - 1);
+        b.row(i) = 3 * (h(i) * slope(i - 1) + h(i - 1) * slope(i));
+    }
+    const auto end = [&](Eigen::Index row, Eigen::Index next, Eigen::Index first, Eigen::Index second) {
+        const double a = h(first), c = h(second);
+        A(row, row) = c;
+        A(row, next) = a + c;
+        b.row(row) = ((3 * a + 2 * c) * c * slope(first) + a * a * slope(second)) / (a + c);
+    };
+    end(0, 1, 0, 1);
+    end(n - 1, n - 2, n - 2, n - 3);
+    return A.partialPivLu().solve(b);
+}
 
 }  // namespace
 
@@ -106,11 +136,13 @@ ReferenceLine ReferenceLine::through(const std::vector<Vec3>& points, LineShape 
     for (std::size_t i = 1; i < points.size(); ++i) knots.push_back(knots.back() + (points[i] - points[i - 1]).norm());
     ReferenceLine line;
     if (shape == LineShape::spline) {
+        const Matrix slopes = spline_slopes(knots, points);
         std::array<std::shared_ptr<Spline>, 3> c;
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
-            std::vector<double> t = knots, values;
+            std::vector<double> t = knots, values, rates(slopes.col(axis).begin(), slopes.col(axis).end());
             for (const Vec3& p : points) values.push_back(p(axis));
-            c[static_cast<std::size_t>(axis)] = std::make_shared<Spline>(std::move(t), std::move(values));
+            c[static_cast<std::size_t>(axis)] =
+                std::make_shared<Spline>(std::move(t), std::move(values), std::move(rates));
         }
         // Rounding may put a parameter outside of the table.
         const auto inside = [last = knots.back()](double t) { return std::clamp(t, 0.0, last); };

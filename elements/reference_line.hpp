@@ -12,7 +12,7 @@ namespace cardan {
 
 enum class LineShape : std::uint8_t {
     polyline,  ///< straight between the points, kinks at them
-    spline     ///< smooth through the points (modified Akima); at least four points
+    spline     ///< cubic with continuous curvature through the points, by their distances; at least four points
 };
 
 /// A curve by arc length.
