@@ -93,28 +93,34 @@ std::array<Jet, 6> arguments(const HingeLaw& law, const Vec6& q) {
     return {at(u), at(phi), first.y, second.y, first.z, second.z};
 }
 
+// Over the free coordinates of an element, at most six: no allocation while forces are evaluated.
+using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
 struct Response {
     double energy;
-    Vector force;      // dV/dq
-    Matrix stiffness;  // d2V/dq2
+    Coordinates force;  // dV/dq
+    Square stiffness;   // d2V/dq2
 };
 
-Response respond(const HingeLaw& law, const HingeLawElement& element, const Vector& q) {
+Response respond(const HingeLaw& law, const HingeLawElement& element, const Coordinates& q) {
     Vec6 all = Vec6::Zero();
     for (std::size_t i = 0; i < element.kinds.size(); ++i)
         all(static_cast<Eigen::Index>(element.kinds[i])) = q(static_cast<Eigen::Index>(i));
     const std::array<Jet, 6> y = arguments(law, all);
     const auto n = q.size();
-    Vector values(n);
-    Matrix Y(n, n);
+    const Square K = element.stiffness;
+    Coordinates values(n);
+    Square Y(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
         const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(i)])];
         values(i) = jet.value;
         for (Eigen::Index j = 0; j < n; ++j)
             Y(i, j) = jet.gradient(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
     }
-    const Vector moment = element.stiffness * values;
-    Response r{values.dot(moment) / 2, Y.transpose() * moment, Y.transpose() * element.stiffness * Y};
+    const Coordinates moment = K.lazyProduct(values);
+    Response r{values.dot(moment) / 2, Y.transpose().lazyProduct(moment),
+               Y.transpose().lazyProduct(Square(K.lazyProduct(Y)))};
     for (Eigen::Index k = 0; k < n; ++k) {
         const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(k)])];
         for (Eigen::Index i = 0; i < n; ++i)
@@ -146,7 +152,7 @@ UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vec
         for (const HingeLawElement& element : elements) {
             const auto n = static_cast<Eigen::Index>(element.bodies.size());
             std::array<int, 6> index{};
-            Vector q(n);
+            Coordinates q(n);
             for (std::size_t i = 0; i < element.bodies.size(); ++i) {
                 index[i] = model.index(element.bodies[i]);
                 q(static_cast<Eigen::Index>(i)) = at.q(index[i]);
