@@ -29,15 +29,12 @@ BeamDamping BeamDamping::of_modes(ModalRatios ratios) {
 }
 
 void BeamDamping::check(const std::string& where) const {
-    const auto not_negative = [&](const char* quantity, double value) {
-        if (!(value >= 0) || std::isinf(value)) throw InputError(where, quantity, value, "finite and >= 0");
-    };
-    for (double tau : time_constants) not_negative("damping time constant [s]", tau);
-    not_negative("mass-proportional damping [1/s]", mass_proportional);
+    for (double tau : time_constants) require_not_negative(where, "damping time constant [s]", tau);
+    require_not_negative(where, "mass-proportional damping [1/s]", mass_proportional);
     const std::vector<double>* lists[] = {&modal.all, &modal.bending_y, &modal.bending_z, &modal.torsion,
                                           &modal.extension};
     for (const std::vector<double>* list : lists)
-        for (double ratio : *list) not_negative("modal damping ratio", ratio);
+        for (double ratio : *list) require_not_negative(where, "modal damping ratio", ratio);
     ModalRatios by_direction = modal;
     by_direction.all.clear();
     if (!modal.all.empty() && !by_direction.empty())

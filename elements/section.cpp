@@ -30,21 +30,18 @@ BeamSection EngineeringSection::section() const {
 }
 
 void EngineeringSection::check(const std::string& where) const {
-    const auto not_negative = [&](const char* quantity, double value) {
-        if (!(value >= 0) || std::isinf(value)) throw InputError(where, quantity, value, "finite and >= 0");
-    };
-    const auto positive = [&](const char* quantity, double value) {
+    const auto stiff = [&](const char* quantity, double value) {
         if (!(value > 0)) throw InputError(where, quantity, value, "> 0 (infinite: rigid)");
     };
-    not_negative("mass per length [kg/m]", mass);
-    not_negative("flap inertia per length [kg m]", j_flap);
-    not_negative("edge inertia per length [kg m]", j_edge);
-    positive("EA [N]", EA);
-    positive("GJ [N m^2]", GJ);
-    positive("EI flap [N m^2]", EI_flap);
-    positive("EI edge [N m^2]", EI_edge);
-    positive("GA y [N]", GA_y);
-    positive("GA z [N]", GA_z);
+    require_not_negative(where, "mass per length [kg/m]", mass);
+    require_not_negative(where, "flap inertia per length [kg m]", j_flap);
+    require_not_negative(where, "edge inertia per length [kg m]", j_edge);
+    stiff("EA [N]", EA);
+    stiff("GJ [N m^2]", GJ);
+    stiff("EI flap [N m^2]", EI_flap);
+    stiff("EI edge [N m^2]", EI_edge);
+    stiff("GA y [N]", GA_y);
+    stiff("GA z [N]", GA_z);
     for (double value :
          {beta, mass_centre.y, mass_centre.z, shear_centre.y, shear_centre.z, tension_centre.y, tension_centre.z})
         if (!std::isfinite(value)) throw InputError(where, "twist [rad] or offset [m]", value, "finite");
@@ -52,7 +49,7 @@ void EngineeringSection::check(const std::string& where) const {
 }
 
 void BeamLine::check() const {
-    if (!(length > 0) || std::isinf(length)) throw InputError(name, "length [m]", length, "finite and > 0");
+    require_positive(name, "length [m]", length);
     if (!section) throw InputError(text(name, ": the section function is missing"));
     for (std::size_t i = 0; i < breaks.size(); ++i)
         if (!std::isfinite(breaks[i]) || (i > 0 && !(breaks[i] > breaks[i - 1])))
@@ -125,16 +122,13 @@ BeamLine uniform_beam(double length, const EngineeringSection& section, std::str
 }
 
 BeamLine tube(const TubeSpec& spec, std::string name) {
-    const auto positive = [&](const char* quantity, double value) {
-        if (!(value > 0) || std::isinf(value)) throw InputError(name, quantity, value, "finite and > 0");
-    };
-    positive("length [m]", spec.length);
-    positive("diameter at the base [m]", spec.diameter_base);
-    positive("diameter at the top [m]", spec.diameter_top);
-    positive("E [Pa]", spec.E);
-    positive("G [Pa]", spec.G);
-    positive("density [kg/m^3]", spec.density);
-    positive("shear factor", spec.shear_factor);
+    require_positive(name, "length [m]", spec.length);
+    require_positive(name, "diameter at the base [m]", spec.diameter_base);
+    require_positive(name, "diameter at the top [m]", spec.diameter_top);
+    require_positive(name, "E [Pa]", spec.E);
+    require_positive(name, "G [Pa]", spec.G);
+    require_positive(name, "density [kg/m^3]", spec.density);
+    require_positive(name, "shear factor", spec.shear_factor);
     if (spec.wall_thickness.empty()) throw InputError(name, "number of wall thicknesses", 0, "at least one");
     const double smallest = std::min(spec.diameter_base, spec.diameter_top) / 2;
     for (double t : spec.wall_thickness)

@@ -3,6 +3,7 @@
 /// limit.
 #pragma once
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,14 @@ public:
     InputError(std::string_view where, std::string_view quantity, const Value& value, std::string_view allowed)
         : Error(text(where, ": ", quantity, " = ", value, "; allowed: ", allowed)) {}
 };
+
+/// @throws InputError unless the value is finite and > 0 (of the second: >= 0)
+inline void require_positive(std::string_view where, std::string_view quantity, double value) {
+    if (!(value > 0) || std::isinf(value)) throw InputError(where, quantity, value, "finite and > 0");
+}
+inline void require_not_negative(std::string_view where, std::string_view quantity, double value) {
+    if (!(value >= 0) || std::isinf(value)) throw InputError(where, quantity, value, "finite and >= 0");
+}
 
 /// Malformed text: "<file>:<line>:<column>: <message>" (line and column count from 1; column 0 is left out).
 class ParseError : public Error {

@@ -24,7 +24,7 @@ RigidInertia RigidInertia::operator+(const RigidInertia& other) const {
 }
 
 void RigidInertia::check(std::string_view where) const {
-    if (!std::isfinite(mass) || mass < 0) throw InputError(where, "mass [kg]", mass, "finite and >= 0");
+    require_not_negative(where, "mass [kg]", mass);
     if (!com.allFinite()) throw InputError(where, "centre of mass [m]", com.transpose(), "finite");
     if (!J.allFinite()) throw InputError(where, "inertia tensor [kg m^2]", J, "finite");
     const double size = J.norm();

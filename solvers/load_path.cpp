@@ -22,12 +22,10 @@ void check(const LoadPathOptions& options) {
             throw InputError(where, text("load factor ", i + 1), factor,
                              text("> ", options.factors[i - 1], ", the one before it (strictly increasing)"));
     }
-    if (!(options.smallest_step > 0) || !std::isfinite(options.smallest_step))
-        throw InputError(where, "smallest step of the load factor", options.smallest_step, "> 0 and finite");
+    require_positive(where, "smallest step of the load factor", options.smallest_step);
     if (!(options.largest_change > 0))
         throw InputError(where, "largest change of a coordinate", options.largest_change, "> 0");
-    if (!(options.stability_tolerance >= 0) || !std::isfinite(options.stability_tolerance))
-        throw InputError(where, "tolerance of the loss of stability", options.stability_tolerance, ">= 0 and finite");
+    require_not_negative(where, "tolerance of the loss of stability", options.stability_tolerance);
 }
 
 std::vector<double> targets(const LoadPathOptions& options) {

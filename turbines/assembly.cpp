@@ -79,12 +79,8 @@ public:
     std::vector<std::string> warnings;
 
 private:
-    void positive(const char* quantity, double value) const {
-        if (!(value > 0) || std::isinf(value)) throw InputError(d_.name, quantity, value, "finite and > 0");
-    }
-    void not_negative(const char* quantity, double value) const {
-        if (!(value >= 0) || std::isinf(value)) throw InputError(d_.name, quantity, value, "finite and >= 0");
-    }
+    void positive(const char* quantity, double value) const { require_positive(d_.name, quantity, value); }
+    void not_negative(const char* quantity, double value) const { require_not_negative(d_.name, quantity, value); }
     Spring spring(const Spring& s) const { return {s.stiffness, options_.joint_damping ? s.damping : 0.0}; }
     JointedFrame sprung_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
                               const PartLabel& label, const Spring& law, const Vec3& offset = Vec3::Zero()) {
