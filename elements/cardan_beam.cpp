@@ -225,7 +225,9 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     ends[e + 1] - ends[e],
                                     span.axes(),
                                     {},
-                                    inertia.hinges};
+                                    inertia.hinges,
+                                    inertia.body,
+                                    inertia.rotary_split};
         element.damping = element_damping(line, element, options);
         std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
         add_armatures(tree, element, inertia, options, element_name);

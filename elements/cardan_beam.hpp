@@ -2,8 +2,9 @@
 /// The cardanic joint beam element (Zhao, Maisser and Wu 2007): a chain of rigid bodies on joint springs.
 ///
 ///      B1        B2          B3        B4
-///   o------(+)---------||---------(+)------o ---> x        (+) cardan joint at delta L and (1 - delta) L
-///   0      x1         L/2          x2      L                || cylindrical joint (extension and torsion)
+///   o------(+)---------||---------(+)------o ---> x        (+) cardan joint at delta L and (1 - delta) L, or where
+///   0      x1                      x2      L                    the partition says
+///                                                          || cylindrical joint (extension and torsion) midway
 ///
 /// Joint order (mirrored): rotation about y, about z | extension u, torsion phi | about z, about y. B4 of an element
 /// and B1 of the next are one body.
@@ -23,7 +24,7 @@ enum class CardanOrder : std::uint8_t { mirrored, same };
 struct CardanBeamOptions {
     int elements = 3;                     ///< equal lengths, unless `boundaries` is given
     std::vector<double> boundaries = {};  ///< element ends from 0 to the length of the beam, m
-    double delta = delta_gauss;           ///< 0 < delta < 0.5
+    double delta = delta_gauss;           ///< 0 < delta < 0.5; not used by partitions that place the hinges themselves
     Partition partition = Partition::segment_masses;
     CardanOrder order = CardanOrder::mirrored;
     CurvedFlexibility curved_flexibility = CurvedFlexibility::curve;
@@ -53,6 +54,8 @@ struct CardanBeam {
         Placement axes;        ///< element axes in beam axes at rest, origin at the inboard end
         std::array<Segment, 4> segments;
         Hinges hinges;
+        std::array<RigidInertia, 4> inertia;  ///< of B1 ... B4, element axes, origin at the inboard end
+        double rotary_split;                  ///< see ElementInertia
     };
     std::vector<Element> elements;
     std::vector<FrameId>

@@ -16,6 +16,9 @@ struct GaussRule {
 };
 const GaussRule& gauss_rule();
 
+/// Row i times the values at the nodes is their integral from -1 to node i, exact for polynomials of degree 11.
+const Eigen::Matrix<double, 12, 12>& running_gauss_rule();
+
 /// Integral of f over [a, b], 12 points between all `breaks` (ascending) that lie inside: sections may have kinks and
 /// jumps there. T needs + and * double; `zero` starts the sum.
 template <class T, class F>

@@ -69,13 +69,16 @@ void add_material(WrenchSum& sum, const Cut& cut, const Placement& axes, const B
     sum.add(sign * load.head<3>(), sign * load.tail<3>(), about);
 }
 
-// The sectional inertia of half an element sits on its terminal body: the share of it between s and the hinge.
+// The sectional inertia of either part of an element sits on its terminal body: the share of it between s and the
+// hinge.
 void add_rotary(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, double sign) {
     const bool first = cut.segment == 0;
     const Hinges& hinges = cut.element->hinges;
     const double t = fraction(cut);
+    if (!first && hinges.second == 1) return;
     const double share = first ? (hinges.first - t) / hinges.first : (t - hinges.second) / (1 - hinges.second);
-    const Mat3 J = cut.line.integral(first ? 0.0 : 0.5, first ? 0.5 : 1.0, Mat3(Mat3::Zero()), [&](double s) {
+    const double split = cut.element->rotary_split;
+    const Mat3 J = cut.line.integral(first ? 0.0 : split, first ? split : 1.0, Mat3(Mat3::Zero()), [&](double s) {
         const Mat3 R = cut.line.pose(s).R;
         return Mat3(R * cut.line.line().section(s).J * R.transpose());
     });

@@ -27,9 +27,9 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
                                 double s);
 
 /// Loads by equilibrium of everything outboard of s: inertial forces, gravity and wrenches. What the rigid segment at s
-/// carries between the next hinge and s is counted with the true mass of the line (with the static-moment partition
-/// that agrees with the masses of the bodies to the order of the discretisation only). At a node: just inboard of it,
-/// whatever is fixed to the node included. User forces are not known as wrenches and are left out.
+/// carries between the next hinge and s is counted with the true mass of the line (with static moments and mean
+/// differences that agrees with the masses of the bodies to the order of the discretisation only). At a node: just
+/// inboard of it, whatever is fixed to the node included. User forces are not known as wrenches and are left out.
 SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
                                const Transmission& carried, double s);
 

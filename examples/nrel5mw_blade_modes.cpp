@@ -6,6 +6,7 @@
 // Reference: converged frequencies of the same blade by a method that shares nothing with the joint chain, exact to
 // 1e-4 Hz (docs/nrel5mw_blade.md). Goals on 1st flap, 1st edge and 2nd flap: 0.1 % with 16 equal elements, 0.5 % with 8
 // refined ones.
+#include "elements/centrifugal_limit.hpp"
 #include "mbs/error.hpp"
 #include "mbs/version.hpp"
 #include "solvers/campbell_csv.hpp"
@@ -54,6 +55,13 @@ struct Arguments {
     turbines::Nrel5mwBladeOptions blade;
 };
 
+Partition partition_of(const Arguments& a) {
+    if (a.partition == "static") return Partition::static_moment;
+    if (a.partition == "gauss") return Partition::compliance_gauss;
+    if (a.partition == "mean-difference") return Partition::mean_difference;
+    return Partition::segment_masses;
+}
+
 std::vector<double> numbers(const char* option, const std::string& given, const char* allowed) {
     std::vector<double> values;
     const char* at = given.data();
@@ -92,18 +100,20 @@ int parse(int argc, char** argv, Arguments& a) {
                                       "element ends, m from the root, separated by commas, from 0 to 61.5");
     app.add_flag("--refined", a.refined, "8 elements that become shorter toward the tip")->excludes(boundaries);
     app.add_option("--partition", a.partition,
-                   "inertia of the elements: true segment masses, or static moments (with the last metre as an element "
-                   "of its own, unless --boundaries are given)")
-        ->check(CLI::IsMember({"segment", "static"}))
+                   "inertia of the elements: true segment masses; static moments (with the last metre as an element of "
+                   "its own, unless --boundaries are given); segment masses with hinges at the Gauss points of the "
+                   "compliance; mean differences")
+        ->check(CLI::IsMember({"segment", "static", "gauss", "mean-difference"}))
         ->capture_default_str();
-    app.add_option("--delta", a.delta,
-                   "place of the hinges, 0 ... 0.5 (default: Gauss points, 1/6 for static moments)");
+    app.add_option(
+        "--delta", a.delta,
+        "place of the hinges with segment masses (default: Gauss points) and static moments (1/6), 0 ... 0.5");
     app.add_option("--mass-factor", a.blade.mass_factor, "on mass and sectional inertia")->capture_default_str();
     app.add_option("--shear-ratio", a.blade.shear_ratio, "GA / EA (default: rigid in shear)");
     app.add_flag("--no-mass-offset", a.no_mass_offset, "mass centres on the pitch axis");
     app.add_flag("--no-extension", a.no_extension, "condense the extension out of the elements");
     app.add_flag("--convergence", a.convergence,
-                 "print errors with 2, 4, 8, 16, 32 elements for both partitions, and observed orders, instead");
+                 "print errors with 2, 4, 8, 16, 32 elements for all partitions, and observed orders, instead");
     app.add_option("--data", a.data, "folder with nrel5mw_blade.csv (default: built in)");
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
     app.set_version_flag("--version", std::string(version()));
@@ -111,6 +121,8 @@ int parse(int argc, char** argv, Arguments& a) {
         app.parse(argc, argv);
         if (a.refined && (app.count("--elements") > 0 || a.partition == "static"))
             throw CLI::ExcludesError("--refined", "--elements and --partition static");
+        if (a.delta != 0 && places_hinges(partition_of(a)))
+            throw CLI::ExcludesError("--delta", "--partition " + a.partition);
         if (a.delta == 0 && app.count("--delta") > 0) throw InputError("--delta", "value", a.delta, "0 < delta < 0.5");
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
@@ -122,6 +134,7 @@ int parse(int argc, char** argv, Arguments& a) {
 CardanBeamOptions beam_options(const Arguments& a, int elements, Partition partition) {
     CardanBeamOptions options =
         a.refined ? turbines::nrel5mw_blade_refined() : turbines::nrel5mw_blade_elements(elements, partition);
+    options.partition = partition;
     if (!a.boundaries.empty())
         options.boundaries = numbers("--boundaries", a.boundaries, "numbers separated by commas");
     if (a.delta != 0) options.delta = a.delta;
@@ -130,7 +143,7 @@ CardanBeamOptions beam_options(const Arguments& a, int elements, Partition parti
 }
 
 CardanBeamOptions beam_options(const Arguments& a) {
-    return beam_options(a, a.elements, a.partition == "static" ? Partition::static_moment : Partition::segment_masses);
+    return beam_options(a, a.elements, partition_of(a));
 }
 
 solvers::Campbell diagram_of(const turbines::Nrel5mwIsolatedBlade& blade, const std::vector<double>& speeds) {
@@ -213,15 +226,16 @@ std::optional<double> print(const Arguments& a, const solvers::Campbell& d) {
 // the last digit of the reference.
 int convergence(const Arguments& a, const turbines::Nrel5mwBlade& blade, const std::vector<double>& speeds) {
     constexpr std::array counts{2, 4, 8, 16, 32};
-    for (const Partition partition : {Partition::segment_masses, Partition::static_moment}) {
-        const bool segment = partition == Partition::segment_masses;
+    for (const Partition partition : {Partition::segment_masses, Partition::static_moment, Partition::compliance_gauss,
+                                      Partition::mean_difference}) {
+        const bool last_metre = partition == Partition::static_moment;
         std::vector<solvers::Campbell> diagrams;
         for (int n : counts) {
             diagrams.push_back(diagram_of(turbines::isolated_blade(blade, beam_options(a, n, partition)), speeds));
             if (!diagrams.back().complete) return 130;
         }
         for (std::size_t i = 0; i < speeds.size(); ++i) {
-            std::cout << (segment ? "segment masses, equal elements" : "static moments, equal elements and one of 1 m")
+            std::cout << partition_name(partition) << ", equal elements" << (last_metre ? " and one of 1 m" : "")
                       << ", " << std::defaultfloat << std::setprecision(6) << speeds[i] * to_rpm
                       << " rpm: error, % (observed order)\n  elements" << std::fixed;
             for (const std::string& name : names) std::cout << std::setw(18) << name;
@@ -283,9 +297,15 @@ int run(const Arguments& a) {
     check_outputs(a.out);
     const turbines::Nrel5mwIsolatedBlade isolated = turbines::isolated_blade(blade, options);
     for (const std::string& warning : isolated.beam.warnings) std::cerr << "warning: " << warning << "\n";
-    std::cout << isolated.rotor.machine << ": " << isolated.beam.elements.size() << " elements, delta " << options.delta
-              << ", " << (options.partition == Partition::segment_masses ? "segment masses" : "static moments")
-              << ", extension " << (options.extension ? "free" : "condensed") << "\nends, m from the root:";
+    const double limit = centrifugal_limit(isolated.beam, blade.root_radius);
+    if (speeds.back() > limit / 2)
+        std::cerr << "warning: " << speeds.back() * to_rpm << " rpm is above half of the " << limit * to_rpm
+                  << " rpm at which this discretisation loses its stiffness to the centrifugal force; take more "
+                     "elements or another partition\n";
+    std::cout << isolated.rotor.machine << ": " << isolated.beam.elements.size() << " elements, ";
+    if (!places_hinges(options.partition)) std::cout << "delta " << options.delta << ", ";
+    std::cout << partition_name(options.partition) << ", extension " << (options.extension ? "free" : "condensed")
+              << "\nends, m from the root:";
     for (const CardanBeam::Element& e : isolated.beam.elements) std::cout << " " << e.start;
     std::cout << " " << blade.line.length << std::fixed << std::setprecision(2) << "\nmass " << blade.mass()
               << " kg (reference " << mass << "), first moment about the root " << std::setprecision(0)

@@ -281,11 +281,11 @@ namespace {
 
 // The options of an assembly in words.
 std::string settings(const AssemblyOptions& o) {
-    return text(o.tower_elements, " tower elements, ", o.blade_elements, " elements per blade, delta ", o.delta,
-                o.partition == Partition::segment_masses ? ", segment masses" : ", static moments", ", pitch ", o.pitch,
-                " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2), ") m/s^2, structural damping ",
-                o.structural_damping ? "on" : "off", ", joint damping ", o.joint_damping ? "on" : "off",
-                ", main shaft ",
+    return text(o.tower_elements, " tower elements, ", o.blade_elements, " elements per blade, ",
+                places_hinges(o.partition) ? std::string() : text("delta ", o.delta, ", "), partition_name(o.partition),
+                ", pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
+                ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
+                o.joint_damping ? "on" : "off", ", main shaft ",
                 o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"));
 }
 

@@ -21,7 +21,7 @@ struct ShaftBeam {
 struct AssemblyOptions {
     int tower_elements = 3;
     int blade_elements = 3;
-    double delta = delta_gauss;
+    double delta = delta_gauss;  ///< of tower and blades; see CardanBeamOptions
     Partition partition = Partition::segment_masses;
     double pitch = 0;                ///< of all blades, leading edge upwind positive, rad
     Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2

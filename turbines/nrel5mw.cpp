@@ -83,7 +83,7 @@ CardanBeamOptions nrel5mw_blade_elements(int elements, Partition partition) {
     options.elements = elements;
     options.extension = true;
     options.partition = partition;
-    if (partition == Partition::segment_masses) return options;
+    if (partition != Partition::static_moment) return options;
     options.delta = 1.0 / 6;
     if (elements < 2) return options;
     constexpr double length = 61.5, last = 1;
@@ -116,8 +116,8 @@ Nrel5mwIsolatedBlade isolated_blade(const Nrel5mwBlade& blade, const CardanBeamO
 
     RotorMap& rotor = isolated.rotor;
     rotor.machine = "NREL 5 MW blade, isolated";
-    rotor.description = text(isolated.beam.elements.size(), " elements, delta ", elements.delta, ", ",
-                             elements.partition == Partition::segment_masses ? "segment masses" : "static moments",
+    const std::string delta = places_hinges(elements.partition) ? "" : text("delta ", elements.delta, ", ");
+    rotor.description = text(isolated.beam.elements.size(), " elements, ", delta, partition_name(elements.partition),
                              ", extension ", elements.extension ? "free" : "condensed", ", mass ", isolated.beam.mass,
                              " kg\n\nread from (before changes made in a program)\n", blade.source);
     rotor.spin = model.index(hub.body);

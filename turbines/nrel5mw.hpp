@@ -47,10 +47,10 @@ Nrel5mwBlade nrel5mw_blade(const Nrel5mwBladeOptions& options = {});
 /// @throws FileError, ParseError, InputError
 Nrel5mwBlade nrel5mw_blade(const std::filesystem::path& folder, const Nrel5mwBladeOptions& options = {});
 
-/// Elements for this blade: extension free, as rotation asks for. With segment masses hinges at delta_gauss and equal
-/// lengths. With static moments hinges at 1/6 and, from two elements on, the last metre as an element of its own: the
-/// sections fall off so steeply there (EI by 27 over the last 0.8 m) that this partition would need a negative inertia
-/// in a longer last element.
+/// Elements for this blade: extension free, as rotation asks for. Equal lengths; with segment masses hinges at
+/// delta_gauss. With static moments hinges at 1/6 and, from two elements on, the last metre as an element of its own:
+/// the sections fall off so steeply there (EI by 27 over the last 0.8 m) that this partition would need a negative
+/// inertia in a longer last element.
 CardanBeamOptions nrel5mw_blade_elements(int elements = 16, Partition partition = Partition::segment_masses);
 /// Eight elements with segment masses that become shorter toward the tip; ends at 0, 12, 22, 31, 39, 46, 52, 57 and
 /// 61.5 m from the root.

@@ -2,7 +2,7 @@
 #include "elements/cardan_beam.hpp"
 #include "elements/quadrature.hpp"
 #include "tests/elements/cantilever.hpp"
-#include "tests/support/catch.hpp"
+#include "tests/support/refusal.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -79,12 +79,22 @@ TEST_CASE("static moments: total mass and first two moments of a tapered beam ar
     CHECK(I == Approx(2. / 3 - 1. / 4));
 }
 
-TEST_CASE("static moments: a strongly tapered element is warned about, with its place and centres", "[property]") {
-    // EI falls by 10^3 within the element: the terminal centre of mass leaves the beam.
-    BeamLine line{1, {}, [](double x) { return slender(std::exp(-7 * x), 1 - 0.9 * x).section(); }, "thin tip"};
-    const ElementInertia e = partition_element(line, 0, 1, 1. / 6, Partition::static_moment);
+TEST_CASE("static moments: a strongly tapered element is warned about, with its place and centres; one more so refused",
+          "[property]") {
+    const auto thin = [](double taper) {
+        return BeamLine{
+            1, {}, [taper](double x) { return slender(std::exp(-taper * x), 1 - 0.9 * x).section(); }, "thin tip"};
+    };
+    // EI falls by 20 within the element: the terminal centre of mass leaves its hinge far behind.
+    const ElementInertia e = partition_element(thin(3), 0, 1, 1. / 6, Partition::static_moment);
     CHECK_THAT(e.warning, Catch::Contains("thin tip") && Catch::Contains("0.1 L from the hinges"));
-    CHECK(partition_element(line, 0, 1, delta_gauss, Partition::segment_masses).warning.empty());
+    CHECK(partition_element(thin(3), 0, 1, delta_gauss, Partition::segment_masses).warning.empty());
+    // By 1000: nothing is left for the middle bodies.
+    check_refused([&] { (void)partition_element(thin(7), 0, 1, 1. / 6, Partition::static_moment); },
+                  {"thin tip, element at 0 m: moment of inertia left for the middle bodies [kg m^2] = -0.000291543",
+                   "allowed: >= 0", "another partition"});
+    for (const Partition p : {Partition::segment_masses, Partition::compliance_gauss, Partition::mean_difference})
+        CHECK_NOTHROW(partition_element(thin(7), 0, 1, 1. / 6, p));
 }
 
 TEST_CASE("structural damping: the ratio comes out at the given frequency and grows in proportion", "[analytic]") {

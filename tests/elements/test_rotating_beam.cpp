@@ -1,45 +1,13 @@
 // Rotating uniform cantilever through the whole chain: tree, steady state, linearisation, modes.
-#include "tests/elements/cantilever.hpp"
-#include "tests/support/catch.hpp"
+#include "tests/elements/rotating_cantilever.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
 
-struct FlapLag {
-    double lag1, flap1, flap2, flap3;
-};
-
-// m = EI = L = 1, spinning at eta about z, beam along x from the hub radius on.
 FlapLag rotating(int elements, double eta, double delta, Partition partition, double hub_radius = 0) {
-    Tree tree;
-    ForceSet forces;
-    const JointedFrame hub = add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "spin", {"hub"});
-    const FrameId root = tree.add_frame(hub.frame, Placement::translation({hub_radius, 0, 0}), "root");
-    add_cardan_beam(tree, forces, root, uniform_beam(1, slender(1, 1)), "beam", {"beam"},
-                    bending_only(elements, delta, partition));
-    const System system(tree, forces);
-    const int spin = system.model.index("spin");
-    const auto steady = solvers::steady_state(system, -1);
-    REQUIRE(steady.converged);
-    solvers::OperatingPoint at = steady.at;
-    at.qd(spin) = eta;
-    std::vector<int> blade;
-    for (int i = 0; i < system.model.size(); ++i)
-        if (i != spin) blade.push_back(i);
-    const auto modes = solvers::modes(solvers::restrict_to(solvers::linearise(system, at), blade));
-    // Flap turns about y, lag about z: told apart by the coordinates that take part.
-    std::vector<double> flap, lag;
-    for (const auto& mode : modes) {
-        double about_y = 0, about_z = 0;
-        for (std::size_t i = 0; i < blade.size(); ++i) {
-            const bool y = system.model.coordinates()[blade[i]].name.find("bending y") != std::string::npos;
-            (y ? about_y : about_z) += std::norm(mode.shape(static_cast<Eigen::Index>(i)));
-        }
-        (about_y > about_z ? flap : lag).push_back(std::abs(mode.eigenvalue));
-    }
-    return {lag[0], flap[0], flap[1], flap[2]};
+    return testing::rotating(eta, bending_only(elements, delta, partition), hub_radius);
 }
 
 double order(double coarse, double fine, double exact) {
