@@ -134,15 +134,8 @@ Response respond(const HingeLaw& law, const HingeLawElement& element, const Coor
 
 }  // namespace
 
-Vector hinge_arguments(const HingeLaw& law, const std::vector<ElementCoordinate>& kinds, const Vector& q) {
-    Vec6 all = Vec6::Zero();
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-        all(static_cast<Eigen::Index>(kinds[i])) = q(static_cast<Eigen::Index>(i));
-    const std::array<Jet, 6> y = arguments(law, all);
-    Vector values(q.size());
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-        values(static_cast<Eigen::Index>(i)) = y[static_cast<std::size_t>(kinds[i])].value;
-    return values;
+Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const Vector& q) {
+    return respond(law, element, q).force;
 }
 
 UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements) {

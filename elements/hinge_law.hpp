@@ -26,9 +26,9 @@ struct HingeLawElement {
     Matrix stiffness;                      ///< K over them
 };
 
-/// The arguments y(q) of an element's springs; K y are their forces.
+/// The forces (dy/dq)^T K y of an element's springs along its joints: against the coordinates.
 /// @param q  coordinates in the order of `kinds`
-Vector hinge_arguments(const HingeLaw& law, const std::vector<ElementCoordinate>& kinds, const Vector& q);
+Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const Vector& q);
 
 /// The elastic forces Q = -(dy/dq)^T K y of the elements of a beam as one force, with exact Jacobian and energy.
 UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements);

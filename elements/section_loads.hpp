@@ -18,9 +18,12 @@ struct SectionLoads {
     bool torsion_known = true;   ///< false: torsion is condensed out
 };
 
-/// Loads from the springs and dampers of an element: H(x) (K q + D q') with the section forces H of section 2 of the
-/// theory. Exact for a load at the ends of the beam and small angles; O(h^2) otherwise. Damping that is told by modes
-/// of the whole beam has no place along it and is left out.
+/// Loads from the springs and dampers of an element: the force and moment that its joints transmit, found from the
+/// forces along their axes. With extension and torsion free a load at the end of the beam comes out as statics of the
+/// bent chain say, at any angle. The force is constant in an element: under loads in between it is good to O(h^2) in
+/// its middle, O(h) elsewhere, and lacks the shear that a distributed moment across the beam asks for (M' = V - m).
+/// What is condensed out counts as zero: at large angles its share in the other components is missing. Damping that is
+/// told by modes of the whole beam has no place along it and is left out.
 /// @param s  place along the reference line, 0 ... length of the beam; at a node: the element inboard of it
 /// @throws InputError if s lies outside of the beam
 SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, const Vector& q, const Vector& qd,

@@ -4,7 +4,11 @@
 #include "elements/cardan_beam.hpp"
 #include "solvers/modes.hpp"
 
+#include <cmath>
+
 namespace cardan::testing {
+
+inline constexpr double sixth = 1. / 6;
 
 /// A slender section: no polar inertia, so torsion must be locked.
 inline EngineeringSection slender(double EI, double mass) {
@@ -22,6 +26,20 @@ inline CardanBeamOptions bending_only(int elements, double delta = delta_gauss,
     options.partition = partition;
     options.torsion = false;
     return options;
+}
+
+/// Extension and torsion free.
+inline CardanBeamOptions all_free(int elements, double delta = delta_gauss) {
+    CardanBeamOptions options;
+    options.elements = elements;
+    options.delta = delta;
+    options.extension = true;
+    return options;
+}
+
+/// Observed order of convergence from one number of elements to twice as many.
+inline double order(double coarse, double fine, double exact = 0) {
+    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
 }
 
 /// Angular frequencies of a clamped beam (both planes), ascending.

@@ -1,7 +1,7 @@
 // Structural damping of beams: complex modes of clamped beams, and the damping matrix itself.
 #include "elements/cardan_beam.hpp"
 #include "elements/section_matrices.hpp"
-#include "solvers/modes.hpp"
+#include "tests/elements/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
@@ -58,8 +58,8 @@ BeamLine coupled_line(Random& random, double length) {
 }
 
 CardanBeamOptions damped(int elements, const BeamDamping& damping, bool with_extension = true) {
-    CardanBeamOptions options;
-    options.elements = elements, options.extension = with_extension, options.damping = damping;
+    CardanBeamOptions options = all_free(elements);
+    options.extension = with_extension, options.damping = damping;
     return options;
 }
 

@@ -19,10 +19,6 @@ CardanBeamOptions with(int elements, Partition partition) {
     return bending_only(elements, delta_gauss, partition);
 }
 
-double order(double coarse, double fine, double exact) {
-    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
-}
-
 BeamLine wedge() {
     return {1, {}, [](double x) {
                 const double t = 1 - x / 2;

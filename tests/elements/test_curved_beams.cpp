@@ -1,51 +1,42 @@
 // Curved beams of cardanic elements: each straight along its chord, fixed kinks between them.
-#include "elements/cardan_beam.hpp"
-#include "elements/reference_line.hpp"
 #include "tests/elements/cantilever.hpp"
-#include "tests/oracles/cosserat_rod.hpp"
+#include "tests/elements/rods.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
 
 #include <Eigen/LU>
 
 using namespace cardan;
+using namespace cardan::testing;
 
 namespace {
-
-constexpr double rigid = std::numeric_limits<double>::infinity();
-
-// Starts along x and turns to +y.
-ReferenceLine arc(double radius, double angle) {
-    return ReferenceLine::curve(
-        [radius](double t) { return Vec3(radius * std::sin(t), radius * (1 - std::cos(t)), 0); },
-        [radius](double t) { return Vec3(radius * std::cos(t), radius * std::sin(t), 0); }, 0, angle);
-}
 
 // The 45-degree bend.                        [Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979) 961-986]
 struct Bend {
     double GA = 5. / 6 * 5e6, GJ = 5e6 / 6;
     static constexpr double radius = 100, angle = pi / 4, EA = 1e7, EI = 1e7 / 12;
 
-    BeamLine line() const {
-        EngineeringSection s;
-        s.mass = 1, s.EA = EA, s.GA_y = s.GA_z = GA, s.GJ = GJ, s.EI_flap = s.EI_edge = EI;
-        s.j_flap = s.j_edge = 1. / 12;
-        return along(uniform_beam(radius * angle, s), arc(radius, angle));
+    oracles::TwistedRod twisted() const {
+        const oracles::RodSection section{.mass = 1,
+                                          .EA = EA,
+                                          .GA_y = GA,
+                                          .GA_z = GA,
+                                          .GJ = GJ,
+                                          .EI_y = EI,
+                                          .EI_z = EI,
+                                          .j_y = 1. / 12,
+                                          .j_z = 1. / 12};
+        return {.length = radius * angle,
+                .section = [section](double) { return section; },
+                .curvature = {0, 1 / radius},
+                .steps = 256};
     }
-    oracles::CosseratRod rod() const {
-        oracles::CosseratRod rod;
-        rod.length = radius * angle;
-        rod.initial_curvature = [](double) { return Vec3(0, 0, 1 / radius); };
-        rod.strain = oracles::linear_strain(Vec6((Vec6() << EA, GA, GA, GJ, EI, EI).finished()));
-        return rod;
-    }
+    BeamLine line() const { return line_of(twisted()); }
+    oracles::CosseratRod rod() const { return twisted().rod(); }
 };
 
-CardanBeamOptions chords(int elements, CurvedFlexibility rule = CurvedFlexibility::chord, double delta = 1. / 6) {
-    CardanBeamOptions options;
-    options.elements = elements;
-    options.delta = delta;
-    options.extension = true;
+CardanBeamOptions chords(int elements, CurvedFlexibility rule = CurvedFlexibility::chord, double delta = sixth) {
+    CardanBeamOptions options = all_free(elements, delta);
     options.curved_flexibility = rule;
     return options;
 }
@@ -101,50 +92,6 @@ Vec3 exact_tip(const oracles::CosseratRod& rod, const Vec3& force = {0, 0, 600})
 
 double largest(const Vec3& v) {
     return v.cwiseAbs().maxCoeff();
-}
-
-// What becomes of a chain of cardanic elements of vanishing length. A shear strain tilts the middle body against the
-// terminal ones, which carry the section axes, by a = gamma / (1 - 2 delta); the torsion turns about the tilted axis d
-// and the bending about z about an axis that has followed the tilt about y:
-//     1 + Gamma = 2 delta e1 + (1 - 2 delta + eps) d,   d = Ry(ay) Rz(az) e1,
-//     kappa = kappa_x d + kappa_y e2 + kappa_z Ry(ay) e3,   ay = -gamma_z / (1 - 2 delta), az = gamma_y / (1 - 2
-//     delta).
-// The law is C^-1 g = (dGamma/dg)^T n + (dkappa/dg)^T m over g = (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z).
-oracles::CosseratRod limit_of_elements(oracles::CosseratRod rod, double delta) {
-    const auto law = rod.strain;
-    rod.strain = [law, c = 1 / (1 - 2 * delta)](double s, const Vec6& forces) {
-        const auto strains = [c](const Vec6& g, Mat6& D) {
-            const double ay = -c * g(2), az = c * g(1), cy = std::cos(ay), sy = std::sin(ay);
-            const double cz = std::cos(az), sz = std::sin(az);
-            const Vec3 d(cy * cz, sz, -sy * cz), d_ay(-sy * cz, 0, -cy * cz), d_az(-cy * sz, cz, sy * sz);
-            const Vec3 e3(sy, 0, cy), e3_ay(cy, 0, -sy);
-            const double arm = 1 / c + g(0);
-            D.setZero();
-            D.col(0).head<3>() = d;
-            D.col(1).head<3>() = arm * c * d_az;
-            D.col(2).head<3>() = -arm * c * d_ay;
-            D.col(1).tail<3>() = c * g(3) * d_az;
-            D.col(2).tail<3>() = -c * (g(3) * d_ay + g(5) * e3_ay);
-            D.col(3).tail<3>() = d;
-            D(4, 4) = 1;
-            D.col(5).tail<3>() = e3;
-            Vec6 strain;
-            strain << (1 - 1 / c) * Vec3::UnitX() + arm * d - Vec3::UnitX(),
-                g(3) * d + g(4) * Vec3::UnitY() + g(5) * e3;
-            return strain;
-        };
-        Vec6 g = law(s, forces), strain;
-        Mat6 D;
-        for (int i = 0; i < 40; ++i) {
-            strain = strains(g, D);
-            const Vec6 next = law(s, Vec6(D.transpose() * forces));
-            const double change = (next - g).norm();
-            g = next;
-            if (change < 1e-16) break;
-        }
-        return strains(g, D);
-    };
-    return rod;
 }
 
 // [rotation; displacement] of the tip of the bend by [moment; force] there, fixed axes: Castigliano, 20 Gauss points.
@@ -211,8 +158,8 @@ TEST_CASE("curved beam: without shear flexibility the bend converges to the Coss
     struct Row {
         double force, delta, on_chord, on_curve;  // N = 8
     };
-    for (const Row& row : {Row{6, 1. / 6, 1.348e-3, 2.70e-5}, Row{60, 1. / 6, 1.267e-2, 2.62e-3},
-                           Row{300, 1. / 6, 2.823e-2, 3.84e-2}, Row{600, 1. / 6, 3.149e-2, 6.96e-2},
+    for (const Row& row : {Row{6, sixth, 1.348e-3, 2.70e-5}, Row{60, sixth, 1.267e-2, 2.62e-3},
+                           Row{300, sixth, 2.823e-2, 3.84e-2}, Row{600, sixth, 3.149e-2, 6.96e-2},
                            Row{6, delta_gauss, 1.348e-3, 3.10e-5}, Row{600, delta_gauss, 5.39e-2, 7.82e-2}}) {
         const auto on_chord = errors(row.force, chord, row.delta), on_curve = errors(row.force, curve, row.delta);
         CAPTURE(row.force, row.delta, on_chord, on_curve);
@@ -227,7 +174,7 @@ TEST_CASE("curved beam: without shear flexibility the bend converges to the Coss
 TEST_CASE("curved beam: with shear flexibility the bend converges to a rod whose joints are tilted by the shear",
           "[analytic]") {
     const Bend bend;
-    for (const double delta : {1. / 6, delta_gauss}) {
+    for (const double delta : {sixth, delta_gauss}) {
         const Vec3 limit = exact_tip(limit_of_elements(bend.rod(), delta));
         std::vector<Vec3> tip;
         for (int n : {16, 32, 64}) tip.push_back(loaded_tip(bend, chords(n, CurvedFlexibility::chord, delta)));
@@ -238,7 +185,7 @@ TEST_CASE("curved beam: with shear flexibility the bend converges to a rod whose
         CHECK(largest((4 * tip[2] - tip[1]) / 3 - limit) < 5e-6);
     }
     // 256 elements, another implementation: as far from the limit as order 2 says. The Cosserat rod ends 2e-3 away.
-    const Vec3 many(47.14961, 15.68269, 53.47594), limit = exact_tip(limit_of_elements(bend.rod(), 1. / 6));
+    const Vec3 many(47.14961, 15.68269, 53.47594), limit = exact_tip(limit_of_elements(bend.rod(), sixth));
     CHECK(largest(many - limit) < 4e-5);
     CHECK((exact_tip(bend.rod()) - limit).norm() == Approx(2.1e-3).epsilon(0.02));
 }
@@ -253,7 +200,7 @@ TEST_CASE("curved beam: the distance of that rod from the Cosserat rod is propor
     };
     const auto of_limit = [](double GA, double GJ, const Vec3& force) {
         const Bend soft{.GA = GA, .GJ = GJ};
-        return Vec3(exact_tip(limit_of_elements(soft.rod(), 1. / 6), force) - exact_tip(soft.rod(), force));
+        return Vec3(exact_tip(limit_of_elements(soft.rod(), sixth), force) - exact_tip(soft.rod(), force));
     };
     // Not a matter of torsion alone: a torsionally rigid rod has it too, from bending about z.
     const double GA = Bend{}.GA;
@@ -276,7 +223,7 @@ TEST_CASE("curved beam: one element on the curve has the exact tip compliance of
     Bend bend{.GA = 2e3};  // as much from shear as from bending
     const BeamLine line = bend.line();
     const Mat6 exact = arc_compliance(bend);
-    for (const double delta : {0.1, 1. / 6, delta_gauss})
+    for (const double delta : {0.1, sixth, delta_gauss})
         for (int n : {1, 2, 5})
             CHECK(difference(Chain(line, chords(n, CurvedFlexibility::curve, delta)).compliance(), exact) < 1e-10);
     const auto error = [&](int n) { return difference(Chain(line, chords(n)).compliance(), exact); };
@@ -316,11 +263,11 @@ TEST_CASE("curved beam: a polyline with element ends at its kinks is a chain of 
 
 TEST_CASE("curved beam: on a straight reference line it has the frequencies of the straight beam", "[crosscheck]") {
     const BeamLine plain = twisted_sections(3);
-    const std::vector<double> expected = testing::clamped_frequencies(plain, chords(3));
+    const std::vector<double> expected = clamped_frequencies(plain, chords(3));
     for (const LineShape shape : {LineShape::polyline, LineShape::spline}) {
         const auto line = ReferenceLine::through({{0, 0, 0}, {0.5, 0, 0}, {1.6, 0, 0}, {2, 0, 0}, {3, 0, 0}}, shape);
         for (const CurvedFlexibility rule : {CurvedFlexibility::curve, CurvedFlexibility::chord}) {
-            const std::vector<double> omega = testing::clamped_frequencies(along(plain, line), chords(3, rule));
+            const std::vector<double> omega = clamped_frequencies(along(plain, line), chords(3, rule));
             for (std::size_t i = 0; i < omega.size(); ++i) CHECK(omega[i] == Approx(expected[i]).epsilon(1e-10));
         }
     }
@@ -376,7 +323,7 @@ TEST_CASE("curved beam: a clamped quarter circle vibrates like the arc, in and o
     const std::vector<double> exact = oracle.frequencies(6);
     const BeamLine line = along(uniform_beam(pi / 2, s), arc(1, pi / 2));
     const auto errors = [&](CurvedFlexibility rule, int n) {
-        const std::vector<double> omega = testing::clamped_frequencies(line, chords(n, rule, delta_gauss));
+        const std::vector<double> omega = clamped_frequencies(line, chords(n, rule, delta_gauss));
         std::vector<double> e;
         for (std::size_t i = 0; i < 6; ++i) e.push_back(omega[i] / exact[i] - 1);
         return e;

@@ -2,7 +2,7 @@
 #include "elements/cardan_beam.hpp"
 #include "solvers/modes.hpp"
 #include "tests/elements/cantilever.hpp"
-#include "tests/oracles/cosserat_rod.hpp"
+#include "tests/elements/rods.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 
@@ -27,8 +27,7 @@ EngineeringSection general_section() {
 }
 
 CardanBeamOptions bent(int elements, HingeLaw law, bool extension = true) {
-    CardanBeamOptions options;
-    options.elements = elements;
+    CardanBeamOptions options = all_free(elements);
     options.extension = extension;
     options.hinge_law = law;
     return options;
@@ -85,21 +84,16 @@ Vec3 swing_vector(const Mat3& R) {
     return axis.norm() > 0 ? Vec3(axis * std::atan2(axis.norm(), d.x()) / axis.norm()) : axis;
 }
 
-double tip_error(const Vec6& stiffness, const Vec3& force, int elements, double delta, HingeLaw law) {
-    oracles::CosseratRod rod;
-    rod.strain = oracles::linear_strain(stiffness);
+double tip_error(const oracles::RodSection& section, const Vec3& force, int elements, double delta, HingeLaw law) {
+    const oracles::TwistedRod rod{.section = [section](double) { return section; }, .steps = 256};
     oracles::RodLoad load;
     load.force = force;
-    const Vec3 exact = oracles::RodSolution(rod, load).tip().position;
-
-    EngineeringSection s;
-    s.mass = 1, s.j_flap = s.j_edge = 0.01;
-    s.GJ = stiffness(3), s.EI_flap = stiffness(4), s.EI_edge = stiffness(5);
+    const Vec3 exact = oracles::RodSolution(rod.rod(), load).tip().position;
     CardanBeamOptions options = bent(elements, law, false);
     options.delta = delta;
     Tree tree;
     ForceSet forces;
-    const CardanBeam beam = add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, s), "beam", {"beam"}, options);
+    const CardanBeam beam = add_cardan_beam(tree, forces, Tree::base(), line_of(rod), "beam", {"beam"}, options);
     Vector q;
     Vec3 tip;
     constexpr int steps = 5;
@@ -123,13 +117,11 @@ struct Errors {
     std::vector<double> of;  // N = 3, 6, 12
     double order() const { return std::log2(of[1] / of[2]); }
 };
-Errors tip_errors(const Vec6& stiffness, const Vec3& force, double delta, HingeLaw law) {
+Errors tip_errors(const oracles::RodSection& section, const Vec3& force, double delta, HingeLaw law) {
     Errors e;
-    for (int n : {3, 6, 12}) e.of.push_back(tip_error(stiffness, force, n, delta, law));
+    for (int n : {3, 6, 12}) e.of.push_back(tip_error(section, force, n, delta, law));
     return e;
 }
-
-constexpr double rigid = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -224,19 +216,19 @@ TEST_CASE("hinge law: isotropic, a round beam bent diagonally gains two orders w
     // Dead tip force between y and z; torsionally stiff or soft, it does not matter.
     const HingeLaw isotropic{.isotropic = true};
     for (const double GJ : {1.0, 1e3}) {
-        const Vec6 round = (Vec6() << rigid, rigid, rigid, GJ, 1, 1).finished();
+        const oracles::RodSection round{.GJ = GJ, .j_y = 0.01, .j_z = 0.01};
         // Two digits from another implementation.
-        const Errors linear = tip_errors(round, {0, 2, 2}, 1. / 6, {}),
-                     swing = tip_errors(round, {0, 2, 2}, 1. / 6, isotropic);
+        const Errors linear = tip_errors(round, {0, 2, 2}, sixth, {}),
+                     swing = tip_errors(round, {0, 2, 2}, sixth, isotropic);
         CAPTURE(linear.of, swing.of, linear.order(), swing.order());
         CHECK(linear.of[0] == Approx(4.2e-3).margin(0.5e-4));
         CHECK(swing.of[0] == Approx(1.8e-4).margin(0.5e-5));
         CHECK(linear.order() == Approx(2).margin(0.05));
         CHECK(swing.order() == Approx(4).margin(0.05));
     }
-    const Vec6 round = (Vec6() << rigid, rigid, rigid, 1, 1, 1).finished();
+    const oracles::RodSection round{.GJ = 1, .j_y = 0.01, .j_z = 0.01};
     const Vec3 large = Vec3(0, 5, 5) / std::sqrt(2.0);
-    const Errors linear = tip_errors(round, large, 1. / 6, {}), swing = tip_errors(round, large, 1. / 6, isotropic);
+    const Errors linear = tip_errors(round, large, sixth, {}), swing = tip_errors(round, large, sixth, isotropic);
     CHECK(swing.of[0] < 0.07 * linear.of[0]);
     CHECK(swing.order() == Approx(4).margin(0.05));
     // At the Gauss points bending in a plane is of order 2 at large angles: the law gains a factor only.
@@ -249,8 +241,8 @@ TEST_CASE("hinge law: isotropic, a round beam bent diagonally gains two orders w
 
 TEST_CASE("hinge law: in the section's frame, unequal stiffnesses with torsion keep order 2 and gain a factor 3",
           "[analytic]") {
-    const Vec6 flat = (Vec6() << rigid, rigid, rigid, 0.8, 1, 4).finished();
-    for (const double delta : {1. / 6, delta_gauss}) {
+    const oracles::RodSection flat{.GJ = 0.8, .EI_y = 1, .EI_z = 4, .j_y = 0.01, .j_z = 0.01};
+    for (const double delta : {sixth, delta_gauss}) {
         const auto errors = [&](HingeLaw law) { return tip_errors(flat, {0, 4, 1.5}, delta, law); };
         const Errors linear = errors({}), frame = errors({.section_frame = true}), both = errors(laws[2]);
         CAPTURE(delta, linear.of, frame.of, both.of);

@@ -34,16 +34,10 @@ Pose<double> bent_tip(const Wrench& load, WrenchAxes axes, const CardanBeamOptio
     return pose(kinematics(system.model, path.points.back().at.q, workspace), beam.tip());
 }
 
-double order(double coarse, double fine, double exact) {
-    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
-}
-
 // Angle from x toward z.
 double slope(const Pose<double>& tip) {
     return std::atan2(tip.R(2, 0), tip.R(0, 0));
 }
-
-constexpr double sixth = 1. / 6;
 
 }  // namespace
 

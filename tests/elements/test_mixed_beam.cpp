@@ -65,10 +65,6 @@ Frequencies frequencies(const BeamLine& line, int elements, const MixedSetting& 
     return result;
 }
 
-double order(double coarse, double fine, double exact) {
-    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
-}
-
 }  // namespace
 
 TEST_CASE("mixed beam: the blade of Lee, Hodges and Patil (2002), Table I, per rev", "[elements][mixed][published]") {

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-double order(double coarse, double fine, double exact) {
-    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
-}
-
 struct Tip {
     Vec3 u, theta;
     double angle() const { return 2 * std::atan(theta.norm() / 2); }

@@ -10,10 +10,6 @@ FlapLag rotating(int elements, double eta, double delta, Partition partition, do
     return testing::rotating(eta, bending_only(elements, delta, partition), hub_radius);
 }
 
-double order(double coarse, double fine, double exact) {
-    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
-}
-
 }  // namespace
 
 TEST_CASE("rotating cantilever: discrete flap and lag frequencies", "[published]") {

@@ -2,9 +2,7 @@
 // body, by hand.
 #include "elements/distributed_load.hpp"
 #include "elements/reference_line.hpp"
-#include "elements/section_loads.hpp"
-#include "solvers/steady_state.hpp"
-#include "tests/elements/cantilever.hpp"
+#include "tests/elements/loaded_beam.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <random>
@@ -20,44 +18,6 @@ EngineeringSection stout() {
     s.EA = 4e6, s.GJ = 2e3, s.EI_flap = 1e3, s.EI_edge = 3e3, s.GA_y = s.GA_z = 1e6;
     s.j_flap = 0.02, s.j_edge = 0.05;
     return s;
-}
-
-CardanBeamOptions all_free(int elements) {
-    CardanBeamOptions options;
-    options.elements = elements;
-    options.extension = true;
-    return options;
-}
-
-// A beam with its system in a state, and both kinds of section loads.
-struct Loaded {
-    Tree tree;
-    ForceSet forces;
-    CardanBeam beam;
-    std::optional<System> system;
-    solvers::OperatingPoint at;
-
-    void settle(int spin = -1, double rotor_speed = 0) {
-        system.emplace(tree, forces);
-        solvers::SteadyOptions options;
-        options.rotor_speed = rotor_speed;
-        const solvers::SteadyState state = solvers::steady_state(*system, spin, options);
-        REQUIRE(state.converged);
-        at = state.at;
-    }
-    Vec6 equilibrium(double s) const {
-        Workspace workspace(system->model);
-        const Kinematics kin = kinematics(system->model, at.q, workspace);
-        const Transmission carried = transmission(kin, system->forces, at.qd, at.qdd);
-        return equilibrium_loads(beam, kin, system->forces, carried, s).values;
-    }
-    SectionLoads constitutive(double s) const { return constitutive_loads(beam, system->model, at.q, at.qd, s); }
-};
-
-Loaded clamped(const BeamLine& line, const CardanBeamOptions& options) {
-    Loaded loaded;
-    loaded.beam = add_cardan_beam(loaded.tree, loaded.forces, Tree::base(), line, "beam", {"beam"}, options);
-    return loaded;
 }
 
 const std::vector<double> places{0, 0.1, 0.3, 0.5, 0.75, 1.0, 1.1, 1.4, 1.7, 2.0};

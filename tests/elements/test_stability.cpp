@@ -19,12 +19,6 @@ namespace lateral = cardan::oracles::lateral_buckling;
 
 namespace {
 
-constexpr double sixth = 1. / 6;
-
-double order(double coarse, double fine, double exact) {
-    return std::log2(std::abs(coarse - exact) / std::abs(fine - exact));
-}
-
 // A column along x, L = EI = mass per length = 1, with a wrench at its tip and gravity.
 System column(const CardanBeamOptions& options, const Vec3& force, WrenchAxes axes, const Vec3& gravity = Vec3::Zero(),
               double damping = 0) {

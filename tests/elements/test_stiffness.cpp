@@ -1,6 +1,6 @@
 // The elastic law of the element: what test_flexibility.cpp leaves out.
 #include "elements/cardan_beam.hpp"
-#include "solvers/linearise.hpp"
+#include "tests/elements/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
 
@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 using namespace cardan;
+using namespace cardan::testing;
 
 namespace {
 
@@ -47,9 +48,7 @@ Mat6 continuum_tip_compliance(const BeamLine& line) {
 }
 
 CardanBeamOptions with(int elements, double delta, bool extension) {
-    CardanBeamOptions options;
-    options.elements = elements;
-    options.delta = delta;
+    CardanBeamOptions options = all_free(elements, delta);
     options.extension = extension;
     return options;
 }

@@ -1,9 +1,8 @@
 // Every force element: generalised force against its energy, its power, virtual work, and Lagrange's eq. (7).
 #include "mbs/error.hpp"
 #include "mbs/lagrange.hpp"
-#include "mbs/system.hpp"
+#include "tests/mbs/forced_tree.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/random_tree.hpp"
 
 #include <Eigen/Geometry>
 
@@ -14,72 +13,8 @@ namespace {
 
 constexpr double h = 1e-40;  // complex step
 
-double scaled(const Matrix& difference, const Matrix& reference) {
-    return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
-}
-
-// A random tree of 8 bodies at a random state under some forces.
-class State {
-public:
-    State(unsigned seed, const std::function<void(State&, ForceSet&)>& fill)
-        : random(seed), tree(random_tree(random, {.bodies = 8})), system_(make(fill)), workspace_(system_.model) {
-        q = random_state(random, n), qd = random_state(random, n);
-    }
-    const Model& model() const { return system_.model; }
-    const Forces& forces() const { return system_.forces; }
-    Kinematics kin() { return kinematics(system_.model, q, workspace_); }
-    Vector Q(const Forces& of) {
-        Vector out(n);
-        of.generalised_forces(kin(), time, q, qd, out);
-        return out;
-    }
-    Vector Q() { return Q(forces()); }
-    double energy_at(const Vector& at) {
-        Workspace own(model());
-        return forces().potential_energy(kinematics(model(), at, own), time, at, qd);
-    }
-    std::vector<ForceReport> report() { return forces().report(kin(), time, q, qd); }
-    FrameId frame(int body) const { return tree.frame_of(BodyId{body}); }
-    // A frame somewhere on the body that most joints carry.
-    FrameId add_tip() {
-        int deepest = 0, most = 0;
-        for (int k = 0; k < n; ++k) {
-            int depth = 0;
-            for (int a = k; a >= 0; a = tree.bodies()[static_cast<std::size_t>(a)].parent) ++depth;
-            if (depth > most) most = depth, deepest = k;
-        }
-        return tree.add_frame(frame(deepest), random_placement(random), "tip");
-    }
-
-    static constexpr int n = 8;
-    Random random;
-    Tree tree;
-    Vector q, qd;
-    double time = 0.7;
-
-private:
-    System make(const std::function<void(State&, ForceSet&)>& fill) {
-        ForceSet set;
-        fill(*this, set);
-        return {tree, set};
-    }
-    System system_;
-    Workspace workspace_;
-};
-
-// -dV/dq by central differences of sixth order (errors h^6 and rounding / h).
-Vector minus_energy_gradient(State& s) {
-    constexpr double step = 5e-3;
-    Vector gradient(s.n);
-    for (int j = 0; j < s.n; ++j) {
-        const auto V = [&](int steps) { return s.energy_at(s.q + steps * step * Vector::Unit(s.n, j)); };
-        gradient(j) = (45 * (V(1) - V(-1)) - 9 * (V(2) - V(-2)) + (V(3) - V(-3))) / (60 * step);
-    }
-    return -gradient;
-}
-
 // Jacobian of a frame by complex step of its pose: columns [rotation vector rate; velocity].
-Matrix differentiated_pose(State& s, FrameId frame) {
+Matrix differentiated_pose(ForcedTree& s, FrameId frame) {
     WorkspaceT<Complex> workspace(s.model());
     const Mat3 R = pose(s.kin(), frame).R;
     Matrix J(6, s.n);
@@ -99,7 +34,7 @@ TEST_CASE("forces: springs, coupled blocks, gravity and dead forces are minus th
           "[property]") {
     for (unsigned seed = 0; seed < 20; ++seed) {
         for (int kind = 0; kind < 4; ++kind) {
-            State s(seed, [&](State& at, ForceSet& set) {
+            ForcedTree s(seed, [&](ForcedTree& at, ForceSet& set) {
                 if (kind == 0) set.add_spring("spring", BodyId{3}, 4.2, 0, 0.3);
                 if (kind == 1) {
                     const Matrix A = Matrix::NullaryExpr(3, 3, [&] { return uniform(at.random, -1, 1); });
@@ -119,7 +54,7 @@ TEST_CASE("forces: springs, coupled blocks, gravity and dead forces are minus th
 }
 
 TEST_CASE("forces: energies are those written down by hand", "[analytic]") {
-    State s(3, [](State& at, ForceSet& set) {
+    ForcedTree s(3, [](ForcedTree& at, ForceSet& set) {
         set.add_spring("spring", BodyId{2}, 4, 0, 0.5);
         set.add_law({"block", {BodyId{5}, BodyId{0}}, (Matrix(2, 2) << 3, 1, 1, 2).finished()});
         set.add_wrench({"dead force", at.frame(7), {Vec3(1, 2, 3), {0, 0, 0}}});
@@ -146,7 +81,7 @@ TEST_CASE("forces: energies are those written down by hand", "[analytic]") {
 }
 
 TEST_CASE("forces: moments and follower loads have no energy, dampers take power", "[property]") {
-    State s(4, [](State& at, ForceSet& set) {
+    ForcedTree s(4, [](ForcedTree& at, ForceSet& set) {
         set.add_wrench({"moment", at.frame(7), {{0, 0, 0}, Vec3(1, 2, 3)}});
         set.add_wrench({"follower", at.frame(6), {Vec3(1, 2, 3), {0, 0, 0}}, WrenchAxes::frame});
         set.add_spring("damper", BodyId{1}, 0, 2.5);
@@ -163,7 +98,7 @@ TEST_CASE("forces: moments and follower loads have no energy, dampers take power
 
 TEST_CASE("forces: the powers reported add up to Q . qd, one by one and together", "[property]") {
     for (unsigned seed = 0; seed < 30; ++seed) {
-        State s(seed, [](State& at, ForceSet& set) {
+        ForcedTree s(seed, [](ForcedTree& at, ForceSet& set) {
             set = random_forces(at.random, at.tree);
             set.add_user({.name = "drag", .force = [](const ForceInput& in, Vector& Q) { Q -= 0.3 * in.qd; }});
         });
@@ -179,7 +114,9 @@ TEST_CASE("forces: the powers reported add up to Q . qd, one by one and together
 
 TEST_CASE("kinematics: the Jacobian of a frame is the derivative of its pose", "[property]") {
     for (unsigned seed = 0; seed < 30; ++seed) {
-        State s(seed, [](State& at, ForceSet&) { at.tree.add_frame(at.frame(5), random_placement(at.random), "tip"); });
+        ForcedTree s(seed, [](ForcedTree& at, ForceSet&) {
+            at.tree.add_frame(at.frame(5), random_placement(at.random), "tip");
+        });
         Matrix J(6, s.n);
         for (const char* name : {"tip", "body 7", "base"}) {
             const FrameId frame = s.model().frame(name);
@@ -194,7 +131,7 @@ TEST_CASE("forces: a wrench on a frame does the virtual work J^T [moment; force]
     for (unsigned seed = 0; seed < 30; ++seed)
         for (const WrenchAxes axes : {WrenchAxes::base, WrenchAxes::frame}) {
             FrameLoad load{.name = "load", .axes = axes};
-            State s(seed, [&](State& at, ForceSet& set) {
+            ForcedTree s(seed, [&](ForcedTree& at, ForceSet& set) {
                 load.frame = at.tree.add_frame(at.frame(5), random_placement(at.random), "tip");
                 load.wrench = {random_vector(at.random, 3), random_vector(at.random, 3)};
                 set.add_wrench(load);
@@ -209,7 +146,7 @@ TEST_CASE("forces: a wrench on a frame does the virtual work J^T [moment; force]
 }
 
 TEST_CASE("forces: a wrench on a frame of the base does nothing", "[property]") {
-    State s(1, [](State& at, ForceSet& set) {
+    ForcedTree s(1, [](ForcedTree& at, ForceSet& set) {
         const FrameId ground = at.tree.add_frame(Tree::base(), random_placement(at.random), "ground");
         set.add_wrench({"load", ground, {Vec3(1, 2, 3), Vec3(4, 5, 6)}, WrenchAxes::frame});
     });
@@ -218,7 +155,7 @@ TEST_CASE("forces: a wrench on a frame of the base does nothing", "[property]") 
 
 TEST_CASE("forces: eq. (7) with the weight of every body is the gravity element", "[property]") {
     for (unsigned seed = 0; seed < 30; ++seed) {
-        State s(seed, [](State& at, ForceSet& set) { set.set_gravity(random_vector(at.random, 10)); });
+        ForcedTree s(seed, [](ForcedTree& at, ForceSet& set) { set.set_gravity(random_vector(at.random, 10)); });
         std::vector<lagrange::BodyLoad> loads(s.n);
         const Vector Q = s.Q();
         const Kinematics kin = s.kin();
@@ -236,7 +173,7 @@ TEST_CASE("forces: eq. (7) with the weight of every body is the gravity element"
 TEST_CASE("forces: eq. (7) with wrenches carried over to the centres of mass is the wrench element", "[property]") {
     for (unsigned seed = 0; seed < 30; ++seed) {
         std::vector<FrameLoad> placed;
-        State s(seed, [&](State& at, ForceSet& set) {
+        ForcedTree s(seed, [&](ForcedTree& at, ForceSet& set) {
             for (const int body : {7, 3, 3}) {
                 const FrameId frame =
                     at.tree.add_frame(at.frame(body), random_placement(at.random), text("frame ", placed.size()));
@@ -269,7 +206,9 @@ TEST_CASE("forces: rows and columns of a coupled block belong to its coordinates
     const Mat3 K = (Mat3() << 5, 1, 2, 1, 6, 3, 2, 3, 7).finished();
     const Mat3 D = (Mat3() << 0.5, 0.1, 0, 0.1, 0.6, 0.3, 0, 0.3, 0.7).finished();
     const Vec3 rest(0.1, 0.2, 0.3);
-    State s(8, [&](State&, ForceSet& set) { set.add_law({"block", {BodyId{6}, BodyId{0}, BodyId{3}}, K, D, rest}); });
+    ForcedTree s(8, [&](ForcedTree&, ForceSet& set) {
+        set.add_law({"block", {BodyId{6}, BodyId{0}, BodyId{3}}, K, D, rest});
+    });
     const std::vector<int> at{s.model().index(BodyId{6}), s.model().index(BodyId{0}), s.model().index(BodyId{3})};
     Vector expected = Vector::Zero(s.n);
     expected(at) = -K * (s.q(at) - rest) - D * s.qd(at);
@@ -285,96 +224,8 @@ TEST_CASE("forces: rows and columns of a coupled block belong to its coordinates
     CHECK(d.loads.isZero(0));
 }
 
-namespace {
-
-// Nonlinear in q and qd, dependent on time and on the pose of a frame: a spring from the tip to the origin that hardens
-// with time, and quadratic damping.
-UserForce hardening_spring(FrameId tip, bool with_jacobian) {
-    UserForce user{.name = "hardening spring"};
-    user.force = [tip](const ForceInput& in, Vector& Q) {
-        const Eigen::Index n = in.q.size();
-        Matrix J(6, n);
-        frame_jacobian<double>(in.kinematics, tip, J);
-        const Vec3 p = pose(in.kinematics, tip).p;
-        Q -= (1 + in.time) * J.bottomRows<3>().transpose() * p;
-        Q.array() -= 0.2 * in.qd.array() * in.qd.array().abs();
-    };
-    user.energy = [tip](const ForceInput& in) { return (1 + in.time) * pose(in.kinematics, tip).p.squaredNorm() / 2; };
-    if (with_jacobian)
-        user.jacobian = [tip](const ForceInput& in, Matrix& by_q, Matrix& by_qd) {
-            const Model& model = in.kinematics.model();
-            const Eigen::Index n = in.q.size();
-            Matrix J(6, n);
-            frame_jacobian<double>(in.kinematics, tip, J);
-            const Vec3 p = pose(in.kinematics, tip).p;
-            // d_b J_a = w_b x J_a for b proximal of a, J the velocity of the tip.
-            for (int a = 0; a < n; ++a)
-                for (int b = 0; b < n; ++b) {
-                    const int proximal = std::min(a, b), distal = std::max(a, b);
-                    const Vec3 w = J.col(proximal).head<3>(), v = J.col(distal).tail<3>();
-                    const double turn = model.precedes(distal, model.frame(tip).body) ? p.dot(w.cross(v)) : 0.0;
-                    by_q(a, b) -= (1 + in.time) * (J.col(a).tail<3>().dot(J.col(b).tail<3>()) + turn);
-                }
-            by_qd.diagonal().array() -= 0.4 * in.qd.array().abs();
-        };
-    return user;
-}
-
-}  // namespace
-
-TEST_CASE("user forces: with and without their Jacobian the derivatives agree", "[property]") {
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        const auto make = [&](bool with_jacobian) {
-            return State(
-                seed, [&](State& at, ForceSet& set) { set.add_user(hardening_spring(at.add_tip(), with_jacobian)); });
-        };
-        State given = make(true), differenced = make(false);
-        CHECK((given.Q() - differenced.Q()).isZero(0));
-        CHECK(given.Q().norm() > 0);
-        ForceDerivatives a, b;
-        given.forces().derivatives(given.kin(), given.time, given.q, given.qd, a);
-        const Kinematics kin = differenced.kin();
-        differenced.forces().derivatives(kin, differenced.time, differenced.q, differenced.qd, b);
-        CHECK(a.loads.norm() > 0.1);
-        CHECK(scaled(a.loads - b.loads, a.loads) < 1e-8);
-        CHECK(scaled(a.damping - b.damping, a.damping) < 1e-8);
-        CHECK((a.damping.diagonal().array() >= 0).all());
-        // Differencing leaves the caller's kinematics alone.
-        const FrameId tip = given.model().frame("tip");
-        CHECK((pose(kin, tip).p - pose(given.kin(), tip).p).isZero(0));
-    }
-}
-
-TEST_CASE("user forces: a force with an energy is its gradient, and both see the time", "[property]") {
-    State s(11, [](State& at, ForceSet& set) { set.add_user(hardening_spring(at.add_tip(), false)); });
-    s.qd.setZero();
-    const Vector Q = s.Q();
-    CHECK(scaled(Q - minus_energy_gradient(s), Q) < 1e-10);
-    const double energy = s.energy_at(s.q);
-    s.time = 2 * s.time + 1;  // 1 + t doubles
-    CHECK(s.energy_at(s.q) == Approx(2 * energy).epsilon(1e-14));
-    CHECK((s.Q() - 2 * Q).norm() < 1e-13 * Q.norm());
-}
-
-TEST_CASE("user forces: a linear law written as a user force is the law, forces add up", "[property]") {
-    for (unsigned seed = 0; seed < 10; ++seed) {
-        const auto law = [](const ForceInput& in, Vector& Q) { Q -= 3 * in.q + 0.5 * in.qd; };
-        State user(seed, [&](State& at, ForceSet& set) {
-            set.set_gravity(random_vector(at.random));
-            set.add_user({.name = "law", .force = law});
-            set.add_user({.name = "law again", .force = law});
-        });
-        State linear(seed, [&](State& at, ForceSet& set) {
-            set.set_gravity(random_vector(at.random));
-            for (int k = 0; k < State::n; ++k) set.add_spring(text("spring ", k), BodyId{k}, 6, 1);
-        });
-        const Vector Q = linear.Q();
-        CHECK(scaled(user.Q() - Q, Q) < 1e-14);
-    }
-}
-
 TEST_CASE("forces: undamped() drops the damping and nothing else", "[property]") {
-    State s(12, [](State& at, ForceSet& set) { set = random_forces(at.random, at.tree); });
+    ForcedTree s(12, [](ForcedTree& at, ForceSet& set) { set = random_forces(at.random, at.tree); });
     const Vector damped = s.Q();
     const Forces undamped = s.forces().undamped();
     const Vector moving = s.Q(undamped);
@@ -391,7 +242,7 @@ TEST_CASE("forces: undamped() drops the damping and nothing else", "[property]")
 }
 
 TEST_CASE("forces: with_gravity() replaces gravity and nothing else", "[property]") {
-    State s(13, [](State& at, ForceSet& set) { set = random_forces(at.random, at.tree); });
+    ForcedTree s(13, [](ForcedTree& at, ForceSet& set) { set = random_forces(at.random, at.tree); });
     const Vec3 g = s.forces().gravity();
     REQUIRE(s.forces().has_gravity());
     const Forces none = s.forces().with_gravity(Vec3::Zero()), twice = s.forces().with_gravity(2 * g);

@@ -48,6 +48,13 @@ RodSolution::State RodSolution::derivative(double s, const State& x) const {
     d.segment<3>(4) = (w * k + v.cross(k)) / 2;
     d.segment<3>(7) = -load_.distributed;
     d.tail<3>() = -d.head<3>().cross(f);
+    if (rod_.inertia && !load_.angular_velocity.isZero(0)) {
+        const RodInertia section = rod_.inertia(s);
+        const Vector3d W = load_.angular_velocity, c = R * section.centre;
+        const Vector3d inertial = section.mass * W.cross(W.cross(x.head<3>() + c));
+        d.segment<3>(7) += inertial;
+        d.tail<3>() += c.cross(inertial) + W.cross(R * section.J * R.transpose() * W);
+    }
     return d;
 }
 
@@ -111,14 +118,17 @@ bool RodSolution::newton(RodVector6& root, double share) {
 RodSolution::RodSolution(const CosseratRod& rod, const RodLoad& load, int load_steps) : rod_(rod), load_(load) {
     if (!rod_.strain || !(rod_.length > 0) || rod_.steps < 1 || load_steps < 1)
         throw std::invalid_argument("CosseratRod: a strain law, a length and at least one step are needed");
-    const Vector3d p = load_.distributed;
-    const double moment = load_.moment.norm() + (load_.force.norm() + p.norm() * rod_.length) * rod_.length;
+    const Vector3d p = load_.distributed, W = load_.angular_velocity;
+    double per_length = p.norm();
+    if (rod_.inertia) per_length += rod_.inertia(0).mass * W.squaredNorm() * (rod_.root_position.norm() + rod_.length);
+    const double moment = load_.moment.norm() + (load_.force.norm() + per_length * rod_.length) * rod_.length;
     scale_ << Vector3d::Constant(moment > 0 ? moment / rod_.length : 1), Vector3d::Constant(moment > 0 ? moment : 1);
     RodVector6 root = RodVector6::Zero(), last = RodVector6::Zero();
     double reached = 0, before = 0, step = 1.0 / load_steps;
     while (reached < 1) {
         const double share = std::min(1.0, reached + step);
         load_.distributed = share * p;
+        load_.angular_velocity = std::sqrt(share) * W;
         RodVector6 guess = root;
         if (reached > before) guess += (share - reached) / (reached - before) * (root - last);
         if (newton(guess, share)) {
@@ -134,6 +144,107 @@ RodSolution::RodSolution(const CosseratRod& rod, const RodLoad& load, int load_s
     for (int i = 0; i < rod_.steps; ++i) states_.push_back(advanced(i * h, states_.back(), h));
 }
 
+namespace {
+
+Matrix3d skew(const Vector3d& a) {
+    return (Matrix3d() << 0, -a(2), a(1), a(2), 0, -a(0), -a(1), a(0), 0).finished();
+}
+
+}  // namespace
+
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+std::array<Matrix12, 3> RodSolution::vibration(double s, const State& x) const {
+    const Matrix3d R = rotation_of(x), W = skew(load_.angular_velocity);
+    const Vector3d f = x.segment<3>(7), r1 = derivative(s, x).head<3>();
+    RodVector6 forces;
+    forces << R.transpose() * f, R.transpose() * x.tail<3>();
+    // Tangent of the law: differences of order 4, exact for a linear one.
+    RodMatrix6 S;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        const auto odd = [&](double k) {
+            const RodVector6 h = k * 1e-3 * scale_(i) * RodVector6::Unit(i);
+            return RodVector6((rod_.strain(s, forces + h) - rod_.strain(s, forces - h)) / (2e-3 * k * scale_(i)));
+        };
+        S.col(i) = (4 * odd(1) - odd(2)) / 3;
+    }
+    // Strains by (theta, f, mu): d(R^T f) = R^T (df + f x theta).
+    Eigen::Matrix<double, 6, 12> forces_by = Eigen::Matrix<double, 6, 12>::Zero();
+    forces_by.block<3, 3>(0, 3) = R.transpose() * skew(f);
+    forces_by.block<3, 3>(3, 3) = R.transpose() * skew(x.tail<3>());
+    forces_by.block<3, 3>(0, 6) = forces_by.block<3, 3>(3, 9) = R.transpose();
+    const Eigen::Matrix<double, 6, 12> strain = S * forces_by;
+
+    std::array<Matrix12, 3> A{Matrix12::Zero(), Matrix12::Zero(), Matrix12::Zero()};
+    A[0].topRows<3>() = R * strain.topRows<3>();
+    A[0].block<3, 3>(0, 3) -= skew(r1);
+    A[0].middleRows<3>(3) = R * strain.bottomRows<3>();
+    A[0].bottomRows<3>() = skew(f) * A[0].topRows<3>();
+    A[0].block<3, 3>(9, 6) -= skew(r1);
+    if (!rod_.inertia) throw std::invalid_argument("RodSolution: vibrations need an inertia");
+    const RodInertia section = rod_.inertia(s);
+    const Vector3d c = R * section.centre;
+    const Matrix3d C = skew(c), H = R * section.J * R.transpose();
+    const std::array<Matrix3d, 3> of_d{W * W, 2 * W, Matrix3d::Identity()};  // acceleration by d = u - c x theta
+    for (std::size_t k = 0; k < 3; ++k) {
+        Eigen::Matrix<double, 3, 6> force;
+        force << section.mass * of_d[k], -section.mass * of_d[k] * C;
+        A[k].block<3, 6>(6, 0) += force;
+        A[k].block<3, 6>(9, 0) += C * force;
+    }
+    const Vector3d HW = H * load_.angular_velocity;
+    const Vector3d inertial = section.mass * (W * (W * (x.head<3>() + c)));
+    A[0].block<3, 3>(9, 3) += skew(inertial) * C + W * (H * W - skew(HW));
+    A[1].block<3, 3>(9, 3) += H * W - skew(HW) + W * H;
+    A[2].block<3, 3>(9, 3) += H;
+    return A;
+}
+
+// The stages of the integrator along the solution, in units in which all unknowns are of order one.
+void RodSolution::linearise() const {
+    constexpr std::array<double, 6> places{0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1};
+    const double h = rod_.length / rod_.steps;
+    Eigen::Matrix<double, 12, 1> unit;
+    unit << Vector3d::Constant(rod_.length), Vector3d::Ones(), scale_;
+    for (int i = 0; i < rod_.steps; ++i)
+        for (double place : places) {
+            const State x = advanced(i * h, states_[static_cast<std::size_t>(i)], place * h);
+            std::array<Matrix12, 3> A = vibration((i + place) * h, x);
+            for (Matrix12& a : A) a = unit.cwiseInverse().asDiagonal() * a * unit.asDiagonal();
+            stages_.push_back(A);
+        }
+}
+
+std::complex<double> RodSolution::determinant(double omega) const {
+    using Columns = Eigen::Matrix<std::complex<double>, 12, 6>;
+    if (stages_.empty()) linearise();
+    const double h = rod_.length / rod_.steps;
+    Columns Y = Columns::Zero();
+    Y.bottomRows<6>().setIdentity();
+    for (std::size_t i = 0; i < states_.size() - 1; ++i) {
+        const auto slope = [&](std::size_t stage, const Columns& y) {
+            const std::array<Matrix12, 3>& A = stages_[6 * i + stage];
+            Eigen::Matrix<std::complex<double>, 12, 12> M;
+            M.real() = A[0] - omega * omega * A[2];
+            M.imag() = omega * A[1];
+            return Columns(h * M * y);
+        };
+        const Columns k1 = slope(0, Y);
+        const Columns k2 = slope(1, Y + k1 / 5);
+        const Columns k3 = slope(2, Y + 3. / 40 * k1 + 9. / 40 * k2);
+        const Columns k4 = slope(3, Y + 44. / 45 * k1 - 56. / 15 * k2 + 32. / 9 * k3);
+        const Columns k5 = slope(4, Y + 19372. / 6561 * k1 - 25360. / 2187 * k2 + 64448. / 6561 * k3 - 212. / 729 * k4);
+        const Columns k6 =
+            slope(5, Y + 9017. / 3168 * k1 - 355. / 33 * k2 + 46732. / 5247 * k3 + 49. / 176 * k4 - 5103. / 18656 * k5);
+        Y += 35. / 384 * k1 + 500. / 1113 * k3 + 125. / 192 * k4 - 2187. / 6784 * k5 + 11. / 84 * k6;
+    }
+    return Y.bottomRows<6>().determinant();
+}
+
+std::vector<double> RodSolution::frequencies(int count, double start, double step) const {
+    return first_zeros([this](double omega) { return determinant(omega).real(); }, start, step, count);
+}
+
 RodState RodSolution::at(double s) const {
     const double h = rod_.length / rod_.steps;
     const double cell = std::clamp(std::floor(s / h), 0.0, static_cast<double>(rod_.steps));
@@ -144,18 +255,10 @@ RodState RodSolution::at(double s) const {
     return out;
 }
 
-namespace {
-
-Matrix3d skew(const Vector3d& a) {
-    return (Matrix3d() << 0, -a(2), a(1), a(2), 0, -a(0), -a(1), a(0), 0).finished();
-}
-
-}  // namespace
-
 std::vector<double> VibratingArc::frequencies(int count) const {
     const double L = radius * angle;
     const auto determinant = [&](double omega) {
-        using Matrix12 = Eigen::Matrix<double, 12, 12>;  // over (u, theta, f, m)
+        // Over (u, theta, f, m).
         const Matrix3d k = skew(Vector3d(0, 0, 1 / radius)), e1 = skew(Vector3d::UnitX());
         Matrix12 A = Matrix12::Zero();
         for (Eigen::Index i = 0; i < 12; i += 3) A.block<3, 3>(i, i) = -k;

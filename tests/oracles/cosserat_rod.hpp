@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <complex>
 #include <functional>
 #include <vector>
 
@@ -10,10 +12,18 @@ namespace cardan::oracles {
 using RodVector6 = Eigen::Matrix<double, 6, 1>;
 using RodMatrix6 = Eigen::Matrix<double, 6, 6>;
 
+/// Inertia per length of a rod in section axes.
+struct RodInertia {
+    double mass = 0;                                   ///< kg/m
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of mass, (0, y, z), m
+    Eigen::Matrix3d J = Eigen::Matrix3d::Zero();       ///< about the centre of mass, kg m
+};
+
 /// A geometrically exact rod at rest under load, clamped at s = 0 and loaded at s = L; no restriction on displacements
 /// and rotations. Section axes R = (e1 normal to the section, e2, e3), s arc length of the unloaded rod:
-///     r' = R (e1 + Gamma),  R' = R (k0 + kappa)^,  f' = -p,  mu' = -r' x f,
-/// (Gamma, kappa) = strain(s; R^T f, R^T mu), force f and moment mu of the outboard part upon the inboard one.
+///     r' = R (e1 + Gamma),  R' = R (k0 + kappa)^,  f' = m a - p,  mu' = -r' x f + R c x m a + W x R J R^T W,
+/// (Gamma, kappa) = strain(s; R^T f, R^T mu), force f and moment mu of the outboard part upon the inboard one. At rest
+/// means: in axes that turn with the constant angular velocity W about their origin, a = W x (W x (r + R c)).
 /// [Reissner, ZAMP 32 (1981) 734-744; Simo, Comput. Methods Appl. Mech. Eng. 49 (1985) 55-70]
 /// Shooting: the force and moment at the clamp are found by Newton's method with continuation in the load; the ordinary
 /// differential equations are integrated by Dormand and Prince's formula of order 5 with fixed steps, the rotation as
@@ -25,6 +35,8 @@ struct CosseratRod {
     /// Strains (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z) under (N, Vy, Vz, T, My, Mz) in section axes, N and
     /// m.
     std::function<RodVector6(double s, const RodVector6& forces)> strain = {};
+    /// Needed with rotation and for vibrations.
+    std::function<RodInertia(double s)> inertia = {};
     Eigen::Vector3d root_position = Eigen::Vector3d::Zero();
     Eigen::Matrix3d root_rotation = Eigen::Matrix3d::Identity();
     int steps = 256;  ///< of the integrator
@@ -40,6 +52,7 @@ struct RodLoad {
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< at the tip, N and N m
     bool follower = false;                                  ///< both in the section axes of the tip, else in fixed axes
     Eigen::Vector3d distributed = Eigen::Vector3d::Zero();  ///< per length of the unloaded rod, fixed axes, N/m
+    Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< of the fixed axes about their origin, rad/s
 };
 
 struct RodState {
@@ -60,6 +73,17 @@ public:
     /// What is left over at the tip, relative to the load.
     double residual() const { return residual_; }
 
+    /// Small vibrations exp(i omega t) about the solution, rad/s: the lowest `count` above `start`, found by walking in
+    /// steps of `step`. All equations are linearised by hand; the load must be dead. With displacement u, turn theta
+    /// (fixed axes), d = u + theta x R c, l = i omega and H = R J R^T
+    ///     u' = theta x r' + R dGamma,  theta' = R dkappa,  f' = m da,  da = l^2 d + 2 l W x d + W x (W x d),
+    ///     mu' = -u' x f_0 - r' x f + m ((theta x R c) x a + R c x da)
+    ///           + H (l^2 theta + l W x theta) + l theta x H W + W x (l H theta + theta x H W - H (theta x W)).
+    /// The frequencies are the zeros of the determinant of the transfer matrix from force and moment at the clamp to
+    /// those at the tip. It is real for real omega up to rounding: see `determinant`.
+    std::vector<double> frequencies(int count, double start, double step) const;
+    std::complex<double> determinant(double omega) const;
+
 private:
     using State = Eigen::Matrix<double, 13, 1>;  // r, quaternion (w, x, y, z), f, mu
     State derivative(double s, const State& x) const;
@@ -68,12 +92,16 @@ private:
     State end(const RodVector6& root) const;
     RodVector6 miss(const RodVector6& root, double share) const;
     bool newton(RodVector6& root, double share);
+    std::array<Eigen::Matrix<double, 12, 12>, 3> vibration(double s, const State& x) const;
+    void linearise() const;
 
     CosseratRod rod_;
     RodLoad load_;
     RodVector6 scale_;
     double residual_ = 0;
     std::vector<State> states_;
+    /// Per stage of the integrator: coefficients of l^0, l^1, l^2 over (u, theta, f, mu), in units of the load.
+    mutable std::vector<std::array<Eigen::Matrix<double, 12, 12>, 3>> stages_;
 };
 
 /// Small vibrations of a uniform circular arc, clamped at one end and free at the other, shear rigid: x tangent, y

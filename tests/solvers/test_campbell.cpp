@@ -1,9 +1,9 @@
 // Campbell diagrams of a rotor on a rigid hub, whose frequencies are known in closed form; input that is refused.
 #include "mbs/error.hpp"
 #include "solvers/campbell.hpp"
+#include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/tree_tools.hpp"
 
 #include <algorithm>
 
@@ -16,12 +16,6 @@ namespace {
 // Point masses m at the distance l from hinges at the distance e from the axis of a hub. About the hinge
 //   flap: w^2 = k / (m l^2) + Omega^2 (1 + e / l),    lag: w^2 = k / (m l^2) + Omega^2 e / l
 // with the spin prescribed; flap and the lag patterns that do not pull at the hub know nothing of a free spin.
-struct RotorSpec {
-    std::vector<double> stiffness = {2000, 2000, 2000};  // one per blade
-    bool lag = false;
-    double damping = 0;
-    Vec3 gravity = Vec3::Zero();
-};
 constexpr double m = 3, l = 4, e = 0.5, hub_inertia = 40;
 
 double flap_frequency(double Omega, double k = 2000) {
@@ -31,44 +25,12 @@ double lag_frequency(double Omega, double k = 2000) {
     return std::sqrt(k / (m * l * l) + Omega * Omega * e / l);
 }
 
-struct Rotor {
-    System system;
-    RotorMap map;
-};
-
-Rotor make_rotor(const RotorSpec& spec = {}) {
-    Tree tree;
-    ForceSet forces;
-    const Link spin = add_joint(
-        tree,
-        {.name = "spin", .inertia = {10, Vec3::Zero(), Vec3(hub_inertia, hub_inertia, hub_inertia).asDiagonal()}});
-    std::vector<BodyId> blades;
-    std::vector<FrameId> roots;
-    for (std::size_t k = 0; k < spec.stiffness.size(); ++k) {
-        const Mat3 R = rot_z(2 * pi * static_cast<double>(k) / static_cast<double>(spec.stiffness.size()));
-        roots.push_back(tree.add_frame(spin.axes, {R, R * Vec3(e, 0, 0)}, text("root ", k + 1)));
-        BodySpec body = joint_spec(text("blade ", k + 1, " hinge"), roots.back(), JointKind::revolute,
-                                   spec.lag ? Vec3(0, 0, 1) : Vec3(0, -1, 0));
-        body.inertia = RigidInertia{m, {l, 0, 0}}.in(body.placement.inverse());
-        body.coordinate.part = "blade";
-        body.coordinate.blade = static_cast<int>(k) + 1;
-        blades.push_back(tree.add_body(body));
-        forces.add_spring(text("hinge ", k + 1), blades.back(), spec.stiffness[k], spec.damping);
-    }
-    const FrameId tip =
-        tree.add_frame(tree.frame_of(blades[0]), Placement::translation(tree.bodies().back().spec.inertia.com), "tip");
-    forces.set_gravity(spec.gravity);
-    Rotor rotor{System(tree, forces), {}};
-    rotor.map.machine = "small rotor";
-    rotor.map.spin = rotor.system.model.index(spin.body);
-    rotor.map.hub = spin.axes;
-    for (BodyId blade : blades) rotor.map.blades.push_back({rotor.system.model.index(blade)});
-    rotor.map.parts = {{"blade", roots[0], {}, {"", "blade flap", "blade lag"}}};
-    rotor.map.lines = {{"blade", 1, {roots[0], tip}}};
-    return rotor;
+SmallRotor make_rotor(SmallRotorSpec spec = {}) {
+    spec.hub.J = hub_inertia * Mat3::Identity();
+    return small_rotor(spec);
 }
 
-Campbell diagram_of(const Rotor& rotor, const std::vector<double>& speeds, const CampbellOptions& options = {}) {
+Campbell diagram_of(const SmallRotor& rotor, const std::vector<double>& speeds, const CampbellOptions& options = {}) {
     return campbell(rotor.system, rotor.map, speeds, options);
 }
 
@@ -115,8 +77,7 @@ TEST_CASE("campbell: flap of a hinged rotor is collective at w, backward at w - 
     CHECK(d.blades == 3);
     CHECK(d.rotor_speeds() == speeds);
     REQUIRE(d.branches.size() == 3);
-    CHECK(d.rows == std::vector<std::string>{"spin", "blade 1 hinge (collective)", "blade 1 hinge (cosine 1)",
-                                             "blade 1 hinge (sine 1)"});
+    CHECK(d.rows == std::vector<std::string>{"spin", "flap 1 (collective)", "flap 1 (cosine 1)", "flap 1 (sine 1)"});
     for (std::size_t i = 0; i < speeds.size(); ++i) {
         CAPTURE(i);
         const double Omega = speeds[i], w = flap_frequency(Omega), damped = std::sqrt(w * w - decay * decay);
@@ -163,7 +124,7 @@ TEST_CASE("campbell: crossings lie where a branch meets a multiple of the rotor 
 
 TEST_CASE("campbell: a free spin raises the collective lag frequency, a prescribed one does not", "[analytic]") {
     // Free: the hub turns against the blades, w^2 grows by (J + 3 m r^2) / J with r = e + l.
-    const Rotor rotor = make_rotor({.lag = true});
+    const SmallRotor rotor = make_rotor({.hinges = Hinges::lag});
     const double Omega = 3, r = e + l, free = std::sqrt((hub_inertia + 3 * m * r * r) / hub_inertia);
     CampbellOptions options;
     options.max_frequency_hz = 100;
@@ -247,8 +208,7 @@ TEST_CASE("campbell: four blades have a differential pattern at the rotating-fra
 TEST_CASE("campbell: the tip of blade 1 moves as the mode's shape says", "[analytic]") {
     const Campbell d = diagram_of(make_rotor(), {3.0});
     // the frames on the lines, then those of the bodies
-    REQUIRE(d.frames ==
-            std::vector<std::string>{"root 1", "tip", "spin", "blade 1 hinge", "blade 2 hinge", "blade 3 hinge"});
+    REQUIRE(d.frames == std::vector<std::string>{"root 1", "tip", "spin", "flap 1", "flap 2", "flap 3"});
     CHECK((d.frame_positions[1] - Vec3(e + l, 0, 0)).norm() < 1e-12);
     const Branch& branch = d.branch("blade flap (collective)");
     const std::vector<FrameMotion> motion = d.motion(branch, 0);
@@ -268,7 +228,7 @@ TEST_CASE("campbell: the tip of blade 1 moves as the mode's shape says", "[analy
 }
 
 TEST_CASE("campbell: a cancelled sweep keeps what was computed and says so", "[property]") {
-    const Rotor rotor = make_rotor();
+    const SmallRotor rotor = make_rotor();
     const std::vector<double> speeds{1.0, 2.0, 3.0, 4.0};
     CampbellOptions options;
     int asked = 0, done = 0;
@@ -297,7 +257,7 @@ TEST_CASE("campbell: a cancelled sweep keeps what was computed and says so", "[p
 }
 
 TEST_CASE("campbell: what has no diagram is refused", "[property]") {
-    const Rotor rotor = make_rotor();
+    const SmallRotor rotor = make_rotor();
     check_refused([&] { (void)diagram_of(rotor, {}); }, {"number of rotor speeds = 0", "at least one"});
     check_refused([&] { (void)diagram_of(rotor, {1.0, not_a_number}); }, {"rotor speed number 2", "nan", "finite"});
     check_refused([&] { (void)diagram_of(rotor, {infinite}); }, {"rotor speed number 1", "inf"});
@@ -309,14 +269,14 @@ TEST_CASE("campbell: what has no diagram is refused", "[property]") {
     const Campbell d = diagram_of(rotor, {1.0});
     check_refused([&] { (void)d.branch("blade flop"); },
                   {"unknown mode 'blade flop'", "'blade flap (backward)'", "'blade flap (forward)'"});
-    Rotor spinless = make_rotor();
+    SmallRotor spinless = make_rotor();
     spinless.map.spin = -1;
     check_refused([&] { (void)diagram_of(spinless, {1.0}); }, {"rotor speed", "without rotor"});
 }
 
 TEST_CASE("campbell: without a constant steady state there is no diagram", "[property]") {
     // Gravity in the rotor plane pulls at the lag hinges once per revolution.
-    const Rotor rotor = make_rotor({.lag = true, .gravity = {0, -9.81, 0}});
+    const SmallRotor rotor = make_rotor({.hinges = Hinges::lag, .gravity = {0, -9.81, 0}});
     std::string message;
     try {
         (void)diagram_of(rotor, {2.0});

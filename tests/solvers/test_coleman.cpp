@@ -2,6 +2,7 @@
 #include "mbs/error.hpp"
 #include "solvers/coleman.hpp"
 #include "solvers/identify.hpp"
+#include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/simulation.hpp"
@@ -20,71 +21,14 @@ namespace {
 
 constexpr double flap_offset = 0.5, arm = 4, mass = 3, stiffness = 2000;
 
-// Point masses on hinged arms around a hub that spins about z, on a nacelle that tilts (about x) and yaws (about y)
-// behind it, or on a rigid one. Hinges allow flap and, outboard of it, lag.
-struct SmallRotor {
-    System system;
-    RotorMap map;
-
-    OperatingPoint spinning(double Omega, double azimuth = 0) const {
-        const int n = system.model.size();
-        OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0.0};
-        at.q(map.spin) = azimuth;
-        at.qd(map.spin) = Omega;
-        return at;
-    }
-    /// All coordinates but the spin.
-    std::vector<int> unknowns() const {
-        std::vector<int> list = system.model.coordinates().free();
-        list.erase(std::find(list.begin(), list.end(), map.spin));
-        return list;
-    }
-    SecondOrderSystem rotating(double Omega, double azimuth = 0) const {
-        return restrict_to(linearise(system, spinning(Omega, azimuth)), unknowns());
-    }
-};
-
-SmallRotor small_rotor(int blades, bool elastic_support, bool lag = false) {
-    Tree tree;
-    ForceSet forces;
-    FrameId at = Tree::base();
-    if (elastic_support) {
-        const Link tilt = add_joint(tree, {.name = "tilt", .axis = Vec3::UnitX()});
-        const Link yaw = add_joint(tree, {.name = "yaw",
-                                          .inboard = tilt.axes,
-                                          .axis = Vec3::UnitY(),
-                                          .inertia = {50, Vec3::Zero(), Vec3(90, 110, 60).asDiagonal()}});
-        forces.add_spring("tilt", tilt.body, 9000, 5);
-        forces.add_spring("yaw", yaw.body, 7000, 3);
-        at = tree.add_frame(yaw.axes, Placement::translation({0, 0, 1.2}), "shaft");
-    }
-    const Link spin =
-        add_joint(tree, {.name = "spin", .inboard = at, .inertia = {10, Vec3::Zero(), Vec3(3, 3, 5).asDiagonal()}});
-    std::vector<std::vector<BodyId>> bodies(static_cast<std::size_t>(blades));
-    for (int k = 0; k < blades; ++k) {
-        const Mat3 R = rot_z(2 * pi * k / blades);
-        const FrameId root = tree.add_frame(spin.axes, {R, R * Vec3(flap_offset, 0, 0)}, text("root ", k + 1));
-        const RigidInertia tip{mass, {arm, 0, 0}};
-        const Link flap = add_joint(tree, {.name = text("flap ", k + 1),
-                                           .inboard = root,
-                                           .axis = -Vec3::UnitY(),
-                                           .inertia = lag ? RigidInertia{} : tip});
-        forces.add_spring(text("flap ", k + 1), flap.body, stiffness, 2);
-        bodies[static_cast<std::size_t>(k)].push_back(flap.body);
-        if (!lag) continue;
-        const Link hinge =
-            add_joint(tree, {.name = text("lag ", k + 1), .inboard = flap.axes, .axis = Vec3::UnitZ(), .inertia = tip});
-        forces.add_spring(text("lag ", k + 1), hinge.body, 3 * stiffness, 4);
-        bodies[static_cast<std::size_t>(k)].push_back(hinge.body);
-    }
-    SmallRotor rotor{System(tree, forces), {}};
-    rotor.map.machine = "small rotor";
-    rotor.map.spin = rotor.system.model.index(spin.body);
-    for (const std::vector<BodyId>& blade : bodies) {
-        rotor.map.blades.emplace_back();
-        for (BodyId body : blade) rotor.map.blades.back().push_back(rotor.system.model.index(body));
-    }
-    return rotor;
+SmallRotor rotor_of(int blades, bool elastic_support, bool lag = false) {
+    return small_rotor({.stiffness = std::vector<double>(static_cast<std::size_t>(blades), stiffness),
+                        .damping = 2,
+                        .hinges = lag ? Hinges::flap_and_lag : Hinges::flap,
+                        .mass = mass,
+                        .arm = arm,
+                        .offset = flap_offset,
+                        .elastic_support = elastic_support});
 }
 
 // An imagined rotor: two fixed coordinates, then `per_blade` coordinates of each blade, blade after blade.
@@ -189,7 +133,7 @@ TEST_CASE("coleman: one unit of each multi-blade coordinate moves the blades as 
 TEST_CASE("coleman: an isotropic rotor on an elastic support has constant matrices in the fixed frame", "[property]") {
     for (const int blades : {3, 4, 5})
         for (const bool lag : {false, true}) {
-            const SmallRotor rotor = small_rotor(blades, true, lag);
+            const SmallRotor rotor = rotor_of(blades, true, lag);
             const double Omega = 4;
             const ColemanTransform T(rotor.map, rotor.unknowns());
             const SecondOrderSystem z = T.transform(rotor.rotating(Omega), 0, Omega);
@@ -214,7 +158,7 @@ TEST_CASE("coleman: an isotropic rotor on an elastic support has constant matric
 TEST_CASE("coleman: the fixed-frame eigenvalues give the Floquet multipliers of the rotating-frame equations",
           "[property]") {
     // Floquet: exp(lambda T) are the eigenvalues of the monodromy matrix of the periodic system, integrated here.
-    const SmallRotor rotor = small_rotor(3, true);
+    const SmallRotor rotor = rotor_of(3, true);
     const double Omega = 5, period = 2 * pi / Omega;
     const Eigen::Index n = static_cast<Eigen::Index>(rotor.unknowns().size());
     const int steps = 1500;
@@ -253,7 +197,7 @@ TEST_CASE("coleman: on a rigid hub a rotating-frame frequency splits into backwa
           "[analytic]") {
     // Hinged point mass: w^2 = k / (m l^2) + Omega^2 (1 + e / l), damped by d / (2 m l^2).
     const double Omega = 2;
-    SmallRotor rotor = small_rotor(3, false);
+    const SmallRotor rotor = rotor_of(3, false);
     const ColemanTransform T(rotor.map, rotor.unknowns());
     const SecondOrderSystem z = T.transform(rotor.rotating(Omega), 0, Omega);
     const double inertia = mass * arm * arm, decay = 2 / (2 * inertia);
@@ -273,7 +217,6 @@ TEST_CASE("coleman: on a rigid hub a rotating-frame frequency splits into backwa
     CHECK(std::abs(found[2].shape(2) / found[2].shape(1) - Complex(0, -1)) < 1e-10);
 
     // So say the names.
-    rotor.map.parts = {{"", rotor.map.hub, {}, {"", "flap", ""}}};
     const Identification identification(linearise(rotor.system, rotor.spinning(Omega)), rotor.system.model, rotor.map,
                                         rotor.unknowns(), T.rows());
     REQUIRE(identification.components().size() == 1);

@@ -1,6 +1,7 @@
 // What a mode is: component modes, shares of the elastic energy, names.
 #include "mbs/error.hpp"
 #include "solvers/identify.hpp"
+#include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -57,34 +58,10 @@ Machine mast() {
     return m;
 }
 
-// Rigid hub about z with hinged point masses.
-struct Rotor {
-    explicit Rotor(int blades) : machine(make(blades)), system(machine.tree, machine.forces) {
-        machine.map.spin = system.model.index("spin");
-        for (int k = 1; k <= blades; ++k) {
-            machine.map.blades.push_back({system.model.index(text("flap ", k))});
-            unknowns.push_back(machine.map.blades.back()[0]);
-        }
-        machine.map.parts = {{"blade", system.model.frame("root 1"), {}, {"", "blade flap", "blade lag"}}};
-    }
-    static Machine make(int blades) {
-        Machine m;
-        const Link spin = m.add("spin", "hub", Tree::base(), JointKind::revolute, Vec3::UnitZ(),
-                                {5, Vec3::Zero(), Mat3::Identity()}, 0);
-        for (int k = 1; k <= blades; ++k) {
-            const FrameId root =
-                m.tree.add_frame(spin.axes, Placement::rotation(rot_z(2 * pi * (k - 1) / blades)), text("root ", k));
-            m.add(text("flap ", k), "blade", root, JointKind::revolute, -Vec3::UnitY(), {3, {4, 0, 0}}, 2000);
-        }
-        return m;
-    }
-    Identification identification() const {
-        return {at_rest(system), system.model, machine.map, unknowns, ColemanTransform(machine.map, unknowns).rows()};
-    }
-    Machine machine;
-    System system;
-    std::vector<int> unknowns;
-};
+Identification identification_of(const SmallRotor& rotor) {
+    return {at_rest(rotor.system), rotor.system.model, rotor.map, rotor.unknowns(),
+            ColemanTransform(rotor.map, rotor.unknowns()).rows()};
+}
 
 double sum(const std::vector<Share>& shares) {
     return std::accumulate(shares.begin(), shares.end(), 0.0,
@@ -164,8 +141,9 @@ TEST_CASE("identify: the phase between cosine and sine tells the whirl of a roto
           "[analytic]") {
     for (const int blades : {3, 4}) {
         CAPTURE(blades);
-        const Rotor rotor(blades);
-        const Identification identification = rotor.identification();
+        const SmallRotor rotor =
+            small_rotor({.stiffness = std::vector<double>(static_cast<std::size_t>(blades), 2000.0), .offset = 0});
+        const Identification identification = identification_of(rotor);
         REQUIRE(identification.components().size() == 1);
         CHECK(identification.components()[0].of_blades);
         CHECK(identification.components()[0].clamped_hz ==
