@@ -1,0 +1,128 @@
+// How many elements does a beam need? Errors of the joint chain beside other elements.
+//
+// Problem: beams whose answers are known (frequencies at rest and in rotation, critical loads, large deflections, two
+// blades) are computed with N = 1 ... 32 elements by cardanic elements with several partitions, by cubic Hermite
+// elements with consistent matrices and by the mixed geometrically exact element; the error over N shows constant and
+// order of each, error ~ C / N^order.
+// Reference: closed forms and digits of docs/verification.md; where there are none, Hermite elements with all breaks as
+// nodes, extrapolated, in extended precision (docs/beam_accuracy.md). A list of orders and errors is checked.
+#include "mbs/error.hpp"
+#include "mbs/version.hpp"
+#include "solvers/pending_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "examples/beam_accuracy/figure.hpp"
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <unistd.h>
+
+using namespace cardan;
+using namespace cardan::accuracy;
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+struct Arguments {
+    std::vector<std::string> names;
+    std::filesystem::path out = ".";
+    bool list = false;
+};
+
+int parse(int argc, char** argv, Arguments& a) {
+    CLI::App app(
+        "Errors of beam elements over their number.\n"
+        "Prints tables and a check list, computed | reference | error, and writes DIR/beam_accuracy_CASE.csv and "
+        "DIR/beam_*.svg, .png.");
+    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check is off; 130 interrupted (finished cases are kept).");
+    app.add_option("--case", a.names, "cases to run (default: all)");
+    app.add_option("--out", a.out, "folder of the files")->capture_default_str();
+    app.add_flag("--list", a.list, "print the cases and end");
+    app.set_version_flag("--version", std::string(version()));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return -1;
+}
+
+std::vector<Case> chosen(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        if (std::none_of(cases().begin(), cases().end(), [&](const Case& c) { return c.name == name; }))
+            throw InputError("--case", "value", name, "the names that --list prints");
+    std::vector<Case> result;
+    for (const Case& c : cases())
+        if (names.empty() || std::find(names.begin(), names.end(), c.name) != names.end()) result.push_back(c);
+    return result;
+}
+
+// A line that is overwritten, for people only.
+bool progress(const std::string& what) {
+    static const bool terminal = isatty(STDERR_FILENO) != 0;
+    if (terminal) std::cerr << "\r\033[K" << what << std::flush;
+    return !interrupted;
+}
+
+void write(const std::filesystem::path& path, const std::string& contents) {
+    const solvers::PendingFile file(path);
+    if (!(std::ofstream(file.partial(), std::ios::binary | std::ios::trunc) << contents).flush())
+        throw FileError(path.string(), "could not be written");
+    file.commit();
+}
+
+int run(const Arguments& a) {
+    if (!std::filesystem::is_directory(a.out))
+        throw FileError(a.out.string(), text("the folder '", a.out.string(), "' does not exist"));
+    std::vector<Result> results;
+    int failures = 0;
+    for (const Case& c : chosen(a.names)) {
+        progress(c.name + ", reference");
+        Result result;
+        if (!accuracy::run(c.make(), result, progress)) {
+            progress("");
+            std::cerr << "interrupted; files of the cases before " << c.name << " are complete\n";
+            return 130;
+        }
+        progress("");
+        print(result, std::cout);
+        failures += check(result, std::cout);
+        if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
+        write(a.out / ("beam_accuracy_" + c.name + ".csv"), csv(result));
+        results.push_back(std::move(result));
+    }
+    std::signal(SIGINT, SIG_DFL);  // what follows is short and may be stopped at once
+    for (const Figure& figure : figures())
+        if (complete(figure, results))
+            for (const char* ending : {".svg", ".png"}) draw(figure, results, a.out / (figure.name + ending));
+    std::cout << "\nfiles: beam_accuracy_*.csv and figures in " << a.out.string() << "\n"
+              << (failures == 0 ? "all checks hold" : text("checks that are OFF: ", failures)) << "\n";
+    return failures == 0 ? 0 : 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        Arguments arguments;
+        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
+        if (arguments.list) {
+            for (const Case& c : cases()) std::cout << c.name << ": " << c.what << "\n";
+            return 0;
+        }
+        std::signal(SIGINT, [](int) { interrupted = true; });
+        return run(arguments);
+    } catch (const Error& error) {
+        std::cerr << "beam_accuracy: " << error.what() << "\n";
+        return 1;
+    } catch (const std::exception& error) {
+        std::cerr << "beam_accuracy: unexpected: " << error.what() << "\n";
+        return 1;
+    }
+}
