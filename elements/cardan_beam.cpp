@@ -102,8 +102,8 @@ Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element,
         section.compliance = dissipation(section, tau);
         return section;
     };
-    const Mat6 F = joint_flexibility(ElementLine(dissipating, element.start, element.start + element.arc),
-                                     element.hinges, options.curved_flexibility);
+    const ElementLine span(dissipating, element.start, element.start + element.arc, element.hinge_line);
+    const Mat6 F = joint_flexibility(span, element.hinges, options.curved_flexibility);
     std::vector<int> free;
     for (ElementCoordinate kind : element.kinds) free.push_back(static_cast<int>(kind));
     const Matrix D = element.stiffness * F(free, free) * element.stiffness;
@@ -194,13 +194,15 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
         reached = axes;
     };
     const auto add_node = [&](std::size_t i) {
-        const Placement axes = line.is_straight() ? reached : line.pose(ends[i]);
+        const Placement axes = line.pose(ends[i]);
         beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", i)));
     };
     add_node(0);
     for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
         const std::string element_name = text(name, " element ", e + 1);
-        const ElementLine span(line, ends[e], ends[e + 1]);
+        const Vec3 hinge_line =
+            options.extension ? shear_centre(ElementLine(line, ends[e], ends[e + 1])) : Vec3(Vec3::Zero());
+        const ElementLine span(line, ends[e], ends[e + 1], hinge_line);
         const ElementInertia inertia = partition_element(span, options.delta, options.partition);
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         beam.mass += inertia.mass;
@@ -211,7 +213,8 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                          "off the reference line: under a large axial force (a rotating blade) its "
                                          "moment about the tension centre is lost; keep the extension free"));
 
-        if (!line.is_straight()) turn_to(span.axes(), element_name + " start");
+        if (!line.is_straight() || (span.axes().p - reached.p).norm() > 1e-9 * line.length)
+            turn_to(span.axes(), element_name + " start");
         ElementBuilder builder(tree, at, element_name, label, options);
         at = builder.build(span.chord(), inertia);
         reached = reached * Placement::translation({span.chord(), 0, 0});
@@ -223,6 +226,7 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     ends[e],
                                     span.chord(),
                                     ends[e + 1] - ends[e],
+                                    hinge_line,
                                     span.axes(),
                                     {},
                                     inertia.hinges,

@@ -29,7 +29,8 @@ struct CardanBeamOptions {
     CardanOrder order = CardanOrder::mirrored;
     CurvedFlexibility curved_flexibility = CurvedFlexibility::curve;
     HingeLaw hinge_law = {};
-    bool extension = false;  ///< free, else condensed out of the flexibility
+    bool extension = false;  ///< free, else condensed out of the flexibility. To be freed where shear or tension
+                             ///< centre lie off the reference line and the axial force is large
     bool torsion = true;     ///< free, else condensed
     BeamDamping damping = {};
     double bending_armature = 0;  ///< on each bending coordinate, times M L^2 of the element
@@ -41,7 +42,7 @@ struct CardanBeam {
     /// A rigid body B1 ... B4 of an element.
     struct Segment {
         FrameId carrier;  ///< a frame on the body with element axes
-        double x;         ///< place of its origin along the chord, m from the inboard end of the element
+        double x;         ///< place of its origin along the hinge line, m from the inboard end of the element
     };
     struct Element {
         std::vector<ElementCoordinate> kinds;  ///< those that are free
@@ -51,7 +52,8 @@ struct CardanBeam {
         Matrix damping;        ///< over `bodies`, without what is told by modes of the whole beam
         double start, length;  ///< m along the reference line; of the chord
         double arc;            ///< m along the reference line
-        Placement axes;        ///< element axes in beam axes at rest, origin at the inboard end
+        Vec3 hinge_line;       ///< (0, y, z) seen from the chord, element axes, m
+        Placement axes;        ///< element axes in beam axes at rest, origin on the hinge line at the inboard end
         std::array<Segment, 4> segments;
         Hinges hinges;
         std::array<RigidInertia, 4> inertia;  ///< of B1 ... B4, element axes, origin at the inboard end
@@ -65,10 +67,14 @@ struct CardanBeam {
     BeamLine line;              ///< what it was made from
     CardanBeamOptions options;  ///< and how
     FrameId tip() const { return nodes.back(); }
+    ElementLine span(const Element& element) const {
+        return {line, element.start, element.start + element.arc, element.hinge_line};
+    }
 };
 
 /// Adds a beam that starts at `root`, whose axes are the beam axes. Every element is straight along its chord; on a
-/// curved line the chords meet at fixed kinks.
+/// curved line the chords meet at fixed kinks. With extension free the hinges of an element lie on the line through its
+/// mean shear centre (shear_centre()); without, on the chord, which should then be the tension axis.
 /// @throws InputError: delta outside (0, 0.5), fewer than one element, boundaries not increasing from 0 to the length,
 /// bad line, bad damping.
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,

@@ -28,7 +28,7 @@ void add_distributed_load(Tree& tree, ForceSet& forces, const CardanBeam& beam, 
     const std::array<double, 3> node{0.5 - root / 2, 0.5, 0.5 + root / 2};
     int number = 0;
     for (const CardanBeam::Element& element : beam.elements) {
-        const ElementLine line(beam.line, element.start, element.start + element.arc);
+        const ElementLine line = beam.span(element);
         const Hinges& h = element.hinges;
         const std::array<double, 5> ends{0, h.first, h.middle, h.second, 1};
         for (std::size_t k = 0; k < 4; ++k) {

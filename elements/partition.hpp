@@ -32,7 +32,7 @@ struct ElementInertia {
     std::array<RigidInertia, 4> body;
     Hinges hinges = Hinges::symmetric(delta_gauss);
     double mass = 0;            ///< of the element, kg
-    double polar_inertia = 0;   ///< int (Jxx + mu (y^2 + z^2)) dx about the reference line, kg m^2
+    double polar_inertia = 0;   ///< int (Jxx + mu (y^2 + z^2)) dx about the hinge line, kg m^2
     std::string warning = {};   ///< empty, or what is unsound about the partition here
     double rotary_split = 0.5;  ///< place, as a fraction of the length, inboard of which the sectional rotary inertia
                                 ///< is part of B1, beyond of B4

@@ -27,7 +27,7 @@ Cut cut_at(const CardanBeam& beam, double s) {
     std::size_t e = 0;
     while (e + 1 < beam.elements.size() && s > beam.elements[e].start + beam.elements[e].arc + tolerance) ++e;
     const CardanBeam::Element& element = beam.elements[e];
-    Cut cut{&element, ElementLine(beam.line, element.start, element.start + element.arc), 0, s, 0};
+    Cut cut{&element, beam.span(element), 0, s, 0};
     const Hinges& hinges = element.hinges;
     const double t = fraction(cut);
     cut.segment = t < hinges.first ? 0 : t < hinges.middle ? 1 : t < hinges.second ? 2 : 3;

@@ -36,21 +36,29 @@ Mat6 to_section(const Placement& pose) {
 
 }  // namespace
 
-Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule) {
-    const double L = element.chord();
-    const bool on_curve = rule == CurvedFlexibility::curve && !element.line().is_straight();
-    const double arc = element.end() - element.start();
-    Mat6 F = element.integral(0, 1, Mat6(Mat6::Zero()), [&](double s) {
-        const Mat6 compliance = element.line().section(s).compliance;
-        if (on_curve) {
-            const Placement pose = element.pose(s);
-            const Mat6 H = to_section(pose) * section_forces_by_joint_forces(pose.p(0), L, hinges);
-            return Mat6(H.transpose() * compliance * H);
-        }
-        const Mat6 H = section_forces_by_joint_forces((s - element.start()) * L / arc, L, hinges);
-        return Mat6(H.transpose() * compliance * H);
+Vec3 shear_centre(const ElementLine& element) {
+    // kappa_x = S_TT (T + e_z Vy - e_y Vz)
+    const Vec3 twist = element.integral(0, 1, Vec3(Vec3::Zero()), [&](double s) {
+        const Mat6 S = element.line().section(s).compliance;
+        const Mat3 R = element.pose(s).R;
+        return Vec3((R * Vec3(S(3, 0), S(3, 1), S(3, 2))).cwiseProduct(Vec3(0, 1, 1)) + S(3, 3) * Vec3::UnitX());
     });
-    return on_curve ? F : Mat6(F * (L / arc));
+    if (!(twist(0) > 0)) return Vec3::Zero();
+    const Vec3 centre(0, -twist(2) / twist(0), twist(1) / twist(0));
+    return centre.norm() > 1e-12 * element.chord() ? centre : Vec3::Zero();  // rounding is no offset
+}
+
+Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule) {
+    const double L = element.chord(), straight = L / (element.end() - element.start());
+    const bool on_chord = rule == CurvedFlexibility::chord;
+    const Mat6 F = element.integral(0, 1, Mat6(Mat6::Zero()), [&](double s) {
+        const Placement at =
+            on_chord ? Placement::translation(Vec3((s - element.start()) * straight, 0, 0) - element.hinge_line())
+                     : element.pose(s);
+        const Mat6 H = to_section(at) * section_forces_by_joint_forces(at.p(0), L, hinges);
+        return Mat6(H.transpose() * element.line().section(s).compliance * H);
+    });
+    return on_chord ? Mat6(F * straight) : F;
 }
 
 Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,

@@ -35,6 +35,12 @@ enum class CurvedFlexibility : std::uint8_t {
     curve,  ///< section forces taken where the material lies, in its axes: exact tip compliance of the curved piece
     chord   ///< the sections laid along the chord
 };
+/// Mean shear centre (0, y, z) of an element seen from its reference line, element axes, m: forces through it do not
+/// twist the element. Zero if it cannot be twisted.
+/// With the hinges on a line through it torsion does not shear that line. Otherwise the strain gamma = e kappa_x would
+/// tilt the bodies between the hinges, which carry mass and moments, while the sections do not turn.
+Vec3 shear_centre(const ElementLine& element);
+
 /// Flexibility F = int H^T S H ds of an element; the joint stiffness is its inverse and reproduces the 6 x 6 tip
 /// compliance of any section exactly, wherever the hinges are.
 /// Rows and columns in the order of ElementCoordinate; entries of rigid directions are zero.

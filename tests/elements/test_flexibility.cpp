@@ -168,6 +168,34 @@ TEST_CASE("spring constants: c22 changes sign at delta = 1/2 - sqrt(1/12 + 1/lam
     CHECK(spring_constants(EI, GA, 1, 1, L, zero + 0.02).c22 > 0);
 }
 
+TEST_CASE(
+    "shear centre: forces through it do not twist an element, and the hinge line through it is not sheared by torsion",
+    "[analytic]") {
+    EngineeringSection section;
+    section.mass = 1, section.EI_flap = 2, section.EI_edge = 3, section.GJ = 0.7, section.EA = 40;
+    section.beta = 0.3;
+    section.shear_centre = {0.05, -0.02};
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    const Vec3 expected(0, 0.05 * c + 0.02 * s, 0.05 * s - 0.02 * c);
+    const BeamLine line = uniform_beam(2, section);
+    const ElementLine element(line, 0.5, 1.25);
+    CHECK((shear_centre(element) - expected).norm() < 1e-15);
+    const Mat6 F = joint_flexibility(ElementLine(line, 0.5, 1.25, expected), Hinges::symmetric(delta_gauss));
+    for (Eigen::Index bending : {2, 3, 4, 5}) CHECK(std::abs(F(1, bending)) < 1e-15);
+    // Linear along the element: its mean. A section that cannot be twisted has none.
+    BeamLine falling = line;
+    falling.section = [section](double x) {
+        EngineeringSection at = section;
+        at.beta = 0;
+        at.shear_centre = {0.1 * x, 0};
+        return at.section();
+    };
+    CHECK((shear_centre(ElementLine(falling, 0, 1)) - Vec3(0, 0.05, 0)).norm() < 1e-15);
+    section.GJ = std::numeric_limits<double>::infinity();
+    const BeamLine stiff = uniform_beam(2, section);
+    CHECK(shear_centre(ElementLine(stiff, 0, 2)).isZero(0));
+}
+
 TEST_CASE("section: principal axes, shear and tension centre give the compliance written out by hand", "[analytic]") {
     EngineeringSection s;
     s.mass = 1, s.EA = 10, s.GJ = 4, s.EI_flap = 2, s.EI_edge = 5, s.GA_y = 7, s.GA_z = 8;
