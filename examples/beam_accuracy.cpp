@@ -13,21 +13,16 @@
 #include <CLI/CLI.hpp>
 
 #include "examples/beam_accuracy/figure.hpp"
+#include "examples/program.hpp"
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <unistd.h>
 
 using namespace cardan;
 using namespace cardan::accuracy;
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 struct Arguments {
     std::vector<std::string> names;
@@ -63,11 +58,10 @@ std::vector<Case> chosen(const std::vector<std::string>& names) {
     return result;
 }
 
-// A line that is overwritten, for people only.
+// A line that is overwritten.
 bool progress(const std::string& what) {
-    static const bool terminal = isatty(STDERR_FILENO) != 0;
-    if (terminal) std::cerr << "\r\033[K" << what << std::flush;
-    return !interrupted;
+    program::progress("\r\033[K" + what);
+    return !program::interrupted();
 }
 
 void write(const std::filesystem::path& path, const std::string& contents) {
@@ -78,6 +72,10 @@ void write(const std::filesystem::path& path, const std::string& contents) {
 }
 
 int run(const Arguments& a) {
+    if (a.list) {
+        for (const Case& c : cases()) std::cout << c.name << ": " << c.what << "\n";
+        return 0;
+    }
     if (!std::filesystem::is_directory(a.out))
         throw FileError(a.out.string(), text("the folder '", a.out.string(), "' does not exist"));
     std::vector<Result> results;
@@ -97,7 +95,7 @@ int run(const Arguments& a) {
         write(a.out / ("beam_accuracy_" + c.name + ".csv"), csv(result));
         results.push_back(std::move(result));
     }
-    std::signal(SIGINT, SIG_DFL);  // what follows is short and may be stopped at once
+    program::stop_at_once();
     for (const Figure& figure : figures())
         if (complete(figure, results))
             for (const char* ending : {".svg", ".png"}) draw(figure, results, a.out / (figure.name + ending));
@@ -109,20 +107,5 @@ int run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        Arguments arguments;
-        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
-        if (arguments.list) {
-            for (const Case& c : cases()) std::cout << c.name << ": " << c.what << "\n";
-            return 0;
-        }
-        std::signal(SIGINT, [](int) { interrupted = true; });
-        return run(arguments);
-    } catch (const Error& error) {
-        std::cerr << "beam_accuracy: " << error.what() << "\n";
-        return 1;
-    } catch (const std::exception& error) {
-        std::cerr << "beam_accuracy: unexpected: " << error.what() << "\n";
-        return 1;
-    }
+    return program::run_program("beam_accuracy", argc, argv, parse, run);
 }

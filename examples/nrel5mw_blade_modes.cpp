@@ -10,16 +10,14 @@
 #include "mbs/error.hpp"
 #include "mbs/version.hpp"
 #include "solvers/campbell_csv.hpp"
-#include "solvers/pending_file.hpp"
 #include "solvers/plot_blade_shapes.hpp"
 #include "turbines/nrel5mw.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include "examples/program.hpp"
 #include <array>
-#include <atomic>
 #include <charconv>
-#include <csignal>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -30,8 +28,6 @@ using namespace cardan;
 namespace {
 
 constexpr double to_rpm = 30 / pi;
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 const std::array<std::string, 6> names{"1st blade flap", "1st blade edge", "2nd blade flap",
                                        "2nd blade edge", "3rd blade flap", "1st blade torsion"};
@@ -121,6 +117,10 @@ int parse(int argc, char** argv, Arguments& a) {
         app.parse(argc, argv);
         if (a.refined && (app.count("--elements") > 0 || a.partition == "static"))
             throw CLI::ExcludesError("--refined", "--elements and --partition static");
+        for (const char* other : {"--elements", "--boundaries", "--refined", "--partition"})
+            if (a.convergence && app.count(other) > 0) throw CLI::ExcludesError("--convergence", other);
+        if (app.count("--elements") > 0 && app.count("--boundaries") > 0)
+            throw CLI::ExcludesError("--elements", "--boundaries");
         if (a.delta != 0 && places_hinges(partition_of(a)))
             throw CLI::ExcludesError("--delta", "--partition " + a.partition);
         if (a.delta == 0 && app.count("--delta") > 0) throw InputError("--delta", "value", a.delta, "0 < delta < 0.5");
@@ -148,7 +148,7 @@ CardanBeamOptions beam_options(const Arguments& a) {
 
 solvers::Campbell diagram_of(const turbines::Nrel5mwIsolatedBlade& blade, const std::vector<double>& speeds) {
     solvers::CampbellOptions options;
-    options.cancelled = [] { return interrupted.load(); };
+    options.cancelled = program::interrupted;
     options.max_frequency_hz = 15;
     return solvers::campbell(*blade.system, blade.rotor, speeds, options);
 }
@@ -267,15 +267,6 @@ int convergence(const Arguments& a, const turbines::Nrel5mwBlade& blade, const s
     return 0;
 }
 
-// Files that cannot be written are found out before the work, not after it.
-void check_outputs(const std::string& prefix) {
-    const std::filesystem::path path(prefix), folder = path.parent_path();
-    if (path.filename().empty()) throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw FileError(prefix, text("the folder '", folder.string(), "' does not exist"));
-    for (const char* ending : {".csv", "_modes.csv", "_modes.svg"}) solvers::PendingFile(prefix + ending).discard();
-}
-
 void write_files(const solvers::Campbell& diagram, const std::string& out) {
     solvers::write_csv(diagram, out + ".csv");
     std::vector<solvers::BladeShapes> shapes;
@@ -294,7 +285,7 @@ int run(const Arguments& a) {
     if (a.convergence) return convergence(a, blade, speeds);
 
     const CardanBeamOptions options = beam_options(a);
-    check_outputs(a.out);
+    program::check_outputs(a.out, {".csv", "_modes.csv", "_modes.svg"});
     const turbines::Nrel5mwIsolatedBlade isolated = turbines::isolated_blade(blade, options);
     for (const std::string& warning : isolated.beam.warnings) std::cerr << "warning: " << warning << "\n";
     const double limit = centrifugal_limit(isolated.beam, blade.root_radius);
@@ -312,7 +303,7 @@ int run(const Arguments& a) {
               << blade.first_moment() << " kg m (" << first_moment << ")\n\n";
     const solvers::Campbell diagram = diagram_of(isolated, speeds);
     if (!diagram.complete) return 130;
-    std::signal(SIGINT, SIG_DFL);  // what follows is short and may be stopped at once
+    program::stop_at_once();
     const std::optional<double> error = print(a, diagram);
     write_files(diagram, a.out);
     if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
@@ -330,16 +321,5 @@ int run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        Arguments arguments;
-        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
-        std::signal(SIGINT, [](int) { interrupted = true; });
-        return run(arguments);
-    } catch (const Error& error) {
-        std::cerr << "nrel5mw_blade_modes: " << error.what() << "\n";
-        return 1;
-    } catch (const std::exception& error) {
-        std::cerr << "nrel5mw_blade_modes: unexpected: " << error.what() << "\n";
-        return 1;
-    }
+    return program::run_program("nrel5mw_blade_modes", argc, argv, parse, run);
 }

@@ -8,26 +8,20 @@
 #include "mbs/version.hpp"
 #include "solvers/campbell_csv.hpp"
 #include "solvers/hdf5_campbell.hpp"
-#include "solvers/pending_file.hpp"
 #include "solvers/plot_campbell.hpp"
 #include "turbines/wt600.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include "examples/program.hpp"
 #include <array>
-#include <atomic>
 #include <charconv>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
-#include <unistd.h>
 
 using namespace cardan;
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 struct Arguments {
     std::string rpm = "0:40:1";
@@ -91,11 +85,8 @@ int parse(int argc, char** argv, Arguments& a) {
     return -1;
 }
 
-std::function<void(int, int)> progress_on_terminal() {
-    if (!isatty(STDERR_FILENO)) return {};
-    return [](int done, int total) {
-        std::cerr << "\rrotor speed " << done << " of " << total << (done == total ? "\n" : "") << std::flush;
-    };
+void progress(int done, int total) {
+    program::progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
 }
 
 // The arrangement of the paper's Figs. 8 and 9.
@@ -147,16 +138,6 @@ void draw_modes(const solvers::Campbell& diagram, const std::filesystem::path& f
         }
 }
 
-// Files that cannot be written are found out before the work, not after it.
-void check_outputs(const std::string& prefix) {
-    const std::filesystem::path path(prefix), folder = path.parent_path();
-    if (path.filename().empty()) throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw FileError(prefix, text("the folder '", folder.string(), "' does not exist"));
-    for (const char* ending : {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"})
-        solvers::PendingFile(prefix + ending).discard();
-}
-
 int run(const Arguments& a) {
     const std::vector<double> speeds = rotor_speeds(a.rpm);
     const turbines::TurbineDescription description =
@@ -169,11 +150,11 @@ int run(const Arguments& a) {
     options.method = a.frozen ? solvers::CampbellMethod::frozen_azimuth : solvers::CampbellMethod::coleman;
     options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
     options.max_frequency_hz = a.max_frequency;
-    options.progress = progress_on_terminal();
-    options.cancelled = [] { return interrupted.load(); };
-    check_outputs(a.out);
+    options.progress = progress;
+    options.cancelled = program::interrupted;
+    program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"});
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
-    std::signal(SIGINT, SIG_DFL);  // what follows is short and may be stopped at once
+    program::stop_at_once();
     std::cout << solvers::table(diagram) << std::flush;
     if (!std::cout) throw FileError("standard output", "the table could not be written");
     if (diagram.points.empty()) return 130;
@@ -197,16 +178,5 @@ int run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        Arguments arguments;
-        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
-        std::signal(SIGINT, [](int) { interrupted = true; });
-        return run(arguments);
-    } catch (const Error& error) {
-        std::cerr << "wt600_campbell: " << error.what() << "\n";
-        return 1;
-    } catch (const std::exception& error) {
-        std::cerr << "wt600_campbell: unexpected: " << error.what() << "\n";
-        return 1;
-    }
+    return program::run_program("wt600_campbell", argc, argv, parse, run);
 }

@@ -47,16 +47,19 @@ Study uniform_at_rest() {
     Study s{"uniform", "uniform Euler-Bernoulli cantilever, omega in sqrt(EI/(mu L^4))"};
     for (int mode : {1, 2, 3})
         s.quantities.push_back({"mode " + std::to_string(mode), clamped_free(mode), "cos x cosh x = -1"});
-    s.methods = {"G", "S", "Ga", "Sa", "Hermite", "mixed"};
+    s.methods = {"G", "S", "K", "Ga", "Sa", "Hermite", "mixed"};
     s.compute = flap_of(uniform_beam(1, slender()), 3);
     s.checks = {{order, "G", 0, 16, 4.1, 0.1},
                 {order, "S", 0, 16, 4, 0.05},
+                {order, "K", 0, 16, 4, 0.05},
                 {order, "Ga", 0, 8, 6, 0.1},
                 {order, "Sa", 0, 8, 6, 0.1},
                 {order, "Hermite", 0, 16, 4, 0.05},
                 {order, "mixed", 0, 16, 2, 0.05},
                 {error, "Hermite", 1, 16, 100 * dispersion(2, 16) / 720 / 2, 0.02},
                 {error, "S", 1, 16, -100 * dispersion(2, 16) / 720 / 2, 0.02},
+                {error, "K", 1, 32, -100 * dispersion(2, 32) / 720 / 2, 0.02},
+                {error, "K", 0, 4, -0.00355, 0.01},
                 {error, "G", 1, 32, 100 * dispersion(2, 32) * (17. / 2160 - std::sqrt(3.) / 216) / 2, 0.05}};
     return s;
 }
@@ -69,14 +72,12 @@ Study timoshenko() {
     const std::vector<double> exact{3.43527496, 19.10362328, 46.60313987};
     for (std::size_t k = 0; k < exact.size(); ++k)
         s.quantities.push_back({"mode " + std::to_string(k + 1), exact[k], "Huang 1961, docs/verification.md"});
-    s.methods = {"G", "S", "Hermite", "mixed"};
+    s.methods = {"G", "S", "K", "Hermite", "mixed"};
     s.compute = flap_of(uniform_beam(1, section), 3);
     s.note = "Hermite here: shape functions of the Timoshenko beam.";
-    s.checks = {{order, "G", 0, 32, 2, 0.05},
-                {order, "S", 0, 32, 2, 0.05},
-                {order, "Hermite", 0, 32, 2, 0.05},
-                {order, "G", 2, 32, 2, 0.1},
-                {error, "S", 0, 4, 0.0101, 0.02}};
+    s.checks = {{order, "G", 0, 32, 2, 0.05},     {order, "S", 0, 32, 2, 0.05},     {order, "Hermite", 0, 32, 2, 0.05},
+                {order, "G", 2, 32, 2, 0.1},      {error, "S", 0, 4, 0.0101, 0.02}, {order, "K", 0, 32, 2, 0.1},
+                {error, "K", 0, 4, 0.00587, 0.01}};
     return s;
 }
 
@@ -89,10 +90,13 @@ Study wedge() {
                         }};
     Study s{"wedge", "tapered cantilever, A ~ 1 - x/2, I ~ (1 - x/2)^3"};
     s.quantities = limits(line, 2);
-    s.methods = {"G", "S", "Sa", "Hermite", "static", "mixed"};
+    s.methods = {"G", "S", "K", "Gauss + N", "Sa", "Hermite", "static", "mixed"};
     s.compute = flap_of(line, 2);
-    s.checks = {{order, "G", 0, 32, 4, 0.1},      {order, "S", 0, 32, 4, 0.1},       {order, "Hermite", 0, 32, 4, 0.1},
-                {order, "static", 0, 32, 4, 0.1}, {error, "G", 0, 4, -0.0111, 0.01}, {error, "S", 0, 4, -0.0194, 0.01}};
+    s.checks = {{order, "G", 0, 32, 4, 0.1},       {order, "S", 0, 32, 4, 0.1},
+                {order, "Hermite", 0, 32, 4, 0.1}, {order, "static", 0, 32, 4, 0.1},
+                {error, "G", 0, 4, -0.0111, 0.01}, {error, "S", 0, 4, -0.0194, 0.01},
+                {order, "K", 0, 32, 4, 0.1},       {order, "Gauss + N", 0, 32, 4, 0.1},
+                {error, "K", 0, 4, 0.00125, 0.01}, {error, "Gauss + N", 0, 4, 0.00359, 0.01}};
     return s;
 }
 
@@ -105,13 +109,17 @@ Study strong_taper() {
                         }};
     Study s{"taper", "cantilever, mu = 10^(-1.5 x), EI = 10^(-3 x)"};
     s.quantities = limits(line, 2);
-    s.methods = {"G", "S", "Hermite", "static", "mixed"};
+    s.methods = {"G", "S", "K", "Gauss + N", "Hermite", "static", "mixed"};
     s.compute = flap_of(line, 2);
     s.checks = {{order, "G", 0, 32, 4, 0.1},
                 {order, "S", 0, 32, 4, 0.1},
                 {order, "Hermite", 0, 32, 4, 0.1},
                 {order, "static", 0, 32, 4, 0.1},
-                {error, "G", 0, 4, -0.204, 0.01}};
+                {error, "G", 0, 4, -0.204, 0.01},
+                {order, "K", 0, 32, 4, 0.1},
+                {order, "Gauss + N", 0, 32, 4, 0.1},
+                {error, "K", 0, 4, 0.0963, 0.01},
+                {error, "Gauss + N", 0, 4, 0.0998, 0.01}};
     return s;
 }
 

@@ -69,13 +69,15 @@ Study column() {
     const BeamLine line = uniform_beam(1, slender());
     Study s{"column", "clamped column under a dead tip load, P L^2/EI"};
     s.quantities = {{"critical load", pi * pi / 4, "pi^2/4"}};
-    s.methods = {"G", "S", "Hermite", "mixed"};
+    s.methods = {"G", "S", "K", "Hermite", "mixed"};
     s.compute = [line](const Method& method, int n) -> std::vector<double> { return {buckling_load(method, line, n)}; };
-    s.note = "S: the place of the hinges alone matters, 1/6.";
+    s.note = "S and K: the place of the hinges alone matters, 1/6.";
     s.checks = {{error, "G", 0, 4, 100 * (2.4589078 / (pi * pi / 4) - 1), 0.0001},
                 {error, "S", 0, 4, 100 * (2.4673602 / (pi * pi / 4) - 1), 0.005},
+                {error, "K", 0, 4, 100 * (2.4673602 / (pi * pi / 4) - 1), 0.005},
                 {order, "G", 0, 32, 2, 0.05},
                 {order, "S", 0, 16, 4, 0.05},
+                {order, "K", 0, 16, 4, 0.05},
                 {order, "Hermite", 0, 16, 4, 0.05},
                 {order, "mixed", 0, 16, 2, 0.05}};
     return s;
@@ -85,11 +87,12 @@ Study elastica() {
     Study s{"elastica", "cantilever under a dead transverse tip force P L^2/EI = 5, and a tip moment pi EI/L: tip"};
     s.quantities = {{"tip force 5", 0, "elastica, elliptic integrals, docs/verification.md"},
                     {"tip moment pi", 0, "half circle"}};
-    s.methods = {"G", "S", "corotational", "mixed"};
+    s.methods = {"G", "S", "K", "corotational", "mixed"};
     s.checks = {{order, "G", 0, 16, 2, 0.05},           {order, "S", 0, 16, 4, 0.05},
                 {order, "corotational", 0, 16, 4, 0.1}, {order, "mixed", 0, 32, 2, 0.05},
                 {order, "G", 1, 16, 2, 0.05},           {order, "S", 1, 16, 4, 0.05},
-                {order, "corotational", 1, 16, 4, 0.1}};
+                {order, "corotational", 1, 16, 4, 0.1}, {order, "K", 0, 16, 4, 0.05},
+                {order, "K", 1, 16, 4, 0.05},           {error, "K", 0, 4, 0.0201, 0.01}};
     return tips(s, uniform_beam(1, slender()), {1, 0, 0},
                 {{{.force = {0, 0, 5}}, {1 - 0.387628361, 0, 0.713791524}}, {{.moment = {0, -pi, 0}}, {0, 0, 2 / pi}}});
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Errors over the number of elements, both logarithmic, with lines of order 2 and 4.
+/// Errors over the number of elements, both logarithmic, with lines of order 2 (dashed) and 4 (dotted).
 #pragma once
 
 #include "examples/beam_accuracy/study.hpp"
@@ -16,6 +16,7 @@ struct Panel {
 struct Figure {
     std::string name, title;
     std::vector<Panel> panels;
+    std::vector<std::string> without = {};  ///< methods of the studies that are not drawn
     int per_row = 3;
 };
 const std::vector<Figure>& figures();

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double sixth = 1. / 6;
 
+// K and Gauss + N place their hinges themselves: delta is not looked at.
 CardanBeamOptions chain(double delta, Partition partition, double bending_armature = 0, double torsion_armature = 0) {
     CardanBeamOptions options;
     options.delta = delta;
@@ -37,12 +38,15 @@ std::vector<Method> table() {
     return {
         {"G", "G: Gauss points, segment masses", Scheme::chain, chain(delta_gauss, N), 0, 7},
         {"S", "S: hinges at 1/6, static moments", Scheme::chain, chain(sixth, S), 1, 5},
+        {"Gauss + N", "Gauss + N: compliance Gauss points", Scheme::chain,
+         chain(delta_gauss, Partition::compliance_gauss), 5, 6},
+        {"K", "K: mean differences", Scheme::chain, chain(delta_gauss, Partition::mean_difference), 6, 12, true},
         {"Ga", "G with armature", Scheme::chain, chain(delta_gauss, N, of_g, -1. / 12), 5, 6},
         {"Sa", "S with armature", Scheme::chain, chain(sixth, S, of_s, -1. / 12), 4, 4},
         {"Hermite", "Hermite, consistent matrices", Scheme::hermite, {}, 2, 9},
-        {"static", "static shapes, consistent matrices", Scheme::statics, {}, 6, 1},
+        {"static", "static shapes, consistent matrices", Scheme::statics, {}, 4, 10},
         {"mixed", "mixed, geometrically exact", Scheme::mixed, {}, 3, 11},
-        {"corotational", "corotational Hermite", Scheme::corotational, {}, 6, 1},
+        {"corotational", "corotational Hermite", Scheme::corotational, {}, 4, 10},
         {"G chord", "G along the chord", Scheme::chain, with(chain(delta_gauss, N), CurvedFlexibility::chord), 5, 6},
         {"S chord", "S along the chord", Scheme::chain, with(chain(sixth, S), CurvedFlexibility::chord), 4, 4},
         {"G swing", "G, isotropic hinges", Scheme::chain, with(chain(delta_gauss, N), swing), 2, 8},
