@@ -6,6 +6,8 @@ namespace cardan {
 
 namespace {
 
+constexpr double shortest = 1e-5;  // element, by the length of the beam; shorter ones are lost in rounding
+
 std::vector<double> element_ends(const BeamLine& line, const CardanBeamOptions& options) {
     if (options.boundaries.empty()) {
         if (options.elements < 1) throw InputError(line.name, "number of elements", options.elements, ">= 1");
@@ -15,12 +17,18 @@ std::vector<double> element_ends(const BeamLine& line, const CardanBeamOptions& 
     }
     const std::vector<double>& ends = options.boundaries;
     const double tolerance = 1e-9 * line.length;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+        if (!std::isfinite(ends[i]))
+            throw InputError(line.name, text("element boundary ", i + 1, " [m]"), ends[i], "finite");
     if (ends.size() < 2 || std::abs(ends.front()) > tolerance || std::abs(ends.back() - line.length) > tolerance)
         throw InputError(line.name, "element boundaries [m]", text(ends.front(), " ... ", ends.back()),
                          text("from 0 to the length ", line.length));
     for (std::size_t i = 1; i < ends.size(); ++i)
         if (!(ends[i] > ends[i - 1]))
             throw InputError(line.name, text("element boundary ", i + 1, " [m]"), ends[i], "increasing");
+        else if (ends[i] - ends[i - 1] < shortest * line.length)
+            throw InputError(line.name, text("length of element ", i, " [m]"), ends[i] - ends[i - 1],
+                             text("at least ", shortest, " of the length of the beam"));
     return ends;
 }
 
@@ -106,7 +114,14 @@ Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element,
     const Mat6 F = joint_flexibility(span, element.hinges, options.curved_flexibility);
     std::vector<int> free;
     for (ElementCoordinate kind : element.kinds) free.push_back(static_cast<int>(kind));
-    const Matrix D = element.stiffness * F(free, free) * element.stiffness;
+    Matrix D = element.stiffness * F(free, free) * element.stiffness;
+    // A coordinate in which nothing dissipates has rounding on its diagonal, measured by its stiffness.
+    const double largest = *std::max_element(tau.begin(), tau.end());
+    for (Eigen::Index i = 0; i < D.rows(); ++i)
+        if (D(i, i) <= 1e-12 * largest * element.stiffness(i, i)) {
+            D.row(i).setZero();
+            D.col(i).setZero();
+        }
     return (D + D.transpose()) / 2;
 }
 
@@ -185,10 +200,11 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
     options.damping.check(name);
     const std::vector<double> ends = element_ends(line, options);
     CardanBeam beam;
+    beam.name = name;
     beam.line = line;
     beam.options = options;
-    Placement reached;  // axes of the frame `at` in beam axes at rest
-    FrameId at = root;
+    Placement reached;                                                // axes of the frame `at` in beam axes at rest
+    FrameId at = tree.add_frame(root, Placement{}, name + " start");  // its own, on whatever body carries it
     const auto turn_to = [&](const Placement& axes, const std::string& frame_name) {
         at = tree.add_frame(at, reached.inverse() * axes, frame_name);
         reached = axes;
@@ -203,6 +219,10 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
         const Vec3 hinge_line =
             options.extension ? shear_centre(ElementLine(line, ends[e], ends[e + 1])) : Vec3(Vec3::Zero());
         const ElementLine span(line, ends[e], ends[e + 1], hinge_line);
+        for (double fraction : {1e-9, 0.5, 1 - 1e-9}) {
+            const double x = span.place(fraction);
+            line.section(x).check(text(line.name, ", section at ", x, " m"));
+        }
         const ElementInertia inertia = partition_element(span, options.delta, options.partition);
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         beam.mass += inertia.mass;

@@ -33,7 +33,9 @@ struct CardanBeamOptions {
                              ///< centre lie off the reference line and the axial force is large
     bool torsion = true;     ///< free, else condensed
     BeamDamping damping = {};
-    double bending_armature = 0;  ///< on each bending coordinate, times M L^2 of the element
+    /// On each bending coordinate, times M L^2 of the element. May be negative (docs/theory.md, accuracy) as long as
+    /// the metric of the whole tree stays positive definite: the Model refuses it otherwise and names the coordinate.
+    double bending_armature = 0;
     double torsion_armature = 0;  ///< on the torsion coordinate, times the polar inertia of the element
 };
 
@@ -59,6 +61,7 @@ struct CardanBeam {
         std::array<RigidInertia, 4> inertia;  ///< of B1 ... B4, element axes, origin at the inboard end
         double rotary_split;                  ///< see ElementInertia
     };
+    std::string name;
     std::vector<Element> elements;
     std::vector<FrameId>
         nodes;        ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...

@@ -1,5 +1,7 @@
 #include "elements/centrifugal_limit.hpp"
 
+#include "mbs/error.hpp"
+
 #include <Eigen/Eigenvalues>
 
 namespace cardan {
@@ -36,6 +38,7 @@ double least_stiffness(const CardanBeam::Element& element, ElementCoordinate y, 
 }  // namespace
 
 double centrifugal_limit(const CardanBeam& beam, double root_radius) {
+    if (!std::isfinite(root_radius)) throw InputError(beam.name, "radius of the root [m]", root_radius, "finite");
     double squared = std::numeric_limits<double>::infinity();
     Outboard outboard;
     const auto meet = [&](const CardanBeam::Element& e, double fraction, ElementCoordinate y, ElementCoordinate z) {

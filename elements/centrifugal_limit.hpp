@@ -18,6 +18,7 @@ namespace cardan {
 /// with the masses at the radius root_radius + x: from 2 % below to 5 % above the speed at which the beam gives way.
 /// The caller knows the rotor speed: add_cardan_beam does not and gives no warning.                [docs/partitions.md]
 /// @param root_radius  of the beam's root from the axis of rotation, which is perpendicular to the beam, m
+/// @throws InputError: a radius that is not finite
 double centrifugal_limit(const CardanBeam& beam, double root_radius);
 
 }  // namespace cardan

@@ -34,7 +34,9 @@ void BeamDamping::check(const std::string& where) const {
     const std::vector<double>* lists[] = {&modal.all, &modal.bending_y, &modal.bending_z, &modal.torsion,
                                           &modal.extension};
     for (const std::vector<double>* list : lists)
-        for (double ratio : *list) require_not_negative(where, "modal damping ratio", ratio);
+        for (double ratio : *list)
+            if (!(ratio >= 0 && ratio < 1))
+                throw InputError(where, "modal damping ratio", ratio, "0 <= ratio < 1 (given in percent?)");
     ModalRatios by_direction = modal;
     by_direction.all.clear();
     if (!modal.all.empty() && !by_direction.empty())

@@ -43,7 +43,7 @@ void add_distributed_load(Tree& tree, ForceSet& forces, const CardanBeam& beam, 
                                          text(w.force.transpose(), "; ", w.moment.transpose()), "finite");
                     Placement at = line.pose(s);
                     at.p(0) -= segment.x;
-                    const std::string name = text(load.name, " on ", beam.line.name, " ", ++number);
+                    const std::string name = text(load.name, " on ", beam.name, " ", ++number);
                     const FrameId frame = tree.add_frame(segment.carrier, at, name);
                     const double share = weight[g] * length;
                     forces.add_wrench({name, frame, {share * w.force, share * w.moment}, load.axes});

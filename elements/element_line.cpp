@@ -14,6 +14,9 @@ ElementLine::ElementLine(const BeamLine& line, double start, double end, const V
         const std::string where = text(line.name, ", element from ", start, " to ", end, " m");
         if (!(chord_ > 1e-6 * (end - start)))
             throw InputError(where, "distance of its ends [m]", chord_, "> 0: more elements are needed");
+        if (chord_ > (1 + 1e-9) * (end - start))
+            throw InputError(where, "distance of its ends [m]", chord_,
+                             text("<= ", end - start, ", its length along the line (derivative of another curve?)"));
         const Mat3 middle = line.pose((start + end) / 2).R;
         axes_.R = shortest_rotation(middle.col(0), along / chord_, where) * middle;
     }

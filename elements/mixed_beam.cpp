@@ -103,6 +103,7 @@ Vec6 velocity_scales(const MixedBeam::Scales& scales) {
 
 MixedBeam::MixedBeam(const BeamLine& line, int elements) : name_(line.name), length_(line.length), scales_{} {
     line.check();
+    if (!line.is_straight()) throw InputError(name_, "reference line", "curved", "straight with mixed elements");
     if (elements < 1) throw InputError(name_, "number of elements", elements, ">= 1");
     const double h = length_ / elements;
     double flexibility = 0;

@@ -73,8 +73,8 @@ class MixedBeam {
 public:
     /// Compliance S and inertia I of an element are averages over its length, so mass, static moment and inertia are
     /// those of the line. Infinitely stiff directions (zero rows of S) and massless ones are allowed.
-    /// @throws InputError naming the line: bad line, elements < 1, averages not finite or with negative diagonals, no
-    /// flexibility at all.
+    /// @throws InputError naming the line: bad or curved line, elements < 1, averages not finite or with negative
+    /// diagonals, no flexibility at all.
     MixedBeam(const BeamLine& line, int elements);
 
     const std::string& name() const { return name_; }

@@ -116,6 +116,10 @@ void check(const MixedBeam& beam, const MixedSetting& setting) {
     finite("angular velocity of the root [rad/s]", setting.omega);
     finite("position of the root [m]", setting.root_position);
     finite("acceleration field [m/s^2]", setting.g);
+    const Vec3 &omega = setting.omega, &g = setting.g;
+    if (omega.cross(g).norm() > 1e-9 * omega.norm() * g.norm())
+        throw InputError(beam.name(), "angular velocity and acceleration field",
+                         text(omega.transpose(), "; ", g.transpose()), "parallel, or one of them zero");
     finite("tip force [N]", setting.force);
     finite("tip moment [N m]", setting.moment);
     finite("follower force [N]", setting.follower_force);

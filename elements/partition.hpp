@@ -17,7 +17,8 @@ enum class Partition : std::uint8_t {
     compliance_gauss,  ///< segment masses, hinges at the Gauss points of the element's own bending compliance: on
                        ///< tapered beams at rest several times better than with delta_gauss; the same on uniform ones
     mean_difference    ///< hinges and bodies from the static shapes of the element as it is: O(h^4) also in rotation
-                       ///< and buckling, on any taper; mind centrifugal_limit. [docs/partitions.md]
+                       ///< and buckling, on any taper (where EI falls a hundredfold within an element compliance_gauss
+                       ///< is closer); mind centrifugal_limit. [docs/partitions.md]
 };
 
 /// "segment masses", "static moments", "compliance Gauss points", "mean differences".

@@ -81,6 +81,8 @@ void ReferenceLine::divide(const std::vector<double>& knots, int cells_per_piece
             const double t = knots[k - 1] + (knots[k] - knots[k - 1]) * i / cells_per_piece;
             const Vec3 tangent = derivative_(t).normalized(), step = position_(t) - position_(cell.t);
             const double s = cell.s + arc(cell.t, t);
+            if (!(s > cell.s) || std::isinf(s) || !step.allFinite())
+                throw InputError("reference line", text("length up to t = ", t, " [m]"), s, "finite and increasing");
             cell = {t, s, carried(cell.R, step, tangent)};
             cells_.push_back(cell);
         }

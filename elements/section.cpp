@@ -4,6 +4,8 @@
 #include "mbs/error.hpp"
 #include "mbs/spatial.hpp"
 
+#include <array>
+
 namespace cardan {
 
 BeamSection EngineeringSection::section() const {
@@ -27,6 +29,22 @@ BeamSection EngineeringSection::section() const {
     s.J = to_principal.transpose() * Vec3(j_flap + j_edge, j_flap, j_edge).asDiagonal() * to_principal;
     s.beta = beta;
     return s;
+}
+
+void BeamSection::check(const std::string& where) const {
+    require_not_negative(where, "mass per length [kg/m]", mass);
+    if (!compliance.allFinite()) throw InputError(where, "compliance", text("\n", compliance, "\n"), "finite");
+    // Scaled: entries of forces and moments differ by many decades.
+    const Vec6 size = compliance.diagonal();
+    if (!(size.minCoeff() >= 0)) throw InputError(where, "compliance", size.minCoeff(), ">= 0 on the diagonal");
+    for (Eigen::Index i = 0; i < 6; ++i)
+        for (Eigen::Index j = 0; j < i; ++j)
+            if (std::abs(compliance(i, j) - compliance(j, i)) > 1e-9 * std::sqrt(size(i) * size(j)))
+                throw InputError(where, "compliance", text("\n", compliance, "\n"), "symmetric");
+    if (!centre.allFinite() || centre(0) != 0)
+        throw InputError(where, "centre of mass [m]", centre.transpose(), "finite and in the section: x = 0");
+    if (!J.allFinite()) throw InputError(where, "inertia per length [kg m]", text("\n", J, "\n"), "finite");
+    if (!std::isfinite(beta)) throw InputError(where, "angle of the section [rad]", beta, "finite");
 }
 
 void EngineeringSection::check(const std::string& where) const {
@@ -73,6 +91,22 @@ SectionTable::SectionTable(std::string name, std::vector<double> x, std::vector<
     check_stations(name_, x_, sections_.size());
     for (std::size_t i = 0; i < x_.size(); ++i)
         sections_[i].check(text(name_, ", station ", i + 1, " (x = ", x_[i], " m)"));
+    check_rigid_directions();
+}
+
+void SectionTable::check_rigid_directions() const {
+    const std::array<std::pair<const char*, double EngineeringSection::*>, 6> stiffnesses{
+        {{"EA [N]", &EngineeringSection::EA},
+         {"GJ [N m^2]", &EngineeringSection::GJ},
+         {"EI flap [N m^2]", &EngineeringSection::EI_flap},
+         {"EI edge [N m^2]", &EngineeringSection::EI_edge},
+         {"GA y [N]", &EngineeringSection::GA_y},
+         {"GA z [N]", &EngineeringSection::GA_z}}};
+    for (const auto& [quantity, stiffness] : stiffnesses)
+        for (std::size_t i = 1; i < x_.size(); ++i)
+            if (std::isinf(sections_[i].*stiffness) != std::isinf(sections_[0].*stiffness))
+                throw InputError(text(name_, ", station ", i + 1, " (x = ", x_[i], " m)"), quantity,
+                                 sections_[i].*stiffness, "infinite at all stations or at none");
 }
 
 EngineeringSection SectionTable::at(double x) const {

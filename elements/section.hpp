@@ -1,5 +1,5 @@
 /// @file
-/// Cross sections of beams and their distribution along a straight reference line.
+/// Cross sections of beams and their distribution along a reference line.
 ///
 /// Beam axes: x along the beam, y and z across. Principal axes of a section are turned by beta about +x:
 /// y' = cos(beta) y + sin(beta) z. With y toward the leading edge and z downwind a structural twist (positive: leading
@@ -23,6 +23,10 @@ struct BeamSection {
     Vec3 centre = Vec3::Zero();  ///< centre of mass (0, y, z), m
     Mat3 J = Mat3::Zero();       ///< inertia per length about the centre of mass, kg m; Jxx = Jyy + Jzz
     double beta = 0;             ///< angle of the section's own axes about +x, rad: directions of damping and loads
+
+    /// @throws InputError naming `where`: not finite, negative mass, mass centre out of the section's plane, compliance
+    /// not symmetric (1e-9) or negative on its diagonal.
+    void check(const std::string& where) const;
 };
 
 /// A point of a section in its principal axes, m.
@@ -85,6 +89,8 @@ public:
     const std::vector<double>& stations() const { return x_; }
 
 private:
+    void check_rigid_directions() const;
+
     std::string name_;
     std::vector<double> x_;
     std::vector<EngineeringSection> sections_;

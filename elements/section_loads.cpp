@@ -23,7 +23,7 @@ double fraction(const Cut& cut) {
 Cut cut_at(const CardanBeam& beam, double s) {
     const double length = beam.line.length, tolerance = 1e-12 * length;
     if (!(s >= -tolerance && s <= length + tolerance))
-        throw InputError(beam.line.name, "place of the section [m]", s, text("0 ... ", length));
+        throw InputError(beam.name, "place of the section [m]", s, text("0 ... ", length));
     std::size_t e = 0;
     while (e + 1 < beam.elements.size() && s > beam.elements[e].start + beam.elements[e].arc + tolerance) ++e;
     const CardanBeam::Element& element = beam.elements[e];
@@ -90,16 +90,27 @@ void add_rotary(WrenchSum& sum, const Cut& cut, const Placement& axes, const Bod
             axes.p);
 }
 
-// Wrenches on the segment between two places along the chord, times `sign`.
-void add_wrenches(WrenchSum& sum, const Cut& cut, const Placement& axes, const Kinematics& kin, const Forces& forces,
-                  double from, double to, double sign) {
-    const Model& model = kin.model();
-    const int body = model.frame(cut.element->segments[cut.segment].carrier).body;
+// Does a frame belong to a rigid segment? Not if it was placed on a node: that may carry anything.
+bool belongs(const CardanBeam& beam, const CardanBeam::Segment& segment, const Model& model, FrameId frame) {
+    for (int at = frame.index; at >= 0; at = model.frame(FrameId{at}).parent) {
+        if (at == segment.carrier.index) return true;
+        const auto is_node = [at](FrameId node) { return node.index == at; };
+        if (std::any_of(beam.nodes.begin(), beam.nodes.end(), is_node)) return false;
+    }
+    return false;
+}
+
+// Wrenches on the segment of the cut: seen from the hinge outboard of it (inward) those beyond the cut are added, from
+// the hinge inboard those before the cut are taken off.
+void add_wrenches(WrenchSum& sum, const CardanBeam& beam, const Cut& cut, const Placement& axes, const Kinematics& kin,
+                  const Forces& forces, bool inward) {
+    const CardanBeam::Segment& segment = cut.element->segments[cut.segment];
+    const double tolerance = 1e-9 * cut.element->length, sign = inward ? 1 : -1;
     for (const FrameLoad& load : forces.loads()) {
-        if (model.frame(load.frame).body != body) continue;
+        if (!belongs(beam, segment, kin.model(), load.frame)) continue;
         const Vec3 at = pose(kin, load.frame).p;
-        const double x = (axes.inverse() * at)(0), tolerance = 1e-9 * cut.element->length;
-        if (x <= from + tolerance || x >= to - tolerance) continue;
+        const bool outboard = (axes.inverse() * at)(0) > cut.x - tolerance;
+        if (outboard != inward) continue;
         const auto [force, moment] = forces.at_frame(load, kin);
         sum.add(-sign * force, -sign * moment, at);
     }
@@ -147,6 +158,9 @@ TransmittedWrench transmitted(const CardanBeam::Element& element, CardanOrder or
 
 SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, const Vector& q, const Vector& qd,
                                 double s) {
+    if (q.size() != model.size() || qd.size() != model.size())
+        throw InputError(beam.name, "sizes of q and qd", text(q.size(), ", ", qd.size()),
+                         text(model.size(), ", one per coordinate"));
     const Cut cut = cut_at(beam, s);
     const CardanBeam::Element& element = *cut.element;
     const auto n = static_cast<Eigen::Index>(element.bodies.size());
@@ -194,7 +208,6 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const bool inward = cut.segment == 0 || cut.segment == 2;
     const auto joint = static_cast<std::size_t>(model.index(joint_of(element, joints[cut.segment])));
     const double hinge_s = element.start + hinge[cut.segment] * element.arc;
-    const double hinge_x = hinge[cut.segment] * element.length;
 
     WrenchSum sum(here.p);
     sum.add(carried.joint[joint].force, carried.joint[joint].moment, carried.motion[joint].origin);
@@ -203,7 +216,7 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     if (body >= 0) motion = carried.motion[static_cast<std::size_t>(body)];
     const double sign = inward ? 1 : -1;
     add_material(sum, cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s), sign);
-    add_wrenches(sum, cut, axes, kin, forces, std::min(cut.x, hinge_x), std::max(cut.x, hinge_x), sign);
+    add_wrenches(sum, beam, cut, axes, kin, forces, inward);
     if (cut.segment == 0 || cut.segment == 3) add_rotary(sum, cut, axes, motion, sign);
     SectionLoads loads;
     loads.values = -sum.in(here.R);

@@ -25,14 +25,16 @@ struct SectionLoads {
 /// What is condensed out counts as zero: at large angles its share in the other components is missing. Damping that is
 /// told by modes of the whole beam has no place along it and is left out.
 /// @param s  place along the reference line, 0 ... length of the beam; at a node: the element inboard of it
-/// @throws InputError if s lies outside of the beam
+/// @throws InputError if s lies outside of the beam or q, qd have another size than the model
 SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, const Vector& q, const Vector& qd,
                                 double s);
 
 /// Loads by equilibrium of everything outboard of s: inertial forces, gravity and wrenches. What the rigid segment at s
 /// carries between the next hinge and s is counted with the true mass of the line (with static moments and mean
 /// differences that agrees with the masses of the bodies to the order of the discretisation only). At a node: just
-/// inboard of it, whatever is fixed to the node included. User forces are not known as wrenches and are left out.
+/// inboard of it, whatever is fixed to the node included; at the root: just outboard of node 0. Wrenches count as the
+/// beam's if their frames were placed on its segments (distributed loads, CardanBeam::Segment::carrier) or nodes, not
+/// merely on the same body. User forces are not known as wrenches and are left out.
 SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
                                const Transmission& carried, double s);
 

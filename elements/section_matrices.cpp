@@ -53,6 +53,7 @@ void check_mass(const Mat6& M, const std::string& where) {
         throw InputError(where, "6 x 6 mass", text("\n", M, "\n"), "symmetric");
     const double mass = M(0, 0);
     if (!(mass >= 0)) throw InputError(where, "mass per length [kg/m]", mass, ">= 0");
+    if (mass == 0 && scale > 0) throw InputError(where, "mass per length [kg/m]", mass, "> 0 with inertias or moments");
     const Mat3 linear = M.topLeftCorner<3, 3>() - mass * Mat3::Identity();
     const Mat3 offset = M.topRightCorner<3, 3>();
     if (linear.cwiseAbs().maxCoeff() > 1e-6 * std::max(mass, 1e-12 * scale))

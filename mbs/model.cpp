@@ -10,7 +10,7 @@ namespace cardan {
 Model::Model(const Tree& tree) {
     sort(tree);
     for (const Tree::Frame& frame : tree.frames())
-        frames_.push_back({frame.name, frame.body < 0 ? -1 : index(BodyId{frame.body}), frame.in_body});
+        frames_.push_back({frame.name, frame.body < 0 ? -1 : index(BodyId{frame.body}), frame.in_body, frame.parent});
     for (const Armature& armature : tree.armatures()) {
         Spin spin{armature.name, armature.inertia, {}};
         for (const auto& [body, factor] : armature.spin) {
@@ -86,10 +86,14 @@ void Model::check_metric() const {
     const Vector scale = metric_scale(kin)(free);
     if (const auto pivot = singular_pivot(g_free, scale)) {
         const int at = free[static_cast<std::size_t>(pivot->index)];
-        throw InputError(text("singular metric: coordinate '", coordinates_[at].name, "' of body '", body(at).name,
-                              "' has no inertia of its own (pivot ", pivot->value, ", scale ", pivot->scale,
-                              "; allowed: pivot > 1e-12 scale). Give the bodies that it carries mass or inertia about "
-                              "its axis, add an armature, or drive it"));
+        const bool negative = pivot->value < -1e-12 * pivot->scale;
+        throw InputError(text(negative ? "indefinite" : "singular", " metric: coordinate '", coordinates_[at].name,
+                              "' of body '", body(at).name, "' has ", negative ? "negative" : "no",
+                              " inertia of its own (pivot ", pivot->value, ", scale ", pivot->scale,
+                              "; allowed: pivot > 1e-12 scale). ",
+                              negative ? "A negative armature is larger than the inertia that it takes from"
+                                       : "Give the bodies that it carries mass or inertia about its axis, add an "
+                                         "armature, or drive it"));
     }
 }
 

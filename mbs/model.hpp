@@ -24,6 +24,7 @@ public:
         std::string name;
         int body;  ///< -1: base
         Placement in_body;
+        int parent;  ///< frame of the same body that it was placed on; -1: the body's own frame
     };
     /// Armature in model order; the indices lie on one branch, each occurs once.
     struct Spin {

@@ -20,7 +20,7 @@ std::string known_names(const Range& range, NameOf name_of) {
 }  // namespace
 
 Tree::Tree() {
-    frames_.push_back({"base", -1, {}});
+    frames_.push_back({"base", -1, {}, -1});
 }
 
 BodyId Tree::add_body(BodySpec spec) {
@@ -45,7 +45,7 @@ BodyId Tree::add_body(BodySpec spec) {
     if (!spec.inertia.is_massless())
         pieces_.push_back({spec.coordinate.part.empty() ? spec.name : spec.coordinate.part, id.index, spec.inertia});
     bodies_.push_back({spec, inboard.body, inboard.in_body * spec.placement, own});
-    frames_.push_back({spec.name, id.index, {}});
+    frames_.push_back({spec.name, id.index, {}, -1});
     return id;
 }
 
@@ -64,7 +64,7 @@ FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string 
         throw InputError(where, "placement", text("R = [", placement.R, "], p = ", placement.p.transpose()),
                          "finite, R a proper rotation");
     const Frame& carrier = frames_[static_cast<std::size_t>(parent.index)];
-    frames_.push_back({std::move(name), carrier.body, carrier.in_body * placement});
+    frames_.push_back({std::move(name), carrier.body, carrier.in_body * placement, parent.index});
     return FrameId{static_cast<int>(frames_.size()) - 1};
 }
 

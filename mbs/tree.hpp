@@ -43,6 +43,7 @@ public:
         std::string name;
         int body = -1;  ///< -1: base
         Placement in_body;
+        int parent = -1;  ///< frame of the same body that it was placed on; -1: the body's own frame
     };
     /// One inertia as it was given, before bodies welded together were merged.
     struct Piece {

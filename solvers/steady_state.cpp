@@ -167,6 +167,9 @@ SteadyState steady_state(const System& system, int spin, const SteadyOptions& op
     if (!std::isfinite(options.rotor_speed) || !std::isfinite(options.azimuth))
         throw InputError("steady state", "rotor speed [rad/s], azimuth [rad]",
                          text(options.rotor_speed, ", ", options.azimuth), "finite");
+    if (spin < -1 || spin >= system.model.size())
+        throw InputError("steady state", "index of the spin coordinate", spin,
+                         text("-1 (none) ... ", system.model.size() - 1));
     if (spin < 0 && options.rotor_speed != 0)
         throw InputError("steady state", "rotor speed [rad/s]", options.rotor_speed, "0 for a system without rotor");
     if (options.initial.size() != 0 && options.initial.size() != system.model.size())

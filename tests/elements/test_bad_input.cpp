@@ -65,7 +65,16 @@ TEST_CASE("beam: at least one element; boundaries increase from 0 to the length"
         [](L&, O& o) {
             o.boundaries = {0, not_a_number, 10};
         },
-        {"spar: element boundary 2 [m] = nan; allowed: increasing"});
+        {"spar: element boundary 2 [m] = nan; allowed: finite"});
+}
+
+TEST_CASE("beam: an element too short to be told from rounding, a boundary that is no number", "[property]") {
+    check_beam_refused(
+        [](L&, O& o) {
+            o.boundaries = {0, 5, 5.00001, 10};
+        },
+        {"spar: length of element 2 [m] = 1e-05", "of the length of the beam"});
+    check_beam_refused([](L&, O& o) { o.boundaries = {not_a_number, 5, 10}; }, {"element boundary 1 [m] = nan"});
 }
 
 TEST_CASE("beam: its length must be finite and positive, its breaks increase, its section exist", "[property]") {
@@ -99,6 +108,24 @@ TEST_CASE("beam: a free direction of a rigid section is refused with the element
     check_beam_refused([](L&, O& o) { o.extension = true; }, {"spar element 1", "a rigid direction must be locked"});
 }
 
+TEST_CASE("beam: a negative armature that leaves a coordinate no inertia is refused by the model, which names it",
+          "[property]") {
+    const auto made = [](double bending, double torsion) {
+        Tree tree;
+        ForceSet forces;
+        CardanBeamOptions options = all_free(3);
+        options.bending_armature = bending;
+        options.torsion_armature = torsion;
+        EngineeringSection section = slender(2, 3);
+        section.j_flap = section.j_edge = 0.01, section.GJ = 1, section.EA = 100;
+        add_cardan_beam(tree, forces, Tree::base(), uniform_beam(10, section, "spar"), "spar", {"wing"}, options);
+        return Model(tree);
+    };
+    CHECK_NOTHROW(made(-2.9e-4, -1. / 12));
+    check_refused([&] { (void)made(-0.1, 0); }, {"indefinite metric", "bending", "negative armature"});
+    check_refused([&] { (void)made(0, -0.6); }, {"indefinite metric", "torsion'", "negative armature"});
+}
+
 TEST_CASE("beam: a second one of the same name is refused", "[property]") {
     Tree tree;
     ForceSet forces;
@@ -106,7 +133,7 @@ TEST_CASE("beam: a second one of the same name is refused", "[property]") {
         add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, slender(1, 1)), "spar", {"wing"}, bending_only(1));
     };
     CHECK_NOTHROW(add());
-    check_refused(add, {"'spar node 0'", "a name not used before"});
+    check_refused(add, {"'spar start'", "a name not used before"});
 }
 
 TEST_CASE("section: bad constants are refused with the quantity and its unit", "[property]") {
@@ -123,6 +150,42 @@ TEST_CASE("section: bad constants are refused with the quantity and its unit", "
     check_section_refused([](S& s) { s.j_edge = not_a_number; }, {"spar: edge inertia per length [kg m] = nan"});
     check_section_refused([](S& s) { s.beta = infinite; }, {"spar: twist [rad] or offset [m] = inf"});
     check_section_refused([](S& s) { s.mass_centre.y = not_a_number; }, {"spar: twist [rad] or offset [m] = nan"});
+}
+
+TEST_CASE("section table: a stiffness that is infinite at some stations only is refused with the station",
+          "[property]") {
+    EngineeringSection soft = slender(2, 3), rigid = soft;
+    soft.GA_y = 1e6;
+    check_refused(
+        [&] {
+            SectionTable("spar", {0, 1, 2}, {soft, soft, rigid}, Interpolation::linear);
+        },
+        {"spar, station 3 (x = 2 m): GA y [N] = inf", "infinite at all stations or at none"});
+    rigid = soft;
+    rigid.EI_flap = infinite;
+    check_refused(
+        [&] {
+            SectionTable("spar", {0, 1}, {rigid, soft}, Interpolation::linear);
+        },
+        {"station 2", "EI flap [N m^2] = 2", "infinite at all"});
+}
+
+TEST_CASE("beam: a section function that gives no section is refused with the place", "[property]") {
+    const auto with = [](auto change) {
+        return [change](L& line, O&) {
+            line.section = [change, good = line.section](double x) {
+                BeamSection section = good(x);
+                if (x > 4) change(section);
+                return section;
+            };
+        };
+    };
+    check_beam_refused(with([](BeamSection& s) { s.centre.x() = 0.5; }),
+                       {"spar, section at 4.99", "in the section: x = 0"});
+    check_beam_refused(with([](BeamSection& s) { s.compliance(4, 5) = 1; }), {"spar, section at", "symmetric"});
+    check_beam_refused(with([](BeamSection& s) { s.mass = -1; }), {"mass per length [kg/m] = -1"});
+    check_beam_refused(with([](BeamSection& s) { s.J(0, 0) = not_a_number; }), {"inertia per length", "finite"});
+    check_beam_refused(with([](BeamSection& s) { s.compliance(4, 4) = not_a_number; }), {"compliance", "finite"});
 }
 
 TEST_CASE("section table: too few stations, stations that do not increase, a bad one among them", "[property]") {

@@ -249,6 +249,20 @@ TEST_CASE("beam damping: it never feeds energy, whatever the coefficients", "[pr
     }
 }
 
+TEST_CASE("beam damping: directions without a coefficient beside offsets and couplings dissipate nothing",
+          "[property]") {
+    EngineeringSection section = plain_section();
+    section.tension_centre = {0.02, 0.01}, section.shear_centre = {-0.01, 0.03}, section.beta = 0.2;
+    for (const std::array<double, 6>& tau :
+         {std::array<double, 6>{0, 0, 0, 1e-3, 1e-3, 1e-3}, {0, 0, 0, 0, 1e-3, 0}, {1e-3, 0, 0, 0, 0, 0}}) {
+        CardanBeamOptions options = all_free(2);
+        options.damping.time_constants = tau;
+        Tree tree;
+        ForceSet forces;
+        CHECK_NOTHROW(add_cardan_beam(tree, forces, Tree::base(), uniform_beam(2, section), "beam", {"beam"}, options));
+    }
+}
+
 TEST_CASE("beam damping: shear coefficients damp by the share of shear in the energy of the mode", "[crosscheck]") {
     // First order in tau: zeta = tau omega / 2 times the share, which is d ln omega^2 / d ln GA (differenced).
     EngineeringSection s = plain_section();

@@ -101,6 +101,22 @@ TEST_CASE("partitions by compliance: fourth order at rest, uniform and tapered",
         }
 }
 
+TEST_CASE("mean differences: on a stiffness that falls by five decades two elements are too few, four are good",
+          "[analytic]") {
+    oracles::StraightBeam beam;
+    beam.breaks = Eigen::VectorXd::LinSpaced(3, 0, 1);
+    beam.bending_stiffness = [](double x) { return std::pow(10, -5 * x); };
+    beam.mass_per_length = [](double x) { return std::pow(10, -2.5 * x); };
+    const double exact = oracles::StraightBeamRitz(beam, 24).frequencies(1)(0);
+    const auto error = [&](int elements, Partition partition) {
+        return 100 * (mode(exponential(5), elements, partition) / exact - 1);
+    };
+    CHECK(error(2, mean) == Approx(10.4).margin(0.05));
+    CHECK(error(2, gauss) == Approx(1.5).margin(0.05));
+    CHECK(error(4, mean) == Approx(0.61).margin(0.01));
+    CHECK(error(4, gauss) == Approx(0.56).margin(0.01));
+}
+
 TEST_CASE("mean differences: fourth order in flap and lag of rotating beams, with hub radius too", "[analytic]") {
     struct Exact {
         double eta, hub, flap1, lag1;

@@ -3,6 +3,7 @@
 #include "solvers/modes.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/elements/rods.hpp"
+#include "tests/support/allocation_guard.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 
@@ -145,6 +146,22 @@ TEST_CASE("hinge law: forces are the gradient of the energy, the Jacobian is tha
             CHECK((K - K.transpose()).norm() < 1e-14 * K.norm());
         }
     }
+}
+
+TEST_CASE("hinge law: its forces are evaluated without allocation of their own", "[property]") {
+    if (!AllocationGuard::works()) return;
+    Tree tree;
+    ForceSet forces;
+    add_cardan_beam(tree, forces, Tree::base(), uniform_beam(2, general_section()), "beam", {"beam"}, bent(3, laws[2]));
+    const System system(tree, forces);
+    const Vector q = Vector::Constant(system.model.size(), 0.1), qd = Vector::Zero(q.size());
+    Vector Q(q.size());
+    Workspace workspace(system.model);
+    const Kinematics kin = kinematics(system.model, q, workspace);
+    system.forces.generalised_forces(kin, 0, q, qd, Q);
+    const AllocationGuard guard;
+    system.forces.generalised_forces(kin, 0, q, qd, Q);
+    CHECK(guard.count() == 1);  // the vector that all user forces share
 }
 
 TEST_CASE("hinge law: at rest it is the linear law, and to first order about it", "[property]") {

@@ -1,4 +1,5 @@
 // Curves in space by arc length, and the frames carried along them.
+#include "elements/element_line.hpp"
 #include "elements/reference_line.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -243,8 +244,14 @@ TEST_CASE("reference line: a curve without speed or extent and sections of anoth
     check_refused([&] { (void)ReferenceLine::curve(position, speed, 0, 1); },
                   {"reference line: position and derivative at an end", "finite, not zero"});
     check_refused([&] { (void)ReferenceLine::curve(position, {}, 1, 2); }, {"must be given"});
+    const auto hole = [](double t) { return Vec3(t > 1.4 ? not_a_number : 2 * t, 0, 0); };
+    check_refused([&] { (void)ReferenceLine::curve(position, hole, 1, 2); }, {"reference line: ", "nan", "finite"});
     EngineeringSection s;
     s.mass = 1, s.EI_flap = s.EI_edge = 1;
+    const auto slower = [](double) { return Vec3(1, 0, 0); };
+    const BeamLine shorter = along(uniform_beam(1, s, "spar"), ReferenceLine::curve(position, slower, 1, 2));
+    check_refused([&] { ElementLine(shorter, 0, 1); },
+                  {"spar, element from 0", "distance of its ends [m] = 3", "<= 1"});
     const ReferenceLine line = ReferenceLine::through({Vec3::Zero(), Vec3(3, 4, 0)}, LineShape::polyline);
     check_refused([&] { (void)along(uniform_beam(5.1, s, "spar"), line); },
                   {"spar: length of the sections [m] = 5.1; allowed: 5, the length of the reference line"});

@@ -198,6 +198,33 @@ TEST_CASE("section loads: an arc carries a tip force as statics say, in the axes
     }
 }
 
+TEST_CASE("section loads: only what was placed on the beam counts, wherever on its segments", "[analytic]") {
+    // A second beam on the same body, loaded; a force right at a hinge of the first one.
+    Loaded loaded = clamped(uniform_beam(2, stout()), all_free(2));
+    const CardanBeam other = add_cardan_beam(
+        loaded.tree, loaded.forces, loaded.tree.add_frame(Tree::base(), Placement::translation({0, 1, 0}), "beside"),
+        uniform_beam(2, stout()), "other", {"beam"}, all_free(2));
+    const double load = 1e-4;
+    const DistributedLoad w{"w", [&](double) { return Wrench{{0, 0, load}, Vec3::Zero()}; }};
+    add_distributed_load(loaded.tree, loaded.forces, loaded.beam, w);  // one load, two beams of one line
+    add_distributed_load(loaded.tree, loaded.forces, other, w);
+    const CardanBeam::Segment& first = loaded.beam.elements[0].segments[0];
+    const double hinge = loaded.beam.elements[0].hinges.first * loaded.beam.elements[0].length;
+    const FrameId at_hinge =
+        loaded.tree.add_frame(first.carrier, Placement::translation({hinge - first.x, 0, 0}), "hinge");
+    loaded.forces.add_wrench({"at the hinge", at_hinge, {{0, 0, load}, Vec3::Zero()}, WrenchAxes::base});
+    loaded.settle();
+    for (double s :
+         {0.0, (1 - 1e-6) * hinge, (1 + 1e-6) * hinge, 1.0}) {  // ends of segments: the load is lumped in them
+        const double force = load * (2 - s) + (s < hinge ? load : 0);
+        const double moment = -load * (2 - s) * (2 - s) / 2 - (s < hinge ? load * (hinge - s) : 0);
+        CAPTURE(s);
+        CHECK(loaded.equilibrium(s)(2) == Approx(force).epsilon(1e-5));
+        CHECK(loaded.equilibrium(s)(4) == Approx(moment).epsilon(1e-5));
+        CHECK(std::abs(loaded.equilibrium(s)(3)) < 1e-9);
+    }
+}
+
 TEST_CASE("section loads: a place outside of the beam, a load without function or with NaN are refused", "[property]") {
     Loaded b = clamped(uniform_beam(2, stout(), "spar"), all_free(1));
     check_refused([&] { add_distributed_load(b.tree, b.forces, b.beam, {"wind"}); }, {"wind", "function"});
@@ -209,6 +236,8 @@ TEST_CASE("section loads: a place outside of the beam, a load without function o
         },
         {"load 'wind' at s = ", "nan", "finite"});
     b.settle();
-    check_refused([&] { (void)b.equilibrium(2.1); }, {"spar: place of the section [m] = 2.1; allowed: 0 ... 2"});
-    check_refused([&] { (void)b.constitutive(-0.1); }, {"spar: place of the section [m] = -0.1"});
+    check_refused([&] { (void)b.equilibrium(2.1); }, {"beam: place of the section [m] = 2.1; allowed: 0 ... 2"});
+    check_refused([&] { (void)constitutive_loads(b.beam, b.system->model, Vector::Zero(2), b.at.qd, 1); },
+                  {"beam: sizes of q and qd = 2, 6; allowed: 6, one per coordinate"});
+    check_refused([&] { (void)b.constitutive(-0.1); }, {"beam: place of the section [m] = -0.1"});
 }

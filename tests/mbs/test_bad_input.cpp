@@ -293,7 +293,7 @@ TEST_CASE("singular metric: a negative armature is legal as long as the metric s
     };
     CHECK(make(-0.249) == 1);
     check_refused([&] { make(-0.25); }, {"coordinate 'wheel'"});
-    check_refused([&] { make(-0.5); }, {"singular metric", "coordinate 'wheel'", "pivot -1"});
+    check_refused([&] { make(-0.5); }, {"indefinite metric", "coordinate 'wheel'", "pivot -1"});
 }
 
 namespace {

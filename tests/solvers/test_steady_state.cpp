@@ -265,4 +265,7 @@ TEST_CASE(
     check_refused([&] { (void)steady_state(system, -1, {.rotor_speed = 2}); }, {"rotor speed", "2", "without rotor"});
     check_refused([&] { (void)steady_state(system, 0, {.initial = Vector::Zero(1)}); },
                   {"size of the starting point = 1", "2, one per coordinate"});
+    for (int spin : {2, 99, -7})
+        check_refused([&] { (void)steady_state(system, spin, {}); },
+                      {"index of the spin coordinate", "-1 (none) ... 1"});
 }
