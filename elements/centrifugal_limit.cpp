@@ -46,13 +46,14 @@ double centrifugal_limit(const CardanBeam& beam, double root_radius) {
         const double c = outboard.least_stiffness(hinge);
         if (c < 0) squared = std::min(squared, least_stiffness(e, y, z) / -c);
     };
-    for (auto e = beam.elements.rbegin(); e != beam.elements.rend(); ++e) {
-        outboard.add(e->inertia[3], e->axes, root_radius);
-        meet(*e, e->hinges.second, ElementCoordinate::ay2, ElementCoordinate::az2);
-        outboard.add(e->inertia[2], e->axes, root_radius);
-        outboard.add(e->inertia[1], e->axes, root_radius);
-        meet(*e, e->hinges.first, ElementCoordinate::ay1, ElementCoordinate::az1);
-        outboard.add(e->inertia[0], e->axes, root_radius);
+    for (std::size_t k = beam.elements.size(); k-- > 0;) {
+        const CardanBeam::Element& e = beam.elements[k];
+        outboard.add(e.inertia[3], e.axes, root_radius);
+        meet(e, e.hinges.second, ElementCoordinate::ay2, ElementCoordinate::az2);
+        outboard.add(e.inertia[2], e.axes, root_radius);
+        outboard.add(e.inertia[1], e.axes, root_radius);
+        meet(e, e.hinges.first, ElementCoordinate::ay1, ElementCoordinate::az1);
+        outboard.add(e.inertia[0], e.axes, root_radius);
     }
     return std::sqrt(std::max(0.0, squared));
 }

@@ -89,7 +89,7 @@ public:
     Eigen::Index tip() const { return 18 * (count() + 1); }
     double position(int k) const;                                          ///< of a station along the beam, m
     static Eigen::Index node_rows(int j) { return 12 * Eigen::Index{j}; }  ///< in the order u, theta, F, M
-    Eigen::Index velocity_rows(int k) const { return 12 * (count() + 1) + 6 * k; }
+    Eigen::Index velocity_rows(int k) const { return 12 * (count() + 1) + 6 * Eigen::Index{k}; }
 
     /// Left sides of the equations: integrals in the units of u, theta, F, M, then velocities. Zero in any motion.
     /// S is double or std::complex<double>.

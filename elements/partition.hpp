@@ -52,7 +52,7 @@ struct ElementInertia {
 /// until mass and moment of inertia are those of the partition, and moved along the axis to its place; across it keeps
 /// centre and scatter, hence a sound tensor. Kept exactly: mass, first moment in all directions (what the new masses
 /// lack across is made up by moving B2 and B3), on a straight line also the second moment along the axis.
-ElementInertia partition_element(const ElementLine& element, double delta, Partition partition);
+ElementInertia partition_element(const ElementLine& on, double delta, Partition partition);
 ElementInertia partition_element(const BeamLine& line, double x0, double L, double delta, Partition partition);
 
 }  // namespace cardan

@@ -200,7 +200,7 @@ EngineeringForm engineering_form(const BeamSection& section) {
     return {e, largest_difference(e.section(), section)};
 }
 
-BeamLine matrix_line(std::string name, std::vector<double> stations, std::vector<SectionMatrices> sections,
+BeamLine matrix_line(const std::string& name, std::vector<double> stations, std::vector<SectionMatrices> sections,
                      const Mat3& axes) {
     if (!Placement::rotation(axes).is_valid()) throw InputError(name, "axes", text("\n", axes, "\n"), "a rotation");
     check_stations(name, stations, sections.size());

@@ -47,7 +47,7 @@ struct EngineeringForm {
     /// What engineering constants cannot express (bend-twist, extension-twist ..., principal axes of inertia apart from
     /// those of bending): the largest error of the compliance over the root of its diagonal entries, and of the inertia
     /// over its largest moment. Rounding (1e-12): the form is exact.
-    double coupling;
+    double coupling = 0;
 };
 /// Principal axes of bending at most 45 degrees from the beam axes, centres, and stiffnesses about them.
 EngineeringForm engineering_form(const BeamSection& section);
@@ -55,7 +55,7 @@ EngineeringForm engineering_form(const BeamSection& section);
 /// A line of sections given by matrices at stations, the entries of both matrices linear in between (as in BeamDyn).
 /// @param axes  of the matrices in beam axes (see beamdyn_axes), the reference line being their origin
 /// @throws InputError: fewer than two stations, stations not increasing, a bad section (station named).
-BeamLine matrix_line(std::string name, std::vector<double> stations, std::vector<SectionMatrices> sections,
+BeamLine matrix_line(const std::string& name, std::vector<double> stations, std::vector<SectionMatrices> sections,
                      const Mat3& axes = Mat3::Identity());
 
 }  // namespace cardan
