@@ -1,29 +1,33 @@
 #include "mbs/christoffel.hpp"
 
-#include "mbs/metric.hpp"
+#include "mbs/branch.hpp"
+#include "mbs/composites.hpp"
 
 #include <algorithm>
 
 namespace cardan {
 
 Christoffel::Christoffel(const Model& model) : model_(&model) {
-    std::size_t values = 0, deepest = 0;
+    std::size_t values = 0;
     for (int m = 0; m < model.size(); ++m) {
         const std::size_t d = static_cast<std::size_t>(model.body(m).depth);
         value_offset_.push_back(values);
         path_offset_.push_back(paths_.size());
-        values += d * d;
-        deepest = std::max(deepest, d);
+        values += d * stride(m) / 4;
+        stored_ += d * d;
         for (int a = m; a >= 0; a = model.body(a).parent) paths_.push_back(a);
         std::reverse(paths_.end() - static_cast<std::ptrdiff_t>(d), paths_.end());
     }
-    values_.assign(values, 0.0);
-    for (auto* v : {&w_, &v_, &f_, &t_}) v->resize(deepest);
+    values_.assign(values, Packed3<double>::zero());
 }
 
 std::span<const double> Christoffel::table(int m) const {
     const std::size_t d = static_cast<std::size_t>(model_->body(m).depth);
-    return {values_.data() + value_offset_[static_cast<std::size_t>(m)], d * d};
+    return {numbers(values_.data() + value_offset_[static_cast<std::size_t>(m)]), d * stride(m)};
+}
+
+std::size_t Christoffel::stride(int m) const {
+    return 4 * static_cast<std::size_t>(Branch<double>::blocks(model_->body(m).depth));
 }
 
 std::span<const int> Christoffel::path(int m) const {
@@ -35,8 +39,7 @@ double Christoffel::operator()(int a, int b, int c) const {
     const int m = std::max(a, c);
     if (!model_->precedes(a, m) || !model_->precedes(b, m) || !model_->precedes(c, m)) return 0;
     const auto at = [&](int row, int column) {
-        const std::size_t d = static_cast<std::size_t>(model_->body(m).depth);
-        return table(m)[static_cast<std::size_t>(model_->body(row).depth - 1) * d +
+        return table(m)[static_cast<std::size_t>(model_->body(row).depth - 1) * stride(m) +
                         static_cast<std::size_t>(model_->body(column).depth - 1)];
     };
     return m == c ? at(a, b) : -at(c, b);
@@ -46,18 +49,18 @@ void Christoffel::contract(VectorIn qd, VectorOut h) const {
     h.setZero();
     for (int m = 0; m < model_->size(); ++m) {
         const std::span<const int> on_path = path(m);
-        const std::size_t d = on_path.size();
+        const std::size_t d = on_path.size(), s = stride(m);
         const std::span<const double> K = table(m);
         double reaction = 0;
         for (std::size_t i = 0; i < d; ++i) {
             const int a = on_path[i];
             double proximal = 0;  // sum over b < m; b = m enters once, b and c distinct twice
-            for (std::size_t j = 0; j + 1 < d; ++j) proximal += K[i * d + j] * qd(on_path[j]);
-            h(a) += (2 * proximal + K[i * d + d - 1] * qd(m)) * qd(m);
+            for (std::size_t j = 0; j + 1 < d; ++j) proximal += K[i * s + j] * qd(on_path[j]);
+            h(a) += (2 * proximal + K[i * s + d - 1] * qd(m)) * qd(m);
             if (a == m) continue;
             double below = 0;  // Gamma_mab = -K(a, b), b <= a < m
-            for (std::size_t j = 0; j < i; ++j) below += K[i * d + j] * qd(on_path[j]);
-            reaction -= (2 * below + K[i * d + i] * qd(a)) * qd(a);
+            for (std::size_t j = 0; j < i; ++j) below += K[i * s + j] * qd(on_path[j]);
+            reaction -= (2 * below + K[i * s + i] * qd(a)) * qd(a);
         }
         h(m) += reaction;
     }
@@ -67,47 +70,105 @@ void Christoffel::coriolis(VectorIn qd, MatrixOut C) const {
     C.setZero();
     for (int m = 0; m < model_->size(); ++m) {
         const std::span<const int> on_path = path(m);
-        const std::size_t d = on_path.size();
+        const std::size_t d = on_path.size(), s = stride(m);
         const std::span<const double> K = table(m);
         for (std::size_t i = 0; i < d; ++i) {
             const int a = on_path[i];
             for (std::size_t j = 0; j < d; ++j) {
                 const int b = on_path[j];
-                C(a, m) += K[i * d + j] * qd(b);              // Gamma_abm qd^b
-                if (b != m) C(a, b) += K[i * d + j] * qd(m);  // Gamma_amb qd^m
+                C(a, m) += K[i * s + j] * qd(b);              // Gamma_abm qd^b
+                if (b != m) C(a, b) += K[i * s + j] * qd(m);  // Gamma_amb qd^m
             }
             if (a == m) continue;
             for (std::size_t j = 0; j <= i; ++j) {
                 const int b = on_path[j];
-                C(m, a) -= K[i * d + j] * qd(b);  // Gamma_mba qd^b
-                if (b != a) C(m, b) -= K[i * d + j] * qd(a);
+                C(m, a) -= K[i * s + j] * qd(b);  // Gamma_mba qd^b
+                if (b != a) C(m, b) -= K[i * s + j] * qd(a);
             }
         }
     }
 }
 
+namespace {
+
+// Rows of the branch: three each, then one for what nobody reads.
+enum Rows { w = -9, v = 0, f = 3, t = 6, spare = 9 };
+
+// K(a, b) = v_a . f_b + w_a . t_b with v the velocities at the centre C of the subtree of the last column m,
+// f = M w x v_m and t = P w x w_m. A prismatic b has w = 0, which makes its column vanish: the factor (1 - s_b).
+CARDAN_INLINE void branch_columns(const Branch<double>& path, std::ptrdiff_t depth, const Workspace::Inertia& body) {
+    using Columns = Packed3<double>;
+    const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
+    for (std::ptrdiff_t j = 0; j < path.blocks(depth); ++j) {
+        const Columns wx = path.w(0)[j], wy = path.w(1)[j], wz = path.w(2)[j];
+        const Columns x = cx - path.o(0)[j], y = cy - path.o(1)[j], z = cz - path.o(2)[j];
+        path.row(v)[j] = path.u(0)[j] + times(wy, z) - times(wz, y);
+        path.row(v + 1)[j] = path.u(1)[j] + times(wz, x) - times(wx, z);
+        path.row(v + 2)[j] = path.u(2)[j] + times(wx, y) - times(wy, x);
+    }
+    const Packed3<double> p = body.M * path.get(v, depth - 1), s = path.get(w, depth - 1);
+    const Columns px = broadcast<0>(p), py = broadcast<1>(p), pz = broadcast<2>(p);
+    const Columns sx = broadcast<0>(s), sy = broadcast<1>(s), sz = broadcast<2>(s);
+    const Packed33<double>& P = body.P;
+    for (std::ptrdiff_t j = 0; j < path.blocks(depth); ++j) {
+        const Columns wx = path.w(0)[j], wy = path.w(1)[j], wz = path.w(2)[j];
+        path.row(f)[j] = times(wy, pz) - times(wz, py);
+        path.row(f + 1)[j] = times(wz, px) - times(wx, pz);
+        path.row(f + 2)[j] = times(wx, py) - times(wy, px);
+        const Columns hx = P[0](0) * wx + P[1](0) * wy + P[2](0) * wz, hy = P[0](1) * wx + P[1](1) * wy + P[2](1) * wz,
+                      hz = P[0](2) * wx + P[1](2) * wy + P[2](2) * wz;
+        path.row(t)[j] = times(hy, sz) - times(hz, sy);
+        path.row(t + 1)[j] = times(hz, sx) - times(hx, sz);
+        path.row(t + 2)[j] = times(hx, sy) - times(hy, sx);
+    }
+}
+
+CARDAN_INLINE Packed3<double> all(const Packed3<double>* row, std::ptrdiff_t column) {
+    return Packed3<double>::all(numbers(row)[column]);
+}
+
+// Two rows at a time, for every number of f and t loaded to serve twice; the row after the last is a spare one.
+CARDAN_INLINE void fill_table(const Branch<double>& path, std::ptrdiff_t depth, Packed3<double>* K) {
+    using Columns = Packed3<double>;
+    const std::ptrdiff_t blocks = path.blocks(depth);
+    const Columns *fx = path.row(f), *fy = path.row(f + 1), *fz = path.row(f + 2), *tx = path.row(t),
+                  *ty = path.row(t + 1), *tz = path.row(t + 2);
+    for (std::ptrdiff_t a = 0; a < depth; a += 2, K += 2 * blocks) {
+        Columns* const second = a + 1 < depth ? K + blocks : path.row(spare);
+        const Columns vx = all(path.row(v), a), vy = all(path.row(v + 1), a), vz = all(path.row(v + 2), a),
+                      wx = all(path.w(0), a), wy = all(path.w(1), a), wz = all(path.w(2), a);
+        const Columns Vx = all(path.row(v), a + 1), Vy = all(path.row(v + 1), a + 1), Vz = all(path.row(v + 2), a + 1),
+                      Wx = all(path.w(0), a + 1), Wy = all(path.w(1), a + 1), Wz = all(path.w(2), a + 1);
+        for (std::ptrdiff_t b = 0; b < blocks; ++b) {
+            K[b] = times(vx, fx[b]) + times(vy, fy[b]) + times(vz, fz[b]) +
+                   (times(wx, tx[b]) + times(wy, ty[b]) + times(wz, tz[b]));
+            second[b] = times(Vx, fx[b]) + times(Vy, fy[b]) + times(Vz, fz[b]) +
+                        (times(Wx, tx[b]) + times(Wy, ty[b]) + times(Wz, tz[b]));
+        }
+    }
+}
+
+CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Frame* frame,
+                            const Workspace::Inertia* composite, const Branch<double>& path, Packed3<double>* values,
+                            const std::size_t* offset) {
+    for (int first = 0; first < n;) {
+        const int end = set_run(path, links, frame, first, n);
+        for (int m = first; m < end; ++m) {
+            branch_columns(path, links[m].depth, composite[m]);
+            fill_table(path, links[m].depth, values + offset[m]);
+        }
+        first = end;
+    }
+}
+
+}  // namespace
+
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
     composites(kin);
-    const Workspace& ws = kin.workspace();
-    for (int m = 0; m < kin.model().size(); ++m) {
-        const std::size_t i = static_cast<std::size_t>(m);
-        const std::span<const int> path = gamma.path(m);
-        const std::size_t d = path.size();
-        for (std::size_t j = 0; j < d; ++j) {
-            const PointTwist<double> twist = twist_at(kin, path[j], ws.C[i]);
-            gamma.w_[j] = twist.w;
-            gamma.v_[j] = twist.v;
-        }
-        // A prismatic b has w = 0, which makes f and t and so the whole column vanish: the factor (1 - s_b).
-        for (std::size_t j = 0; j < d; ++j) {
-            gamma.f_[j] = ws.M[i] * cross<double>(gamma.w_[j], gamma.v_[d - 1]);
-            gamma.t_[j] = cross<double>(ws.P[i] * gamma.w_[j], gamma.w_[d - 1]);
-        }
-        double* K = gamma.values_.data() + gamma.value_offset_[i];
-        for (std::size_t a = 0; a < d; ++a)
-            for (std::size_t b = 0; b < d; ++b)
-                *K++ = dot<double>(gamma.v_[a], gamma.f_[b]) + dot<double>(gamma.w_[a], gamma.t_[b]);
-    }
+    Workspace& ws = kin.workspace();
+    const Model& model = kin.model();
+    fill(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
+         Branch<double>(ws.branch.data(), ws.stride), gamma.values_.data(), gamma.value_offset_.data());
 }
 
 }  // namespace cardan

@@ -2,6 +2,7 @@
 /// Christoffel symbols of the first kind, Gamma_abc = (d_b g_ac + d_c g_ab - d_a g_bc) / 2.
 #pragma once
 
+#include "mbs/aligned.hpp"
 #include "mbs/kinematics.hpp"
 
 #include <span>
@@ -20,12 +21,14 @@ public:
 
     /// Gamma_abc, any indices.
     double operator()(int a, int b, int c) const;
-    /// The table of the distal body m: K_m(a, b) at [depth(a) - 1, depth(b) - 1], row-major.
+    /// The table of the distal body m: K_m(a, b) in row depth(a) - 1 and column depth(b) - 1; row-major, rows
+    /// stride(m) apart: whole registers, what follows the depth(m) numbers of a row has no meaning.
     std::span<const double> table(int m) const;
+    std::size_t stride(int m) const;
     /// The path of body m from the base to m itself.
     std::span<const int> path(int m) const;
     /// Number of stored symbols.
-    std::size_t stored() const { return values_.size(); }
+    std::size_t stored() const { return stored_; }
 
     /// h_a = Gamma_abc qd^b qd^c from the table (the recursion inertial_forces() is O(n) and faster).
     void contract(VectorIn qd, VectorOut h) const;
@@ -37,8 +40,8 @@ private:
     const Model* model_;
     std::vector<std::size_t> value_offset_, path_offset_;
     std::vector<int> paths_;
-    std::vector<double> values_;
-    std::vector<Vec3> w_, v_, f_, t_;  // scratch along one path
+    AlignedVector<Packed3<double>> values_;
+    std::size_t stored_ = 0;
 };
 
 /// Fills the table at the q of `kin`. Cost O(n d^2) = the number of symbols; no allocation.

@@ -1,51 +1,213 @@
 #include "mbs/derivatives.hpp"
 
+#include "mbs/branch.hpp"
+#include "mbs/composites.hpp"
+
 namespace cardan {
 
 namespace {
 
-// v x m for motion vectors, [angular; linear] about the base origin.
-template <class S>
-Vec6T<S> cross_motion(const Vec6T<S>& v, const Vec6T<S>& m) {
-    Vec6T<S> r;
-    const Vec3T<S> w = v.template head<3>(), l = v.template tail<3>(), mw = m.template head<3>(),
-                   ml = m.template tail<3>();
-    r << cross<S>(w, mw), Vec3T<S>(cross<S>(w, ml) + cross<S>(l, mw));
-    return r;
-}
-
-// v x* f for force vectors [moment; force].
-template <class S>
-Vec6T<S> cross_force(const Vec6T<S>& v, const Vec6T<S>& f) {
-    Vec6T<S> r;
-    const Vec3T<S> w = v.template head<3>(), l = v.template tail<3>(), n = f.template head<3>(),
-                   F = f.template tail<3>();
-    r << Vec3T<S>(cross<S>(w, n) + cross<S>(l, F)), cross<S>(w, F);
-    return r;
-}
-
-// (v x* I - I v x + (I v) xbar*) / 2, where f xbar* is the matrix with (f xbar*) m = m x* f.
-template <class S>
-Mat6T<S> velocity_matrix(const Mat6T<S>& I, const Vec6T<S>& v, const Vec6T<S>& momentum) {
-    Mat6T<S> crm = Mat6T<S>::Zero();
-    crm.template topLeftCorner<3, 3>() = crm.template bottomRightCorner<3, 3>() = skew<S>(v.template head<3>());
-    crm.template bottomLeftCorner<3, 3>() = skew<S>(v.template tail<3>());
-    Mat6T<S> bar = Mat6T<S>::Zero();
-    bar.template topLeftCorner<3, 3>() = -skew<S>(momentum.template head<3>());
-    bar.template topRightCorner<3, 3>() = bar.template bottomLeftCorner<3, 3>() = -skew<S>(momentum.template tail<3>());
-    return S(0.5) * (bar - crm.transpose() * I - I * crm);
-}
+// Rows of the branch besides the twists S_j = (w, u): Psi' = v x S and Psi'' = a x S + v x Psi' of the carrier's
+// spatial velocity v and acceleration a, their linear parts at o_j.
+enum Rows { axis_w = -9, axis_u = -3, psi1_w = 0, psi1_u = 3, psi2_w = 6, psi2_u = 9, by_column = 12 };
 
 template <class S>
-Mat6T<S> inertia_about_base(const WorkspaceT<S>& ws, const Model::Body& body, std::size_t i) {
-    const S m(body.inertia.mass);
-    const Mat3T<S> r = skew<S>(ws.r[i]);
-    Mat6T<S> I;
-    I.template topLeftCorner<3, 3>() = ws.E[i] * body.J.template cast<S>() * ws.E[i].transpose() - m * (r * r);
-    I.template topRightCorner<3, 3>() = m * r;
-    I.template bottomLeftCorner<3, 3>() = -m * r;
-    I.template bottomRightCorner<3, 3>() = m * Mat3T<S>::Identity();
-    return I;
+using Rates = typename WorkspaceT<S>::Rates;
+
+// Motion of body k; returns Psi' and Psi'' of its coordinate.
+template <class S>
+CARDAN_INLINE Rates<S> advance(const Model::Link& link, const typename WorkspaceT<S>::Frame* frame, std::ptrdiff_t k,
+                               const S& qd, const S& qdd, typename WorkspaceT<S>::Motion* motion) {
+    using P3 = Packed3<S>;
+    P3 w = P3::zero(), al = P3::zero(), v = P3::zero(), a = P3::zero();
+    if (link.parent >= 0) {
+        const typename WorkspaceT<S>::Motion& carrier = motion[link.parent];
+        w = carrier.w, al = carrier.al, v = carrier.v, a = carrier.a;
+        if (!link.coincident) {
+            const P3 arm = frame[k].o - frame[link.parent].o, sweep = cross(w, arm);
+            v += sweep;
+            a += cross(al, arm) + cross(w, sweep);
+        }
+    }
+    const P3& e = frame[k].E[2];
+    const P3 turned = cross(w, e), turned_twice = cross(al, e) + cross(w, turned);
+    Rates<S> rates;
+    if (link.revolute) {
+        rates.psi1_w = turned;
+        rates.psi1_u = cross(v, e);
+        rates.psi2_w = turned_twice;
+        rates.psi2_u = cross(a - cross(w, v), e) + cross(w, rates.psi1_u) + cross(v, turned);
+        al += qdd * e + qd * turned;
+        w += qd * e;
+    } else {
+        rates.psi1_w = rates.psi2_w = P3::zero();
+        rates.psi1_u = turned;
+        rates.psi2_u = turned_twice;
+        a += qdd * e + (S(2) * qd) * turned;
+        v += qd * e;
+    }
+    motion[k] = {w, al, v, a};
+    return rates;
+}
+
+// Momentum and force of body k alone, moments about its joint origin.
+template <class S>
+CARDAN_INLINE void own_load(const Model::Link& link, const typename WorkspaceT<S>::Frame& frame, const Packed33<S>& J,
+                            const typename WorkspaceT<S>::Motion& motion, typename WorkspaceT<S>::Momentum& momentum,
+                            typename WorkspaceT<S>::Load& load) {
+    using P3 = Packed3<S>;
+    if (link.massless) {
+        momentum = {P3::zero(), {{P3::zero(), P3::zero(), P3::zero()}}};
+        load = {P3::zero(), P3::zero()};
+        return;
+    }
+    const P3 c = frame.r - frame.o, sweep = cross(motion.w, c);
+    const S m(link.mass);
+    momentum.p = m * (motion.v + sweep);
+    momentum.G = minus_times_skew(binet(J), motion.w);  // sum m rho (w x rho)^T
+    for (int j = 0; j < 3; ++j) momentum.G[j] += momentum.p(j) * c;
+    load.F = m * (motion.a + cross(motion.al, c) + cross(motion.w, sweep));
+    load.N = J * motion.al + cross(motion.w, J * motion.w) + cross(c, load.F);
+}
+
+// (tr G - G) x
+template <class S>
+CARDAN_INLINE Packed3<S> spin(const Packed33<S>& G, const Packed3<S>& x) {
+    return (G[0](0) + G[1](1) + G[2](2)) * x - G * x;
+}
+
+// What row and column k of the derivatives need of the subtree of k, at its centre of mass C. A subtree that is carried
+// by the twist Psi has the inertial forces I Psi'' and 2 B Psi', where B Psi = sum m w_Psi x x_dot.
+template <class S>
+struct Subtree {
+    Packed3<S> C;
+    Packed3<S> momentum, spin;  ///< I S_k
+    Packed3<S> B_row;           ///< S_k . B Psi = B_row . w_Psi
+    Packed3<S> force_q, moment_q, force_qd, moment_qd;
+};
+
+template <class S>
+CARDAN_INLINE Subtree<S> subtree_of(const Model::Link& link, const typename WorkspaceT<S>::Frame& frame,
+                                    const typename WorkspaceT<S>::Inertia& body,
+                                    const typename WorkspaceT<S>::Momentum& momentum,
+                                    const typename WorkspaceT<S>::Load& load, const Rates<S>& rates) {
+    using P3 = Packed3<S>;
+    const P3& e = frame.E[2];
+    const P3 arm = body.C - frame.o;
+    const P3 w = link.revolute ? e : P3::zero(), v = link.revolute ? cross(e, arm) : e;
+    Packed33<S> G = momentum.G;
+    for (int j = 0; j < 3; ++j) G[j] -= momentum.p(j) * arm;
+    const Packed33<S> Gt = transpose(G);
+    const P3 &p = momentum.p, moment = load.N - cross(arm, load.F);
+    const P3 v1 = rates.psi1_u + cross(rates.psi1_w, arm), v2 = rates.psi2_u + cross(rates.psi2_w, arm);
+    Subtree<S> s;
+    s.C = body.C;
+    s.momentum = body.M * v;
+    s.spin = spin(body.P, w);
+    s.B_row = cross(p, v) + spin(G, w);
+    s.force_q = S(2) * cross(rates.psi1_w, p) + body.M * v2 + cross(w, load.F);
+    s.moment_q = S(2) * spin(Gt, rates.psi1_w) + spin(body.P, rates.psi2_w) + cross(w, moment) + cross(v, load.F);
+    s.force_qd = S(2) * (cross(w, p) + body.M * v1);
+    s.moment_qd = S(2) * (spin(Gt, w) + spin(body.P, rates.psi1_w));
+    return s;
+}
+
+// The products of subtree k with four coordinates on its path.
+template <class S>
+CARDAN_INLINE void branch_products(const Branch<S>& path, std::ptrdiff_t blocks, const Subtree<S>& s) {
+    using Columns = Packed3<S>;
+    const Columns cx = broadcast<0>(s.C), cy = broadcast<1>(s.C), cz = broadcast<2>(s.C);
+    const auto about_o = [&](std::ptrdiff_t j, const Packed3<S>& force, const Packed3<S>& moment, Columns* sum) {
+        const Columns x = cx - path.o(0)[j], y = cy - path.o(1)[j], z = cz - path.o(2)[j];
+        const Columns fx = broadcast<0>(force), fy = broadcast<1>(force), fz = broadcast<2>(force);
+        sum[0] = broadcast<0>(moment) + times(y, fz) - times(z, fy);
+        sum[1] = broadcast<1>(moment) + times(z, fx) - times(x, fz);
+        sum[2] = broadcast<2>(moment) + times(x, fy) - times(y, fx);
+    };
+    const auto product = [&](std::ptrdiff_t j, int first_row, const Columns* v) {
+        return times(v[0], path.row(first_row)[j]) + times(v[1], path.row(first_row + 1)[j]) +
+               times(v[2], path.row(first_row + 2)[j]);
+    };
+    const auto fixed = [&](std::ptrdiff_t j, int first_row, const Packed3<S>& v) {
+        return times(broadcast<0>(v), path.row(first_row)[j]) + times(broadcast<1>(v), path.row(first_row + 1)[j]) +
+               times(broadcast<2>(v), path.row(first_row + 2)[j]);
+    };
+    const Packed3<S> B_row = S(2) * s.B_row, momentum = S(2) * s.momentum;
+    for (std::ptrdiff_t j = 0; j < blocks; ++j) {
+        Columns moment[3];
+        about_o(j, s.momentum, s.spin, moment);
+        path.row(by_column)[j] = fixed(j, psi1_w, B_row) + product(j, psi2_w, moment) + fixed(j, psi2_u, s.momentum);
+        path.row(by_column + 1)[j] =
+            fixed(j, axis_w, B_row) + S(2) * product(j, psi1_w, moment) + fixed(j, psi1_u, momentum);
+        about_o(j, s.force_q, s.moment_q, moment);
+        path.row(by_column + 2)[j] = product(j, axis_w, moment) + fixed(j, axis_u, s.force_q);
+        about_o(j, s.force_qd, s.moment_qd, moment);
+        path.row(by_column + 3)[j] = product(j, axis_w, moment) + fixed(j, axis_u, s.force_qd);
+    }
+}
+
+template <class S>
+CARDAN_INLINE void set_rates(const Branch<S>& path, std::ptrdiff_t column, const typename WorkspaceT<S>::Rates& rates) {
+    path.set(psi1_w, column, rates.psi1_w);
+    path.set(psi1_u, column, rates.psi1_u);
+    path.set(psi2_w, column, rates.psi2_w);
+    path.set(psi2_u, column, rates.psi2_u);
+}
+
+template <class S>
+struct Arguments {
+    int n;
+    const Model::Link* links;
+    const typename WorkspaceT<S>::Frame* frame;
+    const typename WorkspaceT<S>::Inertia* composite;
+    const Packed33<S>* J;
+    typename WorkspaceT<S>::Motion* motion;
+    typename WorkspaceT<S>::Momentum* momentum;
+    typename WorkspaceT<S>::Load* load;
+    typename WorkspaceT<S>::Rates* rates;
+    Branch<S> path;
+    const S *qd, *qdd;
+    S *by_q, *by_qd;
+    std::ptrdiff_t stride_q, stride_qd;
+};
+
+template <class S>
+CARDAN_INLINE void differentiate(const Arguments<S>& x) {
+    for (int k = 0; k < x.n; ++k) {
+        x.rates[k] = advance<S>(x.links[k], x.frame, k, x.qd[k], x.qdd[k], x.motion);
+        own_load<S>(x.links[k], x.frame[k], x.J[k], x.motion[k], x.momentum[k], x.load[k]);
+    }
+    for (int k = x.n - 1; k > 0; --k) {
+        const int p = x.links[k].parent;
+        if (p < 0) continue;
+        const Packed3<S> arm = x.frame[k].o - x.frame[p].o;
+        x.momentum[p].p += x.momentum[k].p;
+        x.momentum[p].G += x.momentum[k].G;
+        for (int j = 0; j < 3; ++j) x.momentum[p].G[j] += x.momentum[k].p(j) * arm;
+        x.load[p].F += x.load[k].F;
+        x.load[p].N += x.load[k].N + cross(arm, x.load[k].F);
+    }
+    const S *row_q = numbers(x.path.row(by_column)), *row_qd = numbers(x.path.row(by_column + 1)),
+            *column_q = numbers(x.path.row(by_column + 2)), *column_qd = numbers(x.path.row(by_column + 3));
+    for (int first = 0; first < x.n;) {
+        const int end = set_run(x.path, x.links, x.frame, first, x.n);
+        for (int k = first; k < end; ++k) set_rates(x.path, x.links[k].depth - 1, x.rates[k]);
+        for (int k = first; k < end; ++k) {
+            const Subtree<S> s =
+                subtree_of<S>(x.links[k], x.frame[k], x.composite[k], x.momentum[k], x.load[k], x.rates[k]);
+            branch_products(x.path, x.path.blocks(x.links[k].depth), s);
+            write_branch(x.links, x.n, k, row_q, column_q, x.by_q, x.stride_q);
+            write_branch(x.links, x.n, k, row_qd, column_qd, x.by_qd, x.stride_qd);
+        }
+        first = end;
+    }
+}
+
+CARDAN_VECTORISED void run(const Arguments<double>& x) {
+    differentiate(x);
+}
+void run(const Arguments<Complex>& x) {
+    differentiate(x);
 }
 
 }  // namespace
@@ -53,52 +215,13 @@ Mat6T<S> inertia_about_base(const WorkspaceT<S>& ws, const Model::Body& body, st
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
                                   MatrixOutT<S> dtau_dqd) {
+    composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     const Model& model = kin.model();
-    dtau_dq.setZero();
-    dtau_dqd.setZero();
-    // U and c hold Psi' = v_parent x S and Psi'' = a_parent x S + v_parent x Psi'; pA the force of the subtree.
-    for (int k = 0; k < model.size(); ++k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model.body(k);
-        Vec6T<S>& axis = ws.S6[i];
-        if (body.revolute)
-            axis << ws.e[i], cross<S>(ws.o[i], ws.e[i]);
-        else
-            axis << Vec3T<S>::Zero(), ws.e[i];
-        const bool root = body.parent < 0;
-        const std::size_t p = root ? 0 : static_cast<std::size_t>(body.parent);
-        const Vec6T<S> v_parent = root ? Vec6T<S>::Zero() : ws.V[p];
-        const Vec6T<S> a_parent = root ? Vec6T<S>::Zero() : ws.A[p];
-        ws.U[i] = cross_motion<S>(v_parent, axis);
-        ws.c[i] = cross_motion<S>(a_parent, axis) + cross_motion<S>(v_parent, ws.U[i]);
-        ws.V[i] = v_parent + axis * qd(k);
-        ws.A[i] = a_parent + axis * qdd(k) + ws.U[i] * qd(k);
-        ws.IA[i] = inertia_about_base(ws, body, i);
-        const Vec6T<S> momentum = ws.IA[i] * ws.V[i];
-        ws.B[i] = velocity_matrix<S>(ws.IA[i], ws.V[i], momentum);
-        ws.pA[i] = ws.IA[i] * ws.A[i] + cross_force<S>(ws.V[i], momentum);
-    }
-    for (int k = model.size() - 1; k >= 0; --k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Vec6T<S>&axis = ws.S6[i], &Psi1 = ws.U[i], &Psi2 = ws.c[i];
-        const Vec6T<S> by_q = S(2) * (ws.B[i] * Psi1) + ws.IA[i] * Psi2 + cross_force<S>(axis, ws.pA[i]);
-        const Vec6T<S> by_qd = S(2) * (ws.B[i] * axis + ws.IA[i] * Psi1);
-        const Vec6T<S> row_I = ws.IA[i] * axis, row_B = S(2) * (ws.B[i].transpose() * axis);
-        for (int a = k; a >= 0; a = model.body(a).parent) {
-            const std::size_t j = static_cast<std::size_t>(a);
-            dtau_dq(k, a) = (row_B.transpose() * ws.U[j] + row_I.transpose() * ws.c[j])(0);
-            dtau_dqd(k, a) = (row_B.transpose() * ws.S6[j])(0) + S(2) * (row_I.transpose() * ws.U[j])(0);
-            if (a == k) continue;
-            dtau_dq(a, k) = (ws.S6[j].transpose() * by_q)(0);
-            dtau_dqd(a, k) = (ws.S6[j].transpose() * by_qd)(0);
-        }
-        if (model.body(k).parent < 0) continue;
-        const std::size_t p = static_cast<std::size_t>(model.body(k).parent);
-        ws.IA[p] += ws.IA[i];
-        ws.B[p] += ws.B[i];
-        ws.pA[p] += ws.pA[i];
-    }
+    run(Arguments<S>{model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), ws.J.data(),
+                     ws.motion.data(), ws.momentum.data(), ws.load.data(), ws.rates.data(),
+                     Branch<S>(ws.branch.data(), ws.stride), qd.data(), qdd.data(), dtau_dq.data(), dtau_dqd.data(),
+                     dtau_dq.outerStride(), dtau_dqd.outerStride()});
 }
 
 #define CARDAN_INSTANTIATE(S)                                                                                       \

@@ -40,17 +40,29 @@ public:
     const std::vector<bool>& driven() const { return driven_; }
 
 private:
-    void factorise(const Kinematics& kin);
-    void sweep(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorIn qdd_driven, bool moving, VectorOut qdd);
+    /// Articulated inertia about the joint origin, base axes, [A C^T; C M] for [angular; linear]: a subtree whose free
+    /// joints yield. U = I S, the pivot D = S . U.
+    struct Articulated {
+        Packed33<double> A, C, M;
+        Packed3<double> U_angular, U_linear;
+        double D;
+        Packed3<double> force, moment;    // that pass the joint in the backward sweep
+        Packed3<double> angular, linear;  // acceleration in the forward sweep
+    };
+    struct Arrays;
+    static void factorise(const Arrays& arrays);
+    static void solve_from_rest(const Arrays& arrays, const double* Q, double* qdd, double* reaction);
 
     const Model* model_;
     std::vector<bool> driven_;
-    Vector armature_diagonal_, qdd_prescribed_, zero_;
+    std::vector<char> held_;  ///< as driven_, for the loops
+    std::vector<Articulated> articulated_;
+    Vector armature_diagonal_, residual_, correction_, reaction_, zero_;
     std::vector<int> support_;  ///< free coordinates in armatures of several coordinates
     Matrix coupling_;           ///< off-diagonal part of these armatures on the support
-    Matrix support_solution_, capacity_;
+    Matrix support_solution_, support_reaction_, capacity_;
     Eigen::PartialPivLU<Matrix> capacity_lu_;
-    Vector support_qdd_, support_load_, support_correction_, offset_;
+    Vector support_qdd_, support_load_, support_correction_;
 };
 
 }  // namespace cardan

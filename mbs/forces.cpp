@@ -19,11 +19,10 @@ void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT
 template <class S>
 void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
     composites(kin);
-    const WorkspaceT<S>& ws = kin.workspace();
     const Vec3T<S> g = gravity_.template cast<S>();
     for (int a = 0; a < kin.model().size(); ++a) {
-        const std::size_t i = static_cast<std::size_t>(a);
-        Q(a) += S(ws.M[i]) * dot<S>(g, twist_at(kin, a, ws.C[i]).v);
+        const auto& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        Q(a) += subtree.M * dot<S>(g, twist_at(kin, a, subtree.C.vector()).v);
     }
 }
 
@@ -62,13 +61,12 @@ void Forces::generalised_forces(const Kinematics& kin, double time, const Vector
 // d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
 void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
     composites(kin);
-    const Workspace& ws = kin.workspace();
     for (int a = 0; a < kin.model().size(); ++a) {
-        const std::size_t i = static_cast<std::size_t>(a);
-        const Vec3 lift = twist_at(kin, a, ws.C[i]).v;
+        const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        const Vec3 C = subtree.C.vector(), lift = twist_at(kin, a, C).v;
         for (int b = a; b >= 0; b = kin.model().body(b).parent) {
-            const Vec3 w = twist_at(kin, b, ws.C[i]).w;
-            const double dQ = ws.M[i] * gravity_.dot(cross<double>(w, lift));
+            const Vec3 w = twist_at(kin, b, C).w;
+            const double dQ = subtree.M * gravity_.dot(cross<double>(w, lift));
             K(a, b) -= dQ;
             if (b != a) K(b, a) -= dQ;
         }
@@ -139,10 +137,9 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
 }
 
 double Forces::gravity_energy(const Kinematics& kin) const {
-    const Workspace& ws = kin.workspace();
     double energy = 0;
     for (int k = 0; k < kin.model().size(); ++k)
-        energy -= kin.model().body(k).inertia.mass * gravity_.dot(ws.r[static_cast<std::size_t>(k)]);
+        energy -= kin.model().body(k).inertia.mass * gravity_.dot(kin.centre_of_mass(k));
     return energy;
 }
 

@@ -13,31 +13,31 @@ std::vector<bool> default_roles(const Model& model) {
     return driven;
 }
 
-// Spatial inertia [angular; linear] about the joint origin, base axes.
-Mat6 spatial_inertia(const Workspace& ws, const Model::Body& body, std::size_t i) {
-    const Mat3 c = skew<double>(ws.r[i] - ws.o[i]);
-    const double m = body.inertia.mass;
-    Mat6 I;
-    I.topLeftCorner<3, 3>() = ws.E[i] * body.J * ws.E[i].transpose() - m * c * c;
-    I.topRightCorner<3, 3>() = m * c;
-    I.bottomLeftCorner<3, 3>() = -m * c;
-    I.bottomRightCorner<3, 3>() = m * Mat3::Identity();
-    return I;
+// Inertia of a body alone about its joint origin.
+CARDAN_INLINE void rigid(const Model::Link& link, const Workspace::Frame& frame, const Packed33<double>& J,
+                         Packed33<double>& A, Packed33<double>& C, Packed33<double>& M) {
+    using P3 = Packed3<double>;
+    if (link.massless) {
+        A = C = M = {{P3::zero(), P3::zero(), P3::zero()}};
+        return;
+    }
+    const double m = link.mass;
+    const P3 c = frame.r - frame.o, mc = m * c;
+    M = {{P3::of(m, 0.0, 0.0), P3::of(0.0, m, 0.0), P3::of(0.0, 0.0, m)}};
+    // -m c^ (force of an angular acceleration) and J - m c^ c^
+    C = {{P3::of(0.0, -mc(2), mc(1)), P3::of(mc(2), 0.0, -mc(0)), P3::of(-mc(1), mc(0), 0.0)}};
+    const double square = dot(mc, c);
+    A = J;
+    A[0] += P3::of(square, 0.0, 0.0) - mc(0) * c;
+    A[1] += P3::of(0.0, square, 0.0) - mc(1) * c;
+    A[2] += P3::of(0.0, 0.0, square) - mc(2) * c;
 }
 
-// Adds a spatial inertia about a point at `arm` from the new reference point.
-void add_shifted(Mat6& target, const Mat6& I, const Vec3& arm) {
-    const Mat3 x = skew<double>(arm);
-    const Mat3 A = I.topLeftCorner<3, 3>(), B = I.topRightCorner<3, 3>(), M = I.bottomRightCorner<3, 3>();
-    const Mat3 Bs = B + x * M;
-    target.topLeftCorner<3, 3>() += A - B * x + x * B.transpose() - x * M * x;
-    target.topRightCorner<3, 3>() += Bs;
-    target.bottomLeftCorner<3, 3>() += Bs.transpose();
-    target.bottomRightCorner<3, 3>() += M;
-}
-
-int part(const Model::Body& body) {
-    return body.revolute ? 0 : 3;
+// X - u v^T / D
+CARDAN_INLINE void subtract(Packed33<double>& X, const Packed3<double>& u, const Packed3<double>& v_over_D) {
+    X[0] -= times(u, broadcast<0>(v_over_D));
+    X[1] -= times(u, broadcast<1>(v_over_D));
+    X[2] -= times(u, broadcast<2>(v_over_D));
 }
 
 }  // namespace
@@ -50,8 +50,9 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
     if (driven_.size() != static_cast<std::size_t>(n))
         throw InputError("forward dynamics", "number of driven flags", driven_.size(), text(n, ", one per coordinate"));
     armature_diagonal_.setZero(n);
-    qdd_prescribed_.setZero(n);
-    zero_.setZero(n);
+    for (Vector* x : {&residual_, &correction_, &reaction_, &zero_}) x->setZero(n);
+    articulated_.resize(static_cast<std::size_t>(n));
+    held_.assign(driven_.begin(), driven_.end());
     // An armature over several coordinates is split: its diagonal goes into the recursion, which keeps every pivot
     // positive even where only the armature has inertia; the rest follows by a low-rank correction (Woodbury).
     for (const Model::Spin& armature : model.armatures())
@@ -72,110 +73,137 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
                     coupling_(ia - support_.begin(), ib - support_.begin()) += armature.inertia * sa * sb;
             }
     support_solution_.setZero(n, r);
+    support_reaction_.setZero(n, r);
     capacity_.setZero(r, r);
     support_qdd_.setZero(r);
     support_load_.setZero(r);
     support_correction_.setZero(r);
     capacity_lu_ = Eigen::PartialPivLU<Matrix>(r);
-    offset_.setZero(n);
 }
 
-// Articulated inertias IA, joint columns U = IA S and pivots D, tip to base.
-void ForwardDynamics::factorise(const Kinematics& kin) {
-    Workspace& ws = kin.workspace();
-    for (int k = 0; k < model_->size(); ++k)
-        ws.IA[static_cast<std::size_t>(k)] = spatial_inertia(ws, model_->body(k), static_cast<std::size_t>(k));
-    for (int k = model_->size() - 1; k >= 0; --k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model_->body(k);
-        ws.U[i] = ws.IA[i].middleCols<3>(part(body)) * ws.e[i];
-        ws.D[i] = ws.e[i].dot(ws.U[i].segment<3>(part(body))) + armature_diagonal_(k);
-        if (body.parent < 0) continue;
-        const std::size_t p = static_cast<std::size_t>(body.parent);
-        Mat6 passed = ws.IA[i];
-        if (!driven_[i]) passed -= ws.U[i] * ws.U[i].transpose() / ws.D[i];
-        add_shifted(ws.IA[p], passed, ws.o[i] - ws.o[p]);
-    }
-}
+struct ForwardDynamics::Arrays {
+    std::ptrdiff_t n;
+    const Model::Link* links;
+    const int* order;
+    const Workspace::Frame* frame;
+    const Packed33<double>* J;
+    const double* armature;
+    const char* held;
+    Articulated* body;
 
-// Bias forces tip to base, accelerations base to tip. `moving`: with velocity-product terms.
-void ForwardDynamics::sweep(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorIn qdd_driven, bool moving,
-                            VectorOut qdd) {
-    Workspace& ws = kin.workspace();
-    const int n = model_->size();
-    for (int k = 0; k < n; ++k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model_->body(k);
-        ws.c[i].setZero();
-        ws.pA[i].setZero();
-        if (!moving) continue;
-        const bool root = body.parent < 0;
-        const std::size_t p = root ? 0 : static_cast<std::size_t>(body.parent);
-        const Vec3 w_parent = root ? Vec3::Zero() : ws.w[p];
-        const Vec3 arm = root ? Vec3::Zero() : Vec3(ws.o[i] - ws.o[p]);
-        const Vec3 rate = ws.e[i] * qd(k);
-        ws.w[i] = body.revolute ? Vec3(w_parent + rate) : w_parent;
-        ws.c[i].tail<3>() = cross<double>(w_parent, cross<double>(w_parent, arm));
-        if (body.revolute)
-            ws.c[i].head<3>() = cross<double>(w_parent, rate);
-        else
-            ws.c[i].tail<3>() += 2 * cross<double>(w_parent, rate);
-        const Vec3 c = ws.r[i] - ws.o[i];
-        const Vec3 w_body = ws.E[i].transpose() * ws.w[i];
-        const Vec3 F = body.inertia.mass * cross<double>(ws.w[i], cross<double>(ws.w[i], c));
-        ws.pA[i].head<3>() = ws.E[i] * cross<double>(w_body, Vec3(body.J * w_body)) + cross<double>(c, F);
-        ws.pA[i].tail<3>() = F;
-    }
-    for (int k = n - 1; k >= 0; --k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model_->body(k);
-        // Inertia force of the motion that is known already: the bias acceleration c.
-        ws.pA[i] += ws.IA[i] * ws.c[i];
-        const double joint = ws.e[i].dot(ws.pA[i].segment<3>(part(body)));
-        ws.u[i] = driven_[i] ? qdd_driven(k) : (Q(k) - joint) / ws.D[i];
-        if (body.parent < 0) continue;
-        const std::size_t p = static_cast<std::size_t>(body.parent);
-        const Vec6 passed = ws.pA[i] + ws.U[i] * ws.u[i];
-        ws.pA[p] += passed;
-        ws.pA[p].head<3>() += cross<double>(ws.o[i] - ws.o[p], passed.tail<3>());
-    }
-    for (int k = 0; k < n; ++k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model_->body(k);
-        Vec6 carried = Vec6::Zero();  // acceleration of the parent at this joint's origin, without c
-        if (body.parent >= 0) {
-            const std::size_t p = static_cast<std::size_t>(body.parent);
-            carried = ws.A[p];
-            carried.tail<3>() += cross<double>(ws.A[p].head<3>(), ws.o[i] - ws.o[p]);
+    // Articulated inertias, tip to base, deepest bodies first: those of parallel branches do not wait for each other.
+    // The yield of a joint, U U^T / D, is taken away after the shift to the parent's joint origin, so that the division
+    // goes on meanwhile.                                                              [Featherstone 2008, section 7.3]
+    CARDAN_INLINE void factorise() const {
+        for (std::ptrdiff_t k = 0; k < n; ++k) rigid(links[k], frame[k], J[k], body[k].A, body[k].C, body[k].M);
+        for (std::ptrdiff_t i = n - 1; i >= 0; --i) {
+            const std::ptrdiff_t k = order[i];
+            Articulated& own = body[k];
+            const Packed3<double>& e = frame[k].E[2];
+            if (links[k].revolute) {
+                own.U_angular = own.A * e;
+                own.U_linear = own.C * e;
+            } else {
+                own.U_angular = transpose(own.C) * e;
+                own.U_linear = own.M * e;
+            }
+            own.D = dot(e, links[k].revolute ? own.U_angular : own.U_linear) + armature[k];
+            if (links[k].parent < 0) continue;
+            Articulated& parent = body[links[k].parent];
+            Packed33<double> A = own.A, C = own.C, M = own.M;
+            Packed3<double> U_angular = own.U_angular;
+            if (!links[k].coincident) {
+                const Packed3<double> arm = frame[k].o - frame[links[k].parent].o;
+                A += Packed33<double>{{cross(arm, C[0]), cross(arm, C[1]), cross(arm, C[2])}};
+                C += minus_times_skew(M, arm);
+                A += minus_times_skew(transpose(C), arm);
+                U_angular += cross(arm, own.U_linear);
+            }
+            parent.A += A;
+            parent.C += C;
+            parent.M += M;
+            if (held[k]) continue;
+            const double yield = 1 / own.D;
+            const Packed3<double> angular = yield * U_angular, linear = yield * own.U_linear;
+            subtract(parent.A, U_angular, angular);
+            subtract(parent.C, own.U_linear, angular);
+            subtract(parent.M, own.U_linear, linear);
         }
-        qdd(k) = driven_[i] ? ws.u[i] : ws.u[i] - ws.U[i].dot(carried) / ws.D[i];
-        ws.A[i] = carried + ws.c[i];
-        ws.A[i].segment<3>(part(body)) += ws.e[i] * qdd(k);
     }
+
+    // Solves for the motion that the forces Q produce from rest. reaction: what held joints carry.
+    CARDAN_INLINE void solve(const double* Q, double* qdd, double* reaction) const {
+        using P3 = Packed3<double>;
+        for (std::ptrdiff_t k = 0; k < n; ++k) body[k].force = body[k].moment = P3::zero();
+        for (std::ptrdiff_t k = n - 1; k >= 0; --k) {
+            Articulated& own = body[k];
+            const P3& e = frame[k].E[2];
+            reaction[k] = dot(e, links[k].revolute ? own.moment : own.force);
+            qdd[k] = held[k] ? 0.0 : (Q[k] - reaction[k]) / own.D;
+            if (links[k].parent < 0) continue;
+            const P3 force = own.force + qdd[k] * own.U_linear, moment = own.moment + qdd[k] * own.U_angular;
+            Articulated& parent = body[links[k].parent];
+            parent.force += force;
+            parent.moment += moment;
+            if (!links[k].coincident) parent.moment += cross(frame[k].o - frame[links[k].parent].o, force);
+        }
+        for (std::ptrdiff_t k = 0; k < n; ++k) {
+            Articulated& own = body[k];
+            const P3& e = frame[k].E[2];
+            P3 angular = P3::zero(), linear = P3::zero();
+            if (links[k].parent >= 0) {
+                const Articulated& parent = body[links[k].parent];
+                angular = parent.angular, linear = parent.linear;
+                if (!links[k].coincident) linear += cross(angular, frame[k].o - frame[links[k].parent].o);
+            }
+            const double carried = dot(own.U_angular, angular) + dot(own.U_linear, linear);
+            if (held[k])
+                reaction[k] += carried;
+            else
+                qdd[k] -= carried / own.D;
+            (links[k].revolute ? angular : linear) += qdd[k] * e;
+            own.angular = angular, own.linear = linear;
+        }
+    }
+};
+
+CARDAN_VECTORISED void ForwardDynamics::factorise(const Arrays& arrays) {
+    arrays.factorise();
+}
+
+CARDAN_VECTORISED void ForwardDynamics::solve_from_rest(const Arrays& arrays, const double* Q, double* qdd,
+                                                        double* reaction) {
+    arrays.solve(Q, qdd, reaction);
 }
 
 void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator) {
+    // What the motion needs without the accelerations of the free coordinates; the rest they produce from rest.
     Workspace& ws = kin.workspace();
-    qdd_prescribed_ = qdd;
-    factorise(kin);
+    const Eigen::Index n = model_->size();
+    for (Eigen::Index k = 0; k < n; ++k)
+        if (!held_[static_cast<std::size_t>(k)]) qdd(k) = 0;
+    inverse_dynamics<double>(kin, qd, qdd, residual_);
+    body_inertias(kin);
+    residual_ = Q - residual_;
+    const Arrays arrays{n,
+                        model_->links().data(),
+                        model_->by_depth().data(),
+                        ws.frame.data(),
+                        ws.J.data(),
+                        armature_diagonal_.data(),
+                        held_.data(),
+                        articulated_.data()};
+    factorise(arrays);
+    solve_from_rest(arrays, residual_.data(), correction_.data(), reaction_.data());
 
-    // Armatures that couple a driven with a free coordinate load the free one with J s_a s_b qdd_b.
-    offset_ = Q;
-    for (const Model::Spin& armature : model_->armatures())
-        for (const auto& [a, sa] : armature.spin)
-            for (const auto& [b, sb] : armature.spin)
-                if (!driven_[static_cast<std::size_t>(a)] && driven_[static_cast<std::size_t>(b)])
-                    offset_(a) -= armature.inertia * sa * sb * qdd_prescribed_(b);
-    sweep(kin, qd, offset_, qdd_prescribed_, true, qdd);
-
-    const auto r = static_cast<Eigen::Index>(support_.size());
-    if (r > 0) {  // (g0 + W X W^T) qdd = rhs:  qdd = y - Y (1 + X W^T Y)^-1 X W^T y
+    if (const auto r = static_cast<Eigen::Index>(support_.size()); r > 0) {
+        // (g0 + W X W^T) qdd = rhs:  qdd = y - Y (1 + X W^T Y)^-1 X W^T y
         for (Eigen::Index j = 0; j < r; ++j) {
-            offset_.setZero();
-            offset_(support_[static_cast<std::size_t>(j)]) = 1;
-            sweep(kin, zero_, offset_, zero_, false, support_solution_.col(j));
+            zero_(support_[static_cast<std::size_t>(j)]) = 1;
+            solve_from_rest(arrays, zero_.data(), support_solution_.col(j).data(), support_reaction_.col(j).data());
+            zero_(support_[static_cast<std::size_t>(j)]) = 0;
         }
-        for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = qdd(support_[static_cast<std::size_t>(i)]);
+        for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = correction_(support_[static_cast<std::size_t>(i)]);
         capacity_.setIdentity();
         for (Eigen::Index i = 0; i < r; ++i)
             for (Eigen::Index j = 0; j < r; ++j)
@@ -184,11 +212,21 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
         support_load_.noalias() = coupling_ * support_qdd_;
         capacity_lu_.compute(capacity_);
         support_correction_.noalias() = capacity_lu_.solve(support_load_);
-        qdd.noalias() -= support_solution_ * support_correction_;
+        correction_.noalias() -= support_solution_ * support_correction_;
+        reaction_.noalias() -= support_reaction_ * support_correction_;
     }
-    inverse_dynamics<double>(kin, qd, qdd, ws.bias);
-    for (int k = 0; k < model_->size(); ++k)
-        actuator(k) = driven_[static_cast<std::size_t>(k)] ? ws.bias(k) - Q(k) : 0.0;
+    actuator.setZero();
+    for (Eigen::Index k = 0; k < n; ++k)
+        if (held_[static_cast<std::size_t>(k)])
+            actuator(k) = reaction_(k) - residual_(k);
+        else
+            qdd(k) = correction_(k);
+    // Armatures that couple a driven with a free coordinate.
+    for (const Model::Spin& armature : model_->armatures())
+        for (const auto& [a, sa] : armature.spin)
+            for (const auto& [b, sb] : armature.spin)
+                if (driven_[static_cast<std::size_t>(a)] && !driven_[static_cast<std::size_t>(b)])
+                    actuator(a) += armature.inertia * sa * sb * correction_(b);
 }
 
 }  // namespace cardan

@@ -1,73 +1,86 @@
 #include "mbs/kinematics.hpp"
 
+#include "mbs/branch.hpp"
+#include "mbs/sines.hpp"
+
+#include <algorithm>
+
 namespace cardan {
 
 template <class S>
 WorkspaceT<S>::WorkspaceT(const Model& model) {
     const std::size_t n = static_cast<std::size_t>(model.size());
-    for (auto* v : {&o, &e, &r, &C, &w, &al, &a, &F, &N}) v->resize(n);
-    for (auto* m : {&E, &P}) m->resize(n);
-    for (auto* v : {&V, &A, &S6, &U, &c, &pA}) v->resize(n);
-    for (auto* m : {&IA, &B}) m->resize(n);
-    for (auto* x : {&D, &u}) x->resize(n);
-    M.resize(n);
-    bias.setZero(model.size());
+    frame.resize(n);
+    J.resize(n);
+    composite.resize(n);
+    motion.resize(n);
+    load.resize(n);
+    momentum.resize(n);
+    rates.resize(n);
+    sine.setZero(model.size());
+    cosine.setZero(model.size());
     zero.setZero(model.size());
+    int deepest = 0;
+    for (const Model::Link& link : model.links()) deepest = std::max(deepest, link.depth);
+    stride = Branch<S>::blocks(deepest);
+    branch.assign(static_cast<std::size_t>(Branch<S>::rows * stride), Packed3<S>::zero());
 }
+
+namespace {
+
+template <class S>
+CARDAN_INLINE void frames(std::ptrdiff_t n, const Model::Link* links, const S* q, const S* sine, const S* cosine,
+                          typename WorkspaceT<S>::Frame* frame) {
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const Model::Link& link = links[k];
+        Packed33<S> R = packed<S>(link.R);
+        Packed3<S> o = packed<S>(link.p);
+        if (link.parent >= 0) {
+            const typename WorkspaceT<S>::Frame& parent = frame[link.parent];
+            R = parent.E * R;
+            o = link.coincident ? parent.o : parent.o + parent.E * o;
+        }
+        if (link.revolute) {
+            const Packed3<S> x = R[0];
+            R[0] = cosine[k] * x + sine[k] * R[1];
+            R[1] = cosine[k] * R[1] - sine[k] * x;
+        } else {
+            o += q[k] * R[2];
+        }
+        frame[k] = {R, o, link.massless ? o : o + R * packed<S>(link.com)};
+    }
+}
+
+CARDAN_VECTORISED void run(std::ptrdiff_t n, const Model::Link* links, const double* q, const double* sine,
+                           const double* cosine, Workspace::Frame* frame) {
+    frames<double>(n, links, q, sine, cosine, frame);
+}
+
+void run(std::ptrdiff_t n, const Model::Link* links, const Complex* q, const Complex* sine, const Complex* cosine,
+         WorkspaceT<Complex>::Frame* frame) {
+    frames<Complex>(n, links, q, sine, cosine, frame);
+}
+
+}  // namespace
 
 template <class S>
 KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace) {
-    WorkspaceT<S>& ws = workspace;
-    using std::cos;
-    using std::sin;
     assert(q.size() == model.size());
-    ++ws.generation;
-    const std::size_t n = static_cast<std::size_t>(model.size());
-    for (std::size_t k = 0; k < n; ++k) {
-        const Model::Body& body = model.bodies()[k];
-        const Mat3T<S> R0 = body.joint.R.template cast<S>();
-        const Vec3T<S> p0 = body.joint.p.template cast<S>();
-        Mat3T<S> R;
-        Vec3T<S> origin;
-        if (body.parent < 0) {
-            R = R0;
-            origin = p0;
-        } else {
-            const std::size_t p = static_cast<std::size_t>(body.parent);
-            R.noalias() = ws.E[p] * R0;
-            origin.noalias() = ws.E[p] * p0;
-            origin += ws.o[p];
-        }
-        const S qk = q(static_cast<Eigen::Index>(k));
-        ws.e[k] = R.col(2);
-        if (body.revolute) {
-            const S c = cos(qk), s = sin(qk);
-            ws.E[k].col(0) = c * R.col(0) + s * R.col(1);
-            ws.E[k].col(1) = c * R.col(1) - s * R.col(0);
-            ws.E[k].col(2) = R.col(2);
-            ws.o[k] = origin;
-        } else {
-            ws.E[k] = R;
-            ws.o[k] = origin + qk * R.col(2);
-        }
-        ws.r[k] = ws.o[k] + ws.E[k] * body.inertia.com.template cast<S>();
-    }
-    return KinematicsT<S>(model, ws);
+    ++workspace.generation;
+    sines(q, workspace.sine, workspace.cosine);
+    run(model.size(), model.links().data(), q.data(), workspace.sine.data(), workspace.cosine.data(),
+        workspace.frame.data());
+    return KinematicsT<S>(model, workspace);
 }
 
 template <class S>
 BasisFunctions<S> basis_functions(const KinematicsT<S>& kin, int k, int a) {
     BasisFunctions<S> basis{Vec3T<S>::Zero(), Vec3T<S>::Zero()};
     if (!kin.model().precedes(a, k)) return basis;
-    const WorkspaceT<S>& ws = kin.workspace();
-    const std::size_t ik = static_cast<std::size_t>(k), ia = static_cast<std::size_t>(a);
-    const Mat3T<S> to_body = ws.E[ik].transpose();
-    if (kin.model().body(a).revolute) {
-        basis.u = to_body * cross<S>(ws.e[ia], ws.r[ik] - ws.o[ia]);
-        basis.Omega = to_body * ws.e[ia];
-    } else {
-        basis.u = to_body * ws.e[ia];
-    }
+    const Mat3T<S> to_body = kin.rotation(k).transpose();
+    const PointTwist<S> twist = twist_at(kin, a, kin.centre_of_mass(k));
+    basis.u = to_body * twist.v;
+    basis.Omega = to_body * twist.w;
     return basis;
 }
 
@@ -77,24 +90,17 @@ Pose<S> pose(const KinematicsT<S>& kin, FrameId frame) {
     const Mat3T<S> R = at.in_body.R.template cast<S>();
     const Vec3T<S> p = at.in_body.p.template cast<S>();
     if (at.body < 0) return {R, p};
-    const WorkspaceT<S>& ws = kin.workspace();
-    const std::size_t k = static_cast<std::size_t>(at.body);
-    return {ws.E[k] * R, ws.E[k] * p + ws.o[k]};
+    const Mat3T<S> E = kin.rotation(at.body);
+    return {E * R, E * p + kin.origin(at.body)};
 }
 
 template <class S>
 void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J) {
     J.setZero();
-    const WorkspaceT<S>& ws = kin.workspace();
     const Vec3T<S> point = pose(kin, frame).p;
     for (int a = kin.model().frame(frame).body; a >= 0; a = kin.model().body(a).parent) {
-        const std::size_t i = static_cast<std::size_t>(a);
-        if (kin.model().body(a).revolute) {
-            J.col(a).template head<3>() = ws.e[i];
-            J.col(a).template tail<3>() = cross<S>(ws.e[i], point - ws.o[i]);
-        } else {
-            J.col(a).template tail<3>() = ws.e[i];
-        }
+        const PointTwist<S> twist = twist_at(kin, a, point);
+        J.col(a) << twist.w, twist.v;
     }
 }
 

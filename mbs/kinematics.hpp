@@ -18,8 +18,16 @@ public:
         assert(generation_ == workspace_->generation && "stale kinematics: the workspace was used for another q");
         return *workspace_;
     }
+    /// Rotation of body k -> base.
+    Mat3T<S> rotation(int k) const { return frame(k).E.matrix(); }
+    /// Origin of the joint frame of body k, m; the joint axis; the centre of mass, m. Base axes.
+    Vec3T<S> origin(int k) const { return frame(k).o.vector(); }
+    Vec3T<S> axis(int k) const { return frame(k).E[2].vector(); }
+    Vec3T<S> centre_of_mass(int k) const { return frame(k).r.vector(); }
 
 private:
+    const typename WorkspaceT<S>::Frame& frame(int k) const { return workspace().frame[static_cast<std::size_t>(k)]; }
+
     KinematicsT(const Model& model, WorkspaceT<S>& workspace)
         : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
     template <class T>
@@ -52,6 +60,18 @@ struct BasisFunctions {
 };
 template <class S>
 BasisFunctions<S> basis_functions(const KinematicsT<S>& kin, int k, int a);
+
+/// Twist of coordinate a at a point C of a body distal to it: angular part w, velocity v (base axes).
+template <class S>
+struct PointTwist {
+    Vec3T<S> w, v;
+};
+template <class S>
+PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
+    const Vec3T<S> e = kin.axis(a);
+    if (kin.model().body(a).revolute) return {e, cross<S>(e, C - kin.origin(a))};
+    return {Vec3T<S>::Zero(), e};
+}
 
 /// Position and rotation (frame -> base) of a frame.
 template <class S>

@@ -1,32 +1,8 @@
 #include "mbs/metric.hpp"
 
-namespace cardan {
+#include "mbs/branch.hpp"
 
-template <class S>
-void composites(const KinematicsT<S>& kin) {
-    WorkspaceT<S>& ws = kin.workspace();
-    if (ws.composite_generation == ws.generation) return;
-    const Model& model = kin.model();
-    for (int k = 0; k < model.size(); ++k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model.body(k);
-        ws.M[i] = body.inertia.mass;
-        ws.C[i] = ws.r[i];
-        ws.P[i] = ws.E[i] * binet_tensor<double>(body.J).template cast<S>() * ws.E[i].transpose();
-    }
-    for (int k = model.size() - 1; k >= 0; --k) {
-        if (model.body(k).parent < 0) continue;
-        const std::size_t i = static_cast<std::size_t>(k), p = static_cast<std::size_t>(model.body(k).parent);
-        ws.P[p] += ws.P[i];
-        if (ws.M[i] == 0) continue;
-        const double M = ws.M[p] + ws.M[i];
-        const Vec3T<S> d = ws.C[i] - ws.C[p];
-        ws.P[p] += S(ws.M[p] * ws.M[i] / M) * (d * d.transpose());
-        ws.C[p] += S(ws.M[i] / M) * d;
-        ws.M[p] = M;
-    }
-    ws.composite_generation = ws.generation;
-}
+namespace cardan {
 
 template <class S>
 void add_armatures(const Model& model, MatrixOutT<S> g) {
@@ -35,22 +11,66 @@ void add_armatures(const Model& model, MatrixOutT<S> g) {
             for (const auto& [b, sb] : armature.spin) g(a, b) += armature.inertia * (sa * sb);
 }
 
+namespace {
+
+// Row m of the lower triangle, by depth: g_am = v_a . M v_m + w_a . (tr P - P) w_m, at the centre C of the subtree of
+// m.
+template <class S>
+CARDAN_INLINE void branch_row(const Branch<S>& path, const Model::Link& link,
+                              const typename WorkspaceT<S>::Frame& frame, const typename WorkspaceT<S>::Inertia& body,
+                              Packed3<S>* row) {
+    using Columns = Packed3<S>;
+    const Packed3<S>& e = frame.E[2];
+    const Packed3<S> p = body.M * (link.revolute ? cross(e, body.C - frame.o) : e);
+    Packed3<S> spin = Packed3<S>::zero();
+    if (link.revolute) spin = (body.P[0](0) + body.P[1](1) + body.P[2](2)) * e - body.P * e;
+    const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
+    const Columns sx = broadcast<0>(spin), sy = broadcast<1>(spin), sz = broadcast<2>(spin);
+    const Columns px = broadcast<0>(p), py = broadcast<1>(p), pz = broadcast<2>(p);
+    for (std::ptrdiff_t j = 0; j < path.blocks(link.depth); ++j) {
+        const Columns x = cx - path.o(0)[j], y = cy - path.o(1)[j], z = cz - path.o(2)[j];
+        row[j] = times(path.w(0)[j], sx + times(y, pz) - times(z, py)) +
+                 times(path.w(1)[j], sy + times(z, px) - times(x, pz)) +
+                 times(path.w(2)[j], sz + times(x, py) - times(y, px)) +
+                 (times(path.u(0)[j], px) + times(path.u(1)[j], py) + times(path.u(2)[j], pz));
+    }
+}
+
+template <class S>
+CARDAN_INLINE void fill(int n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
+                        const typename WorkspaceT<S>::Inertia* composite, const Branch<S>& path, S* g,
+                        std::ptrdiff_t stride) {
+    Packed3<S>* row = path.row(0);
+    for (int first = 0; first < n;) {
+        const int end = set_run(path, links, frame, first, n);
+        for (int m = first; m < end; ++m) {
+            branch_row(path, links[m], frame[m], composite[m], row);
+            write_branch(links, n, m, numbers(row), numbers(row), g, stride);
+        }
+        first = end;
+    }
+}
+
+CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
+                           const Workspace::Inertia* composite, const Branch<double>& path, double* g,
+                           std::ptrdiff_t stride) {
+    fill<double>(n, links, frame, composite, path, g, stride);
+}
+void run(int n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
+         const WorkspaceT<Complex>::Inertia* composite, const Branch<Complex>& path, Complex* g,
+         std::ptrdiff_t stride) {
+    fill<Complex>(n, links, frame, composite, path, g, stride);
+}
+
+}  // namespace
+
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     composites(kin);
-    const WorkspaceT<S>& ws = kin.workspace();
+    WorkspaceT<S>& ws = kin.workspace();
     const Model& model = kin.model();
-    g.setZero();
-    for (int m = 0; m < model.size(); ++m) {
-        const std::size_t i = static_cast<std::size_t>(m);
-        const PointTwist<S> distal = twist_at(kin, m, ws.C[i]);
-        const Vec3T<S> momentum = S(ws.M[i]) * distal.v;
-        const Vec3T<S> spin = ws.P[i].trace() * distal.w - ws.P[i] * distal.w;
-        for (int a = m; a >= 0; a = model.body(a).parent) {
-            const PointTwist<S> t = twist_at(kin, a, ws.C[i]);
-            g(a, m) = g(m, a) = dot<S>(t.v, momentum) + dot<S>(t.w, spin);
-        }
-    }
+    run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
+        Branch<S>(ws.branch.data(), ws.stride), g.data(), g.outerStride());
     add_armatures<S>(model, g);
 }
 
@@ -68,13 +88,13 @@ std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale
 
 Vector metric_scale(const Kinematics& kin) {
     composites(kin);
-    const Workspace& ws = kin.workspace();
     const Model& model = kin.model();
     Vector scale(model.size());
     for (int a = 0; a < model.size(); ++a) {
-        const std::size_t i = static_cast<std::size_t>(a);
-        scale(a) = ws.M[i];
-        if (model.body(a).revolute) scale(a) = ws.M[i] * (ws.C[i] - ws.o[i]).squaredNorm() + ws.P[i].trace();
+        const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        scale(a) = subtree.M;
+        if (model.body(a).revolute)
+            scale(a) = subtree.M * (subtree.C.vector() - kin.origin(a)).squaredNorm() + subtree.P.matrix().trace();
     }
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, s] : armature.spin) scale(a) += std::abs(armature.inertia) * s * s;
@@ -87,20 +107,19 @@ double kinetic_energy(const Kinematics& kin, VectorIn qd) {
     double twice = 0;
     for (int k = 0; k < model.size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
-        const Model::Body& body = model.body(k);
-        // Velocity of the joint origin is kept in ws.a.
-        if (body.parent < 0) {
-            ws.w[i].setZero();
-            ws.a[i].setZero();
-        } else {
-            const std::size_t p = static_cast<std::size_t>(body.parent);
-            ws.w[i] = ws.w[p];
-            ws.a[i] = ws.a[p] + cross<double>(ws.w[p], ws.o[i] - ws.o[p]);
+        const Model::Link& link = model.links()[i];
+        const Workspace::Frame& frame = ws.frame[i];
+        Workspace::Motion& motion = ws.motion[i];
+        motion.w = motion.v = Packed3<double>::zero();
+        if (link.parent >= 0) {
+            const std::size_t p = static_cast<std::size_t>(link.parent);
+            motion.w = ws.motion[p].w;
+            motion.v = ws.motion[p].v + cross(motion.w, frame.o - ws.frame[p].o);
         }
-        (body.revolute ? ws.w[i] : ws.a[i]) += ws.e[i] * qd(k);
-        const Vec3 v = ws.a[i] + cross<double>(ws.w[i], ws.r[i] - ws.o[i]);
-        const Vec3 w_body = ws.E[i].transpose() * ws.w[i];
-        twice += body.inertia.mass * v.squaredNorm() + w_body.dot(body.J * w_body);
+        (link.revolute ? motion.w : motion.v) += qd(k) * frame.E[2];
+        const Packed3<double> v = motion.v + cross(motion.w, frame.r - frame.o);
+        const Packed3<double> w_body = transpose(frame.E) * motion.w;
+        twice += link.mass * dot(v, v) + dot(w_body, link.J * w_body);
     }
     for (const Model::Spin& armature : model.armatures()) {
         double spin = 0;
@@ -111,7 +130,6 @@ double kinetic_energy(const Kinematics& kin, VectorIn qd) {
 }
 
 #define CARDAN_INSTANTIATE(S)                                    \
-    template void composites<S>(const KinematicsT<S>&);          \
     template void add_armatures<S>(const Model&, MatrixOutT<S>); \
     template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>);
 CARDAN_INSTANTIATE(double)

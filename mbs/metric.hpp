@@ -2,7 +2,7 @@
 /// The Riemannian metric of the configuration space, g_ab.
 #pragma once
 
-#include "mbs/kinematics.hpp"
+#include "mbs/composites.hpp"
 
 #include <optional>
 
@@ -14,23 +14,6 @@ namespace cardan {
 /// Cost O(n d), d the depth of the tree; no allocation.
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
-
-/// Subtrees as composite rigid bodies (mass, centre, Binet tensor about the centre), tip to base. Idempotent per q.
-template <class S>
-void composites(const KinematicsT<S>& kin);
-
-/// Twist of coordinate a at a point C of a body distal to it: angular part w, velocity v (base axes).
-template <class S>
-struct PointTwist {
-    Vec3T<S> w, v;
-};
-template <class S>
-PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
-    const WorkspaceT<S>& ws = kin.workspace();
-    const std::size_t i = static_cast<std::size_t>(a);
-    if (kin.model().body(a).revolute) return {ws.e[i], cross<S>(ws.e[i], C - ws.o[i])};
-    return {Vec3T<S>::Zero(), ws.e[i]};
-}
 
 /// Adds J s s^T of every armature to a metric.
 template <class S>

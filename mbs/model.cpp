@@ -4,6 +4,7 @@
 #include "mbs/metric.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace cardan {
 
@@ -25,6 +26,29 @@ Model::Model(const Tree& tree) {
     }
     check_metric();
 }
+
+namespace {
+
+Model::Link link(const Model::Body& body, int run) {
+    const bool moves = !body.revolute;  // a prismatic joint shifts its own origin
+    return {body.parent,
+            body.depth,
+            body.subtree_end,
+            run,
+            body.revolute,
+            body.parent >= 0 && !moves && body.joint.p.isZero(0),
+            body.inertia.is_massless(),
+            body.inertia.mass,
+            body.inertia.mass,
+            0,
+            0,
+            Packed33<double>::of(body.joint.R),
+            Packed3<double>::of(body.joint.p),
+            Packed3<double>::of(body.inertia.com),
+            Packed33<double>::of(body.J)};
+}
+
+}  // namespace
 
 void Model::sort(const Tree& tree) {
     const std::size_t n = tree.bodies().size();
@@ -52,7 +76,26 @@ void Model::sort(const Tree& tree) {
     for (int k = size() - 1; k >= 0; --k)
         if (const int p = body(k).parent; p >= 0)
             bodies_[static_cast<std::size_t>(p)].subtree_end = std::max(body(p).subtree_end, body(k).subtree_end);
+    make_links();
+    by_depth_.resize(bodies_.size());
+    std::iota(by_depth_.begin(), by_depth_.end(), 0);
+    std::stable_sort(by_depth_.begin(), by_depth_.end(), [&](int a, int b) { return body(a).depth < body(b).depth; });
     coordinates_ = CoordinateTable(std::move(rows));
+}
+
+void Model::make_links() {
+    for (int k = 0; k < size(); ++k) {
+        const bool continues = k > 0 && body(k).parent == k - 1;
+        links_.push_back(link(body(k), continues ? links_.back().run : k));
+    }
+    for (int k = size() - 1; k >= 0; --k) {
+        Link& own = links_[static_cast<std::size_t>(k)];
+        if (own.parent < 0 || own.subtree_mass == 0) continue;
+        double& carrier = links_[static_cast<std::size_t>(own.parent)].subtree_mass;
+        own.share = own.subtree_mass / (carrier + own.subtree_mass);
+        own.reduced = own.share * carrier;
+        carrier += own.subtree_mass;
+    }
 }
 
 int Model::index(BodyId body) const {

@@ -2,6 +2,7 @@
 /// The immutable tree: sorted, welded, checked once. Shareable between threads.
 #pragma once
 
+#include "mbs/packed.hpp"
 #include "mbs/tree.hpp"
 
 namespace cardan {
@@ -19,6 +20,24 @@ public:
         Placement joint;  ///< joint frame at q = 0 in the parent body's frame
         RigidInertia inertia;
         Mat3 J;  ///< inertia tensor about the centre of mass, body axes
+    };
+    /// The numbers of a body that the kernels read, close together.
+    struct Link {
+        int parent, depth, subtree_end;
+        int run;  ///< first of the consecutive indices run, run + 1, ... that lead to this body, each the parent of the
+                  ///< next
+        bool revolute;
+        bool coincident;  ///< joint origin and parent's joint origin are one point, whatever q
+        bool massless;
+        double mass;
+        double subtree_mass;  ///< kg
+        /// When the subtree is joined to the parent and the later children: its share of the mass, and the reduced mass
+        /// M1 M2 / (M1 + M2) of the two, kg.
+        double share, reduced;
+        Packed33<double> R;   ///< joint frame at q = 0 in the parent body's frame
+        Packed3<double> p;    ///< its origin
+        Packed3<double> com;  ///< centre of mass, body axes
+        Packed33<double> J;   ///< inertia tensor about it
     };
     struct Frame {
         std::string name;
@@ -40,6 +59,9 @@ public:
     int size() const { return static_cast<int>(bodies_.size()); }
     const Body& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
     const std::vector<Body>& bodies() const { return bodies_; }
+    const std::vector<Link>& links() const { return links_; }
+    /// Indices sorted by depth: in this order, too, every parent comes before its children.
+    const std::vector<int>& by_depth() const { return by_depth_; }
     const std::vector<Frame>& frames() const { return frames_; }
     const std::vector<Spin>& armatures() const { return armatures_; }
     const CoordinateTable& coordinates() const { return coordinates_; }
@@ -56,9 +78,12 @@ public:
 
 private:
     void sort(const Tree& tree);
+    void make_links();
     void check_metric() const;
 
     std::vector<Body> bodies_;
+    std::vector<Link> links_;
+    std::vector<int> by_depth_;
     std::vector<Frame> frames_;
     std::vector<Spin> armatures_;
     CoordinateTable coordinates_;

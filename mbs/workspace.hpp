@@ -2,43 +2,67 @@
 /// The memory of the kernels: allocated once per model and thread.
 #pragma once
 
+#include "mbs/aligned.hpp"
 #include "mbs/model.hpp"
 
 #include <cstdint>
 
 namespace cardan {
 
-/// Arrays over bodies, all in base axes unless said otherwise. Kernels overwrite each other's scratch; what the
-/// kinematics() stage wrote stays valid until it is called again.
+/// Arrays over bodies, all in base axes. Kernels overwrite each other's scratch; what the kinematics() stage wrote
+/// stays valid until it is called again.
 template <class S>
 class WorkspaceT {
 public:
     explicit WorkspaceT(const Model& model);
 
-    template <class T>
-    using Aligned = std::vector<T>;
+    struct Frame {
+        Packed33<S> E;  ///< rotation body -> base; its third column is the joint axis
+        Packed3<S> o;   ///< origin of the joint frame, m
+        Packed3<S> r;   ///< centre of mass, m
+    };
+    /// A rigid body, or a subtree as one: mass, centre, inertia or Binet tensor about the centre.
+    struct Inertia {
+        S M;
+        Packed3<S> C;
+        Packed33<S> P;
+    };
+    struct Motion {
+        Packed3<S> w, al;  ///< angular velocity and acceleration
+        Packed3<S> v, a;   ///< velocity and acceleration of the joint origin
+    };
+    struct Load {
+        Packed3<S> F, N;  ///< force, and moment about the joint origin
+    };
+
+    struct Momentum {
+        Packed3<S> p;   ///< sum of m x_dot
+        Packed33<S> G;  ///< sum of m (x - o) x_dot^T about the joint origin
+    };
+
+    /// Psi' and Psi'' of a coordinate (see derivatives.cpp).
+    struct Rates {
+        Packed3<S> psi1_w, psi1_u, psi2_w, psi2_u;
+    };
 
     // Written by kinematics().
     std::uint64_t generation = 0;
-    Aligned<Mat3T<S>> E;  ///< rotation body -> base
-    Aligned<Vec3T<S>> o;  ///< origin of the joint frame, m
-    Aligned<Vec3T<S>> e;  ///< joint axis
-    Aligned<Vec3T<S>> r;  ///< centre of mass, m
+    AlignedVector<Frame> frame;
+    VectorT<S> sine, cosine;
 
-    // Composite rigid bodies (subtrees) as one body: mass, centre, Binet tensor about the centre.
-    std::uint64_t composite_generation = 0;
-    Aligned<double> M;
-    Aligned<Vec3T<S>> C;
-    Aligned<Mat3T<S>> P;
+    std::uint64_t inertia_generation = 0, composite_generation = 0;
+    AlignedVector<Packed33<S>> J;      ///< inertia tensors about the centres of mass
+    AlignedVector<Inertia> composite;  ///< subtrees, Binet tensors
 
     // Scratch of the recursions.
-    Aligned<Vec3T<S>> w, al, a;  ///< angular velocity and acceleration, acceleration of the joint origin
-    Aligned<Vec3T<S>> F, N;      ///< force and moment about the joint origin
-    Aligned<Vec6T<S>> V, A, S6;  ///< spatial velocity, acceleration and joint axis about the base origin
-    Aligned<Vec6T<S>> U, c, pA;  ///< articulated-body recursion
-    Aligned<Mat6T<S>> IA, B;     ///< articulated (or composite spatial) inertia; composite velocity matrix
-    Aligned<S> D, u;
-    VectorT<S> bias, zero;
+    AlignedVector<Motion> motion;
+    AlignedVector<Load> load;
+    AlignedVector<Momentum> momentum;
+    AlignedVector<Rates> rates;
+    /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see mbs/branch.hpp).
+    std::ptrdiff_t stride;
+    AlignedVector<Packed3<S>> branch;
+    VectorT<S> zero;
 };
 
 using Workspace = WorkspaceT<double>;

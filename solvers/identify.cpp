@@ -18,7 +18,7 @@ std::vector<std::string> coordinate_families(const Model& model, const PartAxes&
     const Mat3 axes = pose(kin, part.axes).R;
     std::vector<std::string> families;
     for (int a : own) {
-        const Vec3 along = axes.transpose() * workspace.e[static_cast<std::size_t>(a)];
+        const Vec3 along = axes.transpose() * kin.axis(a);
         Eigen::Index axis = 0;
         along.cwiseAbs().maxCoeff(&axis);
         const auto& names = model.body(a).revolute ? part.rotation : part.translation;

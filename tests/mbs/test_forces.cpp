@@ -160,7 +160,7 @@ TEST_CASE("forces: eq. (7) with the weight of every body is the gravity element"
         const Vector Q = s.Q();
         const Kinematics kin = s.kin();
         for (int k = 0; k < s.n; ++k) {
-            const Mat3& E = kin.workspace().E[static_cast<std::size_t>(k)];
+            const Mat3 E = kin.rotation(k);
             loads[static_cast<std::size_t>(k)].force =
                 s.model().body(k).inertia.mass * (E.transpose() * s.forces().gravity());
         }
@@ -192,9 +192,9 @@ TEST_CASE("forces: eq. (7) with wrenches carried over to the centres of mass is 
             const Pose<double> at = pose(kin, load.frame);
             const Mat3 to_base = load.axes == WrenchAxes::frame ? at.R : Mat3(Mat3::Identity());
             const Vec3 force = to_base * load.wrench.force, moment = to_base * load.wrench.moment;
-            const Mat3 to_body = kin.workspace().E[k].transpose();
+            const Mat3 to_body = kin.rotation(static_cast<int>(k)).transpose();
             loads[k].force += to_body * force;
-            loads[k].moment += to_body * (moment + (at.p - kin.workspace().r[k]).cross(force));
+            loads[k].moment += to_body * (moment + (at.p - kin.centre_of_mass(static_cast<int>(k))).cross(force));
         }
         Vector sum(s.n);
         for (int a = 0; a < s.n; ++a) sum(a) = lagrange::generalised_force(kin, loads, a);

@@ -65,6 +65,7 @@ Tree random_tree(Random& random, const RandomTreeOptions& options) {
         spec.name = text("body ", k);
         spec.inboard = parent[i] < 0 ? Tree::base() : tree.frame_of(ids[static_cast<std::size_t>(parent[i])]);
         spec.placement = random_placement(random);
+        if (parent[i] >= 0 && uniform(random, 0, 1) < options.coincident) spec.placement.p.setZero();
         spec.joint = uniform(random, 0, 1) < options.prismatic ? JointKind::prismatic : JointKind::revolute;
         const int run = parent[i] < 0 ? 0 : massless_run[static_cast<std::size_t>(parent[i])];
         if (leaf[i] || run == 2 || uniform(random, 0, 1) >= options.massless)

@@ -21,6 +21,7 @@ struct RandomTreeOptions {
     int bodies = 9;
     double prismatic = 0.35;
     double massless = 0.25;
+    double coincident = 0.2;  ///< joints in one point with the parent's, as in a cardan joint
     bool armatures = false;
     int driven = 0;
 };

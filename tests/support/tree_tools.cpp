@@ -66,9 +66,8 @@ Momentum momentum(const Kinematics& kin, VectorIn qd) {
     Momentum total;
     for (int k = 0; k < model.size(); ++k) {
         const Model::Body& body = model.body(k);
-        const std::size_t i = static_cast<std::size_t>(k);
-        const Mat3& E = kin.workspace().E[i];
-        const Vec3& r = kin.workspace().r[i];
+        const Mat3 E = kin.rotation(k);
+        const Vec3 r = kin.centre_of_mass(k);
         Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  // body axes
         for (int a = k; a >= 0; a = model.body(a).parent) {
             const BasisFunctions<double> basis = basis_functions(kin, k, a);

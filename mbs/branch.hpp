@@ -1,0 +1,86 @@
+/// @file
+/// The twists of a path from the base, laid out so that one loop over the path uses whole registers.
+#pragma once
+
+#include "mbs/workspace.hpp"
+
+namespace cardan {
+
+/// Structure of arrays along one path: three rows per vector, one column per body, by depth. Coordinate j moves the
+/// point C of a body distal to it with angular velocity w_j and velocity u_j + w_j x (C - o_j): a prismatic joint has
+/// its axis in u and w = 0, a revolute one its axis in w and u = 0, so that no loop asks for the kind of a joint.
+///
+/// Bodies are visited in the order of the model, depth first: when body m puts itself into column depth(m) - 1, the
+/// columns before still hold its ancestors.
+template <class S>
+class Branch {
+public:
+    static constexpr int twist_rows = 9, rows = 32;
+    using Columns = Packed3<S>;  ///< four columns of a row
+
+    CARDAN_INLINE Branch(Columns* data, std::ptrdiff_t stride) : data_(data), stride_(stride) {}
+
+    CARDAN_INLINE Columns* w(int i) const { return data_ + i * stride_; }
+    CARDAN_INLINE Columns* o(int i) const { return data_ + (3 + i) * stride_; }
+    CARDAN_INLINE Columns* u(int i) const { return data_ + (6 + i) * stride_; }
+    /// Further rows, for the kernels.
+    CARDAN_INLINE Columns* row(int i) const { return data_ + (twist_rows + i) * stride_; }
+    /// The three rows of a vector.
+    CARDAN_INLINE void set(int first_row, std::ptrdiff_t column, const Packed3<S>& v) const {
+        for (int i = 0; i < 3; ++i) row(first_row + i)[column / 4].lanes[column % 4] = v(i);
+    }
+    CARDAN_INLINE Packed3<S> get(int first_row, std::ptrdiff_t column) const {
+        const auto at = [&](int i) { return row(first_row + i)[column / 4].lanes[column % 4]; };
+        return Packed3<S>::of(at(0), at(1), at(2));
+    }
+    CARDAN_INLINE void set(const Model::Link& link, const typename WorkspaceT<S>::Frame& frame) const {
+        const Packed3<S> none = Packed3<S>::zero();
+        set(-9, link.depth - 1, link.revolute ? frame.E[2] : none);
+        set(-6, link.depth - 1, frame.o);
+        set(-3, link.depth - 1, link.revolute ? none : frame.E[2]);
+    }
+    /// Number of Columns for `depth` columns.
+    CARDAN_INLINE static std::ptrdiff_t blocks(std::ptrdiff_t depth) { return (depth + 3) / 4; }
+
+private:
+    Columns* data_;
+    std::ptrdiff_t stride_;
+};
+
+/// The numbers of a row, one by one.
+template <class S>
+CARDAN_INLINE const S* numbers(const Packed3<S>* columns) {
+    return reinterpret_cast<const S*>(columns);
+}
+
+/// Columns of all bodies of the run that starts with body `first`; returns one past its last body. The columns of a
+/// whole run are set before the first is used: a register is loaded long after its four numbers were stored.
+template <class S>
+CARDAN_INLINE int set_run(const Branch<S>& path, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
+                          int first, int n) {
+    int end = first;
+    for (; end < n && links[end].run == first; ++end) path.set(links[end], frame[end]);
+    return end;
+}
+
+/// Writes what belongs to body m into an n x n matrix (column-major): row m left of the diagonal and column m above it,
+/// given by depth; the diagonal from `row`. Zero where m and the other body are not on one path from the base.
+template <class S>
+CARDAN_INLINE void write_branch(const Model::Link* links, int n, int m, const S* row, const S* column, S* matrix,
+                                std::ptrdiff_t stride) {
+    S* const own_column = matrix + m * stride;
+    S* const own_row = matrix + m;
+    for (int last = m; last >= 0;) {
+        const int first = links[last].run, next = links[first].parent;
+        const S* const from_row = row + (links[first].depth - 1 - first);
+        const S* const from_column = column + (links[first].depth - 1 - first);
+        for (int a = first; a <= last; ++a) own_column[a] = from_column[a];
+        CARDAN_UNROLL
+        for (int a = first; a <= last; ++a) own_row[a * stride] = from_row[a];
+        for (int a = next + 1; a < first; ++a) own_column[a] = S(0);
+        last = next;
+    }
+    for (int a = links[m].subtree_end; a < n; ++a) own_column[a] = S(0);
+}
+
+}  // namespace cardan

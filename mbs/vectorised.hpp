@@ -1,0 +1,31 @@
+/// @file
+/// How the kernels use the vector instructions of the processor without changing a flag of the build.
+#pragma once
+
+/// A function that the compiler translates twice, for every processor and for those with AVX2 and FMA; the right one is
+/// chosen when the program starts. Everything it calls must be CARDAN_INLINE or a loop of its own. Only pointers and
+/// plain numbers cross its border, so that no type depends on the processor.
+/// GCC on x86-64 only: clang 14 has no such clones, and they are resolved before a sanitizer is ready.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define CARDAN_HAS_VECTORISED
+#define CARDAN_VECTORISED __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define CARDAN_VECTORISED
+#endif
+
+/// Inlined whatever it costs: a vector register passed to a function would depend on the processor.
+#if defined(__GNUC__)
+#define CARDAN_INLINE [[gnu::always_inline]] inline
+#else
+#define CARDAN_INLINE inline
+#endif
+
+/// Before a loop whose body is a single store or so.
+#if defined(__clang__)
+#define CARDAN_UNROLL _Pragma("clang loop unroll_count(4)")
+#elif defined(__GNUC__)
+#define CARDAN_UNROLL _Pragma("GCC unroll 4")
+#else
+#define CARDAN_UNROLL
+#endif
