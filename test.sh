@@ -82,7 +82,7 @@ check_tidy() {
 }
 
 heading "Packages"
-packages=("${cardan_build_packages[@]}" "${cardan_format_packages[@]}")
+packages=("${cardan_build_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
 if ((full)); then packages+=("${cardan_check_packages[@]}"); fi
 require_packages "${packages[@]}"
 

@@ -34,6 +34,12 @@ macro(cardan_find_hdf5)
     endif()
 endmacro()
 
+macro(cardan_find_tbb)
+    if(NOT TARGET TBB::tbb)
+        find_package(TBB 2021 REQUIRED CONFIG COMPONENTS tbb)
+    endif()
+endmacro()
+
 macro(cardan_find_urdfdom)
     if(NOT TARGET urdfdom::urdfdom_model)
         find_package(urdfdom REQUIRED CONFIG)

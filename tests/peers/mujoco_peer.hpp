@@ -1,0 +1,36 @@
+/// @file
+/// MuJoCo (Todorov, Erez and Tassa 2012): composite bodies, sparse factorisation of the metric, Newton-Euler recursion.
+#pragma once
+
+#include "tests/peers/peer.hpp"
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace cardan::peers {
+
+/// MuJoCo has no moving bodies without mass: the joint of a massless link becomes one more joint of the link it
+/// carries.
+class MujocoPeer : public Peer {
+public:
+    /// @throws PeerRefusal for a massless link that carries not exactly one other, and for what MuJoCo itself refuses
+    explicit MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {});
+    ~MujocoPeer() override;
+    MujocoPeer(const MujocoPeer&) = delete;
+    MujocoPeer& operator=(const MujocoPeer&) = delete;
+
+    void metric(const double* q, double* g) override;
+    void inverse_dynamics(const double* q, const double* qd, const double* qdd, double* tau) override;
+    void forward_dynamics(const double* q, const double* qd, const double* Q, double* qdd) override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The tree in MuJoCo's own format (MJCF); the joints are named after the links: "0", "1" ...
+/// @throws PeerRefusal for a massless link that carries not exactly one other
+std::string mujoco_xml(const std::vector<PeerLink>& links, std::array<double, 3> gravity);
+
+}  // namespace cardan::peers

@@ -1,0 +1,29 @@
+/// @file
+/// Simbody (Sherman, Seth and Delp 2011): O(n) recursions in the spatial operator algebra.
+#pragma once
+
+#include "tests/peers/peer.hpp"
+
+#include <array>
+#include <memory>
+
+namespace cardan::peers {
+
+class SimbodyPeer : public Peer {
+public:
+    /// @throws PeerRefusal for a link that has moments of inertia but no mass
+    explicit SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {});
+    ~SimbodyPeer() override;
+    SimbodyPeer(const SimbodyPeer&) = delete;
+    SimbodyPeer& operator=(const SimbodyPeer&) = delete;
+
+    void metric(const double* q, double* g) override;
+    void inverse_dynamics(const double* q, const double* qd, const double* qdd, double* tau) override;
+    void forward_dynamics(const double* q, const double* qd, const double* Q, double* qdd) override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cardan::peers
