@@ -10,7 +10,8 @@ install(EXPORT cardanTargets NAMESPACE cardan:: DESTINATION ${package_dir})
 
 foreach(folder IN ITEMS mbs elements turbines solvers)
     file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-    list(FILTER headers EXCLUDE REGEX "hdf5_(impl|storage)[.]hpp$") # inside of the library, they need <hdf5.h>
+    # Inside of the libraries: these need headers of HDF5 and urdfdom.
+    list(FILTER headers EXCLUDE REGEX "(hdf5_(impl|storage)|urdf_(impl|plan|vocabulary))[.]hpp$")
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/${folder})
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/mbs)

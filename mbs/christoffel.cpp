@@ -1,7 +1,7 @@
 #include "mbs/christoffel.hpp"
 
-#include "mbs/branch.hpp"
 #include "mbs/composites.hpp"
+#include "mbs/path_twists.hpp"
 
 #include <algorithm>
 
@@ -27,7 +27,7 @@ std::span<const double> Christoffel::table(int m) const {
 }
 
 std::size_t Christoffel::stride(int m) const {
-    return 4 * static_cast<std::size_t>(Branch<double>::blocks(model_->body(m).depth));
+    return 4 * static_cast<std::size_t>(PathTwists<double>::blocks(model_->body(m).depth));
 }
 
 std::span<const int> Christoffel::path(int m) const {
@@ -96,7 +96,8 @@ enum Rows { w = -9, v = 0, f = 3, t = 6, spare = 9 };
 
 // K(a, b) = v_a . f_b + w_a . t_b with v the velocities at the centre C of the subtree of the last column m,
 // f = M w x v_m and t = P w x w_m. A prismatic b has w = 0, which makes its column vanish: the factor (1 - s_b).
-CARDAN_INLINE void branch_columns(const Branch<double>& path, std::ptrdiff_t depth, const Workspace::Inertia& body) {
+CARDAN_INLINE void branch_columns(const PathTwists<double>& path, std::ptrdiff_t depth,
+                                  const Workspace::Inertia& body) {
     using Columns = Packed3<double>;
     const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
     for (std::ptrdiff_t j = 0; j < path.blocks(depth); ++j) {
@@ -128,7 +129,7 @@ CARDAN_INLINE Packed3<double> all(const Packed3<double>* row, std::ptrdiff_t col
 }
 
 // Two rows at a time, for every number of f and t loaded to serve twice; the row after the last is a spare one.
-CARDAN_INLINE void fill_table(const Branch<double>& path, std::ptrdiff_t depth, Packed3<double>* K) {
+CARDAN_INLINE void fill_table(const PathTwists<double>& path, std::ptrdiff_t depth, Packed3<double>* K) {
     using Columns = Packed3<double>;
     const std::ptrdiff_t blocks = path.blocks(depth);
     const Columns *fx = path.row(f), *fy = path.row(f + 1), *fz = path.row(f + 2), *tx = path.row(t),
@@ -149,8 +150,8 @@ CARDAN_INLINE void fill_table(const Branch<double>& path, std::ptrdiff_t depth, 
 }
 
 CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Frame* frame,
-                            const Workspace::Inertia* composite, const Branch<double>& path, Packed3<double>* values,
-                            const std::size_t* offset) {
+                            const Workspace::Inertia* composite, const PathTwists<double>& path,
+                            Packed3<double>* values, const std::size_t* offset) {
     for (int first = 0; first < n;) {
         const int end = set_run(path, links, frame, first, n);
         for (int m = first; m < end; ++m) {
@@ -168,7 +169,7 @@ void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
     Workspace& ws = kin.workspace();
     const Model& model = kin.model();
     fill(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-         Branch<double>(ws.branch.data(), ws.stride), gamma.values_.data(), gamma.value_offset_.data());
+         PathTwists<double>(ws.branch.data(), ws.stride), gamma.values_.data(), gamma.value_offset_.data());
 }
 
 }  // namespace cardan

@@ -2,7 +2,6 @@
 /// Christoffel symbols of the first kind, Gamma_abc = (d_b g_ac + d_c g_ab - d_a g_bc) / 2.
 #pragma once
 
-#include "mbs/aligned.hpp"
 #include "mbs/kinematics.hpp"
 
 #include <span>
@@ -40,7 +39,7 @@ private:
     const Model* model_;
     std::vector<std::size_t> value_offset_, path_offset_;
     std::vector<int> paths_;
-    AlignedVector<Packed3<double>> values_;
+    std::vector<Packed3<double>> values_;
     std::size_t stored_ = 0;
 };
 

@@ -1,7 +1,7 @@
 #include "mbs/derivatives.hpp"
 
-#include "mbs/branch.hpp"
 #include "mbs/composites.hpp"
+#include "mbs/path_twists.hpp"
 
 namespace cardan {
 
@@ -9,7 +9,7 @@ namespace {
 
 // Rows of the branch besides the twists S_j = (w, u): Psi' = v x S and Psi'' = a x S + v x Psi' of the carrier's
 // spatial velocity v and acceleration a, their linear parts at o_j.
-enum Rows { axis_w = -9, axis_u = -3, psi1_w = 0, psi1_u = 3, psi2_w = 6, psi2_u = 9, by_column = 12 };
+enum Rows { psi1_w = 0, psi1_u = 3, psi2_w = 6, psi2_u = 9, scratch = 12 };
 
 template <class S>
 using Rates = typename WorkspaceT<S>::Rates;
@@ -114,7 +114,8 @@ CARDAN_INLINE Subtree<S> subtree_of(const Model::Link& link, const typename Work
 
 // The products of subtree k with four coordinates on its path.
 template <class S>
-CARDAN_INLINE void branch_products(const Branch<S>& path, std::ptrdiff_t blocks, const Subtree<S>& s) {
+CARDAN_INLINE void branch_products(const PathTwists<S>& path, std::ptrdiff_t blocks, const Subtree<S>& s,
+                                   Packed3<S>* row_q, Packed3<S>* row_qd, Packed3<S>* column_q, Packed3<S>* column_qd) {
     using Columns = Packed3<S>;
     const Columns cx = broadcast<0>(s.C), cy = broadcast<1>(s.C), cz = broadcast<2>(s.C);
     const auto about_o = [&](std::ptrdiff_t j, const Packed3<S>& force, const Packed3<S>& moment, Columns* sum) {
@@ -136,18 +137,19 @@ CARDAN_INLINE void branch_products(const Branch<S>& path, std::ptrdiff_t blocks,
     for (std::ptrdiff_t j = 0; j < blocks; ++j) {
         Columns moment[3];
         about_o(j, s.momentum, s.spin, moment);
-        path.row(by_column)[j] = fixed(j, psi1_w, B_row) + product(j, psi2_w, moment) + fixed(j, psi2_u, s.momentum);
-        path.row(by_column + 1)[j] =
-            fixed(j, axis_w, B_row) + S(2) * product(j, psi1_w, moment) + fixed(j, psi1_u, momentum);
+        row_q[j] = fixed(j, psi1_w, B_row) + product(j, psi2_w, moment) + fixed(j, psi2_u, s.momentum);
+        row_qd[j] =
+            fixed(j, PathTwists<S>::w_rows, B_row) + S(2) * product(j, psi1_w, moment) + fixed(j, psi1_u, momentum);
         about_o(j, s.force_q, s.moment_q, moment);
-        path.row(by_column + 2)[j] = product(j, axis_w, moment) + fixed(j, axis_u, s.force_q);
+        column_q[j] = product(j, PathTwists<S>::w_rows, moment) + fixed(j, PathTwists<S>::u_rows, s.force_q);
         about_o(j, s.force_qd, s.moment_qd, moment);
-        path.row(by_column + 3)[j] = product(j, axis_w, moment) + fixed(j, axis_u, s.force_qd);
+        column_qd[j] = product(j, PathTwists<S>::w_rows, moment) + fixed(j, PathTwists<S>::u_rows, s.force_qd);
     }
 }
 
 template <class S>
-CARDAN_INLINE void set_rates(const Branch<S>& path, std::ptrdiff_t column, const typename WorkspaceT<S>::Rates& rates) {
+CARDAN_INLINE void set_rates(const PathTwists<S>& path, std::ptrdiff_t column,
+                             const typename WorkspaceT<S>::Rates& rates) {
     path.set(psi1_w, column, rates.psi1_w);
     path.set(psi1_u, column, rates.psi1_u);
     path.set(psi2_w, column, rates.psi2_w);
@@ -165,14 +167,12 @@ struct Arguments {
     typename WorkspaceT<S>::Momentum* momentum;
     typename WorkspaceT<S>::Load* load;
     typename WorkspaceT<S>::Rates* rates;
-    Branch<S> path;
+    PathTwists<S> path;
     const S *qd, *qdd;
-    S *by_q, *by_qd;
-    std::ptrdiff_t stride_q, stride_qd;
 };
 
-template <class S>
-CARDAN_INLINE void differentiate(const Arguments<S>& x) {
+template <class S, class Sink>
+CARDAN_INLINE void differentiate(const Arguments<S>& x, const Sink& by_q, const Sink& by_qd) {
     for (int k = 0; k < x.n; ++k) {
         x.rates[k] = advance<S>(x.links[k], x.frame, k, x.qd[k], x.qdd[k], x.motion);
         own_load<S>(x.links[k], x.frame[k], x.J[k], x.motion[k], x.momentum[k], x.load[k]);
@@ -187,27 +187,43 @@ CARDAN_INLINE void differentiate(const Arguments<S>& x) {
         x.load[p].F += x.load[k].F;
         x.load[p].N += x.load[k].N + cross(arm, x.load[k].F);
     }
-    const S *row_q = numbers(x.path.row(by_column)), *row_qd = numbers(x.path.row(by_column + 1)),
-            *column_q = numbers(x.path.row(by_column + 2)), *column_qd = numbers(x.path.row(by_column + 3));
     for (int first = 0; first < x.n;) {
         const int end = set_run(x.path, x.links, x.frame, first, x.n);
         for (int k = first; k < end; ++k) set_rates(x.path, x.links[k].depth - 1, x.rates[k]);
         for (int k = first; k < end; ++k) {
             const Subtree<S> s =
                 subtree_of<S>(x.links[k], x.frame[k], x.composite[k], x.momentum[k], x.load[k], x.rates[k]);
-            branch_products(x.path, x.path.blocks(x.links[k].depth), s);
-            write_branch(x.links, x.n, k, row_q, column_q, x.by_q, x.stride_q);
-            write_branch(x.links, x.n, k, row_qd, column_qd, x.by_qd, x.stride_qd);
+            branch_products(x.path, x.path.blocks(x.links[k].depth), s, by_q.row_of(k), by_qd.row_of(k),
+                            by_q.column_of(k), by_qd.column_of(k));
+            by_q.written(k);
+            by_qd.written(k);
         }
         first = end;
     }
 }
 
-CARDAN_VECTORISED void run(const Arguments<double>& x) {
-    differentiate(x);
+CARDAN_VECTORISED void run(const Arguments<double>& x, const DenseSink<double>& by_q, const DenseSink<double>& by_qd) {
+    differentiate(x, by_q, by_qd);
 }
-void run(const Arguments<Complex>& x) {
-    differentiate(x);
+CARDAN_VECTORISED void run(const Arguments<double>& x, const BranchSink<double>& by_q,
+                           const BranchSink<double>& by_qd) {
+    differentiate(x, by_q, by_qd);
+}
+template <class Sink>
+void run(const Arguments<Complex>& x, const Sink& by_q, const Sink& by_qd) {
+    differentiate(x, by_q, by_qd);
+}
+
+template <class S>
+Arguments<S> arguments(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd) {
+    composites(kin);
+    WorkspaceT<S>& ws = kin.workspace();
+    return {kin.model().size(), kin.model().links().data(),
+            ws.frame.data(),    ws.composite.data(),
+            ws.J.data(),        ws.motion.data(),
+            ws.momentum.data(), ws.load.data(),
+            ws.rates.data(),    PathTwists<S>(ws.branch.data(), ws.stride),
+            qd.data(),          qdd.data()};
 }
 
 }  // namespace
@@ -215,18 +231,25 @@ void run(const Arguments<Complex>& x) {
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
                                   MatrixOutT<S> dtau_dqd) {
-    composites(kin);
-    WorkspaceT<S>& ws = kin.workspace();
-    const Model& model = kin.model();
-    run(Arguments<S>{model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), ws.J.data(),
-                     ws.motion.data(), ws.momentum.data(), ws.load.data(), ws.rates.data(),
-                     Branch<S>(ws.branch.data(), ws.stride), qd.data(), qdd.data(), dtau_dq.data(), dtau_dqd.data(),
-                     dtau_dq.outerStride(), dtau_dqd.outerStride()});
+    const Arguments<S> x = arguments<S>(kin, qd, qdd);
+    const auto sink = [&](MatrixOutT<S>& A, int row) {
+        return DenseSink<S>{x.links, x.n, A.data(), A.outerStride(), x.path.row(row), x.path.row(row + 1)};
+    };
+    run(x, sink(dtau_dq, scratch), sink(dtau_dqd, scratch + 2));
+}
+
+template <class S>
+void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd,
+                                  BranchMatrixT<S>& dtau_dq, BranchMatrixT<S>& dtau_dqd) {
+    const auto sink = [](BranchMatrixT<S>& A) { return BranchSink<S>{A.rows(), A.columns(), A.offset()}; };
+    run(arguments<S>(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
 }
 
 #define CARDAN_INSTANTIATE(S)                                                                                       \
     template void inverse_dynamics_derivatives<S>(const KinematicsT<S>&, VectorInT<S>, VectorInT<S>, MatrixOutT<S>, \
-                                                  MatrixOutT<S>);
+                                                  MatrixOutT<S>);                                                   \
+    template void inverse_dynamics_derivatives<S>(const KinematicsT<S>&, VectorInT<S>, VectorInT<S>,                \
+                                                  BranchMatrixT<S>&, BranchMatrixT<S>&);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)
 #undef CARDAN_INSTANTIATE

@@ -1,6 +1,6 @@
 #include "mbs/kinematics.hpp"
 
-#include "mbs/branch.hpp"
+#include "mbs/path_twists.hpp"
 #include "mbs/sines.hpp"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ WorkspaceT<S>::WorkspaceT(const Model& model) {
     zero.setZero(model.size());
     int deepest = 0;
     for (const Model::Link& link : model.links()) deepest = std::max(deepest, link.depth);
-    stride = Branch<S>::blocks(deepest);
-    branch.assign(static_cast<std::size_t>(Branch<S>::rows * stride), Packed3<S>::zero());
+    stride = PathTwists<S>::blocks(deepest);
+    branch.assign(static_cast<std::size_t>(PathTwists<S>::rows * stride), Packed3<S>::zero());
 }
 
 namespace {

@@ -1,6 +1,6 @@
 #include "mbs/metric.hpp"
 
-#include "mbs/branch.hpp"
+#include "mbs/path_twists.hpp"
 
 namespace cardan {
 
@@ -16,7 +16,7 @@ namespace {
 // Row m of the lower triangle, by depth: g_am = v_a . M v_m + w_a . (tr P - P) w_m, at the centre C of the subtree of
 // m.
 template <class S>
-CARDAN_INLINE void branch_row(const Branch<S>& path, const Model::Link& link,
+CARDAN_INLINE void branch_row(const PathTwists<S>& path, const Model::Link& link,
                               const typename WorkspaceT<S>::Frame& frame, const typename WorkspaceT<S>::Inertia& body,
                               Packed3<S>* row) {
     using Columns = Packed3<S>;
@@ -36,30 +36,35 @@ CARDAN_INLINE void branch_row(const Branch<S>& path, const Model::Link& link,
     }
 }
 
-template <class S>
+template <class S, class Sink>
 CARDAN_INLINE void fill(int n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
-                        const typename WorkspaceT<S>::Inertia* composite, const Branch<S>& path, S* g,
-                        std::ptrdiff_t stride) {
-    Packed3<S>* row = path.row(0);
+                        const typename WorkspaceT<S>::Inertia* composite, const PathTwists<S>& path, const Sink& sink) {
     for (int first = 0; first < n;) {
         const int end = set_run(path, links, frame, first, n);
         for (int m = first; m < end; ++m) {
+            Packed3<S>*const row = sink.row_of(m), *const column = sink.column_of(m);
             branch_row(path, links[m], frame[m], composite[m], row);
-            write_branch(links, n, m, numbers(row), numbers(row), g, stride);
+            for (std::ptrdiff_t j = 0; j < path.blocks(links[m].depth); ++j) column[j] = row[j];
+            sink.written(m);
         }
         first = end;
     }
 }
 
 CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
-                           const Workspace::Inertia* composite, const Branch<double>& path, double* g,
-                           std::ptrdiff_t stride) {
-    fill<double>(n, links, frame, composite, path, g, stride);
+                           const Workspace::Inertia* composite, const PathTwists<double>& path,
+                           const DenseSink<double>& g) {
+    fill<double>(n, links, frame, composite, path, g);
 }
+CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
+                           const Workspace::Inertia* composite, const PathTwists<double>& path,
+                           const BranchSink<double>& g) {
+    fill<double>(n, links, frame, composite, path, g);
+}
+template <class Sink>
 void run(int n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
-         const WorkspaceT<Complex>::Inertia* composite, const Branch<Complex>& path, Complex* g,
-         std::ptrdiff_t stride) {
-    fill<Complex>(n, links, frame, composite, path, g, stride);
+         const WorkspaceT<Complex>::Inertia* composite, const PathTwists<Complex>& path, const Sink& g) {
+    fill<Complex>(n, links, frame, composite, path, g);
 }
 
 }  // namespace
@@ -69,9 +74,22 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     const Model& model = kin.model();
-    run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-        Branch<S>(ws.branch.data(), ws.stride), g.data(), g.outerStride());
+    const PathTwists<S> path(ws.branch.data(), ws.stride);
+    run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), path,
+        DenseSink<S>{model.links().data(), model.size(), g.data(), g.outerStride(), path.row(0), path.row(0)});
     add_armatures<S>(model, g);
+}
+
+template <class S>
+void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g) {
+    composites(kin);
+    WorkspaceT<S>& ws = kin.workspace();
+    const Model& model = kin.model();
+    run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
+        PathTwists<S>(ws.branch.data(), ws.stride), BranchSink<S>{g.rows(), g.columns(), g.offset()});
+    for (const Model::Spin& armature : model.armatures())
+        for (const auto& [a, sa] : armature.spin)
+            for (const auto& [b, sb] : armature.spin) g.add(a, b, S(armature.inertia * (sa * sb)));
 }
 
 std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale) {
@@ -129,9 +147,10 @@ double kinetic_energy(const Kinematics& kin, VectorIn qd) {
     return twice / 2;
 }
 
-#define CARDAN_INSTANTIATE(S)                                    \
-    template void add_armatures<S>(const Model&, MatrixOutT<S>); \
-    template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>);
+#define CARDAN_INSTANTIATE(S)                                      \
+    template void add_armatures<S>(const Model&, MatrixOutT<S>);   \
+    template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>); \
+    template void metric<S>(const KinematicsT<S>&, BranchMatrixT<S>&);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)
 #undef CARDAN_INSTANTIATE

@@ -2,6 +2,7 @@
 /// The Riemannian metric of the configuration space, g_ab.
 #pragma once
 
+#include "mbs/branch_matrix.hpp"
 #include "mbs/composites.hpp"
 
 #include <optional>
@@ -11,9 +12,12 @@ namespace cardan {
 /// Metric g_ab = sum_k m_k u_ka . u_kb + Omega_ka . J_k Omega_kb, armatures included.      [Zhao et al. 2007, eq. 8]
 /// The sum over k collapses to one composite rigid body per pair, the subtree of the more distal coordinate.
 /// @param g  out, n x n, full and symmetric, kg m^2, kg m or kg; overwritten
-/// Cost O(n d), d the depth of the tree; no allocation.
+/// Cost O(n d), d the depth of the tree, and n^2 zeros; no allocation.
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
+/// The same without the zeros between branches: in large trees they cost more than the numbers.
+template <class S>
+void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g);
 
 /// Adds J s s^T of every armature to a metric.
 template <class S>

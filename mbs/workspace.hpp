@@ -2,7 +2,6 @@
 /// The memory of the kernels: allocated once per model and thread.
 #pragma once
 
-#include "mbs/aligned.hpp"
 #include "mbs/model.hpp"
 
 #include <cstdint>
@@ -47,21 +46,22 @@ public:
 
     // Written by kinematics().
     std::uint64_t generation = 0;
-    AlignedVector<Frame> frame;
+    std::vector<Frame> frame;
     VectorT<S> sine, cosine;
 
     std::uint64_t inertia_generation = 0, composite_generation = 0;
-    AlignedVector<Packed33<S>> J;      ///< inertia tensors about the centres of mass
-    AlignedVector<Inertia> composite;  ///< subtrees, Binet tensors
+    std::vector<Packed33<S>> J;      ///< inertia tensors about the centres of mass
+    std::vector<Inertia> composite;  ///< subtrees, Binet tensors
 
     // Scratch of the recursions.
-    AlignedVector<Motion> motion;
-    AlignedVector<Load> load;
-    AlignedVector<Momentum> momentum;
-    AlignedVector<Rates> rates;
-    /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see mbs/branch.hpp).
+    std::vector<Motion> motion;
+    std::vector<Load> load;
+    std::vector<Momentum> momentum;
+    std::vector<Rates> rates;
+    /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see
+    /// mbs/path_twists.hpp).
     std::ptrdiff_t stride;
-    AlignedVector<Packed3<S>> branch;
+    std::vector<Packed3<S>> branch;
     VectorT<S> zero;
 };
 

@@ -28,6 +28,7 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
     Matrix g(n, n), by_q(n, n), by_qd(n, n), J(6, n);
     Workspace workspace(model);
     Christoffel gamma(model);
+    BranchMatrix packed_g(model), packed_q(model), packed_qd(model);
     ForwardDynamics forward(model, std::move(driven));
     const FrameId tip{static_cast<int>(model.frames().size()) - 1};
     for (int round = 0; round < 2; ++round) {
@@ -36,6 +37,8 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
         const Kinematics kin = kinematics(model, q, workspace);
         CHECK(allocations([&] { frame_jacobian<double>(kin, tip, J); }) == 0);
         CHECK(allocations([&] { metric(kin, g); }) == 0);
+        CHECK(allocations([&] { metric<double>(kin, packed_g); }) == 0);
+        CHECK(allocations([&] { inverse_dynamics_derivatives<double>(kin, qd, qdd, packed_q, packed_qd); }) == 0);
         CHECK(allocations([&] { christoffel_first_kind(kin, gamma); }) == 0);
         CHECK(allocations([&] { gamma.contract(qd, h); }) == 0);
         CHECK(allocations([&] { gamma.coriolis(qd, g); }) == 0);

@@ -13,18 +13,19 @@ namespace cardan {
 /// Bodies are visited in the order of the model, depth first: when body m puts itself into column depth(m) - 1, the
 /// columns before still hold its ancestors.
 template <class S>
-class Branch {
+class PathTwists {
 public:
-    static constexpr int twist_rows = 9, rows = 32;
+    /// Rows of w, o and u counted from the further rows, and the number of all.
+    static constexpr int w_rows = -9, o_rows = -6, u_rows = -3, rows = 32;
     using Columns = Packed3<S>;  ///< four columns of a row
 
-    CARDAN_INLINE Branch(Columns* data, std::ptrdiff_t stride) : data_(data), stride_(stride) {}
+    CARDAN_INLINE PathTwists(Columns* data, std::ptrdiff_t stride) : data_(data), stride_(stride) {}
 
-    CARDAN_INLINE Columns* w(int i) const { return data_ + i * stride_; }
-    CARDAN_INLINE Columns* o(int i) const { return data_ + (3 + i) * stride_; }
-    CARDAN_INLINE Columns* u(int i) const { return data_ + (6 + i) * stride_; }
-    /// Further rows, for the kernels.
-    CARDAN_INLINE Columns* row(int i) const { return data_ + (twist_rows + i) * stride_; }
+    CARDAN_INLINE Columns* w(int i) const { return row(w_rows + i); }
+    CARDAN_INLINE Columns* o(int i) const { return row(o_rows + i); }
+    CARDAN_INLINE Columns* u(int i) const { return row(u_rows + i); }
+    /// Further rows, for the kernels, from 0.
+    CARDAN_INLINE Columns* row(int i) const { return data_ + (i - w_rows) * stride_; }
     /// The three rows of a vector.
     CARDAN_INLINE void set(int first_row, std::ptrdiff_t column, const Packed3<S>& v) const {
         for (int i = 0; i < 3; ++i) row(first_row + i)[column / 4].lanes[column % 4] = v(i);
@@ -35,9 +36,9 @@ public:
     }
     CARDAN_INLINE void set(const Model::Link& link, const typename WorkspaceT<S>::Frame& frame) const {
         const Packed3<S> none = Packed3<S>::zero();
-        set(-9, link.depth - 1, link.revolute ? frame.E[2] : none);
-        set(-6, link.depth - 1, frame.o);
-        set(-3, link.depth - 1, link.revolute ? none : frame.E[2]);
+        set(w_rows, link.depth - 1, link.revolute ? frame.E[2] : none);
+        set(o_rows, link.depth - 1, frame.o);
+        set(u_rows, link.depth - 1, link.revolute ? none : frame.E[2]);
     }
     /// Number of Columns for `depth` columns.
     CARDAN_INLINE static std::ptrdiff_t blocks(std::ptrdiff_t depth) { return (depth + 3) / 4; }
@@ -56,8 +57,8 @@ CARDAN_INLINE const S* numbers(const Packed3<S>* columns) {
 /// Columns of all bodies of the run that starts with body `first`; returns one past its last body. The columns of a
 /// whole run are set before the first is used: a register is loaded long after its four numbers were stored.
 template <class S>
-CARDAN_INLINE int set_run(const Branch<S>& path, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
-                          int first, int n) {
+CARDAN_INLINE int set_run(const PathTwists<S>& path, const Model::Link* links,
+                          const typename WorkspaceT<S>::Frame* frame, int first, int n) {
     int end = first;
     for (; end < n && links[end].run == first; ++end) path.set(links[end], frame[end]);
     return end;
@@ -82,5 +83,32 @@ CARDAN_INLINE void write_branch(const Model::Link* links, int n, int m, const S*
     }
     for (int a = links[m].subtree_end; a < n; ++a) own_column[a] = S(0);
 }
+
+/// Takes rows and columns by depth into an n x n matrix.
+template <class S>
+struct DenseSink {
+    const Model::Link* links;
+    int n;
+    S* matrix;
+    std::ptrdiff_t stride;
+    Packed3<S>*row, *column;  ///< scratch
+
+    CARDAN_INLINE Packed3<S>* row_of(int) const { return row; }
+    CARDAN_INLINE Packed3<S>* column_of(int) const { return column; }
+    CARDAN_INLINE void written(int m) const {
+        write_branch(links, n, m, numbers(row), numbers(column), matrix, stride);
+    }
+};
+
+/// Takes them into the memory of a BranchMatrix.
+template <class S>
+struct BranchSink {
+    Packed3<S>*rows, *columns;
+    const std::size_t* offset;
+
+    CARDAN_INLINE Packed3<S>* row_of(int m) const { return rows + offset[m]; }
+    CARDAN_INLINE Packed3<S>* column_of(int m) const { return columns + offset[m]; }
+    CARDAN_INLINE void written(int) const {}
+};
 
 }  // namespace cardan

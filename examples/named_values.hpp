@@ -1,0 +1,42 @@
+/// @file
+/// Options such as --q elbow=0.5: numbers by name, or one number for all.
+#pragma once
+
+#include "mbs/coordinates.hpp"
+#include "mbs/error.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace cardan::program {
+
+/// A finite number, all of the text.
+inline double number(const char* option, const std::string& given, const std::string& word, const char* allowed) {
+    double value = 0;
+    const char* const end = word.data() + word.size();
+    const auto [at, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || at != end || !std::isfinite(value)) throw InputError(option, "value", given, allowed);
+    return value;
+}
+
+/// The values of all coordinates: `initial`, changed in turn by "name=value" or, if `for_all`, by "value" alone.
+/// @throws InputError naming the option
+inline Vector named_values(const char* option, const std::vector<std::string>& given, const CoordinateTable& table,
+                           Vector initial, bool for_all) {
+    const char* const allowed = for_all ? "NUMBER or COORDINATE=NUMBER" : "COORDINATE=NUMBER";
+    for (const std::string& word : given) {
+        const std::size_t equals = word.rfind('=');
+        if (equals == std::string::npos) {
+            if (!for_all) throw InputError(option, "value", word, allowed);
+            initial.setConstant(number(option, word, word, allowed));
+            continue;
+        }
+        const double value = number(option, word, word.substr(equals + 1), allowed);
+        initial(table.index(word.substr(0, equals))) = value;
+    }
+    return initial;
+}
+
+}  // namespace cardan::program
