@@ -1,6 +1,8 @@
 // Kernels on the tree of the 600 kW machine (70 coordinates with 3 elements per part; 3 or 12 elements).
 #include "mbs/christoffel.hpp"
+#include "mbs/curvature.hpp"
 #include "mbs/derivatives.hpp"
+#include "mbs/forward_derivatives.hpp"
 #include "turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
@@ -78,11 +80,98 @@ void inverse_dynamics_partial_derivatives(benchmark::State& state) {
     }
 }
 
+void metric_factorised(benchmark::State& state) {
+    Fixture f(state);
+    MetricFactor factor(f.model);
+    metric<double>(f.kin(), f.A);
+    state.counters["entries"] = static_cast<double>(factor.stored());
+    for (auto _ : state) benchmark::DoNotOptimize(factor.factorise(f.A));
+}
+void metric_factor_solve_vector(benchmark::State& state) {
+    Fixture f(state);
+    MetricFactor factor(f.model);
+    if (!factor.factorise(f.kin())) state.SkipWithError("singular metric");
+    for (auto _ : state) {
+        f.tau = f.qdd;
+        factor.solve(f.tau);
+        benchmark::ClobberMemory();
+    }
+}
+void metric_factor_solve_matrix(benchmark::State& state) {
+    Fixture f(state);
+    MetricFactor factor(f.model);
+    if (!factor.factorise(f.kin())) state.SkipWithError("singular metric");
+    for (auto _ : state) {
+        f.A.setIdentity();
+        factor.solve(f.A);
+        benchmark::ClobberMemory();
+    }
+}
+void christoffel_symbols_visited(benchmark::State& state) {
+    Fixture f(state);
+    Christoffel gamma(f.model);
+    christoffel_first_kind(f.kin(), gamma);
+    for (auto _ : state) {
+        f.tau.setZero();
+        for (auto [a, b, c, value] : gamma.symbols()) f.tau(a) += (b == c ? 1 : 2) * value * f.qd(b) * f.qd(c);
+        benchmark::ClobberMemory();
+    }
+}
+void christoffel_contraction(benchmark::State& state) {
+    Fixture f(state);
+    Christoffel gamma(f.model);
+    christoffel_first_kind(f.kin(), gamma);
+    for (auto _ : state) {
+        gamma.contract(f.qd, f.qdd, f.tau);
+        benchmark::ClobberMemory();
+    }
+}
+void christoffel_along_the_spin(benchmark::State& state) {
+    Fixture f(state);
+    const int spin = f.turbine.rotor().spin;
+    for (auto _ : state) {
+        christoffel_along<double>(f.kin(), spin, f.A);
+        benchmark::ClobberMemory();
+    }
+}
+void forward_dynamics_partial_derivatives(benchmark::State& state) {
+    Fixture f(state);
+    ForwardDynamicsDerivatives derivatives(f.model);
+    for (auto _ : state) benchmark::DoNotOptimize(derivatives.compute(f.kin(), f.qd, f.qdd));
+}
+void curvature_force(benchmark::State& state) {
+    Fixture f(state);
+    Curvature curvature(f.model);
+    if (!curvature.update(f.kin())) state.SkipWithError("singular metric");
+    for (auto _ : state) {
+        curvature.force(f.qd, f.qdd, f.tau);
+        benchmark::ClobberMemory();
+    }
+}
+void curvature_matrix(benchmark::State& state) {
+    Fixture f(state);
+    Curvature curvature(f.model);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(curvature.update(f.kin()));
+        curvature.matrix(f.qd, f.A);
+        benchmark::ClobberMemory();
+    }
+}
+
 BENCHMARK(kinematics_only)->Arg(3)->Arg(12);
 BENCHMARK(inverse_dynamics_newton_euler)->Arg(3)->Arg(12);
 BENCHMARK(metric_full)->Arg(3)->Arg(12);
 BENCHMARK(christoffel_all)->Arg(3)->Arg(12);
 BENCHMARK(forward_dynamics_articulated_body)->Arg(3)->Arg(12);
 BENCHMARK(inverse_dynamics_partial_derivatives)->Arg(3)->Arg(12);
+BENCHMARK(metric_factorised)->Arg(3)->Arg(12);
+BENCHMARK(metric_factor_solve_vector)->Arg(3)->Arg(12);
+BENCHMARK(metric_factor_solve_matrix)->Arg(3)->Arg(12);
+BENCHMARK(christoffel_symbols_visited)->Arg(3)->Arg(12);
+BENCHMARK(christoffel_contraction)->Arg(3)->Arg(12);
+BENCHMARK(christoffel_along_the_spin)->Arg(3)->Arg(12);
+BENCHMARK(forward_dynamics_partial_derivatives)->Arg(3)->Arg(12);
+BENCHMARK(curvature_force)->Arg(3)->Arg(12);
+BENCHMARK(curvature_matrix)->Arg(3)->Arg(12);
 
 }  // namespace

@@ -45,50 +45,6 @@ double Christoffel::operator()(int a, int b, int c) const {
     return m == c ? at(a, b) : -at(c, b);
 }
 
-void Christoffel::contract(VectorIn qd, VectorOut h) const {
-    h.setZero();
-    for (int m = 0; m < model_->size(); ++m) {
-        const std::span<const int> on_path = path(m);
-        const std::size_t d = on_path.size(), s = stride(m);
-        const std::span<const double> K = table(m);
-        double reaction = 0;
-        for (std::size_t i = 0; i < d; ++i) {
-            const int a = on_path[i];
-            double proximal = 0;  // sum over b < m; b = m enters once, b and c distinct twice
-            for (std::size_t j = 0; j + 1 < d; ++j) proximal += K[i * s + j] * qd(on_path[j]);
-            h(a) += (2 * proximal + K[i * s + d - 1] * qd(m)) * qd(m);
-            if (a == m) continue;
-            double below = 0;  // Gamma_mab = -K(a, b), b <= a < m
-            for (std::size_t j = 0; j < i; ++j) below += K[i * s + j] * qd(on_path[j]);
-            reaction -= (2 * below + K[i * s + i] * qd(a)) * qd(a);
-        }
-        h(m) += reaction;
-    }
-}
-
-void Christoffel::coriolis(VectorIn qd, MatrixOut C) const {
-    C.setZero();
-    for (int m = 0; m < model_->size(); ++m) {
-        const std::span<const int> on_path = path(m);
-        const std::size_t d = on_path.size(), s = stride(m);
-        const std::span<const double> K = table(m);
-        for (std::size_t i = 0; i < d; ++i) {
-            const int a = on_path[i];
-            for (std::size_t j = 0; j < d; ++j) {
-                const int b = on_path[j];
-                C(a, m) += K[i * s + j] * qd(b);              // Gamma_abm qd^b
-                if (b != m) C(a, b) += K[i * s + j] * qd(m);  // Gamma_amb qd^m
-            }
-            if (a == m) continue;
-            for (std::size_t j = 0; j <= i; ++j) {
-                const int b = on_path[j];
-                C(m, a) -= K[i * s + j] * qd(b);  // Gamma_mba qd^b
-                if (b != a) C(m, b) -= K[i * s + j] * qd(a);
-            }
-        }
-    }
-}
-
 namespace {
 
 // Rows of the branch: three each, then one for what nobody reads.

@@ -22,6 +22,12 @@ std::vector<int> CoordinateTable::free() const {
     return indices;
 }
 
+std::vector<bool> CoordinateTable::driven() const {
+    std::vector<bool> flags;
+    for (const CoordinateInfo& row : rows_) flags.push_back(row.role == CoordinateRole::driven);
+    return flags;
+}
+
 std::vector<std::string> CoordinateTable::parts() const {
     std::vector<std::string> names;
     for (const CoordinateInfo& row : rows_)

@@ -36,6 +36,8 @@ public:
     int index(std::string_view name) const;
     /// Indices of the coordinates with role free.
     std::vector<int> free() const;
+    /// One flag per coordinate: true where the role is driven.
+    std::vector<bool> driven() const;
     /// Names of parts in order of first appearance.
     std::vector<std::string> parts() const;
     /// Indices of the coordinates of a part, all blades or one (numbered from 1).

@@ -7,12 +7,6 @@ namespace cardan {
 
 namespace {
 
-std::vector<bool> default_roles(const Model& model) {
-    std::vector<bool> driven;
-    for (const CoordinateInfo& row : model.coordinates()) driven.push_back(row.role == CoordinateRole::driven);
-    return driven;
-}
-
 // Inertia of a body alone about its joint origin.
 CARDAN_INLINE void rigid(const Model::Link& link, const Workspace::Frame& frame, const Packed33<double>& J,
                          Packed33<double>& A, Packed33<double>& C, Packed33<double>& M) {
@@ -42,7 +36,7 @@ CARDAN_INLINE void subtract(Packed33<double>& X, const Packed3<double>& u, const
 
 }  // namespace
 
-ForwardDynamics::ForwardDynamics(const Model& model) : ForwardDynamics(model, default_roles(model)) {}
+ForwardDynamics::ForwardDynamics(const Model& model) : ForwardDynamics(model, model.coordinates().driven()) {}
 
 ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
     : model_(&model), driven_(std::move(driven)) {

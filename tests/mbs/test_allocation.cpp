@@ -1,7 +1,9 @@
 // Once workspace and outputs exist, the kernels of a time step allocate nothing.
 #include "mbs/christoffel.hpp"
+#include "mbs/curvature.hpp"
 #include "mbs/derivatives.hpp"
 #include "mbs/error.hpp"
+#include "mbs/forward_derivatives.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
@@ -51,6 +53,65 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
     }
 }
 
+// Factor, contractions, derivatives of the forward dynamics, geometry.
+void require_no_allocation_in_geometry(const System& system, const std::vector<bool>& driven, unsigned seed) {
+    const Model& model = system.model;
+    const int n = model.size();
+    Random random(seed);
+    const Vector q = random_state(random, n), qd = random_state(random, n), x = random_state(random, n);
+    Vector h(n), other(n);
+    Matrix g(n, n), X(n, n);
+    Workspace workspace(model);
+    Christoffel gamma(model);
+    MetricFactor factor(model, driven);
+    ForwardDynamicsDerivatives derivatives(model, driven);
+    Curvature curvature(model, driven);
+    ForceDerivatives forces;
+    system.forces.derivatives(kinematics(model, q, workspace), 0, q, qd, forces);
+    double sum = 0;
+    bool ok = true;
+    for (int round = 0; round < 2; ++round) {
+        CAPTURE(n, seed, round);
+        const Kinematics kin = kinematics(model, q, workspace);
+        christoffel_first_kind(kin, gamma);
+        metric(kin, g);
+        CHECK(allocations([&] {
+                  for (auto [a, b, c, value] : gamma.symbols()) sum += value * qd(a) * qd(b) * qd(c);
+              }) == 0);
+        CHECK(allocations([&] { gamma.contract(qd, x, h); }) == 0);
+        CHECK(allocations([&] { gamma.along(x, X); }) == 0);
+        CHECK(allocations([&] { christoffel_along<double>(kin, n / 2, X); }) == 0);
+        CHECK(allocations([&] { gyroscopic_matrix(kin, n / 2, 2.0, X); }) == 0);
+        CHECK(allocations([&] { ok = ok && factor.factorise(g).ok(); }) == 0);
+        CHECK(allocations([&] { ok = ok && factor.factorise(kin).ok(); }) == 0);
+        h = x;
+        X = g;
+        CHECK(allocations([&] { factor.solve(h); }) == 0);
+        CHECK(allocations([&] { factor.solve(X); }) == 0);
+        CHECK(allocations([&] { factor.multiply_L(h); }) == 0);
+        CHECK(allocations([&] { factor.solve_LT(X); }) == 0);
+        CHECK(allocations([&] { sum += factor.log_determinant(); }) == 0);
+        CHECK(allocations([&] { ok = ok && derivatives.compute(kin, qd, x).ok(); }) == 0);
+        CHECK(allocations([&] { ok = ok && derivatives.compute(kin, qd, x, &forces).ok(); }) == 0);
+        CHECK(allocations([&] { ok = ok && curvature.update(kin).ok(); }) == 0);
+        CHECK(allocations([&] { curvature.christoffel(qd, x, h); }) == 0);
+        CHECK(allocations([&] { curvature.covariant_derivative(qd, x, qd, other); }) == 0);
+        CHECK(allocations([&] { curvature.geodesic(qd, h); }) == 0);
+        CHECK(allocations([&] { curvature.contract(qd, x, qd, h); }) == 0);
+        CHECK(allocations([&] { curvature.deviation(qd, x, h); }) == 0);
+        CHECK(allocations([&] { curvature.matrix(qd, X); }) == 0);
+        CHECK(allocations([&] { sum += curvature.riemann(qd, x, x, qd); }) == 0);
+        CHECK(allocations([&] { sum += curvature.sectional(qd, x); }) == 0);
+    }
+    CHECK(ok);
+    CHECK(std::isfinite(sum));
+}
+
+void require_no_allocation_anywhere(const System& system, const std::vector<bool>& driven, unsigned seed) {
+    require_no_allocation(system, driven, seed);
+    require_no_allocation_in_geometry(system, driven, seed);
+}
+
 }  // namespace
 
 TEST_CASE("allocation guard: sees what Eigen, operator new and the standard library allocate", "[property]") {
@@ -77,7 +138,8 @@ TEST_CASE("allocation: no kernel allocates after the workspace is made, on rando
         Random random(seed);
         const Tree tree = random_tree(random, {.bodies = 6 + static_cast<int>(seed)});
         const System system(tree, random_forces(random, tree));
-        require_no_allocation(system, std::vector<bool>(static_cast<std::size_t>(system.model.size()), false), seed);
+        require_no_allocation_anywhere(system, std::vector<bool>(static_cast<std::size_t>(system.model.size()), false),
+                                       seed);
     }
 }
 
@@ -89,7 +151,7 @@ TEST_CASE("allocation: forward dynamics with geared armatures and driven coordin
         const System system(tree, random_forces(random, tree));
         std::vector<bool> driven(8, false);
         if (seed % 2 == 1) driven[seed % 8] = true;
-        require_no_allocation(system, driven, seed);
+        require_no_allocation_anywhere(system, driven, seed);
     }
 }
 
@@ -110,5 +172,5 @@ TEST_CASE("allocation: nothing is allocated on a deep tree with an armature over
     }
     tree.add_armature(armature);
     const System system(tree, random_forces(random, tree));
-    require_no_allocation(system, std::vector<bool>(60, false), 5);
+    require_no_allocation_anywhere(system, std::vector<bool>(60, false), 5);
 }
