@@ -47,6 +47,15 @@ ModelPointer load(const std::string& xml) {
 }  // namespace
 
 struct MujocoPeer::Impl {
+    explicit Impl(const std::string& xml) {
+        mju_user_error = complain;
+        mju_user_warning = complain;
+        model = load(xml);
+        check();
+        data.reset(mj_makeData(model.get()));
+        check();
+    }
+
     ModelPointer model;
     std::unique_ptr<mjData, Free> data;
 
@@ -56,19 +65,35 @@ struct MujocoPeer::Impl {
     }
 };
 
-MujocoPeer::MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity) : impl_(new Impl) {
-    mju_user_error = complain;
-    mju_user_warning = complain;
-    impl_->model = load(mujoco_xml(links, gravity));
-    check();
-    impl_->data.reset(mj_makeData(impl_->model.get()));
+MujocoPeer::MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity)
+    : impl_(new Impl(mujoco_xml(links, gravity))) {
     int previous = -1;
-    for (int joint = 0; joint < impl_->model->njnt; ++joint) {
-        const int link = std::stoi(mj_id2name(impl_->model.get(), mjOBJ_JOINT, joint));
+    for (const std::string& joint : joints()) {
+        const int link = std::stoi(joint);
         if (link <= previous) throw PeerRefusal("MuJoCo numbers the coordinates depth first: give the links so");
         previous = link;
     }
-    check();
+}
+
+MujocoPeer::MujocoPeer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+std::unique_ptr<MujocoPeer> MujocoPeer::from_urdf(const std::string& urdf) {
+    const std::size_t end = urdf.rfind("</robot>");
+    if (end == std::string::npos) throw PeerRefusal("no robot");
+    const std::string settings = "<mujoco><compiler balanceinertia=\"false\" discardvisual=\"true\"/></mujoco>";
+    auto impl = std::make_unique<Impl>(std::string(urdf).insert(end, settings));
+    mjModel& model = *impl->model;
+    model.opt.disableflags |= mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS;
+    std::fill_n(model.dof_damping, model.nv, 0.0);
+    std::fill_n(model.opt.gravity, 3, 0.0);
+    return std::unique_ptr<MujocoPeer>(new MujocoPeer(std::move(impl)));
+}
+
+std::vector<std::string> MujocoPeer::joints() const {
+    std::vector<std::string> names;
+    for (int joint = 0; joint < impl_->model->njnt; ++joint)
+        names.emplace_back(mj_id2name(impl_->model.get(), mjOBJ_JOINT, joint));
+    return names;
 }
 
 MujocoPeer::~MujocoPeer() = default;

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace cardan::peers {
 
@@ -16,16 +17,22 @@ class MujocoPeer : public Peer {
 public:
     /// @throws PeerRefusal for a massless link that carries not exactly one other, and for what MuJoCo itself refuses
     explicit MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {});
+    /// The same from a URDF text, which MuJoCo reads by itself. Limits, damping and friction are switched off.
+    /// @throws PeerRefusal for what MuJoCo refuses
+    static std::unique_ptr<MujocoPeer> from_urdf(const std::string& urdf);
     ~MujocoPeer() override;
     MujocoPeer(const MujocoPeer&) = delete;
     MujocoPeer& operator=(const MujocoPeer&) = delete;
 
+    /// Names of the joints in the order of the coordinates.
+    std::vector<std::string> joints() const;
     void metric(const double* q, double* g) override;
     void inverse_dynamics(const double* q, const double* qd, const double* qdd, double* tau) override;
     void forward_dynamics(const double* q, const double* qd, const double* Q, double* qdd) override;
 
 private:
     struct Impl;
+    explicit MujocoPeer(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
 
