@@ -1,7 +1,6 @@
 // The Campbell sweep of the 600 kW machine against its dense eigenvalue solutions alone: the ratio of the two times is
 // what the linearisation, the steady states, the identification and the tracking cost on top.
-#include "solvers/campbell.hpp"
-
+#include "solvers/campbell_point.hpp"
 #include "turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
@@ -56,6 +55,89 @@ void campbell_sweep_of_41_speeds(benchmark::State& state) {
         static_cast<double>(sweep.count()) / static_cast<double>(eigenvalues.count());
 }
 BENCHMARK(campbell_sweep_of_41_speeds)->Unit(benchmark::kMillisecond);
+
+// One point by stage, at 20 rpm, in memory that exists.
+struct Stages {
+    static constexpr double speed = 20 * pi / 30;
+    const System& system = machine().system();
+    const RotorMap& rotor = machine().rotor();
+    std::vector<int> unknowns = system.model.coordinates().free();
+    solvers::SteadySolver steady_solver{system, rotor.spin};
+    solvers::Lineariser lineariser{system};
+    solvers::ColemanTransform coleman{rotor, unknowns};
+    solvers::ModeSolver mode_solver{static_cast<Eigen::Index>(unknowns.size())};
+    solvers::SteadyOptions options{.rotor_speed = speed};
+    solvers::SteadyState steady;
+    solvers::Linearisation lin;
+    solvers::SecondOrderSystem z;
+
+    Stages() {
+        // From the state of the speed before, as in a sweep.
+        steady_solver.solve({.rotor_speed = 19 * pi / 30}, steady);
+        options.initial = steady.at.q;
+        run();
+    }
+    void run() {
+        steady_solver.solve(options, steady);
+        lineariser.linearise(steady.at, lin);
+        solvers::restrict_to(lin, unknowns, rotor.spin, z);
+        coleman.transform_in_place(z, 0, speed);
+    }
+};
+
+void point_steady_state(benchmark::State& state) {
+    Stages stages;
+    for (auto _ : state) stages.steady_solver.solve(stages.options, stages.steady);
+    state.counters["iterations"] = stages.steady.iterations;
+}
+BENCHMARK(point_steady_state)->Unit(benchmark::kMicrosecond);
+
+void point_linearisation(benchmark::State& state) {
+    Stages stages;
+    for (auto _ : state) stages.lineariser.linearise(stages.steady.at, stages.lin);
+}
+BENCHMARK(point_linearisation)->Unit(benchmark::kMicrosecond);
+
+void point_restriction_and_coleman(benchmark::State& state) {
+    Stages stages;
+    for (auto _ : state) {
+        solvers::restrict_to(stages.lin, stages.unknowns, stages.rotor.spin, stages.z);
+        stages.coleman.transform_in_place(stages.z, 0.3, Stages::speed);
+    }
+}
+BENCHMARK(point_restriction_and_coleman)->Unit(benchmark::kMicrosecond);
+
+void point_modes(benchmark::State& state) {
+    Stages stages;
+    for (auto _ : state) benchmark::DoNotOptimize(stages.mode_solver.solve(stages.z));
+    state.counters["unknowns"] = static_cast<double>(stages.unknowns.size());
+}
+BENCHMARK(point_modes)->Unit(benchmark::kMicrosecond);
+
+void point_shares(benchmark::State& state) {
+    Stages stages;
+    const solvers::Identification identification(stages.lin, stages.system.model, stages.rotor, stages.unknowns,
+                                                 stages.coleman.rows());
+    solvers::Mode mode;
+    Vector by_row;
+    std::vector<solvers::Share> shares;
+    const std::size_t count = stages.mode_solver.solve(stages.z);
+    for (auto _ : state)
+        for (std::size_t i = 0; i < count; ++i) {
+            stages.mode_solver.copy(i, mode);
+            stages.mode_solver.energy_by_row(i, by_row);
+            identification.shares(mode, shares);
+        }
+}
+BENCHMARK(point_shares)->Unit(benchmark::kMicrosecond);
+
+void point_whole(benchmark::State& state) {
+    solvers::PointSolver solver(machine().system(), machine().rotor());
+    solvers::CampbellPoint point;
+    double rpm = 19;
+    for (auto _ : state) solver.solve((rpm = 39 - rpm) * pi / 30, point);
+}
+BENCHMARK(point_whole)->Unit(benchmark::kMicrosecond);
 
 void assembly(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(turbines::wt600());

@@ -156,12 +156,12 @@ UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vec
     UserForce force;
     force.name = name;
     force.elastic = true;
-    force.force = [each](const ForceInput& at, Vector& Q) {
+    force.force = [each](const ForceInput& at, VectorOut Q) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(index[static_cast<std::size_t>(i)]) -= r.force(i);
         });
     };
-    force.jacobian = [each](const ForceInput& at, Matrix& dQ_dq, Matrix&) {
+    force.jacobian = [each](const ForceInput& at, MatrixOut dQ_dq, MatrixOut) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i)
                 for (Eigen::Index j = 0; j < r.force.size(); ++j)

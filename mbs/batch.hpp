@@ -11,7 +11,7 @@
 namespace cardan {
 
 /// Threads with one workspace each. What is computed for a state depends on nothing but the state, so results are the
-/// same to the last bit whatever the number of threads and the order in which they take the states.
+/// same to the last bit, on one machine, whatever the number of threads and the order in which they take the states.
 class Batch {
 public:
     /// What is done for the state `index`. It runs on any thread and may write what belongs to its index only.

@@ -18,6 +18,7 @@ template <class S>
 class BranchMatrixT {
 public:
     explicit BranchMatrixT(const Model& model);
+    explicit BranchMatrixT(Model&&) = delete;  // the model must live longer
 
     int size() const { return static_cast<int>(offset_.size()); }
     /// A_ab, any indices.

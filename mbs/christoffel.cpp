@@ -121,6 +121,7 @@ CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Fr
 }  // namespace
 
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
+    assert(&kin.model() == gamma.model_);
     composites(kin);
     Workspace& ws = kin.workspace();
     const Model& model = kin.model();

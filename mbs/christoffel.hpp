@@ -19,6 +19,7 @@ class ChristoffelSymbols;
 class Christoffel {
 public:
     explicit Christoffel(const Model& model);
+    explicit Christoffel(Model&&) = delete;  // the model must live longer
 
     /// Gamma_abc, any indices.
     double operator()(int a, int b, int c) const;

@@ -32,7 +32,7 @@ public:
     auto begin() const { return rows_.begin(); }
     auto end() const { return rows_.end(); }
 
-    /// @throws InputError naming the coordinate and those with a similar name.
+    /// @throws InputError naming the coordinate and the first of those that exist.
     int index(std::string_view name) const;
     /// Indices of the coordinates with role free.
     std::vector<int> free() const;

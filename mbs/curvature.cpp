@@ -1,5 +1,7 @@
 #include "mbs/curvature.hpp"
 
+#include <limits>
+
 namespace cardan {
 
 Curvature::Curvature(const Model& model) : Curvature(model, model.coordinates().driven()) {}
@@ -103,9 +105,11 @@ double Curvature::sectional(VectorIn x, VectorIn y) {
     factor_.multiply_L(beta_);
     factor_.multiply_L(other_);
     const double x2 = beta_.squaredNorm();
-    const double along = beta_.dot(other_) / x2;
+    const double along = beta_.dot(other_) / x2, whole = other_.squaredNorm();
     other_ -= along * beta_;
     const double y2 = other_.squaredNorm();
+    const double rounding = 8 * static_cast<double>(x.size()) * std::numeric_limits<double>::epsilon();
+    if (!(y2 > rounding * rounding * whole)) return std::numeric_limits<double>::quiet_NaN();  // parallel
     load(x, x_);
     load(y, y_);
     w_.x = y_.x - along * x_.x;

@@ -30,6 +30,7 @@ public:
     /// @param driven  size n; true: held fixed. Default: the roles of the coordinate table.
     /// @throws InputError if `driven` has another size.
     explicit Curvature(const Model& model);
+    explicit Curvature(Model&&) = delete;  // the model must live longer
     Curvature(const Model& model, std::vector<bool> driven);
 
     /// Must precede everything else at a new q. After a failure nothing else may be called. Cost O(n d^2).

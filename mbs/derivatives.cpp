@@ -118,18 +118,19 @@ CARDAN_INLINE void branch_products(const PathTwists<S>& path, std::ptrdiff_t blo
                                    Packed3<S>* row_q, Packed3<S>* row_qd, Packed3<S>* column_q, Packed3<S>* column_qd) {
     using Columns = Packed3<S>;
     const Columns cx = broadcast<0>(s.C), cy = broadcast<1>(s.C), cz = broadcast<2>(s.C);
-    const auto about_o = [&](std::ptrdiff_t j, const Packed3<S>& force, const Packed3<S>& moment, Columns* sum) {
+    const auto about_o = [&](std::ptrdiff_t j, const Packed3<S>& force, const Packed3<S>& moment,
+                             Columns* sum) CARDAN_INLINE_LAMBDA {
         const Columns x = cx - path.o(0)[j], y = cy - path.o(1)[j], z = cz - path.o(2)[j];
         const Columns fx = broadcast<0>(force), fy = broadcast<1>(force), fz = broadcast<2>(force);
         sum[0] = broadcast<0>(moment) + times(y, fz) - times(z, fy);
         sum[1] = broadcast<1>(moment) + times(z, fx) - times(x, fz);
         sum[2] = broadcast<2>(moment) + times(x, fy) - times(y, fx);
     };
-    const auto product = [&](std::ptrdiff_t j, int first_row, const Columns* v) {
+    const auto product = [&](std::ptrdiff_t j, int first_row, const Columns* v) CARDAN_INLINE_LAMBDA {
         return times(v[0], path.row(first_row)[j]) + times(v[1], path.row(first_row + 1)[j]) +
                times(v[2], path.row(first_row + 2)[j]);
     };
-    const auto fixed = [&](std::ptrdiff_t j, int first_row, const Packed3<S>& v) {
+    const auto fixed = [&](std::ptrdiff_t j, int first_row, const Packed3<S>& v) CARDAN_INLINE_LAMBDA {
         return times(broadcast<0>(v), path.row(first_row)[j]) + times(broadcast<1>(v), path.row(first_row + 1)[j]) +
                times(broadcast<2>(v), path.row(first_row + 2)[j]);
     };
@@ -216,6 +217,7 @@ void run(const Arguments<Complex>& x, const Sink& by_q, const Sink& by_qd) {
 
 template <class S>
 Arguments<S> arguments(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd) {
+    assert(qd.size() == kin.model().size() && qdd.size() == kin.model().size());
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     return {kin.model().size(), kin.model().links().data(),
@@ -232,6 +234,7 @@ template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
                                   MatrixOutT<S> dtau_dqd) {
     const Arguments<S> x = arguments<S>(kin, qd, qdd);
+    assert(dtau_dq.rows() == x.n && dtau_dq.cols() == x.n && dtau_dqd.rows() == x.n && dtau_dqd.cols() == x.n);
     const auto sink = [&](MatrixOutT<S>& A, int row) {
         return DenseSink<S>{x.links, x.n, A.data(), A.outerStride(), x.path.row(row), x.path.row(row + 1)};
     };
@@ -241,6 +244,7 @@ void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, Ve
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd,
                                   BranchMatrixT<S>& dtau_dq, BranchMatrixT<S>& dtau_dqd) {
+    assert(dtau_dq.size() == kin.model().size() && dtau_dqd.size() == kin.model().size());
     const auto sink = [](BranchMatrixT<S>& A) { return BranchSink<S>{A.rows(), A.columns(), A.offset()}; };
     run(arguments<S>(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
 }

@@ -29,9 +29,11 @@ public:
     /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
     /// @throws InputError if `driven` has another size.
     explicit ForwardDynamics(const Model& model);
+    explicit ForwardDynamics(Model&&) = delete;  // the model must live longer
     ForwardDynamics(const Model& model, std::vector<bool> driven);
 
-    /// @param Q    generalised forces, size n; entries of driven coordinates are forces besides the actuator's
+    /// @param Q    generalised forces, size n; entries of driven coordinates are forces besides the actuator's; must
+    ///             not alias the outputs
     /// @param qdd  in: accelerations of driven coordinates; out: of all coordinates
     /// @param actuator  out, size n: force that the drive adds to Q on each driven coordinate, zero on free ones
     /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.

@@ -1,5 +1,7 @@
 #include "mbs/embedding.hpp"
 
+#include "mbs/composites.hpp"
+
 namespace cardan {
 
 namespace {
@@ -26,11 +28,11 @@ AccelerationField Embedding::acceleration_field() const {
 }
 
 void Embedding::update(const Kinematics& kin) {
+    assert(&kin.model() == model_);
+    body_inertias(kin);
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
-        const Mat3 P = binet_tensor<double>(model_->body(k).J);
-        const Mat3 E = kin.rotation(k), EP = E * P;
-        binet_[i] = EP * E.transpose();
+        binet_[i] = cardan::binet(kin.workspace().J[i]).matrix();
         places_.e[i] = kin.axis(k);
         places_.o[i] = kin.origin(k);
         places_.r[i] = kin.centre_of_mass(k);

@@ -35,6 +35,7 @@ public:
     };
 
     explicit Embedding(const Model& model);
+    explicit Embedding(Model&&) = delete;  // the model must live longer
     VelocityField velocity_field() const;
     AccelerationField acceleration_field() const;
 

@@ -26,28 +26,6 @@ void require_semidefinite(const Matrix& A, std::size_t n, const std::string& whe
     if (lowest < -1e-9) throw InputError(where, text(quantity, ", lowest scaled eigenvalue"), lowest, ">= 0");
 }
 
-// What a user force adds goes into zeros first: it adds to what is there already.
-UserForce scaled(const UserForce& user, double factor) {
-    UserForce other{user.name,
-                    [force = user.force, factor](const ForceInput& at, Vector& Q) {
-                        Vector own = Vector::Zero(Q.size());
-                        force(at, own);
-                        Q += factor * own;
-                    },
-                    {},
-                    {}};
-    if (user.jacobian)
-        other.jacobian = [jacobian = user.jacobian, factor](const ForceInput& at, Matrix& by_q, Matrix& by_qd) {
-            Matrix own_q = Matrix::Zero(by_q.rows(), by_q.cols()), own_qd = Matrix::Zero(by_qd.rows(), by_qd.cols());
-            jacobian(at, own_q, own_qd);
-            by_q += factor * own_q;
-            by_qd += factor * own_qd;
-        };
-    if (user.energy)
-        other.energy = [energy = user.energy, factor](const ForceInput& at) { return factor * energy(at); };
-    return other;
-}
-
 }  // namespace
 
 void ForceSet::add_spring(std::string name, BodyId coordinate, double stiffness, double damping, double rest) {
@@ -86,8 +64,8 @@ void ForceSet::set_gravity(const Vec3& g) {
     gravity_ = g;
 }
 
-Forces::Forces(const ForceSet& set, const Model& model)
-    : loads_(set.loads()), users_(set.users()), gravity_(set.gravity()) {
+Forces::Forces(const ForceSet& set, const Model& model) : loads_(set.loads()), gravity_(set.gravity()) {
+    for (const UserForce& force : set.users()) users_.push_back({force});
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
         for (BodyId body : law.coordinates) {
@@ -121,8 +99,8 @@ Forces Forces::with_load_factor(double factor, bool gravity_too) const {
         load.wrench.force *= factor;
         load.wrench.moment *= factor;
     }
-    for (UserForce& user : other.users_)
-        if (!user.elastic) user = scaled(user, factor);
+    for (User& user : other.users_)
+        if (!user.own.elastic) user.factor *= factor;
     if (gravity_too) other.gravity_ *= factor;
     return other;
 }

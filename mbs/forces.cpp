@@ -2,7 +2,53 @@
 
 #include "mbs/error.hpp"
 
+#include <utility>
+
 namespace cardan {
+
+namespace {
+
+// Memory for user forces under a factor, kept by every thread. A user force that evaluates other forces borrows again
+// and gets fresh memory.
+struct Scratch {
+    Vector Q;
+    Matrix by_q, by_qd;
+};
+class BorrowedScratch {
+public:
+    BorrowedScratch() : own_(std::move(kept())) {}
+    ~BorrowedScratch() { kept() = std::move(own_); }
+    BorrowedScratch(const BorrowedScratch&) = delete;
+    BorrowedScratch& operator=(const BorrowedScratch&) = delete;
+    Scratch* operator->() { return &own_; }
+
+private:
+    static Scratch& kept() {
+        thread_local Scratch scratch;
+        return scratch;
+    }
+    Scratch own_;
+};
+
+// Central differences of a user force, at a workspace of its own: the caller's kinematics must stay valid.
+void difference(const UserForce& user, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+    constexpr double step = 1e-6;
+    const Eigen::Index n = at.q.size();
+    const Model& model = at.kinematics.model();
+    Workspace own(model);
+    const auto force = [&](const Vector& q, const Vector& qd) {
+        Vector Q = Vector::Zero(n);
+        user.force({at.time, q, qd, kinematics(model, q, own)}, Q);
+        return Q;
+    };
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const Vector d = step * Vector::Unit(n, j);
+        by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
+        by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
+    }
+}
+
+}  // namespace
 
 template <class S>
 void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
@@ -52,10 +98,19 @@ void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT
 void Forces::generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                                 VectorOut Q) const {
     generalised_forces_of_elements<double>(kin, q, qd, Q);
-    if (users_.empty()) return;
-    Vector user = Vector::Zero(Q.size());
-    for (const UserForce& force : users_) force.force({time, q, qd, kin}, user);
-    Q += user;
+    for (const User& user : users_) add_user(user, {time, q, qd, kin}, Q);
+}
+
+// A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
+void Forces::add_user(const User& user, const ForceInput& at, VectorOut& Q) const {
+    if (user.factor == 1) {
+        user.own.force(at, Q);
+        return;
+    }
+    BorrowedScratch scratch;
+    scratch->Q.setZero(Q.size());
+    user.own.force(at, scratch->Q);
+    Q += user.factor * scratch->Q;
 }
 
 // d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
@@ -96,28 +151,27 @@ void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matr
         }
 }
 
-void Forces::user_derivatives(const UserForce& user, const ForceInput& at, ForceDerivatives& out) const {
-    const Eigen::Index n = at.q.size();
-    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
-    if (user.jacobian) {
-        user.jacobian(at, by_q, by_qd);
-    } else {
-        constexpr double step = 1e-6;
-        const Model& model = at.kinematics.model();
-        Workspace own(model);  // the caller's kinematics must stay valid
-        const auto force = [&](const Vector& q, const Vector& qd) {
-            Vector Q = Vector::Zero(n);
-            user.force({at.time, q, qd, kinematics(model, q, own)}, Q);
-            return Q;
-        };
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const Vector d = step * Vector::Unit(n, j);
-            by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
-            by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
-        }
+void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const {
+    Matrix& stiffness = user.own.elastic ? out.elastic : out.loads;
+    if (user.own.jacobian && user.factor == 1) {
+        // It adds dQ/dq where -dQ/dq is gathered; changes of sign are exact.
+        stiffness *= -1;
+        out.damping *= -1;
+        user.own.jacobian(at, stiffness, out.damping);
+        stiffness *= -1;
+        out.damping *= -1;
+        return;
     }
-    (user.elastic ? out.elastic : out.loads) -= by_q;
-    out.damping -= by_qd;
+    const Eigen::Index n = at.q.size();
+    BorrowedScratch scratch;
+    scratch->by_q.setZero(n, n);
+    scratch->by_qd.setZero(n, n);
+    if (user.own.jacobian)
+        user.own.jacobian(at, scratch->by_q, scratch->by_qd);
+    else
+        difference(user.own, at, scratch->by_q, scratch->by_qd);
+    stiffness -= user.factor * scratch->by_q;
+    out.damping -= user.factor * scratch->by_qd;
 }
 
 void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
@@ -133,7 +187,7 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
             }
     if (has_gravity()) gravity_stiffness(kin, out.gravity);
     for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, out.loads);
-    for (const UserForce& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
+    for (const User& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
 }
 
 double Forces::gravity_energy(const Kinematics& kin) const {
@@ -168,10 +222,13 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
             energy = -load.wrench.force.dot(pose(kin, load.frame).p);
         reports.push_back({load.name, energy, power()});
     }
-    for (const UserForce& user : users_) {
+    for (const User& user : users_) {
         const ForceInput at{time, q, qd, kin};
-        user.force(at, Q);
-        reports.push_back({user.name, user.energy ? std::optional(user.energy(at)) : std::nullopt, power()});
+        VectorOut sum = Q;
+        add_user(user, at, sum);
+        std::optional<double> energy;
+        if (user.own.energy) energy = user.factor * user.own.energy(at);
+        reports.push_back({user.own.name, energy, power()});
     }
     return reports;
 }

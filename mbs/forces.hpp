@@ -25,13 +25,14 @@ struct ForceInput {
     const Kinematics& kinematics;
 };
 
-/// A force of the user's own. Without `jacobian` it is differenced (central, step 1e-6), in double precision.
+/// A force of the user's own. Without `jacobian` it is differenced (central, step 1e-6), in double precision, which
+/// allocates; else the library allocates nothing around it.
 struct UserForce {
     std::string name = {};
-    /// Adds its generalised forces to Q (size n).
-    std::function<void(const ForceInput&, Vector& Q)> force = {};
-    /// Adds dQ/dq and dQ/dqd (n x n).
-    std::function<void(const ForceInput&, Matrix& dQ_dq, Matrix& dQ_dqd)> jacobian = {};
+    /// Adds its generalised forces to Q (size n). What is there belongs to other elements: add, do not assign or read.
+    std::function<void(const ForceInput&, VectorOut Q)> force = {};
+    /// Adds dQ/dq and dQ/dqd (n x n) to what is there, in the same way.
+    std::function<void(const ForceInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
     /// Potential energy, J, if there is one.
     std::function<double(const ForceInput&)> energy = {};
     /// A spring rather than a load: -dQ/dq counts as elastic stiffness.
@@ -97,12 +98,16 @@ public:
     Forces(const ForceSet& set, const Model& model);
 
     /// Q_a of all elements.
-    /// @param Q  out, size n, N m or N; overwritten.  Cost O(n d), no allocation (user forces apart).
+    /// @param Q  out, size n, N m or N; overwritten, no alias of q or qd.  Cost O(n d), no allocation but what user
+    /// forces make.
     void generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd, VectorOut Q) const;
     /// Without user forces, on any scalar (tests).
     template <class S>
     void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
                                         VectorOutT<S> Q) const;
+    /// -dQ/dq and -dQ/dqd by origin.
+    /// @param out  overwritten; matrices of the right size are used again.  Cost O(n^2), no allocation then, unless a
+    /// user force has no Jacobian.
     void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                      ForceDerivatives& out) const;
 
@@ -130,6 +135,10 @@ private:
         Matrix K, D;
         Vector rest;
     };
+    struct User {
+        UserForce own;
+        double factor = 1;
+    };
     template <class S>
     void add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const;
     template <class S>
@@ -138,12 +147,13 @@ private:
     void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
     void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const;
-    void user_derivatives(const UserForce& user, const ForceInput& at, ForceDerivatives& out) const;
+    void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
+    void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
 
     std::vector<Law> laws_;
     std::vector<FrameLoad> loads_;
-    std::vector<UserForce> users_;
+    std::vector<User> users_;
     Vec3 gravity_;
 };
 

@@ -11,8 +11,8 @@ namespace cardan {
 /// Derivatives of the accelerations qdd(q, qd, Q) of the free coordinates f and of the drives' forces A on the driven
 /// coordinates d, whose accelerations are prescribed. From tau(q, qd, qdd) = g qdd + Gamma qd qd = Q + A, A_f = 0,
 ///
-///   g_ff dqdd_f/dx = dQ_f/dx - dtau_f/dx|qdd                               x = q, qd (all coordinates, driven ones
-///   too)
+///   g_ff dqdd_f/dx = dQ_f/dx - dtau_f/dx|qdd          x = q, qd (of all coordinates)
+///
 ///        dqdd_f/dQ_f = g_ff^-1,        dqdd_f/dqdd_d = -g_ff^-1 g_fd
 ///   dA_d/dx = dtau_d/dx|qdd + g_df dqdd_f/dx - dQ_d/dx
 ///   dA_d/dQ_f = g_df g_ff^-1,          dA_d/dQ_d = -1,        dA_d/dqdd_d = g_dd + g_df dqdd_f/dqdd_d.
@@ -26,6 +26,7 @@ public:
     /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
     /// @throws InputError if `driven` has another size.
     explicit ForwardDynamicsDerivatives(const Model& model);
+    explicit ForwardDynamicsDerivatives(Model&&) = delete;  // the model must live longer
     ForwardDynamicsDerivatives(const Model& model, std::vector<bool> driven);
 
     /// @param qd   rates, size n

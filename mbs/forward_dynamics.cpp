@@ -48,22 +48,28 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
     articulated_.resize(static_cast<std::size_t>(n));
     held_.assign(driven_.begin(), driven_.end());
     // An armature over several coordinates is split: its diagonal goes into the recursion, which keeps every pivot
-    // positive even where only the armature has inertia; the rest follows by a low-rank correction (Woodbury).
-    for (const Model::Spin& armature : model.armatures())
+    // positive even where only the armature has inertia; the rest follows by a low-rank correction (Woodbury). Beside
+    // such a one a negative armature goes into the correction as a whole: the recursion works on more than the metric.
+    const auto& armatures = model.armatures();
+    const bool coupled = std::any_of(armatures.begin(), armatures.end(), [](auto& x) { return x.spin.size() > 1; });
+    for (const Model::Spin& armature : armatures) {
+        const bool in_recursion = armature.inertia > 0 || !coupled;
         for (const auto& [a, s] : armature.spin) {
-            armature_diagonal_(a) += armature.inertia * s * s;
-            if (armature.spin.size() > 1 && !driven_[static_cast<std::size_t>(a)] &&
+            if (in_recursion) armature_diagonal_(a) += armature.inertia * s * s;
+            if ((armature.spin.size() > 1 || !in_recursion) && !driven_[static_cast<std::size_t>(a)] &&
                 std::find(support_.begin(), support_.end(), a) == support_.end())
                 support_.push_back(a);
         }
+    }
     const auto r = static_cast<Eigen::Index>(support_.size());
     coupling_.setZero(r, r);
-    for (const Model::Spin& armature : model.armatures())
+    for (const Model::Spin& armature : armatures)
         for (const auto& [a, sa] : armature.spin)
             for (const auto& [b, sb] : armature.spin) {
+                const bool in_recursion = a == b && (armature.inertia > 0 || !coupled);
                 const auto ia = std::find(support_.begin(), support_.end(), a);
                 const auto ib = std::find(support_.begin(), support_.end(), b);
-                if (a != b && ia != support_.end() && ib != support_.end())
+                if (!in_recursion && ia != support_.end() && ib != support_.end())
                     coupling_(ia - support_.begin(), ib - support_.begin()) += armature.inertia * sa * sb;
             }
     support_solution_.setZero(n, r);
@@ -174,6 +180,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     // What the motion needs without the accelerations of the free coordinates; the rest they produce from rest.
     Workspace& ws = kin.workspace();
     const Eigen::Index n = model_->size();
+    assert(&kin.model() == model_ && Q.size() == n && qdd.size() == n && actuator.size() == n);
     for (Eigen::Index k = 0; k < n; ++k)
         if (!held_[static_cast<std::size_t>(k)]) qdd(k) = 0;
     inverse_dynamics<double>(kin, qd, qdd, residual_);

@@ -66,6 +66,7 @@ void run(std::ptrdiff_t n, const Model::Link* links, const Complex* q, const Com
 template <class S>
 KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace) {
     assert(q.size() == model.size());
+    assert(workspace.frame.size() == model.links().size() && "the workspace is another model's");
     ++workspace.generation;
     sines(q, workspace.sine, workspace.cosine);
     run(model.size(), model.links().data(), q.data(), workspace.sine.data(), workspace.cosine.data(),

@@ -74,6 +74,7 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     const Model& model = kin.model();
+    assert(g.rows() == model.size() && g.cols() == model.size());
     const PathTwists<S> path(ws.branch.data(), ws.stride);
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), path,
         DenseSink<S>{model.links().data(), model.size(), g.data(), g.outerStride(), path.row(0), path.row(0)});
@@ -85,6 +86,7 @@ void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g) {
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     const Model& model = kin.model();
+    assert(g.size() == model.size());
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
         PathTwists<S>(ws.branch.data(), ws.stride), BranchSink<S>{g.rows(), g.columns(), g.offset()});
     for (const Model::Spin& armature : model.armatures())
@@ -112,7 +114,7 @@ Vector metric_scale(const Kinematics& kin) {
         const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
         scale(a) = subtree.M;
         if (model.body(a).revolute)
-            scale(a) = subtree.M * (subtree.C.vector() - kin.origin(a)).squaredNorm() + subtree.P.matrix().trace();
+            scale(a) = subtree.M * (subtree.C.vector() - kin.origin(a)).squaredNorm() + 2 * subtree.P.matrix().trace();
     }
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, s] : armature.spin) scale(a) += std::abs(armature.inertia) * s * s;

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-// Into functions for several processors: code of its own for each of them.
-#define CARDAN_INLINE [[gnu::always_inline]] inline
-
 namespace cardan {
 
 namespace {
@@ -172,6 +169,7 @@ double MetricFactor::operator()(int a, int b) const {
 }
 
 PivotStatus MetricFactor::factorise(const Kinematics& kin) {
+    assert(&kin.model() == model_);
     metric<double>(kin, g_);
     return factorise(g_);
 }

@@ -28,7 +28,7 @@ struct [[nodiscard]] PivotStatus {
 /// from the tips to the base.                    [Featherstone 2005; Rigid Body Dynamics Algorithms, 2008, section 6.5]
 ///
 /// Driven coordinates are left out: then g stands for the block g_ff of the free ones, and in all vectors the entries
-/// of driven coordinates are neither read nor written.
+/// of driven coordinates are left as they are.
 ///
 /// Nothing allocates after construction. The object holds scratch memory, so it serves one thread.
 class MetricFactor {
@@ -36,6 +36,7 @@ public:
     /// @param driven  size n; true: left out. Default: the roles of the coordinate table.
     /// @throws InputError if `driven` has another size.
     explicit MetricFactor(const Model& model);
+    explicit MetricFactor(Model&&) = delete;  // the model must live longer
     MetricFactor(const Model& model, std::vector<bool> driven);
 
     /// @param g  n x n; only g_ba with b on the path of a is read (b <= a, the upper triangle). Cost O(n d^2).

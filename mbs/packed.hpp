@@ -37,7 +37,7 @@ template <class S>
 struct LanesOf {
     using type = Four<S>;
 };
-#ifdef CARDAN_HAS_VECTORISED
+#ifdef CARDAN_HAS_VECTOR_TYPES
 template <>
 struct LanesOf<double> {
     using type = double __attribute__((vector_size(32)));

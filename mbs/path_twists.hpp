@@ -31,7 +31,7 @@ public:
         for (int i = 0; i < 3; ++i) row(first_row + i)[column / 4].lanes[column % 4] = v(i);
     }
     CARDAN_INLINE Packed3<S> get(int first_row, std::ptrdiff_t column) const {
-        const auto at = [&](int i) { return row(first_row + i)[column / 4].lanes[column % 4]; };
+        const auto at = [&](int i) CARDAN_INLINE_LAMBDA { return row(first_row + i)[column / 4].lanes[column % 4]; };
         return Packed3<S>::of(at(0), at(1), at(2));
     }
     CARDAN_INLINE void set(const Model::Link& link, const typename WorkspaceT<S>::Frame& frame) const {
@@ -73,11 +73,11 @@ CARDAN_INLINE void write_branch(const Model::Link* links, int n, int m, const S*
     S* const own_row = matrix + m;
     for (int last = m; last >= 0;) {
         const int first = links[last].run, next = links[first].parent;
-        const S* const from_row = row + (links[first].depth - 1 - first);
-        const S* const from_column = column + (links[first].depth - 1 - first);
-        for (int a = first; a <= last; ++a) own_column[a] = from_column[a];
+        const S* const from_row = row + (links[first].depth - 1);
+        const S* const from_column = column + (links[first].depth - 1);
+        for (int i = 0; i <= last - first; ++i) own_column[first + i] = from_column[i];
         CARDAN_UNROLL
-        for (int a = first; a <= last; ++a) own_row[a * stride] = from_row[a];
+        for (int i = 0; i <= last - first; ++i) own_row[(first + i) * stride] = from_row[i];
         for (int a = next + 1; a < first; ++a) own_column[a] = S(0);
         last = next;
     }

@@ -7,7 +7,7 @@
 
 // glibc has vector versions of these two (libmvec), which loops may call once the compiler is told of them; errno,
 // which they do not set, is switched off for this file in CMakeLists.txt.
-#ifdef CARDAN_HAS_VECTORISED
+#ifdef CARDAN_HAS_CLONES
 extern "C" {
 __attribute__((__simd__("notinbranch"))) double sin(double) noexcept;
 __attribute__((__simd__("notinbranch"))) double cos(double) noexcept;

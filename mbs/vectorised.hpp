@@ -5,10 +5,13 @@
 /// A function that the compiler translates twice, for every processor and for those with AVX2 and FMA; the right one is
 /// chosen when the program starts. Everything it calls must be CARDAN_INLINE or a loop of its own. Only pointers and
 /// plain numbers cross its border, so that no type depends on the processor.
-/// GCC on x86-64 only: clang 14 has no such clones, and they are resolved before a sanitizer is ready.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define CARDAN_HAS_VECTORISED
+/// GCC on x86-64 Linux only: clang 14 has no such clones. They are resolved before a sanitizer is ready, so that under
+/// one the vector types are used without them.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__)
+#define CARDAN_HAS_VECTOR_TYPES
+#endif
+#if defined(CARDAN_HAS_VECTOR_TYPES) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define CARDAN_HAS_CLONES
 #define CARDAN_VECTORISED __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define CARDAN_VECTORISED
@@ -17,8 +20,10 @@
 /// Inlined whatever it costs: a vector register passed to a function would depend on the processor.
 #if defined(__GNUC__)
 #define CARDAN_INLINE [[gnu::always_inline]] inline
+#define CARDAN_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define CARDAN_INLINE inline
+#define CARDAN_INLINE_LAMBDA
 #endif
 
 /// Before a loop whose body is a single store or so.

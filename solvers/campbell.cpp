@@ -1,135 +1,16 @@
 #include "solvers/campbell.hpp"
 
 #include "mbs/error.hpp"
+#include "solvers/campbell_point.hpp"
 #include "solvers/tracking.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <set>
 
 namespace cardan::solvers {
 
 namespace {
-
-// One rotor speed after the other; keeps what all have in common.
-class Sweep {
-public:
-    Sweep(const System& system, const RotorMap& rotor, const CampbellOptions& options)
-        : system_(system), rotor_(rotor), options_(options) {
-        const std::size_t blades = rotor.blades.size();
-        if (blades == 2)
-            throw InputError(rotor.machine, "number of blades", blades,
-                             "3 or more, or 1 (two blades have a periodic system, which is not available yet)");
-        for (int i : system.model.coordinates().free())
-            if (i != rotor.spin || (options.spin == RotorSpin::free && blades > 1)) unknowns.push_back(i);
-        if (blades > 2)
-            coleman_.emplace(rotor, unknowns);
-        else
-            plain_rows_.resize(unknowns.size());
-    }
-
-    CampbellPoint point(double rotor_speed) {
-        SteadyOptions steady_options;
-        steady_options.rotor_speed = rotor_speed;
-        steady_options.initial = start_;
-        SteadyState steady = steady_state(system_, rotor_.spin, steady_options);
-        if (!steady.converged)
-            throw NumericalError(text(rotor_.machine, " at ", rotor_speed * 30 / pi, " rpm: ", steady.message));
-        start_ = steady.at.q;
-        const Linearisation lin = linearise(system_, steady.at);
-        if (!identification) identification.emplace(lin, system_.model, rotor_, unknowns, rows());
-        current = in_fixed_frame(lin, rotor_speed);
-        CampbellPoint point{rotor_speed, steady.at, {}};
-        for (Mode& mode : modes(current)) {
-            std::vector<Share> shares = identification->shares(mode);
-            Vector row_shares = energy_by_row(current, mode);
-            point.modes.push_back({std::move(mode), std::move(shares), std::move(row_shares)});
-        }
-        return point;
-    }
-
-    /// Motions of frames in some modes: the shape in blade coordinates at azimuth 0 times the frame Jacobians.
-    std::vector<std::vector<FrameMotion>> motions(const CampbellPoint& point, const std::vector<int>& modes,
-                                                  const std::vector<FrameId>& frames) const {
-        Workspace workspace(system_.model);
-        const Kinematics kin = kinematics(system_.model, point.at.q, workspace);
-        const auto n = static_cast<Eigen::Index>(unknowns.size());
-        const Matrix T = coleman_ ? coleman_->matrix(0) : Matrix::Identity(n, n);
-        ComplexMatrix shapes(n, static_cast<Eigen::Index>(modes.size()));
-        for (Eigen::Index j = 0; j < shapes.cols(); ++j)
-            shapes.col(j) = T * point.modes[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])].mode.shape;
-        Matrix jacobian(6, system_.model.size());
-        std::vector<std::vector<FrameMotion>> motions(point.modes.size());
-        for (FrameId frame : frames) {
-            frame_jacobian(kin, frame, jacobian);
-            const ComplexMatrix all = jacobian(Eigen::all, unknowns) * shapes;
-            for (std::size_t j = 0; j < modes.size(); ++j)
-                motions[static_cast<std::size_t>(modes[j])].push_back({all.col(static_cast<Eigen::Index>(j))});
-        }
-        return motions;
-    }
-
-    // Blade coordinates are named after blade 1, with the pattern that their row stands for.
-    std::vector<std::string> row_names() const {
-        std::vector<std::string> names;
-        for (std::size_t i = 0; i < unknowns.size(); ++i) {
-            const MultiBladeRow& row = rows()[i];
-            const bool blade = row.kind != MultiBlade::none;
-            const int coordinate =
-                blade ? rotor_.blades[0][static_cast<std::size_t>(row.blade_coordinate)] : unknowns[i];
-            const std::string& name = system_.model.coordinates()[coordinate].name;
-            names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);
-        }
-        return names;
-    }
-
-    std::vector<int> unknowns;
-    std::optional<Identification> identification;
-    SecondOrderSystem current;  ///< system of the last point
-    std::string warning;
-
-private:
-    const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
-
-    SecondOrderSystem in_fixed_frame(const Linearisation& lin, double rotor_speed) {
-        SecondOrderSystem own = restrict_to(lin, unknowns, rotor_.spin);
-        if (!coleman_) return own;
-        if (options_.method == CampbellMethod::frozen_azimuth) return coleman_->transform(own, 0, 0);
-        SecondOrderSystem z = coleman_->transform(own, 0, rotor_speed);
-        if (rotor_speed != 0 && rotor_.spin >= 0) average_if_periodic(lin.at, rotor_speed, z);
-        return z;
-    }
-
-    // The transformed matrices of an isotropic rotor are constant; else their mean over the azimuth is taken and said.
-    void average_if_periodic(const OperatingPoint& at, double rotor_speed, SecondOrderSystem& z) {
-        const auto at_azimuth = [&](double psi) {
-            OperatingPoint turned = at;
-            turned.q(rotor_.spin) += psi;
-            return coleman_->transform(restrict_to(linearise(system_, turned), unknowns, rotor_.spin), psi,
-                                       rotor_speed);
-        };
-        const SecondOrderSystem other = at_azimuth(1.0);
-        const double remainder = (other.K - z.K).norm() / z.K.norm() + (other.M - z.M).norm() / z.M.norm();
-        if (remainder < 1e-9) return;
-        constexpr int azimuths = 24;
-        for (int i = 1; i < azimuths; ++i) {
-            const SecondOrderSystem next = at_azimuth(2 * pi * i / azimuths);
-            z.M += next.M, z.C += next.C, z.K += next.K, z.K_elastic += next.K_elastic;
-        }
-        z.M /= azimuths, z.C /= azimuths, z.K /= azimuths, z.K_elastic /= azimuths;
-        if (warning.empty())
-            warning = text("the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ",
-                           remainder, " (relative); its mean over the azimuth is used, which is an approximation");
-    }
-
-    const System& system_;
-    const RotorMap& rotor_;
-    const CampbellOptions& options_;
-    std::optional<ColemanTransform> coleman_;
-    std::vector<MultiBladeRow> plain_rows_;
-    Vector start_;
-};
 
 double lowest_frequency(const Campbell& diagram, const Branch& branch) {
     double lowest = std::numeric_limits<double>::infinity();
@@ -163,6 +44,27 @@ void drop_high_modes(Campbell& diagram, double limit_hz) {
         for (Branch& branch : diagram.branches)
             if (branch.mode[i] >= 0) branch.mode[i] = new_index[static_cast<std::size_t>(branch.mode[i])];
     }
+}
+
+// Motions of frames in some modes: the shape in blade coordinates at azimuth 0 times the frame Jacobians.
+std::vector<std::vector<FrameMotion>> motions(const System& system, const PointSolver& solver,
+                                              const CampbellPoint& point, const std::vector<int>& modes,
+                                              const std::vector<FrameId>& frames) {
+    Workspace workspace(system.model);
+    const Kinematics kin = kinematics(system.model, point.at.q, workspace);
+    const Matrix T = solver.rotating_coordinates();
+    ComplexMatrix shapes(T.rows(), static_cast<Eigen::Index>(modes.size()));
+    for (Eigen::Index j = 0; j < shapes.cols(); ++j)
+        shapes.col(j) = T * point.modes[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])].mode.shape;
+    Matrix jacobian(6, system.model.size());
+    std::vector<std::vector<FrameMotion>> motions(point.modes.size());
+    for (FrameId frame : frames) {
+        frame_jacobian(kin, frame, jacobian);
+        const ComplexMatrix all = jacobian(Eigen::all, solver.unknowns()) * shapes;
+        for (std::size_t j = 0; j < modes.size(); ++j)
+            motions[static_cast<std::size_t>(modes[j])].push_back({all.col(static_cast<Eigen::Index>(j))});
+    }
+    return motions;
 }
 
 // Frames on the lines of the machine (lines are renumbered to count in this list), then those of all bodies; each once.
@@ -262,7 +164,7 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     check_speeds(rotor_speed);
     if (!(options.max_frequency_hz > 0))
         throw InputError("Campbell diagram", "largest frequency [Hz]", options.max_frequency_hz, "> 0");
-    Sweep sweep(system, rotor, options);
+    PointSolver solver(system, rotor, options);
     Campbell diagram;
     diagram.machine = rotor.machine;
     diagram.source = rotor.description;
@@ -270,8 +172,8 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     diagram.blades = static_cast<int>(rotor.blades.size());
     diagram.method = method_name(options.method, rotor.blades.size());
     diagram.coordinates = system.model.coordinates();
-    diagram.unknowns = sweep.unknowns;
-    diagram.rows = sweep.row_names();
+    diagram.unknowns = solver.unknowns();
+    diagram.rows = solver.row_names();
     const std::vector<FrameId> frames = recorded_frames(system, rotor, diagram);
     Tracker tracker;
     std::string instability;
@@ -280,30 +182,31 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
             diagram.complete = false;
             break;
         }
-        diagram.points.push_back(sweep.point(rotor_speed[i]));
-        tracker.add(sweep.current, diagram.points.back());
+        solver.solve(rotor_speed[i], diagram.points.emplace_back());
+        tracker.add(solver.system(), diagram.points.back());
         if (options.method == CampbellMethod::coleman) warn_of_instability(diagram.points.back(), instability);
         if (options.progress) options.progress(static_cast<int>(i) + 1, static_cast<int>(rotor_speed.size()));
     }
-    if (sweep.identification) {
-        diagram.components = sweep.identification->components();
+    if (const Identification* identification = solver.identification()) {
+        diagram.components = identification->components();
         const bool whirl = options.method == CampbellMethod::coleman &&
                            std::any_of(diagram.points.begin(), diagram.points.end(),
                                        [](const CampbellPoint& p) { return p.rotor_speed != 0; });
-        diagram.branches = tracker.branches(diagram.points, *sweep.identification, whirl);
+        diagram.branches = tracker.branches(diagram.points, *identification, whirl);
         std::erase_if(diagram.branches,
                       [&](const Branch& b) { return lowest_frequency(diagram, b) > options.max_frequency_hz; });
         drop_high_modes(diagram, options.max_frequency_hz);
         if (options.keep_shapes)
             for (std::size_t i = 0; i < diagram.points.size(); ++i)
-                diagram.motions.push_back(sweep.motions(diagram.points[i], modes_of_branches(diagram, i), frames));
+                diagram.motions.push_back(
+                    motions(system, solver, diagram.points[i], modes_of_branches(diagram, i), frames));
     }
     if (options.method == CampbellMethod::frozen_azimuth && rotor.blades.size() > 2)
         diagram.warning =
             "frozen azimuth: these are eigenvalues of the equations at one azimuth, no motions of the machine; they "
             "show "
             "spurious damping. Use the Coleman result for design";
-    append(diagram.warning, sweep.warning);
+    append(diagram.warning, solver.warning());
     append(diagram.warning, instability);
     find_crossings(diagram);
     return diagram;

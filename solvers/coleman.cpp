@@ -3,6 +3,8 @@
 #include "mbs/error.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -20,10 +22,23 @@ MultiBladeRow row_kind(int k, int blades, int coordinate) {
     return {k % 2 == 1 ? MultiBlade::cosine : MultiBlade::sine, (k + 1) / 2, coordinate};
 }
 
-// d-th derivative of cos (or sin) n psi with respect to psi.
-double harmonic(bool cosine, int n, double psi, int d) {
-    const double phase = n * psi + d * pi / 2;
-    return std::pow(n, d) * (cosine ? std::cos(phase) : std::sin(phase));
+// [blade][multi-blade coordinate] at azimuth 0.
+Matrix block_at_zero(int blades) {
+    const double B = blades, once = std::sqrt(1 / B), twice = std::sqrt(2 / B);
+    Matrix block(blades, blades);
+    for (int j = 0; j < blades; ++j) {
+        const MultiBladeRow z = row_kind(j, blades, 0);
+        for (int k = 0; k < blades; ++k) {
+            const double psi_k = 2 * pi * k / B;
+            if (z.kind == MultiBlade::cosine)
+                block(k, j) = twice * std::cos(z.harmonic * psi_k);
+            else if (z.kind == MultiBlade::sine)
+                block(k, j) = twice * std::sin(z.harmonic * psi_k);
+            else
+                block(k, j) = z.kind == MultiBlade::differential && k % 2 ? -once : once;
+        }
+    }
+    return block;
 }
 
 }  // namespace
@@ -49,10 +64,12 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     if (blades_ < 3)
         throw InputError(rotor.machine, "number of blades", blades_,
                          "at least 3 for a multi-blade transformation (two blades need Floquet's theory)");
+    if (blades_ > most_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", most_blades));
     for (const std::vector<int>& blade : rotor.blades)
         if (blade.size() != rotor.blades[0].size())
             throw InputError(rotor.machine, "coordinates of a blade", blade.size(),
                              text(rotor.blades[0].size(), ", as blade 1 has"));
+    blade_block_ = block_at_zero(blades_);
     for (std::size_t i = 0; i < rotor.blades[0].size(); ++i) {
         std::vector<int> rows;
         for (const std::vector<int>& blade : rotor.blades) rows.push_back(row_of(coordinates, blade[i]));
@@ -60,56 +77,109 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
         if (std::any_of(rows.begin(), rows.end(), [](int r) { return r < 0; }))
             throw InputError(rotor.machine, "blade coordinate number", i + 1, "free on all blades or on none of them");
         at_.push_back(rows);
-        for (int k = 0; k < blades_; ++k)
-            rows_[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])] =
-                row_kind(k, blades_, static_cast<int>(i));
+        for (int k = 0; k < blades_; ++k) {
+            const int row = rows[static_cast<std::size_t>(k)];
+            const MultiBladeRow z = row_kind(k, blades_, static_cast<int>(i));
+            rows_[static_cast<std::size_t>(row)] = z;
+            if (z.kind == MultiBlade::cosine)
+                pairs_.push_back({row, rows[static_cast<std::size_t>(k) + 1], static_cast<double>(z.harmonic)});
+        }
     }
+    // A vector fixed in space, seen from a part that turns by sense * psi about its x axis.
     for (const RotatingPair& pair : rotor.rotating_pairs) {
-        const std::array<int, 2> rows{row_of(coordinates, pair.y), row_of(coordinates, pair.z)};
-        if (rows[0] < 0 || rows[1] < 0) continue;
-        pairs_.push_back(rows);
-        sense_.push_back(pair.sense);
+        const int y = row_of(coordinates, pair.y), z = row_of(coordinates, pair.z);
+        if (y >= 0 && z >= 0) pairs_.push_back({y, z, pair.sense});
     }
+}
+
+// A T: every row alike.
+void ColemanTransform::transform_columns(double psi, Matrix& A) const {
+    std::array<double, most_blades> x{};
+    for (const std::vector<int>& rows : at_)
+        for (Eigen::Index i = 0; i < A.rows(); ++i) {
+            for (int k = 0; k < blades_; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                x[at] = A(i, rows[at]);
+            }
+            for (int j = 0; j < blades_; ++j) {
+                double sum = 0;
+                for (int k = 0; k < blades_; ++k) sum += x[static_cast<std::size_t>(k)] * blade_block_(k, j);
+                A(i, rows[static_cast<std::size_t>(j)]) = sum;
+            }
+        }
+    if (psi == 0) return;
+    for (const TurningPair& pair : pairs_) {
+        const double c = std::cos(pair.factor * psi), s = std::sin(pair.factor * psi);
+        for (Eigen::Index i = 0; i < A.rows(); ++i) {
+            const double a = A(i, pair.a), b = A(i, pair.b);
+            A(i, pair.a) = c * a - s * b;
+            A(i, pair.b) = s * a + c * b;
+        }
+    }
+}
+
+// T^T A: every column alike.
+void ColemanTransform::transform_rows(double psi, Matrix& A) const {
+    std::array<double, most_blades> x{};
+    for (Eigen::Index column = 0; column < A.cols(); ++column) {
+        for (const std::vector<int>& rows : at_) {
+            for (int k = 0; k < blades_; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                x[at] = A(rows[at], column);
+            }
+            for (int j = 0; j < blades_; ++j) {
+                double sum = 0;
+                for (int k = 0; k < blades_; ++k) sum += x[static_cast<std::size_t>(k)] * blade_block_(k, j);
+                A(rows[static_cast<std::size_t>(j)], column) = sum;
+            }
+        }
+    }
+    if (psi == 0) return;
+    for (const TurningPair& pair : pairs_) {
+        const double c = std::cos(pair.factor * psi), s = std::sin(pair.factor * psi);
+        for (Eigen::Index j = 0; j < A.cols(); ++j) {
+            const double a = A(pair.a, j), b = A(pair.b, j);
+            A(pair.a, j) = c * a - s * b;
+            A(pair.b, j) = s * a + c * b;
+        }
+    }
+}
+
+void ColemanTransform::congruence(double psi, Matrix& A) const {
+    transform_columns(psi, A);
+    transform_rows(psi, A);
 }
 
 Matrix ColemanTransform::matrix(double psi, int derivative) const {
     const auto n = static_cast<Eigen::Index>(rows_.size());
-    Matrix T = Matrix::Zero(n, n);
-    if (derivative == 0) T.setIdentity();
-    const double B = blades_, once = std::sqrt(1 / B), twice = std::sqrt(2 / B);
-    for (const std::vector<int>& rows : at_)
-        for (int k = 0; k < blades_; ++k) {
-            const double psi_k = psi + 2 * pi * k / B;
-            for (int j = 0; j < blades_; ++j) {
-                const int row = rows[static_cast<std::size_t>(k)], column = rows[static_cast<std::size_t>(j)];
-                const MultiBladeRow& z = rows_[static_cast<std::size_t>(column)];
-                double value = 0;
-                if (z.kind == MultiBlade::collective) value = derivative == 0 ? once : 0;
-                if (z.kind == MultiBlade::differential) value = derivative == 0 ? (k % 2 ? -once : once) : 0;
-                if (z.kind == MultiBlade::cosine || z.kind == MultiBlade::sine)
-                    value = twice * harmonic(z.kind == MultiBlade::cosine, z.harmonic, psi_k, derivative);
-                T(row, column) = value;
-            }
+    Matrix T = Matrix::Identity(n, n);
+    transform_columns(psi, T);
+    for (int d = 0; d < derivative; ++d) {
+        Matrix next = Matrix::Zero(n, n);
+        for (const TurningPair& pair : pairs_) {
+            next.col(pair.a) = -pair.factor * T.col(pair.b);
+            next.col(pair.b) = pair.factor * T.col(pair.a);
         }
-    // A vector fixed in space, seen from a part that turns by sense * psi about its x axis.
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-        const auto [y, z] = pairs_[i];
-        const double turn = std::pow(sense_[i], derivative);
-        const double c = turn * harmonic(true, 1, sense_[i] * psi, derivative);
-        const double s = turn * harmonic(false, 1, sense_[i] * psi, derivative);
-        T(y, y) = c, T(y, z) = s, T(z, y) = -s, T(z, z) = c;
+        T = std::move(next);
     }
     return T;
 }
 
-SecondOrderSystem ColemanTransform::transform(const SecondOrderSystem& system, double psi, double rotor_speed) const {
-    const Matrix T = matrix(psi), T1 = rotor_speed * matrix(psi, 1), T2 = rotor_speed * rotor_speed * matrix(psi, 2);
-    SecondOrderSystem z = system;
-    z.M = T.transpose() * system.M * T;
-    z.C = T.transpose() * (system.C * T + 2 * system.M * T1);
-    z.K = T.transpose() * (system.K * T + system.C * T1 + system.M * T2);
-    z.K_elastic = T.transpose() * system.K_elastic * T;
-    return z;
+void ColemanTransform::transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const {
+    for (Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic}) congruence(psi, *A);
+    for (const TurningPair& pair : pairs_) {
+        const double n = pair.factor * rotor_speed;
+        auto &M = system.M, &C = system.C, &K = system.K;
+        K.col(pair.a) -= n * C.col(pair.b) + (n * n) * M.col(pair.a);
+        K.col(pair.b) += n * C.col(pair.a) - (n * n) * M.col(pair.b);
+        C.col(pair.a) -= 2 * n * M.col(pair.b);
+        C.col(pair.b) += 2 * n * M.col(pair.a);
+    }
+}
+
+SecondOrderSystem ColemanTransform::transform(SecondOrderSystem system, double psi, double rotor_speed) const {
+    transform_in_place(system, psi, rotor_speed);
+    return system;
 }
 
 }  // namespace cardan::solvers

@@ -27,22 +27,42 @@ std::string multi_blade_name(const MultiBladeRow& row);
 /// stands in the place of blade 1, cosine and sine in those of blades 2 and 3, and so on.
 class ColemanTransform {
 public:
-    /// @throws InputError if there are fewer than three blades, or blades differ in their number of coordinates.
+    /// @throws InputError if there are fewer than three blades or more than 32, or if they differ in their number of
+    /// coordinates.
     ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
 
-    /// T, dT/dpsi or its second derivative at azimuth psi.
+    /// T, dT/dpsi or its second derivative at azimuth psi, as a full matrix.
     Matrix matrix(double psi, int derivative = 0) const;
     const std::vector<MultiBladeRow>& rows() const { return rows_; }
 
-    /// M x'' + C x' + K x = 0 in z at constant rotor speed Omega; the transformed matrices are constant for an
-    /// isotropic rotor without gravity.
-    SecondOrderSystem transform(const SecondOrderSystem& system, double psi, double rotor_speed) const;
+    /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
+    /// matrices are constant for an isotropic rotor without gravity. With dT/dpsi = T G, G constant and of 2 x 2 blocks
+    /// [0 n; -n 0],
+    ///   M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
+    /// T couples no more than the B blades' rows of one coordinate, and T(psi) is T(0) with these pairs of columns
+    /// turned by n psi.  Cost O(n^2 B).
+    /// @param system  is overwritten by its transform; nothing is allocated
+    void transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const;
+    /// The same, on a copy.
+    SecondOrderSystem transform(SecondOrderSystem system, double psi, double rotor_speed) const;
 
 private:
+    static constexpr int most_blades = 32;
+
+    // Two columns that turn into one another: a' = -factor b, b' = factor a (derivatives by psi); in one, T turns them
+    // by factor * psi.
+    struct TurningPair {
+        int a, b;
+        double factor;
+    };
+    void transform_columns(double psi, Matrix& A) const;
+    void transform_rows(double psi, Matrix& A) const;
+    void congruence(double psi, Matrix& A) const;
+
     int blades_;
     std::vector<std::vector<int>> at_;  ///< [coordinate in blade][blade] -> row
-    std::vector<std::array<int, 2>> pairs_;
-    std::vector<double> sense_;
+    std::vector<TurningPair> pairs_;
+    Matrix blade_block_;  ///< T(0) of one coordinate: [blade][multi-blade coordinate]
     std::vector<MultiBladeRow> rows_;
 };
 

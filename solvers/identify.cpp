@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -134,51 +135,68 @@ void Identification::add_part(const Linearisation& lin, const Model& model, cons
         const std::string family = family_of(solver.eigenvectors().col(i), K, families);
         components_.push_back({part.part, family, ++count[family], std::sqrt(squared) / (2 * pi), blades});
     }
-    block.weights.resize(static_cast<Eigen::Index>(kept.size()), K.cols());
+    block.weights.resize(K.rows(), static_cast<Eigen::Index>(kept.size()));
     for (std::size_t i = 0; i < kept.size(); ++i)
-        block.weights.row(static_cast<Eigen::Index>(i)) =
-            (K * solver.eigenvectors().col(kept[i])).transpose() / std::sqrt(solver.eigenvalues()(kept[i]));
+        block.weights.col(static_cast<Eigen::Index>(i)) =
+            K * solver.eigenvectors().col(kept[i]) / std::sqrt(solver.eigenvalues()(kept[i]));
     blocks_.push_back(std::move(block));
 }
 
-std::vector<Share> Identification::shares(const Mode& mode) const {
-    std::vector<Share> shares(components_.size());
+Complex Identification::amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
+                                  const Mode& mode) {
+    const auto weights = block.weights.col(component);
+    double re = 0, im = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double weight = weights(static_cast<Eigen::Index>(i));
+        const Complex x = mode.shape(rows[i]);
+        re += weight * x.real();
+        im += weight * x.imag();
+    }
+    return {re, im};
+}
+
+// Energies, not yet divided by their sum. `higher` lends its memory.
+Share Identification::share(const Block& block, Eigen::Index component, const Mode& mode,
+                            std::vector<WhirlShare> higher) {
+    Share share;
+    share.component = static_cast<int>(block.first_component + component);
+    share.collective = std::norm(amplitude(block, component, block.collective, mode));
+    share.differential = std::norm(amplitude(block, component, block.differential, mode));
+    higher.clear();
+    for (std::size_t n = 0; n < block.cosine.size(); ++n) {
+        const Complex c = amplitude(block, component, block.cosine[n], mode),
+                      s = amplitude(block, component, block.sine[n], mode);
+        const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
+        const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
+        if (n == 0)
+            share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
+        else
+            higher.push_back({std::norm(c), std::norm(s), whirl});
+    }
+    share.higher = std::move(higher);
+    return share;
+}
+
+void Identification::shares(const Mode& mode, std::vector<Share>& out) const {
+    out.resize(components_.size());
     double total = 0;
-    for (const Block& block : blocks_) {
-        const auto amplitudes = [&](const std::vector<int>& rows) -> ComplexVector {
-            if (rows.empty()) return ComplexVector::Zero(block.weights.rows());
-            return block.weights * mode.shape(rows);
-        };
-        const auto share_of = [&](Eigen::Index i) -> Share& {
-            return shares[static_cast<std::size_t>(block.first_component + i)];
-        };
-        const ComplexVector c0 = amplitudes(block.collective), d = amplitudes(block.differential);
-        for (Eigen::Index i = 0; i < block.weights.rows(); ++i) {
-            share_of(i) = {static_cast<int>(block.first_component + i), std::norm(c0(i)), 0, 0, std::norm(d(i)), 0};
-            total += std::norm(c0(i)) + std::norm(d(i));
+    for (const Block& block : blocks_)
+        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
+            Share& own = out[static_cast<std::size_t>(block.first_component + i)];
+            own = share(block, i, mode, std::move(own.higher));
+            total += own.total();
         }
-        for (std::size_t n = 0; n < block.cosine.size(); ++n) {
-            const ComplexVector c = amplitudes(block.cosine[n]), s = amplitudes(block.sine[n]);
-            for (Eigen::Index i = 0; i < block.weights.rows(); ++i) {
-                const double forward = std::norm(c(i) + Complex(0, 1) * s(i)),
-                             backward = std::norm(c(i) - Complex(0, 1) * s(i));
-                const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
-                const WhirlShare pair{std::norm(c(i)), std::norm(s(i)), whirl};
-                Share& share = share_of(i);
-                if (n == 0)
-                    share.cosine = pair.cosine, share.sine = pair.sine, share.whirl = pair.whirl;
-                else
-                    share.higher.push_back(pair);
-                total += pair.cosine + pair.sine;
-            }
-        }
-    }
     const double scale = total > 0 ? 1 / total : 0.0;
-    for (Share& share : shares) {
-        for (double* part : {&share.collective, &share.cosine, &share.sine, &share.differential}) *part *= scale;
-        for (WhirlShare& pair : share.higher) pair.cosine *= scale, pair.sine *= scale;
+    for (Share& own : out) {
+        for (double* part : {&own.collective, &own.cosine, &own.sine, &own.differential}) *part *= scale;
+        for (WhirlShare& pair : own.higher) pair.cosine *= scale, pair.sine *= scale;
     }
-    return shares;
+}
+
+std::vector<Share> Identification::shares(const Mode& mode) const {
+    std::vector<Share> all;
+    shares(mode, all);
+    return all;
 }
 
 std::string Identification::name(int component, RotorPattern pattern, int harmonic) const {

@@ -54,7 +54,9 @@ public:
                    const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 
     const std::vector<Component>& components() const { return components_; }
-    /// One entry per component, in the order of components().
+    /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it had
+    /// as many of this identification before
+    void shares(const Mode& mode, std::vector<Share>& out) const;
     std::vector<Share> shares(const Mode& mode) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
     std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
@@ -66,9 +68,12 @@ private:
     struct Block {
         std::vector<int> collective, differential;
         std::vector<std::vector<int>> cosine, sine;  // by harmonic, from 1
-        Matrix weights;                              // V^T K: energy amplitude of each component mode
+        Matrix weights;                              // K V: energy amplitude of each component mode by column
         int first_component;
     };
+    static Complex amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
+                             const Mode& mode);
+    static Share share(const Block& block, Eigen::Index component, const Mode& mode, std::vector<WhirlShare> higher);
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);
 

@@ -3,47 +3,63 @@
 #include "mbs/derivatives.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cardan::solvers {
 
+Lineariser::Lineariser(const System& system) : system_(system), workspace_(system.model) {}
+
+void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
+    const Eigen::Index n = system_.model.size();
+    const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+    out.at = at;
+    out.coordinates = system_.model.coordinates();
+    for (Matrix* m : {&out.mass, &out.gyroscopic, &out.inertial, &out.elastic, &out.gravity, &out.loads, &out.damping})
+        m->resize(n, n);
+    metric(kin, out.mass);
+    inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, out.inertial, out.gyroscopic);
+    system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+    // Exchanged, not moved: the next call writes into the matrices that `out` had.
+    std::swap(out.elastic, forces_.elastic);
+    std::swap(out.gravity, forces_.gravity);
+    std::swap(out.loads, forces_.loads);
+    std::swap(out.damping, forces_.damping);
+}
+
 Linearisation linearise(const System& system, const OperatingPoint& at) {
-    const Eigen::Index n = system.model.size();
-    Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, at.q, workspace);
     Linearisation lin;
-    lin.at = at;
-    lin.coordinates = system.model.coordinates();
-    lin.mass.resize(n, n);
-    lin.gyroscopic.resize(n, n);
-    lin.inertial.resize(n, n);
-    metric(kin, lin.mass);
-    inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, lin.inertial, lin.gyroscopic);
-    ForceDerivatives forces;
-    system.forces.derivatives(kin, at.time, at.q, at.qd, forces);
-    lin.elastic = std::move(forces.elastic);
-    lin.gravity = std::move(forces.gravity);
-    lin.loads = std::move(forces.loads);
-    lin.damping = std::move(forces.damping);
+    Lineariser(system).linearise(at, lin);
     return lin;
 }
 
-SecondOrderSystem restrict_to(const Linearisation& lin, std::vector<int> coordinates, int spin) {
-    const Matrix C = lin.velocity(), K = lin.stiffness();
-    SecondOrderSystem s{lin.mass(coordinates, coordinates),
-                        C(coordinates, coordinates),
-                        K(coordinates, coordinates),
-                        lin.elastic(coordinates, coordinates),
-                        coordinates,
-                        -1};
-    const auto row = std::find(coordinates.begin(), coordinates.end(), spin);
-    if (row != coordinates.end()) {
-        const auto at = row - coordinates.begin();
-        if (s.K.col(at).norm() < 1e-9 * s.K.norm()) {
-            s.cyclic = static_cast<int>(at);
-            s.K.col(at).setZero();
+void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out) {
+    const auto n = static_cast<Eigen::Index>(coordinates.size());
+    out.coordinates = coordinates;
+    out.cyclic = -1;
+    for (Matrix* m : {&out.M, &out.C, &out.K, &out.K_elastic}) m->resize(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const int b = coordinates[static_cast<std::size_t>(j)];
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const int a = coordinates[static_cast<std::size_t>(i)];
+            out.M(i, j) = lin.mass(a, b);
+            out.C(i, j) = lin.damping(a, b) + lin.gyroscopic(a, b);
+            out.K(i, j) = lin.elastic(a, b) + (lin.gravity(a, b) + lin.loads(a, b) + lin.inertial(a, b));
+            out.K_elastic(i, j) = lin.elastic(a, b);
         }
     }
-    return s;
+    const auto row = std::find(coordinates.begin(), coordinates.end(), spin);
+    if (row == coordinates.end()) return;
+    const auto at = row - coordinates.begin();
+    if (out.K.col(at).norm() < 1e-9 * out.K.norm()) {
+        out.cyclic = static_cast<int>(at);
+        out.K.col(at).setZero();
+    }
+}
+
+SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin) {
+    SecondOrderSystem system;
+    restrict_to(lin, coordinates, spin, system);
+    return system;
 }
 
 }  // namespace cardan::solvers

@@ -2,6 +2,8 @@
 /// Linearisation about an operating point, exact and with its parts kept apart.
 #pragma once
 
+#include "mbs/forces.hpp"
+#include "mbs/workspace.hpp"
 #include "solvers/steady_state.hpp"
 
 namespace cardan::solvers {
@@ -26,8 +28,24 @@ struct Linearisation {
     Matrix stiffness() const { return elastic + geometric(); }
 };
 
-/// Exact: analytic derivatives of the recursions and of the force elements (user forces without a Jacobian are
-/// differenced).
+/// Linearises a system about one operating point after the other. Exact: analytic derivatives of the recursions and of
+/// the force elements (user forces without a Jacobian are differenced). Keeps a reference to the system; one per
+/// thread.
+class Lineariser {
+public:
+    explicit Lineariser(const System& system);
+
+    /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
+    /// does so or is differenced.  Cost O(n^2).
+    void linearise(const OperatingPoint& at, Linearisation& out);
+
+private:
+    const System& system_;
+    Workspace workspace_;
+    ForceDerivatives forces_;
+};
+
+/// The same, once.
 Linearisation linearise(const System& system, const OperatingPoint& at);
 
 /// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
@@ -38,6 +56,8 @@ struct SecondOrderSystem {
 };
 
 /// The rows and columns of `coordinates`. The spin is cyclic if it is among them and no force depends on it.
-SecondOrderSystem restrict_to(const Linearisation& lin, std::vector<int> coordinates, int spin = -1);
+/// @param out  overwritten; allocates nothing if it has the right size already.  Cost O(n^2).
+void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out);
+SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin = -1);
 
 }  // namespace cardan::solvers

@@ -1,10 +1,7 @@
 #include "solvers/modes.hpp"
 
 #include "mbs/error.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "solvers/dense.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -37,48 +34,127 @@ Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
     return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());
 }
 
+ModeSolver::ModeSolver(Eigen::Index rows)
+    : eigen_(2 * rows, rows),
+      d_(rows),
+      K_s_(rows, rows),
+      right_(rows, 2 * rows),
+      S_(2 * rows, 2 * rows),
+      shapes_(rows, 2 * rows),
+      elastic_(rows, 2 * rows),
+      inertial_(rows, 2 * rows) {
+    found_.reserve(static_cast<std::size_t>(2 * rows));
+}
+
 // The eigenvalues of S = (A - sigma)^-1, A the state matrix, sigma real, positive and below the lowest frequency:
 //   x = -K_s^-1 [(C + sigma M) a + M b],  y = a + sigma x,  K_s = K + sigma C + sigma^2 M.
 // In joint coordinates flexibilities are known with small relative error, so the low modes, which are the large
 // eigenvalues of S, come out to working precision however stiff the high ones are; rigid-body modes stay at lambda = 0.
-std::vector<Mode> modes(const SecondOrderSystem& system) {
-    const Eigen::Index n = system.M.rows();
-    if (n == 0) return {};
+std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
+    found_.clear();
+    if (d_.size() == 0) return 0;
     if (!system.M.allFinite() || !system.C.allFinite() || !system.K.allFinite())
         throw NumericalError("modes: a system matrix is not finite");
-    if (Eigen::LLT<Matrix>(system.M).info() != Eigen::Success)
-        throw NumericalError("modes: the mass matrix is not positive definite");
-    const double scale = lowest_scale(system), sigma = 0.1 * scale;
-    // Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
-    const Vector d = system.M.diagonal().cwiseSqrt().cwiseInverse();
-    const Matrix M = d.asDiagonal() * system.M * d.asDiagonal();
-    const Matrix C = d.asDiagonal() * system.C * d.asDiagonal() / scale;
-    const Matrix K = d.asDiagonal() * system.K * d.asDiagonal() / (scale * scale);
-    const double s = sigma / scale;
-    const Eigen::PartialPivLU<Matrix> K_s(K + s * C + s * s * M);
-    Matrix S(2 * n, 2 * n);
-    S.topLeftCorner(n, n) = -K_s.solve(C + s * M);
-    S.topRightCorner(n, n) = -K_s.solve(M);
-    S.bottomRows(n) = s * S.topRows(n);
-    S.bottomLeftCorner(n, n).diagonal().array() += 1;
-    const Eigen::EigenSolver<Matrix> solver(S);
-    if (solver.info() != Eigen::Success) throw NumericalError("modes: the eigenvalue iteration did not converge");
+    K_s_ = system.M;
+    if (!positive_definite(K_s_)) throw NumericalError("modes: the mass matrix is not positive definite");
+    const double scale = lowest_scale(system), sigma = 0.1 * scale, s = sigma / scale;
+    set_state_matrix(system, scale, s);
+    if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
+    collect(scale, s, 1e-3 * sigma);
+    normalise(system);
+    return found_.size();
+}
 
-    std::vector<Mode> oscillating, aperiodic;
-    for (Eigen::Index i = 0; i < 2 * n; ++i) {
-        const Complex lambda = scale * (s + 1.0 / solver.eigenvalues()(i));
-        if (lambda.imag() < 0 || std::abs(lambda) < 1e-3 * sigma) continue;
-        Mode mode{lambda, d.asDiagonal() * solver.eigenvectors().col(i).head(n)};
-        mode.shape *= std::sqrt(2 / std::abs(energy_product(system, mode, mode)));
-        (lambda.imag() > 0 ? oscillating : aperiodic).push_back(std::move(mode));
+// Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
+void ModeSolver::set_state_matrix(const SecondOrderSystem& system, double scale, double s) {
+    const Eigen::Index n = d_.size();
+    d_ = system.M.diagonal().cwiseSqrt().cwiseInverse();
+    for (Eigen::Index j = 0; j < n; ++j)
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double unit = d_(i) * d_(j), M = unit * system.M(i, j), C = unit * system.C(i, j) / scale,
+                         K = unit * system.K(i, j) / (scale * scale);
+            K_s_(i, j) = K + s * C + s * s * M;
+            right_(i, j) = -(C + s * M);
+            right_(i, n + j) = -M;
+        }
+    solve_in_place(K_s_, right_);
+    S_.topRows(n) = right_;
+    S_.bottomRows(n) = s * right_;
+    S_.bottomLeftCorner(n, n).diagonal().array() += 1;
+}
+
+// Eigenvalues that are wanted, in order, and their shapes side by side.
+void ModeSolver::collect(double scale, double s, double least) {
+    Eigen::Index columns = 0;
+    for (const RealEigen::Value& value : eigen_.values()) {
+        // 1 / mu turns the sign of the imaginary part: x belongs to the other member of the pair.
+        const Complex lambda = scale * (s + 1.0 / std::conj(value.mu));
+        if (std::abs(lambda) < least || !std::isfinite(std::abs(lambda))) continue;
+        const bool complex = value.mu.imag() != 0;
+        shapes_.col(columns) = d_.cwiseProduct(eigen_.vectors().col(value.column));
+        if (complex) shapes_.col(columns + 1) = -d_.cwiseProduct(eigen_.vectors().col(value.column + 1));
+        found_.push_back({complex ? lambda : Complex(lambda.real()), columns});
+        columns += complex ? 2 : 1;
     }
-    const auto by_frequency = [](const Mode& a, const Mode& b) {
-        return std::abs(a.eigenvalue) < std::abs(b.eigenvalue);
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        const bool first = a.eigenvalue.imag() > 0, second = b.eigenvalue.imag() > 0;
+        return first != second ? first : std::abs(a.eigenvalue) < std::abs(b.eigenvalue);
+    });
+    shapes_.rightCols(shapes_.cols() - columns).setZero();
+}
+
+// To unit modal energy.
+void ModeSolver::normalise(const SecondOrderSystem& system) {
+    elastic_.setZero();
+    inertial_.setZero();
+    add_product(elastic_, system.K_elastic, shapes_);
+    add_product(inertial_, system.M, shapes_);
+    const auto square = [&](const Matrix& force, const Found& found) {
+        const Eigen::Index j = found.column;
+        const auto re = shapes_.col(j);
+        const auto f = force.col(j);
+        if (found.eigenvalue.imag() == 0) return Complex(re.dot(f));
+        const auto im = shapes_.col(j + 1);
+        const auto g = force.col(j + 1);
+        return Complex(re.dot(f) + im.dot(g), re.dot(g) - im.dot(f));
     };
-    std::sort(oscillating.begin(), oscillating.end(), by_frequency);
-    std::sort(aperiodic.begin(), aperiodic.end(), by_frequency);
-    oscillating.insert(oscillating.end(), aperiodic.begin(), aperiodic.end());
-    return oscillating;
+    for (const Found& found : found_) {
+        const Complex energy = square(elastic_, found) + std::norm(found.eigenvalue) * square(inertial_, found);
+        const double factor = std::sqrt(2 / std::abs(energy));
+        const Eigen::Index columns = found.eigenvalue.imag() == 0 ? 1 : 2;
+        shapes_.middleCols(found.column, columns) *= factor;
+        elastic_.middleCols(found.column, columns) *= factor;
+    }
+}
+
+void ModeSolver::copy(std::size_t mode, Mode& out) const {
+    const Found& found = found_[mode];
+    out.eigenvalue = found.eigenvalue;
+    out.shape.resize(d_.size());
+    out.shape.real() = shapes_.col(found.column);
+    if (out.oscillates())
+        out.shape.imag() = shapes_.col(found.column + 1);
+    else
+        out.shape.imag().setZero();
+}
+
+void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
+    const Found& found = found_[mode];
+    const Eigen::Index j = found.column;
+    out = shapes_.col(j).cwiseProduct(elastic_.col(j));
+    if (found.eigenvalue.imag() > 0) out += shapes_.col(j + 1).cwiseProduct(elastic_.col(j + 1));
+    const double total = out.sum();
+    if (total > 0)
+        out /= total;
+    else
+        out.setZero();
+}
+
+std::vector<Mode> modes(const SecondOrderSystem& system) {
+    ModeSolver solver(system.M.rows());
+    std::vector<Mode> all(solver.solve(system));
+    for (std::size_t i = 0; i < all.size(); ++i) solver.copy(i, all[i]);
+    return all;
 }
 
 }  // namespace cardan::solvers

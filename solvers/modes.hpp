@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solvers/linearise.hpp"
+#include "solvers/real_eigen.hpp"
 
 namespace cardan::solvers {
 
@@ -20,7 +21,41 @@ struct Mode {
 
 /// All oscillating modes by natural frequency, then the aperiodic ones (real eigenvalues). Rigid-body modes (|lambda|
 /// below 1e-4 of the lowest single-coordinate frequency, as the zero pair of a free rotor) are left out.
-/// @throws NumericalError if the mass matrix is not positive definite or the eigenvalue iteration fails.
+///
+/// Made once for a number of rows: the memory is kept from one system to the next, nothing else is. One per thread.
+class ModeSolver {
+public:
+    explicit ModeSolver(Eigen::Index rows);
+
+    /// Results are valid until the next call. Cost of one real eigenvalue problem of twice the size; nothing is
+    /// allocated.
+    /// @returns the number of modes
+    /// @throws NumericalError if a matrix is not finite, the mass matrix is not positive definite or the eigenvalue
+    /// iteration fails; the solver can be used again
+    std::size_t solve(const SecondOrderSystem& system);
+
+    /// @param out  overwritten; nothing is allocated if its shape has the right size already
+    void copy(std::size_t mode, Mode& out) const;
+    /// See the function of the same name.
+    void energy_by_row(std::size_t mode, Vector& out) const;
+
+private:
+    struct Found {
+        Complex eigenvalue;
+        Eigen::Index column;  // of shapes_: real part, with the imaginary part in the next column
+    };
+    void set_state_matrix(const SecondOrderSystem& system, double scale, double s);
+    void collect(double scale, double s, double least);
+    void normalise(const SecondOrderSystem& system);
+
+    RealEigen eigen_;
+    Vector d_;                            // inverse roots of the diagonal of the mass matrix
+    Matrix K_s_, right_, S_;              // shifted stiffness, right sides, inverse of the shifted state matrix
+    Matrix shapes_, elastic_, inertial_;  // of all modes side by side; K_e x, M x
+    std::vector<Found> found_;
+};
+
+/// The same, once.
 std::vector<Mode> modes(const SecondOrderSystem& system);
 
 /// Energy product x^H K_e y + conj(lambda_x) lambda_y x^H M y of two modes; complex MAC = |xy|^2 / (xx yy).

@@ -43,41 +43,47 @@ using KinsolPtr = std::unique_ptr<void, Deleter<free_kinsol>>;
 // Residual and Jacobian on the unknowns (free coordinates without the spin).
 class Residual {
 public:
-    Residual(const System& system, int spin, const SteadyOptions& options) : system_(system), workspace_(system.model) {
+    Residual(const System& system, int spin) : system_(system), spin_(spin), workspace_(system.model) {
         const int n = system.model.size();
         for (int i : system.model.coordinates().free())
             if (i != spin) unknowns.push_back(i);
-        at.q = options.initial.size() > 0 ? options.initial : Vector::Zero(n);
-        at.qd.setZero(n);
-        at.qdd.setZero(n);
-        if (spin >= 0) {
-            at.q(spin) = options.azimuth;
-            at.qd(spin) = options.rotor_speed;
-        }
-        tau_.setZero(n);
-        Q_.setZero(n);
+        for (Vector* v : {&at.q, &at.qd, &at.qdd, &tau_, &Q_}) v->setZero(n);
         by_q_.setZero(n, n);
         by_qd_.setZero(n, n);
     }
 
+    void start(const SteadyOptions& options) {
+        if (options.initial.size() > 0)
+            at.q = options.initial;
+        else
+            at.q.setZero();
+        if (spin_ >= 0) {
+            at.q(spin_) = options.azimuth;
+            at.qd(spin_) = options.rotor_speed;
+        }
+        thrown = nullptr;
+    }
     void set(const double* x) {
         for (std::size_t i = 0; i < unknowns.size(); ++i) at.q(unknowns[i]) = x[i];
     }
+    void turn_to(double azimuth) { at.q(spin_) = azimuth; }
     void evaluate(double* r) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         inverse_dynamics<double>(kin, at.qd, at.qdd, tau_);
         system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
         for (std::size_t i = 0; i < unknowns.size(); ++i) r[i] = tau_(unknowns[i]) - Q_(unknowns[i]);
     }
-    Matrix jacobian() {
+    /// @param J  out, over the unknowns, column-major
+    void jacobian(double* J) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, by_q_, by_qd_);
         system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
         by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
-        return by_q_(unknowns, unknowns);
+        for (int b : unknowns)
+            for (int a : unknowns) *J++ = by_q_(a, b);
     }
     // Of the springs alone, at the place of the last call of jacobian().
-    Vector elastic_diagonal() const { return Matrix(forces_.elastic(unknowns, unknowns)).diagonal(); }
+    double elastic_diagonal(std::size_t i) const { return forces_.elastic(unknowns[i], unknowns[i]); }
 
     std::vector<int> unknowns;
     OperatingPoint at;
@@ -85,6 +91,7 @@ public:
 
 private:
     const System& system_;
+    int spin_;
     Workspace workspace_;
     Vector tau_, Q_;
     Matrix by_q_, by_qd_;
@@ -114,8 +121,7 @@ int residual_callback(N_Vector x, N_Vector r, void* user) {
 int jacobian_callback(N_Vector x, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector) {
     return guarded(user, [&](Residual& residual) {
         residual.set(N_VGetArrayPointer(x));
-        const Matrix exact = residual.jacobian();
-        std::copy(exact.data(), exact.data() + exact.size(), SUNDenseMatrix_Data(J));
+        residual.jacobian(SUNDenseMatrix_Data(J));
     });
 }
 
@@ -143,13 +149,89 @@ const char* reason(int flag) {
     }
 }
 
-void check_constant(Residual& residual, int spin, const SteadyOptions& options, const Vector& scale) {
-    Vector r(scale.size());
+}  // namespace
+
+class SteadySolver::Memory {
+public:
+    Memory(const System& system, int spin);
+    void solve(const SteadyOptions& options, SteadyState& result);
+
+private:
+    void check(const SteadyOptions& options) const;
+    void set_scale();
+    double largest_residual();
+    void check_constant(const SteadyOptions& options);
+
+    int spin_, coordinates_;
+    Residual residual_;
+    Vector scale_, r_;
+    // In this order: KINSOL goes before what it uses, the context last.
+    ContextPtr context_;
+    VectorPtr x_, x_scale_, f_scale_;
+    MatrixPtr J_;
+    SolverPtr linear_;
+    KinsolPtr kinsol_;
+};
+
+SteadySolver::Memory::Memory(const System& system, int spin)
+    : spin_(spin), coordinates_(system.model.size()), residual_(system, spin) {
+    const auto n = static_cast<sunindextype>(residual_.unknowns.size());
+    if (n == 0) return;
+    scale_.resize(n);
+    r_.resize(n);
+    SUNContext context = nullptr;
+    if (SUNContext_Create(nullptr, &context) != 0) throw NumericalError("SUNDIALS: no context");
+    context_.reset(context);
+    for (VectorPtr* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
+    N_VConst(1.0, x_scale_.get());
+    J_.reset(SUNDenseMatrix(n, n, context));
+    linear_.reset(SUNLinSol_Dense(x_.get(), J_.get(), context));
+    kinsol_.reset(KINCreate(context));
+    void* kin = kinsol_.get();
+    const bool ok = KINInit(kin, residual_callback, x_.get()) == 0 && KINSetUserData(kin, &residual_) == 0 &&
+                    KINSetErrHandlerFn(kin, quiet, nullptr) == 0 &&
+                    KINSetLinearSolver(kin, linear_.get(), J_.get()) == 0 && KINSetJacFn(kin, jacobian_callback) == 0 &&
+                    KINSetMaxSetupCalls(kin, 1) == 0 && KINSetScaledStepTol(kin, 1e-14) == 0 &&
+                    KINSetMaxNewtonStep(kin, 10.0) == 0;
+    if (!ok) throw NumericalError("SUNDIALS: KINSOL could not be set up");
+}
+
+void SteadySolver::Memory::check(const SteadyOptions& options) const {
+    if (!std::isfinite(options.rotor_speed) || !std::isfinite(options.azimuth))
+        throw InputError("steady state", "rotor speed [rad/s], azimuth [rad]",
+                         text(options.rotor_speed, ", ", options.azimuth), "finite");
+    if (spin_ < 0 && options.rotor_speed != 0)
+        throw InputError("steady state", "rotor speed [rad/s]", options.rotor_speed, "0 for a system without rotor");
+    if (options.initial.size() != 0 && options.initial.size() != coordinates_)
+        throw InputError("steady state", "size of the starting point", options.initial.size(),
+                         text(coordinates_, ", one per coordinate, or empty"));
+}
+
+// Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the
+// springs at least, for at a critical load they and the loads cancel.
+void SteadySolver::Memory::set_scale() {
+    residual_.jacobian(SUNDenseMatrix_Data(J_.get()));
+    const auto n = static_cast<std::size_t>(scale_.size());
+    const auto stiffness = [&](std::size_t i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (n + 1)]); };
+    const auto spring = [&](std::size_t i) { return std::abs(residual_.elastic_diagonal(i)); };
+    double stiffest = 1e-280;
+    for (std::size_t i = 0; i < n; ++i) stiffest = std::max({stiffest, stiffness(i), spring(i)});
+    for (std::size_t i = 0; i < n; ++i) {
+        const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
+        scale_(static_cast<Eigen::Index>(i)) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
+    }
+}
+
+double SteadySolver::Memory::largest_residual() {
+    residual_.evaluate(r_.data());
+    return r_.cwiseProduct(scale_).cwiseAbs().maxCoeff();
+}
+
+void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
     // An angle that is no multiple of the spacing of any usual number of blades.
     for (double turn : {1.0, 2.5}) {
-        residual.at.q(spin) = options.azimuth + turn;
-        residual.evaluate(r.data());
-        const double largest = r.cwiseProduct(scale).cwiseAbs().maxCoeff();
+        residual_.turn_to(options.azimuth + turn);
+        const double largest = largest_residual();
         if (!(largest < 1e-7))
             throw NumericalError(
                 text("no constant steady state at ", options.rotor_speed, " rad/s: with the rotor turned by ", turn,
@@ -158,69 +240,32 @@ void check_constant(Residual& residual, int spin, const SteadyOptions& options, 
                      "two-bladed rotor have a periodic steady state, which is not available yet; leave gravity out or "
                      "stop the rotor"));
     }
-    residual.at.q(spin) = options.azimuth;
+    residual_.turn_to(options.azimuth);
 }
 
-}  // namespace
-
-SteadyState steady_state(const System& system, int spin, const SteadyOptions& options) {
-    if (!std::isfinite(options.rotor_speed) || !std::isfinite(options.azimuth))
-        throw InputError("steady state", "rotor speed [rad/s], azimuth [rad]",
-                         text(options.rotor_speed, ", ", options.azimuth), "finite");
-    if (spin < -1 || spin >= system.model.size())
-        throw InputError("steady state", "index of the spin coordinate", spin,
-                         text("-1 (none) ... ", system.model.size() - 1));
-    if (spin < 0 && options.rotor_speed != 0)
-        throw InputError("steady state", "rotor speed [rad/s]", options.rotor_speed, "0 for a system without rotor");
-    if (options.initial.size() != 0 && options.initial.size() != system.model.size())
-        throw InputError("steady state", "size of the starting point", options.initial.size(),
-                         text(system.model.size(), ", one per coordinate, or empty"));
-    Residual residual(system, spin, options);
-    SteadyState result;
-    const auto n = static_cast<sunindextype>(residual.unknowns.size());
-    if (n == 0) {
-        result = {true, residual.at, 0, 0, {}};
-        return result;
+void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& result) {
+    check(options);
+    residual_.start(options);
+    result.message.clear();
+    if (residual_.unknowns.empty()) {
+        result.converged = true;
+        result.at = residual_.at;
+        result.residual = result.iterations = 0;
+        return;
     }
-
-    SUNContext raw_context = nullptr;
-    if (SUNContext_Create(nullptr, &raw_context) != 0) throw NumericalError("SUNDIALS: no context");
-    const ContextPtr context(raw_context);
-    const VectorPtr x(N_VNew_Serial(n, raw_context)), x_scale(N_VNew_Serial(n, raw_context)),
-        f_scale(N_VNew_Serial(n, raw_context));
-    const MatrixPtr J(SUNDenseMatrix(n, n, raw_context));
-    const SolverPtr linear(SUNLinSol_Dense(x.get(), J.get(), raw_context));
-    const KinsolPtr kinsol(KINCreate(raw_context));
-
-    // Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the
-    // springs at least, for at a critical load they and the loads cancel.
-    const Matrix J0 = residual.jacobian();
-    const Vector springs = residual.elastic_diagonal().cwiseAbs();
-    const double stiffest = std::max({J0.diagonal().cwiseAbs().maxCoeff(), springs.maxCoeff(), 1e-280});
-    Vector scale(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        scale(i) = 1 / std::max({std::abs(J0(i, i)), 1e-6 * springs(i), 1e-12 * stiffest});
-        N_VGetArrayPointer(x.get())[i] = residual.at.q(residual.unknowns[static_cast<std::size_t>(i)]);
-        N_VGetArrayPointer(f_scale.get())[i] = scale(i);
-    }
-    N_VConst(1.0, x_scale.get());
-
-    void* kin = kinsol.get();
-    bool ok = KINInit(kin, residual_callback, x.get()) == 0 && KINSetUserData(kin, &residual) == 0 &&
-              KINSetErrHandlerFn(kin, quiet, nullptr) == 0 && KINSetLinearSolver(kin, linear.get(), J.get()) == 0 &&
-              KINSetJacFn(kin, jacobian_callback) == 0 && KINSetMaxSetupCalls(kin, 1) == 0 &&
-              KINSetNumMaxIters(kin, options.iterations) == 0 && KINSetFuncNormTol(kin, options.tolerance) == 0 &&
-              KINSetScaledStepTol(kin, 1e-14) == 0 && KINSetMaxNewtonStep(kin, 10.0) == 0;
-    if (!ok) throw NumericalError("SUNDIALS: KINSOL could not be set up");
-    const int flag = KINSol(kin, x.get(), KIN_LINESEARCH, x_scale.get(), f_scale.get());
-    if (residual.thrown) std::rethrow_exception(residual.thrown);
+    set_scale();
+    double* x = N_VGetArrayPointer(x_.get());
+    for (std::size_t i = 0; i < residual_.unknowns.size(); ++i) x[i] = residual_.at.q(residual_.unknowns[i]);
+    void* kin = kinsol_.get();
+    if (KINSetNumMaxIters(kin, options.iterations) != 0 || KINSetFuncNormTol(kin, options.tolerance) != 0)
+        throw NumericalError("SUNDIALS: KINSOL could not be set up");
+    const int flag = KINSol(kin, x_.get(), KIN_LINESEARCH, x_scale_.get(), f_scale_.get());
+    if (residual_.thrown) std::rethrow_exception(residual_.thrown);
 
     long iterations = 0;
     KINGetNumNonlinSolvIters(kin, &iterations);
-    Vector r(n);
-    residual.set(N_VGetArrayPointer(x.get()));
-    residual.evaluate(r.data());
-    result.residual = r.cwiseProduct(scale).cwiseAbs().maxCoeff();
+    residual_.set(x);
+    result.residual = largest_residual();
     result.iterations = static_cast<int>(iterations);
     // A step too small to improve on is as good as the arithmetic allows if the residual is small as well.
     result.converged = flag >= 0 && result.residual < std::max(1e-8, options.tolerance);
@@ -228,8 +273,26 @@ SteadyState steady_state(const System& system, int spin, const SteadyOptions& op
         result.message = text("steady state not found after ", iterations, " iterations (residual over stiffness ",
                               result.residual, ", wanted ", options.tolerance, "): ", reason(flag),
                               "; start from a neighbouring state or approach the load in steps");
-    if (result.converged && spin >= 0 && options.rotor_speed != 0) check_constant(residual, spin, options, scale);
-    result.at = residual.at;
+    if (result.converged && spin_ >= 0 && options.rotor_speed != 0) check_constant(options);
+    result.at = residual_.at;
+}
+
+SteadySolver::SteadySolver(const System& system, int spin) {
+    if (spin < -1 || spin >= system.model.size())
+        throw InputError("steady state", "index of the spin coordinate", spin,
+                         text("-1 (none) ... ", system.model.size() - 1));
+    memory_ = std::make_unique<Memory>(system, spin);
+}
+
+SteadySolver::~SteadySolver() = default;
+
+void SteadySolver::solve(const SteadyOptions& options, SteadyState& result) {
+    memory_->solve(options, result);
+}
+
+SteadyState steady_state(const System& system, int spin, const SteadyOptions& options) {
+    SteadyState result;
+    SteadySolver(system, spin).solve(options, result);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "mbs/rotor_map.hpp"
 #include "mbs/system.hpp"
 
+#include <memory>
 #include <string>
 
 namespace cardan::solvers {
@@ -37,7 +38,29 @@ struct [[nodiscard]] SteadyState {
 ///
 /// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady
 /// state periodic, there is no such constant and NumericalError says so.
-/// @param spin  index of the spin coordinate, -1: none (then rotor_speed must be zero)
+///
+/// Made once for a system and its spin: the memory of KINSOL and of the kernels is kept from one state to the next,
+/// nothing else is. Keeps a reference to the system; one per thread.
+class SteadySolver {
+public:
+    /// @param spin  index of the spin coordinate, -1: none (then rotor_speed must be zero)
+    /// @throws InputError if there is no such coordinate
+    SteadySolver(const System& system, int spin);
+    ~SteadySolver();
+    SteadySolver(const SteadySolver&) = delete;
+    SteadySolver& operator=(const SteadySolver&) = delete;
+
+    /// @param result  overwritten, also where it does not converge. From the second call on with the same `result`
+    /// nothing is allocated, unless the solution fails or a user force does so.  Cost O(n^3) per iteration.
+    /// @throws InputError, NumericalError; the solver can be used again
+    void solve(const SteadyOptions& options, SteadyState& result);
+
+private:
+    class Memory;
+    std::unique_ptr<Memory> memory_;
+};
+
+/// The same, once.
 SteadyState steady_state(const System& system, int spin, const SteadyOptions& options = {});
 
 }  // namespace cardan::solvers

@@ -126,7 +126,7 @@ TEST_CASE("section loads: in any motion the loads at a hinge, along its axis, ar
         for (std::size_t i = 0; i < 6; ++i) {
             const int a = model.index(element.bodies[i]);
             const Wrench& joint = carried.joint[static_cast<std::size_t>(a)];
-            const Vec3 axis = workspace.e[static_cast<std::size_t>(a)];
+            const Vec3 axis = kin.axis(a);
             const double along = axis.dot(model.body(a).revolute ? joint.moment : joint.force);
             // tau - Q without the spring's own -K q is what the joint transmits along its axis.
             CHECK(along == Approx(tau(a) - Q(a) - springs(static_cast<Eigen::Index>(i))).margin(1e-9));

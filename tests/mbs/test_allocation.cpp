@@ -4,7 +4,7 @@
 #include "mbs/derivatives.hpp"
 #include "mbs/error.hpp"
 #include "mbs/forward_derivatives.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 
@@ -12,13 +12,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-template <class Call>
-std::size_t allocations(Call&& call) {
-    const AllocationGuard guard;
-    call();
-    return guard.count();
-}
 
 // Every kernel on one system; the second round repeats the first with the same memory.
 void require_no_allocation(const System& system, std::vector<bool> driven, unsigned seed) {
@@ -31,6 +24,8 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
     Workspace workspace(model);
     Christoffel gamma(model);
     BranchMatrix packed_g(model), packed_q(model), packed_qd(model);
+    ForceDerivatives derivatives;
+    system.forces.derivatives(kinematics(model, q, workspace), 0, q, qd, derivatives);
     ForwardDynamics forward(model, std::move(driven));
     const FrameId tip{static_cast<int>(model.frames().size()) - 1};
     for (int round = 0; round < 2; ++round) {
@@ -49,6 +44,7 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
         CHECK(allocations([&] { inverse_dynamics_derivatives<double>(kin, qd, qdd, by_q, by_qd); }) == 0);
         CHECK(allocations([&] { forward.solve(kin, qd, Q, qdd, actuator); }) == 0);
         CHECK(allocations([&] { system.forces.generalised_forces(kin, 0, q, qd, tau); }) == 0);
+        CHECK(allocations([&] { system.forces.derivatives(kin, 0, q, qd, derivatives); }) == 0);
         CHECK(allocations([&] { h(0) = kinetic_energy(kin, qd); }) == 0);
     }
 }
@@ -173,4 +169,31 @@ TEST_CASE("allocation: nothing is allocated on a deep tree with an armature over
     tree.add_armature(armature);
     const System system(tree, random_forces(random, tree));
     require_no_allocation_anywhere(system, std::vector<bool>(60, false), 5);
+}
+
+TEST_CASE("allocation: around user forces with Jacobians nothing is allocated, under a load factor neither",
+          "[property]") {
+    if (!AllocationGuard::works()) return;
+    for (const bool elastic : {false, true}) {
+        Random random(3);
+        const Tree tree = random_tree(random, {.bodies = 7});
+        ForceSet set = random_forces(random, tree);
+        set.add_user({.name = "drag",
+                      .force = [](const ForceInput& in, VectorOut Q) { Q -= 0.3 * in.qd - 0.1 * in.q; },
+                      .jacobian =
+                          [](const ForceInput&, MatrixOut by_q, MatrixOut by_qd) {
+                              by_q.diagonal().array() += 0.1;
+                              by_qd.diagonal().array() -= 0.3;
+                          },
+                      .elastic = elastic});
+        System system(tree, set);
+        const std::vector<bool> driven(7, false);
+        require_no_allocation(system, driven, 3);
+        system.forces = system.forces.with_load_factor(1.5, false);
+        Workspace workspace(system.model);
+        const Vector zero = Vector::Zero(7);
+        Vector Q(7);
+        system.forces.generalised_forces(kinematics(system.model, zero, workspace), 0, zero, zero, Q);
+        require_no_allocation(system, driven, 3);
+    }
 }

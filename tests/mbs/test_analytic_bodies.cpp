@@ -293,3 +293,33 @@ TEST_CASE("drive: yawing a spinning two-bladed rotor takes gyroscopic torques ab
         CHECK(torque(2) == Approx(-(B - A) * std::sin(2 * psi) / 2 * Omega * Omega).margin(1e-12));
     }
 }
+
+TEST_CASE("forward dynamics: negative armatures over several coordinates, where the metric stays positive",
+          "[analytic]") {
+    // Two bodies about one axis with moments of inertia 3 and 1: without the armature g = [4 1; 1 1]. J = -2 on
+    // s = (1, 1/2) takes [2 1; 1 1/2] from it: g = diag(2, 1/2).
+    for (const bool with_single : {false, true}) {
+        Tree tree;
+        const BodyId inner = tree.add_body({.name = "inner", .inertia = {1, Vec3::Zero(), Vec3(2, 2, 3).asDiagonal()}});
+        const BodyId outer = tree.add_body({.name = "outer",
+                                            .inboard = tree.frame_of(inner),
+                                            .inertia = {1, Vec3::Zero(), Vec3(1, 1, 1).asDiagonal()}});
+        tree.add_armature({"taken", -2, {{inner, 1.0}, {outer, 0.5}}});
+        if (with_single) tree.add_armature({"taken once more", -1, {{inner, 1.0}}});
+        const Model model(tree);
+        Workspace workspace(model);
+        const Kinematics kin = kinematics(model, Vector::Constant(2, 0.3), workspace);
+        Matrix g(2, 2);
+        metric<double>(kin, g);
+        CHECK((g - Vec3(with_single ? 1 : 2, 0.5, 0).head<2>().asDiagonal().toDenseMatrix()).norm() < 1e-15);
+        Vector qdd(2), actuator(2);
+        ForwardDynamics(model).solve(kin, Vector::Zero(2), Vector::Ones(2), qdd, actuator);
+        CHECK(qdd(0) == Approx(with_single ? 1 : 0.5).epsilon(1e-13));
+        CHECK(qdd(1) == Approx(2).epsilon(1e-13));
+        // The inner body driven: the outer one alone, g_ff = 1/2, and g_df = 0.
+        qdd << 3, 0;
+        ForwardDynamics(model, {true, false}).solve(kin, Vector::Zero(2), Vector::Ones(2), qdd, actuator);
+        CHECK(qdd(1) == Approx(2).epsilon(1e-13));
+        CHECK(actuator(0) == Approx(3 * g(0, 0) - 1).epsilon(1e-13));
+    }
+}

@@ -14,7 +14,7 @@ namespace {
 // with time, and quadratic damping.
 UserForce hardening_spring(FrameId tip, bool with_jacobian) {
     UserForce user{.name = "hardening spring"};
-    user.force = [tip](const ForceInput& in, Vector& Q) {
+    user.force = [tip](const ForceInput& in, VectorOut Q) {
         const Eigen::Index n = in.q.size();
         Matrix J(6, n);
         frame_jacobian<double>(in.kinematics, tip, J);
@@ -24,7 +24,7 @@ UserForce hardening_spring(FrameId tip, bool with_jacobian) {
     };
     user.energy = [tip](const ForceInput& in) { return (1 + in.time) * pose(in.kinematics, tip).p.squaredNorm() / 2; };
     if (with_jacobian)
-        user.jacobian = [tip](const ForceInput& in, Matrix& by_q, Matrix& by_qd) {
+        user.jacobian = [tip](const ForceInput& in, MatrixOut by_q, MatrixOut by_qd) {
             const Model& model = in.kinematics.model();
             const Eigen::Index n = in.q.size();
             Matrix J(6, n);
@@ -82,7 +82,7 @@ TEST_CASE("user forces: a force with an energy is its gradient, and both see the
 
 TEST_CASE("user forces: a linear law written as a user force is the law, forces add up", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
-        const auto law = [](const ForceInput& in, Vector& Q) { Q -= 3 * in.q + 0.5 * in.qd; };
+        const auto law = [](const ForceInput& in, VectorOut Q) { Q -= 3 * in.q + 0.5 * in.qd; };
         ForcedTree user(seed, [&](ForcedTree& at, ForceSet& set) {
             set.set_gravity(random_vector(at.random));
             set.add_user({.name = "law", .force = law});

@@ -240,14 +240,14 @@ TEST_CASE("load factor: wrenches, user forces and, if wanted, gravity are multip
     set.add_wrench({"dead", b.axes, {{1, 2, 3}, Vec3::Zero()}, WrenchAxes::base});
     set.add_wrench({"follower", b.axes, {{-1, 0, 2}, {0.3, 0.1, 0}}, WrenchAxes::frame});
     set.set_gravity({0, 1, -9});
-    const auto force = [](const ForceInput& at, Vector& Q) {
+    const auto force = [](const ForceInput& at, VectorOut Q) {
         Q(0) += std::sin(at.q(1)) - at.qd(0);
         Q(1) += at.q(0) * at.q(1);
     };
     set.add_user({"differenced", force, {}, [](const ForceInput& at) { return at.q(0); }});
     set.add_user({"exact",
                   force,
-                  [](const ForceInput& at, Matrix& by_q, Matrix& by_qd) {
+                  [](const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
                       by_q(0, 1) += std::cos(at.q(1));
                       by_q(1, 0) += at.q(1);
                       by_q(1, 1) += at.q(0);
