@@ -37,7 +37,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--file", a.file,
                    "URDF with the links forearm_tube, forearm_root and forearm_tip, 0.8 m apart along x")
         ->capture_default_str();
-    app.add_option("--elements", a.elements, "beam elements of the forearm")->capture_default_str();
+    app.add_option("--elements", a.elements, "beam elements of the forearm, at most 200")->capture_default_str();
     app.add_option("--q", a.q, "pose: COORDINATE=VALUE, rad; several (default: 0)")->allow_extra_args(false);
     app.add_option("--stiffness", a.stiffness,
                    "drives: VALUE for all or COORDINATE=VALUE for one, N m/rad; several (default: 500000)")
@@ -174,6 +174,7 @@ double metric_difference(const Matrix& a, const Matrix& b) {
 
 int run(const Arguments& a) {
     program::stop_at_once();
+    if (a.elements > 200) throw InputError("--elements", "number of elements", a.elements, "at most 200");
     const UrdfModel robot = read_urdf(a.file);
     for (const std::string& note : robot.notes) std::cout << "note: " << note << "\n";
     const Drives drives = drives_of(a, robot.tree);

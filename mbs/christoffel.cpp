@@ -56,7 +56,7 @@ CARDAN_INLINE void branch_columns(const PathTwists<double>& path, std::ptrdiff_t
                                   const Workspace::Inertia& body) {
     using Columns = Packed3<double>;
     const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
-    for (std::ptrdiff_t j = 0; j < path.blocks(depth); ++j) {
+    for (std::ptrdiff_t j = 0; j < PathTwists<double>::blocks(depth); ++j) {
         const Columns wx = path.w(0)[j], wy = path.w(1)[j], wz = path.w(2)[j];
         const Columns x = cx - path.o(0)[j], y = cy - path.o(1)[j], z = cz - path.o(2)[j];
         path.row(v)[j] = path.u(0)[j] + times(wy, z) - times(wz, y);
@@ -67,7 +67,7 @@ CARDAN_INLINE void branch_columns(const PathTwists<double>& path, std::ptrdiff_t
     const Columns px = broadcast<0>(p), py = broadcast<1>(p), pz = broadcast<2>(p);
     const Columns sx = broadcast<0>(s), sy = broadcast<1>(s), sz = broadcast<2>(s);
     const Packed33<double>& P = body.P;
-    for (std::ptrdiff_t j = 0; j < path.blocks(depth); ++j) {
+    for (std::ptrdiff_t j = 0; j < PathTwists<double>::blocks(depth); ++j) {
         const Columns wx = path.w(0)[j], wy = path.w(1)[j], wz = path.w(2)[j];
         path.row(f)[j] = times(wy, pz) - times(wz, py);
         path.row(f + 1)[j] = times(wz, px) - times(wx, pz);
@@ -87,7 +87,7 @@ CARDAN_INLINE Packed3<double> all(const Packed3<double>* row, std::ptrdiff_t col
 // Two rows at a time, for every number of f and t loaded to serve twice; the row after the last is a spare one.
 CARDAN_INLINE void fill_table(const PathTwists<double>& path, std::ptrdiff_t depth, Packed3<double>* K) {
     using Columns = Packed3<double>;
-    const std::ptrdiff_t blocks = path.blocks(depth);
+    const std::ptrdiff_t blocks = PathTwists<double>::blocks(depth);
     const Columns *fx = path.row(f), *fy = path.row(f + 1), *fz = path.row(f + 2), *tx = path.row(t),
                   *ty = path.row(t + 1), *tz = path.row(t + 2);
     for (std::ptrdiff_t a = 0; a < depth; a += 2, K += 2 * blocks) {

@@ -100,16 +100,12 @@ CARDAN_INLINE Subtree<S> subtree_of(const Model::Link& link, const typename Work
     const Packed33<S> Gt = transpose(G);
     const P3 &p = momentum.p, moment = load.N - cross(arm, load.F);
     const P3 v1 = rates.psi1_u + cross(rates.psi1_w, arm), v2 = rates.psi2_u + cross(rates.psi2_w, arm);
-    Subtree<S> s;
-    s.C = body.C;
-    s.momentum = body.M * v;
-    s.spin = spin(body.P, w);
-    s.B_row = cross(p, v) + spin(G, w);
-    s.force_q = S(2) * cross(rates.psi1_w, p) + body.M * v2 + cross(w, load.F);
-    s.moment_q = S(2) * spin(Gt, rates.psi1_w) + spin(body.P, rates.psi2_w) + cross(w, moment) + cross(v, load.F);
-    s.force_qd = S(2) * (cross(w, p) + body.M * v1);
-    s.moment_qd = S(2) * (spin(Gt, w) + spin(body.P, rates.psi1_w));
-    return s;
+    const P3 force_q = S(2) * cross(rates.psi1_w, p) + body.M * v2 + cross(w, load.F);
+    const P3 moment_q =
+        S(2) * spin(Gt, rates.psi1_w) + spin(body.P, rates.psi2_w) + cross(w, moment) + cross(v, load.F);
+    const P3 force_qd = S(2) * (cross(w, p) + body.M * v1);
+    const P3 moment_qd = S(2) * (spin(Gt, w) + spin(body.P, rates.psi1_w));
+    return {body.C, body.M * v, spin(body.P, w), cross(p, v) + spin(G, w), force_q, moment_q, force_qd, moment_qd};
 }
 
 // The products of subtree k with four coordinates on its path.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@ namespace cardan {
 template <class... Parts>
 std::string text(const Parts&... parts) {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out.precision(10);
     (out << ... << parts);
     return out.str();

@@ -51,6 +51,7 @@ struct alignas(std::is_same_v<S, double> ? 32 : alignof(S)) Packed3 {
     Lanes lanes;
 
     Packed3() = default;
+    ~Packed3() = default;
     CARDAN_INLINE Packed3(const Lanes& from) : lanes(from) {}
     // Spelled out so that a structure of several is copied register by register: GCC copies aggregates by halves, and a
     // load that waits for two stores costs more than all the arithmetic of a body.
@@ -87,7 +88,7 @@ struct alignas(std::is_same_v<S, double> ? 32 : alignof(S)) Packed3 {
 
 /// A 3 x 3 matrix by columns.
 template <class S>
-struct Packed33 {
+struct Packed33 {  // NOLINT(bugprone-reserved-identifier): clang's name of the index in the implicit copy constructor
     Packed3<S> column[3];
 
     CARDAN_INLINE const Packed3<S>& operator[](int j) const { return column[j]; }

@@ -46,7 +46,7 @@ struct UrdfModel {
     std::vector<std::string> notes = {};  ///< what was passed over, ignored or renamed, "<source>:<line>: ..."
 };
 
-/// Reads a URDF file through urdfdom. Thread-safe; nothing is printed.
+/// Reads a URDF file through urdfdom. Calls from several threads take turns; nothing is printed.
 ///
 /// Revolute, continuous and prismatic joints become one coordinate with the name of the joint; floating joints six
 /// ("<joint> translation x" ... "<joint> rotation z", about body-fixed x, y, z in this order), planar joints three

@@ -23,7 +23,7 @@ public:
     PartialFile& operator=(const PartialFile&) = delete;
     ~PartialFile() {
         std::error_code ignored;
-        if (!complete_) fs::remove(partial_, ignored);
+        if (opened_ && !complete_) fs::remove(partial_, ignored);
     }
 
     void write(const std::string& contents) {
@@ -31,6 +31,7 @@ public:
         std::ofstream out(partial_, std::ios::binary | std::ios::trunc);
         if (!out)
             throw FileError(path_.string(), text("cannot be written: ", reason(errno), " (", partial_.string(), ")"));
+        opened_ = true;
         out << contents;
         out.close();
         if (!out) throw FileError(path_.string(), text("cannot be completed: ", reason(errno)));
@@ -45,7 +46,7 @@ public:
 
 private:
     fs::path path_, partial_;
-    bool complete_ = false;
+    bool opened_ = false, complete_ = false;
 };
 
 void check_place(const fs::path& file) {

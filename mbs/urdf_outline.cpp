@@ -47,11 +47,13 @@ void check_tags(std::string_view xml, std::string_view source) {
             i = xml.find('>', i);
         } else {
             const std::size_t end = tag_end(xml, i, source);
-            if (rest.starts_with("</"))
-                --depth;
-            else if (xml[end - 1] != '/' && ++depth > deepest)
+            if (rest.starts_with("</")) {
+                if (--depth < 0)
+                    throw InputError(text(at_line(source, xml, i), "is not XML: an end tag without a start"));
+            } else if (xml[end - 1] != '/' && ++depth > deepest) {
                 throw InputError(at_line(source, xml, i) + "tags", "depth of nesting", depth,
                                  text("at most ", deepest));
+            }
             i = end;
         }
     }

@@ -227,7 +227,12 @@ private:
         if (joint.limits) {
             data.velocity = limit_of(joint.limits->velocity);
             data.effort = limit_of(joint.limits->effort);
-            if (joint.type != urdf::Joint::CONTINUOUS) {
+            if (joint.type == urdf::Joint::CONTINUOUS) {
+                if (joint.limits->lower != 0 || joint.limits->upper != 0)
+                    note(entry.line,
+                         text("joint '", entry.name, "': a continuous joint has no lower and upper limits; ",
+                              joint.limits->lower, " and ", joint.limits->upper, " are left out"));
+            } else {
                 data.lower = limit_of(joint.limits->lower);
                 data.upper = limit_of(joint.limits->upper);
             }

@@ -56,7 +56,7 @@ std::string comment(const std::string& line) {
     std::string out;
     for (const char c : line) {
         if (c == '-' && !out.empty() && out.back() == '-') out += ' ';
-        out += c == '\n' ? ' ' : c;
+        out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
     }
     return out;
 }

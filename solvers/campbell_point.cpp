@@ -2,6 +2,8 @@
 
 #include "mbs/error.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cardan::solvers {
@@ -104,9 +106,10 @@ void PointSolver::set_other_azimuth(double psi, double rotor_speed) {
 void PointSolver::average_if_periodic(double rotor_speed) {
     SecondOrderSystem& z = current_;
     set_other_azimuth(1.0, rotor_speed);
-    const double remainder = (other_.K - z.K).norm() / z.K.norm() + (other_.M - z.M).norm() / z.M.norm();
+    const double remainder = (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
+                             (other_.M - z.M).norm() / z.M.norm();
     if (remainder < 1e-9) return;
-    constexpr int azimuths = 24;
+    const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
     for (int i = 1; i < azimuths; ++i) {
         set_other_azimuth(2 * pi * i / azimuths, rotor_speed);
         z.M += other_.M, z.C += other_.C, z.K += other_.K, z.K_elastic += other_.K_elastic;

@@ -2,6 +2,7 @@
 
 #include "mbs/error.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -39,6 +40,33 @@ std::string family_of(const Vector& v, const Matrix& K, const std::vector<std::s
     return std::max_element(energy.begin(), energy.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
         ->first;
+}
+
+// Modes of a clamped part that store elastic energy, by frequency; shapes with x^T K x = 1.
+struct ComponentModes {
+    Vector omega;  // rad/s
+    Matrix shapes;
+};
+
+ComponentModes component_modes(const Matrix& K, const Matrix& M, const std::string& part) {
+    using Solver = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>;
+    const auto check = [&](const Solver& solver) {
+        if (solver.info() != Eigen::Success)
+            throw NumericalError(text("component modes of part '", part, "' could not be computed"));
+    };
+    const Eigen::Index n = K.rows();
+    if (Eigen::LLT<Matrix>(K).info() == Eigen::Success) {
+        // Every coordinate has a spring: as flexibilities the low modes are exact however stiff the high ones are.
+        const Solver solver(M, K);
+        check(solver);
+        return {solver.eigenvalues().reverse().cwiseSqrt().cwiseInverse(), solver.eigenvectors().rowwise().reverse()};
+    }
+    const Solver solver(K, M);
+    check(solver);
+    const Vector& squared = solver.eigenvalues();
+    const Eigen::Index rigid = (squared.array() <= 1e-12 * squared.cwiseAbs().maxCoeff()).count();
+    const Vector omega = squared.tail(n - rigid).cwiseSqrt();
+    return {omega, solver.eigenvectors().rightCols(n - rigid) * omega.cwiseInverse().asDiagonal()};
 }
 
 const char* ordinal_name(int n) {
@@ -121,24 +149,14 @@ void Identification::add_part(const Linearisation& lin, const Model& model, cons
                               const std::vector<int>& own, Block block) {
     const Matrix K = lin.elastic(own, own), M = lin.mass(own, own);
     const std::vector<std::string> families = coordinate_families(model, part, own);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(K, M);
-    if (solver.info() != Eigen::Success)
-        throw NumericalError(text("component modes of part '", part.part, "' could not be computed"));
+    const ComponentModes modes = component_modes(K, M, part.part);
     block.first_component = static_cast<int>(components_.size());
-    const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
     std::map<std::string, int> count;
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index i = 0; i < K.rows(); ++i) {
-        const double squared = solver.eigenvalues()(i);
-        if (!(squared > 1e-12 * largest)) continue;  // rigid: stores no elastic energy
-        kept.push_back(i);
-        const std::string family = family_of(solver.eigenvectors().col(i), K, families);
-        components_.push_back({part.part, family, ++count[family], std::sqrt(squared) / (2 * pi), blades});
+    for (Eigen::Index i = 0; i < modes.shapes.cols(); ++i) {
+        const std::string family = family_of(modes.shapes.col(i), K, families);
+        components_.push_back({part.part, family, ++count[family], modes.omega(i) / (2 * pi), blades});
     }
-    block.weights.resize(K.rows(), static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t i = 0; i < kept.size(); ++i)
-        block.weights.col(static_cast<Eigen::Index>(i)) =
-            K * solver.eigenvectors().col(kept[i]) / std::sqrt(solver.eigenvalues()(kept[i]));
+    block.weights = K * modes.shapes;
     blocks_.push_back(std::move(block));
 }
 

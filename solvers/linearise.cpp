@@ -50,7 +50,7 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
     const auto row = std::find(coordinates.begin(), coordinates.end(), spin);
     if (row == coordinates.end()) return;
     const auto at = row - coordinates.begin();
-    if (out.K.col(at).norm() < 1e-9 * out.K.norm()) {
+    if (out.K.col(at).norm() < 1e-9 * out.K.norm() && out.K_elastic.col(at).isZero(0)) {
         out.cyclic = static_cast<int>(at);
         out.K.col(at).setZero();
     }

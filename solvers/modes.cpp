@@ -10,12 +10,14 @@ namespace cardan::solvers {
 
 namespace {
 
-// A frequency near the lowest elastic one: the smallest Rayleigh quotient of a single coordinate.
+// A frequency near the lowest elastic one: the smallest Rayleigh quotient of a single coordinate. Where there is no
+// spring at all, a small stiffness is what rounding leaves of loads that cancel.
 double lowest_scale(const SecondOrderSystem& system) {
     double lowest = std::numeric_limits<double>::infinity();
+    const double rounding = 1e-14 * system.K.norm();
     for (Eigen::Index i = 0; i < system.M.rows(); ++i) {
-        const double k = std::abs(system.K(i, i));
-        if (k > 1e-14 * system.K.norm()) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
+        const double k = std::abs(system.K(i, i)), spring = std::abs(system.K_elastic(i, i));
+        if (k > rounding || (spring > 0 && k > 1e-3 * spring)) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
     }
     return std::isfinite(lowest) ? lowest : 1.0;
 }
@@ -52,7 +54,11 @@ ModeSolver::ModeSolver(Eigen::Index rows)
 // eigenvalues of S, come out to working precision however stiff the high ones are; rigid-body modes stay at lambda = 0.
 std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
     found_.clear();
-    if (d_.size() == 0) return 0;
+    const Eigen::Index n = d_.size();
+    for (const Matrix* m : {&system.M, &system.C, &system.K, &system.K_elastic})
+        if (m->rows() != n || m->cols() != n)
+            throw InputError("modes", "size of a system matrix", text(m->rows(), " x ", m->cols()), text(n, " x ", n));
+    if (n == 0) return 0;
     if (!system.M.allFinite() || !system.C.allFinite() || !system.K.allFinite())
         throw NumericalError("modes: a system matrix is not finite");
     K_s_ = system.M;

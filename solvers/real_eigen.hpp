@@ -10,9 +10,9 @@
 
 namespace cardan::solvers {
 
-/// A x = mu x for general real matrices of one size: Hessenberg form, real Schur form, back substitution. Backward
-/// stable, without balancing: ||A||-relative errors of the order of rounding. Of every eigenvector the first rows only
-/// are made, for a state matrix the positions, which saves half of the transformations.
+/// A x = mu x for general real matrices (entries from 1e-140 to 1e140) of one size: Hessenberg form, real Schur form,
+/// back substitution. Backward stable, without balancing: ||A||-relative errors of the order of rounding. Of every
+/// eigenvector the first rows only are made, for a state matrix the positions, which saves half of the transformations.
 ///
 /// Its own rather than Eigen's or LAPACK's: see docs/dependencies.md.
 class RealEigen {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <memory>
 
 namespace cardan::solvers {
@@ -224,6 +225,7 @@ void SteadySolver::Memory::set_scale() {
 
 double SteadySolver::Memory::largest_residual() {
     residual_.evaluate(r_.data());
+    if (!r_.allFinite()) return std::numeric_limits<double>::quiet_NaN();
     return r_.cwiseProduct(scale_).cwiseAbs().maxCoeff();
 }
 
@@ -244,9 +246,10 @@ void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
 }
 
 void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& result) {
+    result.converged = false;  // until it is known to be, also if something throws
+    result.message.clear();
     check(options);
     residual_.start(options);
-    result.message.clear();
     if (residual_.unknowns.empty()) {
         result.converged = true;
         result.at = residual_.at;
@@ -268,13 +271,14 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
     result.residual = largest_residual();
     result.iterations = static_cast<int>(iterations);
     // A step too small to improve on is as good as the arithmetic allows if the residual is small as well.
-    result.converged = flag >= 0 && result.residual < std::max(1e-8, options.tolerance);
-    if (!result.converged)
+    const bool converged = flag >= 0 && result.residual < std::max(1e-8, options.tolerance);
+    result.at = residual_.at;
+    if (!converged)
         result.message = text("steady state not found after ", iterations, " iterations (residual over stiffness ",
                               result.residual, ", wanted ", options.tolerance, "): ", reason(flag),
                               "; start from a neighbouring state or approach the load in steps");
-    if (result.converged && spin_ >= 0 && options.rotor_speed != 0) check_constant(options);
-    result.at = residual_.at;
+    if (converged && spin_ >= 0 && options.rotor_speed != 0) check_constant(options);
+    result.converged = converged;
 }
 
 SteadySolver::SteadySolver(const System& system, int spin) {

@@ -57,6 +57,7 @@ TEST_CASE("urdf bad input: what is XML but no URDF robot is refused", "[property
     std::string deep;
     for (int i = 0; i < 200000; ++i) deep += "<a>";
     refused(robot(deep), {"arm.urdf:2: tags: depth of nesting = 101; allowed: at most 100"});
+    refused("</a></a>" + robot(deep), {"arm.urdf:1: is not XML: an end tag without a start"});
 }
 
 TEST_CASE("urdf bad input: a link that moves and ends a branch needs an inertia", "[property]") {

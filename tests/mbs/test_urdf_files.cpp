@@ -88,3 +88,12 @@ TEST_CASE("urdf files: a tree that cannot be written leaves the old file alone",
     CHECK(bytes_of(path) == "old");
     CHECK(folder.files() == 1);
 }
+
+TEST_CASE("urdf files: a folder in the place of the unfinished file is not removed", "[property]") {
+    const Folder folder;
+    const std::string path = folder / "arm.urdf", taken = path + ".partial";
+    std::filesystem::create_directory(taken);
+    CHECK(is_file_error([&] { write_urdf(path, small_tree()); }));
+    CHECK(std::filesystem::is_directory(taken));
+    CHECK_FALSE(std::filesystem::exists(path));
+}

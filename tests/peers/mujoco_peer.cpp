@@ -80,7 +80,8 @@ MujocoPeer::MujocoPeer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 std::unique_ptr<MujocoPeer> MujocoPeer::from_urdf(const std::string& urdf) {
     const std::size_t end = urdf.rfind("</robot>");
     if (end == std::string::npos) throw PeerRefusal("no robot");
-    const std::string settings = "<mujoco><compiler balanceinertia=\"false\" discardvisual=\"true\"/></mujoco>";
+    const std::string settings =
+        "<mujoco><compiler balanceinertia=\"false\" discardvisual=\"true\" fusestatic=\"false\"/></mujoco>";
     auto impl = std::make_unique<Impl>(std::string(urdf).insert(end, settings));
     mjModel& model = *impl->model;
     model.opt.disableflags |= mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS;

@@ -66,9 +66,9 @@ TEST_CASE("mujoco: a six-axis arm, read by both from the file", "[peers]") {
 TEST_CASE("mujoco: random trees, written as URDF and read by both", "[peers]") {
     for (unsigned seed = 0; seed < 40; ++seed) {
         Random random(seed);
+        const Tree source = random_tree(random, {.bodies = 3 + static_cast<int>(seed % 10), .massless = 0});
         Tree tree;
-        for (const Tree::Body& body :
-             random_tree(random, {.bodies = 3 + static_cast<int>(seed % 10), .massless = 0}).bodies()) {
+        for (const Tree::Body& body : source.bodies()) {
             BodySpec spec = body.spec;
             spec.inertia.J = principal(spec.inertia.J);
             tree.add_body(spec);

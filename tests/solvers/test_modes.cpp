@@ -48,6 +48,20 @@ double error(Complex computed, Complex exact) {
 
 }  // namespace
 
+TEST_CASE("modes: soft and stiff springs of any ratio are all found, the soft ones to working precision",
+          "[analytic]") {
+    for (const double ratio : {1e6, 1e13, 1e15, 1e20}) {
+        SecondOrderSystem s;
+        s.M = Matrix::Identity(2, 2);
+        s.C = Matrix::Zero(2, 2);
+        s.K = s.K_elastic = Vec3(1, ratio, 0).head<2>().asDiagonal().toDenseMatrix();
+        const std::vector<Mode> found = modes(s);
+        CAPTURE(ratio);
+        REQUIRE(found.size() >= 1);
+        CHECK(found[0].eigenvalue.imag() == Approx(1).epsilon(1e-13));
+    }
+}
+
 TEST_CASE("modes: a damped oscillator has lambda = omega (-zeta +- i sqrt(1 - zeta^2))", "[analytic]") {
     const double m = 2.5, omega = 3;
     for (const double zeta : {0.0, 1e-4, 0.2, 0.9, 1 - 1e-6}) {

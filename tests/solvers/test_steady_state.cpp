@@ -267,3 +267,35 @@ TEST_CASE(
         check_refused([&] { (void)steady_state(system, spin, {}); },
                       {"index of the spin coordinate", "-1 (none) ... 1"});
 }
+
+TEST_CASE("steady state: forces that are not a number are no equilibrium, and nothing old is left in the result",
+          "[property]") {
+    Tree tree;
+    const BodyId arm = tree.add_body({.name = "arm", .inertia = {1, Vec3(1, 0, 0), Mat3::Identity()}});
+    double extra = 0.1;
+    ForceSet forces;
+    forces.add_spring("spring", arm, 2.0);
+    forces.add_user({.name = "user",
+                     .force =
+                         [&](const ForceInput&, VectorOut Q) {
+                             if (extra > 5) throw std::runtime_error("from a user force");
+                             Q(0) += extra;
+                         },
+                     .jacobian = [](const ForceInput&, MatrixOut, MatrixOut) {}});
+    const System system(tree, forces);
+    SteadySolver solver(system, -1);
+    SteadyState state;
+    solver.solve({}, state);
+    CHECK(state.converged);
+    CHECK(state.at.q(0) == Approx(0.05));
+    extra = std::numeric_limits<double>::quiet_NaN();
+    solver.solve({}, state);
+    CHECK_FALSE(state.converged);
+    CHECK_FALSE(state.message.empty());
+    extra = 0.1;
+    solver.solve({}, state);
+    CHECK(state.converged);
+    extra = 10;
+    CHECK_THROWS_AS(solver.solve({}, state), std::runtime_error);
+    CHECK_FALSE(state.converged);
+}
