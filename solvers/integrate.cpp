@@ -1,0 +1,305 @@
+#include "solvers/integrate.hpp"
+
+#include "mbs/error.hpp"
+#include "solvers/stepper.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr const char* place = "time integration";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Two times closer than this are one.
+double resolution(double time) {
+    return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
+}
+
+int sign(double value) {
+    return (value > 0) - (value < 0);
+}
+
+std::unique_ptr<Stepper> make_stepper(EquationsOfMotion& equations, const IntegrationOptions& options) {
+    switch (options.method) {
+        case Method::bdf:
+        case Method::adams:
+            return make_cvode_stepper(equations, options);
+        case Method::dirk:
+        case Method::erk:
+            return make_arkode_stepper(equations, options);
+        case Method::generalised_alpha:
+            break;
+    }
+    return make_alpha_stepper(equations, options);
+}
+
+}  // namespace
+
+Integrator::Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
+                       IntegrationOptions options)
+    : options_(std::move(options)), equations_(system, std::move(drives), time, q, qd) {
+    check_options();
+    const Eigen::Index m = equations_.size();
+    if (m == 0) throw InputError(place, "number of free coordinates", m, ">= 1");
+    x_.resize(2 * m);
+    x_between_.resize(2 * m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x_(i) = q(equations_.unknowns()[static_cast<std::size_t>(i)]);
+        x_(m + i) = qd(equations_.unknowns()[static_cast<std::size_t>(i)]);
+    }
+    stepper_ = make_stepper(equations_, options_);
+    values_.resize(options_.events.size());
+    sides_.resize(options_.events.size());
+    state_.time = time;
+    find_breaks();
+    begin_piece();
+    if (!equations_.complete(time, x_.data(), state_))
+        throw NumericalError(text(place, ": no start: ", equations_.problem()));
+    kinetic_at_start_ = equations_.kinetic_energy(state_);
+    potential_at_start_ = equations_.potential_energy(state_);
+    for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, time);
+    set_sides(-1);
+}
+
+Integrator::~Integrator() = default;
+
+void Integrator::check_options() const {
+    const Tolerances& tolerances = options_.tolerances;
+    require_positive(place, "relative tolerance", tolerances.relative);
+    for (double value : {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed})
+        require_positive(place, "absolute tolerance", value);
+    require_not_negative(place, "largest step [s]", options_.max_step);
+    require_not_negative(place, "first step [s]", options_.first_step);
+    require_not_negative(place, "fixed step [s]", options_.fixed_step);
+    const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
+    if (options_.max_order < 0 || options_.max_order > highest)
+        throw InputError(place, "highest order", options_.max_order, text("0 ... ", highest, " with this method"));
+    if (!(options_.spectral_radius >= 0 && options_.spectral_radius <= 1))
+        throw InputError(place, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
+    for (double time : options_.breaks)
+        if (!std::isfinite(time)) throw InputError(place, "time of a break [s]", time, "finite");
+    for (const Event& event : options_.events) {
+        if (!event.function) throw InputError(place, "event", event.name, "one with a function");
+        if (event.direction < -1 || event.direction > 1)
+            throw InputError(text(place, ": event '", event.name, "'"), "direction", event.direction, "-1, 0 or 1");
+    }
+}
+
+void Integrator::find_breaks() {
+    breaks_ = equations_.breaks();
+    breaks_.insert(breaks_.end(), options_.breaks.begin(), options_.breaks.end());
+    std::sort(breaks_.begin(), breaks_.end());
+}
+
+// From now to the next break.
+void Integrator::begin_piece() {
+    const double now = state_.time;
+    const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), now + resolution(now));
+    piece_end_ = next == breaks_.end() ? infinity : *next;
+    equations_.set_piece(next == breaks_.end() ? now + 1 : (now + piece_end_) / 2);
+    start_pending_ = true;
+}
+
+double Integrator::event_value(std::size_t event, double time) {
+    const double value = equations_.evaluate(options_.events[event].function, time, x_between_.data());
+    if (!std::isfinite(value))
+        throw NumericalError(
+            text(place, ": the function of the event '", options_.events[event].name, "' at ", time, " s is ", value));
+    return value;
+}
+
+bool Integrator::due(std::size_t event) const {
+    const int now = sign(values_[event]), before = sides_[event], direction = options_.events[event].direction;
+    return before != 0 && now != before && (direction == 0 || direction == -before);
+}
+
+// What is due together with the event that happened keeps its side and comes next.
+void Integrator::set_sides(int happened) {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const bool own = static_cast<int>(i) == happened;
+        if (own && sign(values_[i]) == 0)
+            sides_[i] = -sides_[i];
+        else if (sign(values_[i]) != 0 && (own || !due(i)))
+            sides_[i] = sign(values_[i]);
+    }
+}
+
+// Where the function has just changed its sign, by halving and false position in turn.
+double Integrator::root(std::size_t event, double to) {
+    double a = state_.time, b = to, value_b = values_[event];
+    stepper_->state_at(a, x_between_.data());
+    double value_a = event_value(event, a);
+    if (sign(value_a) == sign(value_b)) return a;  // it was due at the start already
+    for (int i = 0; i < 200 && b - a > resolution(b); ++i) {
+        const double secant = a + (b - a) * value_a / (value_a - value_b);
+        const double trial = i % 3 != 2 && secant > a && secant < b ? secant : a + (b - a) / 2;
+        stepper_->state_at(trial, x_between_.data());
+        const double value = event_value(event, trial);
+        if (sign(value) == sides_[event]) {
+            a = trial;
+            value_a = value;
+        } else {
+            b = trial;
+            value_b = value;
+        }
+    }
+    return b;
+}
+
+// The first event until `to`, or -1.
+int Integrator::first_event(double to, double& at) {
+    int first = -1;
+    at = to;
+    stepper_->state_at(to, x_between_.data());
+    for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, to);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        if (!due(i)) continue;
+        if (const double when = root(i, to); first < 0 || when < at) {
+            first = static_cast<int>(i);
+            at = when;
+        }
+    }
+    return first;
+}
+
+bool Integrator::accumulate(double to) {
+    if (!options_.works) return true;
+    constexpr double node = 0.77459666924148338;  // sqrt(3/5)
+    const double h = to - state_.time, middle = state_.time + h / 2;
+    Works sum = works_;  // kept as it was if a user force throws
+    for (int i = -1; i <= 1; ++i) {
+        const double time = middle + i * node * h / 2, weight = h / 18 * (i == 0 ? 8 : 5);
+        stepper_->state_at(time, x_between_.data());
+        Powers power;
+        if (!equations_.powers(time, x_between_.data(), power)) return false;
+        sum.forces += weight * power.forces;
+        sum.dissipation += weight * power.dissipation;
+        sum.drives += weight * power.drives;
+    }
+    works_ = sum;
+    return true;
+}
+
+void Integrator::complete(Advance& result) {
+    result.time = state_.time;
+    if (equations_.complete(state_.time, x_.data(), state_)) return;
+    result.end = Advance::End::failed;
+    result.message = text("no forces at ", state_.time, " s: ", equations_.problem());
+}
+
+AfterEvent Integrator::act(int event) {
+    const Event& happened = options_.events[static_cast<std::size_t>(event)];
+    if (!equations_.complete(state_.time, x_.data(), state_))
+        throw NumericalError(text(place, ": no state at the event '", happened.name, "': ", equations_.problem()));
+    return happened.action ? happened.action(*this) : AfterEvent::stop;
+}
+
+// From the present time to one within the last step. False: an event stops here.
+bool Integrator::process(double to, Advance& result) {
+    double at = to;
+    const int event = sides_.empty() ? -1 : first_event(to, at);
+    if (!accumulate(at)) {
+        result.end = Advance::End::failed;
+        result.message = text("no forces within the last step: ", equations_.problem());
+        return false;
+    }
+    stepper_->state_at(at, x_.data());
+    state_.time = at;
+    if (sides_.empty()) return true;
+    if (event >= 0 && at < to) {
+        x_between_ = x_;
+        for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
+    }
+    set_sides(event);
+    if (event < 0) return true;
+    const AfterEvent after = act(event);
+    if (after != AfterEvent::go_on) begin_piece();
+    if (after != AfterEvent::stop) return true;
+    result.end = Advance::End::event;
+    result.message = options_.events[static_cast<std::size_t>(event)].name;
+    return false;
+}
+
+Advance Integrator::advance(double target, bool one_step) {
+    Advance result;
+    bool stepped = false;
+    while (one_step ? !stepped : state_.time < target) {
+        if (state_.time >= piece_end_) begin_piece();
+        if (start_pending_ || stepper_->time() <= state_.time) {
+            if (options_.cancelled && options_.cancelled()) {
+                result.end = Advance::End::cancelled;
+                break;
+            }
+            if (start_pending_) {
+                stepper_->start(state_.time, x_.data(), piece_end_);
+                ++starts_;
+                start_pending_ = false;
+            }
+            if (!stepper_->step(one_step ? infinity : target)) {
+                result.end = Advance::End::failed;
+                result.message = stepper_->failure();
+                break;
+            }
+            if (options_.progress) options_.progress(stepper_->time(), statistics());
+        }
+        stepped = true;
+        if (!process(one_step ? stepper_->time() : std::min(target, stepper_->time()), result)) break;
+    }
+    complete(result);
+    return result;
+}
+
+Advance Integrator::advance(double time) {
+    if (!std::isfinite(time) || time < state_.time)
+        throw InputError(place, "time to advance to [s]", time, text("finite and >= ", state_.time));
+    return advance(time, false);
+}
+
+Advance Integrator::step() {
+    return advance(infinity, true);
+}
+
+Advance Integrator::run(const std::vector<double>& times, const std::function<void(Integrator&)>& output) {
+    Advance result;
+    result.time = state_.time;
+    for (double time : times) {
+        result = advance(time);
+        if (!result.reached()) break;
+        if (output) output(*this);
+    }
+    return result;
+}
+
+EnergyBalance Integrator::energy() {
+    if (!options_.works) throw InputError(place, "works", "off", "on, for a balance of energy");
+    EnergyBalance balance;
+    balance.kinetic = equations_.kinetic_energy(state_);
+    balance.potential = equations_.potential_energy(state_);
+    balance.dissipated = works_.dissipation;
+    balance.drives = works_.drives;
+    balance.loads = works_.forces + works_.dissipation + balance.potential - potential_at_start_;
+    balance.error = balance.kinetic - kinetic_at_start_ - works_.forces - works_.drives;
+    return balance;
+}
+
+IntegrationStatistics Integrator::statistics() const {
+    IntegrationStatistics all = stepper_->statistics();
+    all.restarts = std::max(0L, starts_ - 1);
+    return all;
+}
+
+void Integrator::set_motion(int coordinate, Motion motion) {
+    equations_.set_motion(coordinate, std::move(motion), state_.time);
+    find_breaks();
+    begin_piece();
+}
+
+void Integrator::set_forces(const Forces* forces) {
+    equations_.set_forces(forces);
+    begin_piece();
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,74 @@
+#include "solvers/newton_matrix.hpp"
+
+#include "mbs/error.hpp"
+
+#include <nvector/nvector_serial.h>
+
+namespace cardan::solvers {
+
+namespace {
+
+SUNMatrix_ID matrix_id(SUNMatrix) {
+    return SUNMATRIX_CUSTOM;
+}
+SUNLinearSolver_Type solver_type(SUNLinearSolver) {
+    return SUNLINEARSOLVER_DIRECT;
+}
+SUNLinearSolver_ID solver_id(SUNLinearSolver) {
+    return SUNLINEARSOLVER_CUSTOM;
+}
+int no_setup(SUNLinearSolver, SUNMatrix) {
+    return 0;  // factorised when it was formed
+}
+int solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    static_cast<NewtonMatrix*>(solver->content)->solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+    return 0;
+}
+
+}  // namespace
+
+NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
+    : equations_(equations),
+      reduced_(equations.size(), equations.size()),
+      right_(equations.size()),
+      rates_(equations.size()),
+      lu_(equations.size()),
+      matrix_(SUNMatNewEmpty(context)),
+      solver_(SUNLinSolNewEmpty(context)) {
+    if (!matrix_ || !solver_) throw NumericalError("SUNDIALS: no memory for a linear solver");
+    matrix_->ops->getid = matrix_id;
+    solver_->content = this;
+    solver_->ops->gettype = solver_type;
+    solver_->ops->getid = solver_id;
+    solver_->ops->setup = no_setup;
+    solver_->ops->solve = solve_callback;
+}
+
+bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
+    if (fresh || !has_jacobian_) {
+        has_jacobian_ = false;
+        if (!equations_.jacobian(time, x)) return false;
+        has_jacobian_ = true;
+        ++jacobians;
+    }
+    c_ = c;
+    reduced_ = -c * equations_.by_qd() - c * c * equations_.by_q();
+    reduced_.diagonal().array() += 1;
+    lu_.compute(reduced_);
+    ++factorisations;
+    return true;
+}
+
+void NewtonMatrix::solve(const double* b, double* x) {
+    const Eigen::Index m = reduced_.rows();
+    const Eigen::Map<const Vector> b1(b, m), b2(b + m, m);
+    right_ = b2;
+    right_.noalias() += c_ * (equations_.by_q() * b1);
+    rates_ = lu_.solve(right_);
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x[i] = b[i] + c_ * rates_(i);
+        x[m + i] = rates_(i);
+    }
+}
+
+}  // namespace cardan::solvers

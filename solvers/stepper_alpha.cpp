@@ -1,0 +1,251 @@
+#include "mbs/error.hpp"
+#include "solvers/stepper.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+
+namespace cardan::solvers {
+
+namespace {
+
+// Parameters of second order with the least dissipation of low frequencies at a given spectral radius at infinity.
+//                                                                       [Chung and Hulbert 1993, eq. 25]
+struct Alpha {
+    explicit Alpha(double rho)
+        : m((2 * rho - 1) / (rho + 1)),
+          f(rho / (rho + 1)),
+          gamma(0.5 - m + f),
+          beta((1 - m + f) * (1 - m + f) / 4),
+          error(beta + (m - f) / 2 - 1.0 / 6) {}
+    double m, f, gamma, beta;
+    double error;  // of the positions after a step, over h^3 times the third derivative
+};
+
+// The equations hold at the ends of the steps, so that a metric that varies does no harm; what the method averages is a
+// second set of accelerations a:
+//   (1 - m) a_1 + m a_0 = (1 - f) qdd_1 + f qdd_0
+//   q_1  = q_0 + h qd_0 + h^2 ((1/2 - beta) a_0 + beta a_1)
+//   qd_1 = qd_0 + h ((1 - gamma) a_0 + gamma a_1)
+// a_0 stands for the acceleration at t_0 + (m - f) h.            [Chung and Hulbert 1993; Arnold and Bruels 2007, eq.
+// 7]
+class AlphaStepper : public Stepper {
+public:
+    AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
+
+    void start(double time, const double* x, double stop) override;
+    bool step(double horizon) override;
+    double time() const override { return time_; }
+    void state_at(double time, double* x) override;
+    IntegrationStatistics statistics() const override { return statistics_; }
+
+private:
+    struct End {
+        Vector x, qdd, a;
+    };
+    bool controlled() const { return fixed_step_ == 0; }
+    double first_step(double horizon);
+    double trial_step() const;
+    bool fail(std::string_view why, double h);
+    void predict(double h);
+    bool iterate(double h);
+    void correct(double h);
+    double error(double h);
+    void accept(double h);
+    void propose(double h, double e);
+
+    EquationsOfMotion& equations_;
+    ErrorWeights weights_;
+    Alpha alpha_;
+    Eigen::Index m_;
+    double max_step_, wanted_first_, fixed_step_;
+    double time_ = 0, begin_ = 0, stop_ = 0, next_ = 0, last_ = 0;
+    End from_, to_;
+    Vector a_start_, jerk_, residual_, change_, w_, errors_;
+    bool has_jerk_ = false;
+    Matrix tangent_;
+    Eigen::PartialPivLU<Matrix> lu_;
+    IntegrationStatistics statistics_;
+};
+
+AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
+    : equations_(equations),
+      weights_(equations, options.tolerances),
+      alpha_(options.spectral_radius),
+      m_(equations.size()),
+      max_step_(options.max_step > 0 ? options.max_step : std::numeric_limits<double>::max()),
+      wanted_first_(options.first_step),
+      fixed_step_(options.fixed_step),
+      tangent_(m_, m_),
+      lu_(m_) {
+    for (End* end : {&from_, &to_}) {
+        end->x.setZero(2 * m_);
+        end->qdd.setZero(m_);
+        end->a.setZero(m_);
+    }
+    for (Vector* v : {&a_start_, &jerk_, &residual_, &change_}) v->setZero(m_);
+    for (Vector* v : {&w_, &errors_}) v->setZero(2 * m_);
+    statistics_.order = 2;
+}
+
+void AlphaStepper::start(double time, const double* x, double stop) {
+    time_ = begin_ = time;
+    stop_ = stop;
+    std::copy(x, x + 2 * m_, to_.x.data());
+    ++statistics_.evaluations;
+    if (!equations_.accelerations(time, x, to_.qdd.data()))
+        throw NumericalError(text("time integration: no start at ", time, " s: ", equations_.problem()));
+    to_.a = to_.qdd;
+    last_ = next_ = 0;
+    has_jerk_ = false;
+}
+
+// So short that the acceleration moves nothing by more than the tolerance; it grows fast.
+double AlphaStepper::first_step(double horizon) {
+    const double towards = std::min(horizon, stop_) - time_;
+    const double longest = std::min(max_step_, std::isfinite(towards) ? towards : 1.0);
+    if (wanted_first_ > 0) return std::min(wanted_first_, longest);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < m_; ++i) largest = std::max(largest, std::abs(to_.qdd(i) * w_(i)));
+    return largest > 0 ? std::min(longest, 1 / std::sqrt(largest)) : 1e-3 * longest;
+}
+
+// Ends at the stop exactly, and leaves no crumb before it.
+double AlphaStepper::trial_step() const {
+    const double h = controlled() ? std::min(next_, max_step_) : fixed_step_, left = stop_ - time_;
+    if (h >= left * (1 - 1e-10)) return left;
+    return controlled() && 2 * h > left ? left / 2 : h;
+}
+
+bool AlphaStepper::fail(std::string_view why, double h) {
+    failure_ = text("no step possible at ", time_, " s: ", why, " (step ", h, " s)");
+    if (!equations_.problem().empty()) failure_ += text("; ", equations_.problem());
+    const LimitingEntry worst = limiting_entry(errors_.data(), w_.data(), static_cast<int>(2 * m_));
+    if (worst.entry >= 0)
+        failure_ += text("; the largest local error or correction, ", worst.error, " times the allowed one, has the ",
+                         equations_.name_of(worst.entry));
+    failure_ += "; look for jumps of forces (give their times as breaks), or take shorter steps";
+    return false;
+}
+
+void AlphaStepper::correct(double h) {
+    const auto q0 = from_.x.head(m_), qd0 = from_.x.tail(m_);
+    to_.a = ((1 - alpha_.f) * to_.qdd + alpha_.f * from_.qdd - alpha_.m * a_start_) / (1 - alpha_.m);
+    to_.x.head(m_) = q0 + h * qd0 + h * h * ((0.5 - alpha_.beta) * a_start_ + alpha_.beta * to_.a);
+    to_.x.tail(m_) = qd0 + h * ((1 - alpha_.gamma) * a_start_ + alpha_.gamma * to_.a);
+}
+
+void AlphaStepper::predict(double h) {
+    // With another step a_0 has to stand for another time.
+    a_start_ = from_.a;
+    if (last_ > 0) a_start_ = from_.qdd + h / last_ * (from_.a - from_.qdd);
+    to_.qdd = from_.qdd;
+    if (has_jerk_) to_.qdd += h * jerk_;
+    correct(h);
+}
+
+// Newton's method for the accelerations at the end, in terms of the positions there.
+bool AlphaStepper::iterate(double h) {
+    const double per_q = (1 - alpha_.m) / ((1 - alpha_.f) * alpha_.beta * h * h),
+                 rate = alpha_.gamma / (alpha_.beta * h);
+    double norm_before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 12; ++i) {
+        ++statistics_.evaluations;
+        ++statistics_.iterations;
+        if (!equations_.residual(begin_ + h, to_.x.data(), to_.qdd.data(), residual_.data())) return false;
+        equations_.tangent(per_q, rate, 1, tangent_);
+        ++statistics_.jacobians;
+        lu_.compute(tangent_);
+        ++statistics_.factorisations;
+        change_ = lu_.solve(residual_);
+        if (!change_.allFinite()) return false;
+        to_.qdd -= per_q * change_;
+        correct(h);
+        errors_.head(m_) = change_;
+        errors_.tail(m_) = rate * change_;
+        const double norm = std::sqrt(errors_.cwiseProduct(w_).squaredNorm() / static_cast<double>(2 * m_));
+        if (norm < 1e-3) return true;  // the next change would be of the order of its square
+        if (i > 3 && norm > norm_before) return false;
+        norm_before = norm;
+    }
+    return false;
+}
+
+// Weighted norm of the local error. Positions: the leading term, with the change of a for the third derivative. Rates:
+// that of the trapezoidal rule, and by how much the method differs from it.
+double AlphaStepper::error(double h) {
+    errors_.head(m_) = alpha_.error * h * h * (to_.a - a_start_);
+    errors_.tail(m_) = to_.x.tail(m_) - from_.x.tail(m_) - h / 2 * (from_.qdd + to_.qdd);
+    if (has_jerk_)
+        errors_.tail(m_) = errors_.tail(m_).cwiseAbs() +
+                           h * h * h / 12 * (((to_.qdd - from_.qdd) / h - jerk_) / ((h + last_) / 2)).cwiseAbs();
+    return std::sqrt(errors_.cwiseProduct(w_).squaredNorm() / static_cast<double>(2 * m_));
+}
+
+void AlphaStepper::accept(double h) {
+    jerk_ = (to_.qdd - from_.qdd) / h;
+    has_jerk_ = true;
+    time_ = h == stop_ - begin_ ? stop_ : begin_ + h;
+    last_ = statistics_.last_step = h;
+    ++statistics_.steps;
+}
+
+// A step that was cut to end at a break says nothing against the longer one that had been proposed.
+void AlphaStepper::propose(double h, double e) {
+    const double longer = h * std::clamp(0.9 / std::cbrt(e + 1e-9), 0.3, 3.0);
+    next_ = next_ > h ? std::max(next_, longer) : longer;
+}
+
+bool AlphaStepper::step(double horizon) {
+    equations_.forget_problem();
+    from_.x = to_.x;
+    from_.qdd = to_.qdd;
+    from_.a = to_.a;
+    begin_ = time_;
+    weights_.set(from_.x.data(), w_.data());
+    if (controlled() && next_ == 0) next_ = first_step(horizon);
+    double h = trial_step();
+    std::string_view why = "the iteration did not converge";
+    for (;; h = trial_step()) {
+        predict(h);
+        const bool converged = iterate(h);
+        const double e = converged && controlled() ? error(h) : 0;
+        const bool stands = controlled() && h != stop_ - begin_ && stands_still(begin_, begin_ + h);
+        if (converged && e <= 1 && !stands) {
+            accept(h);
+            if (controlled()) propose(h, e);
+            return true;
+        }
+        ++(converged ? statistics_.rejected : statistics_.not_converged);
+        if (stands) why = standstill;
+        if (stands || !controlled()) break;
+        next_ = h * (converged ? std::clamp(0.9 / std::cbrt(std::min(e, 1e6)), 0.2, 0.8) : 0.25);
+    }
+    to_.x = from_.x;
+    to_.qdd = from_.qdd;
+    to_.a = from_.a;
+    return fail(why, h);
+}
+
+// Hermite's cubics: positions through positions and rates, rates through rates and accelerations.
+void AlphaStepper::state_at(double time, double* x) {
+    const double h = time_ - begin_;
+    Eigen::Map<Vector> out(x, 2 * m_);
+    if (h <= 0 || time == time_) {
+        out = to_.x;
+        return;
+    }
+    const double s = (time - begin_) / h, u = 1 - s;
+    const double f0 = u * u * (1 + 2 * s), f1 = s * s * (1 + 2 * u), g0 = h * s * u * u, g1 = -h * s * s * u;
+    out.head(m_) = f0 * from_.x.head(m_) + f1 * to_.x.head(m_) + g0 * from_.x.tail(m_) + g1 * to_.x.tail(m_);
+    out.tail(m_) = f0 * from_.x.tail(m_) + f1 * to_.x.tail(m_) + g0 * from_.qdd + g1 * to_.qdd;
+}
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_alpha_stepper(EquationsOfMotion& equations, const IntegrationOptions& options) {
+    return std::make_unique<AlphaStepper>(equations, options);
+}
+
+}  // namespace cardan::solvers
