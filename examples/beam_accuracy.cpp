@@ -7,10 +7,7 @@
 // Reference: closed forms and digits of docs/verification.md; where there are none, Hermite elements with all breaks as
 // nodes, extrapolated, in extended precision (docs/beam_accuracy.md). A list of orders and errors is checked.
 #include "mbs/error.hpp"
-#include "mbs/version.hpp"
-#include "solvers/pending_file.hpp"
-
-#include <CLI/CLI.hpp>
+#include "mbs/pending_file.hpp"
 
 #include "examples/beam_accuracy/figure.hpp"
 #include "examples/program.hpp"
@@ -39,13 +36,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--case", a.names, "cases to run (default: all)");
     app.add_option("--out", a.out, "folder of the files")->capture_default_str();
     app.add_flag("--list", a.list, "print the cases and end");
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return -1;
+    return program::parse(app, argc, argv);
 }
 
 std::vector<Case> chosen(const std::vector<std::string>& names) {
@@ -62,13 +53,6 @@ std::vector<Case> chosen(const std::vector<std::string>& names) {
 bool progress(const std::string& what) {
     program::progress("\r\033[K" + what);
     return !program::interrupted();
-}
-
-void write(const std::filesystem::path& path, const std::string& contents) {
-    const solvers::PendingFile file(path);
-    if (!(std::ofstream(file.partial(), std::ios::binary | std::ios::trunc) << contents).flush())
-        throw FileError(path.string(), "could not be written");
-    file.commit();
 }
 
 int run(const Arguments& a) {
@@ -92,7 +76,7 @@ int run(const Arguments& a) {
         print(result, std::cout);
         failures += check(result, std::cout);
         if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
-        write(a.out / ("beam_accuracy_" + c.name + ".csv"), csv(result));
+        write_file(a.out / ("beam_accuracy_" + c.name + ".csv"), csv(result));
         results.push_back(std::move(result));
     }
     program::stop_at_once();

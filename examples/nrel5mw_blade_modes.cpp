@@ -13,8 +13,6 @@
 #include "solvers/plot_blade_shapes.hpp"
 #include "turbines/nrel5mw.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "examples/program.hpp"
 #include <array>
 #include <charconv>

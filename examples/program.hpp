@@ -3,7 +3,10 @@
 #pragma once
 
 #include "mbs/error.hpp"
-#include "solvers/pending_file.hpp"
+#include "mbs/pending_file.hpp"
+#include "mbs/version.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <atomic>
 #include <csignal>
@@ -41,7 +44,19 @@ inline void check_outputs(const std::string& prefix, std::initializer_list<const
     if (path.filename().empty()) throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
     if (!folder.empty() && !std::filesystem::is_directory(folder))
         throw FileError(prefix, text("the folder '", folder.string(), "' does not exist"));
-    for (const char* ending : endings) solvers::PendingFile(prefix + ending).discard();
+    for (const char* ending : endings) PendingFile(prefix + ending).discard();
+}
+
+/// Reads the command line.
+/// @return exit code to end with (0 after --help and --version, 2 for wrong usage), -1: go on
+inline int parse(CLI::App& app, int argc, char** argv) {
+    app.set_version_flag("--version", std::string(version()));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return -1;
 }
 
 /// The body of main().

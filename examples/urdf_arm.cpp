@@ -7,10 +7,7 @@
 // q = 0 the forearm is a clamped tube with a rigid body (wrist and tool) at its tip, of which the Timoshenko beam has
 // an exact transfer matrix; (3) the arm with the beam, written as URDF and read again, has the same metric.
 #include "mbs/metric.hpp"
-#include "mbs/version.hpp"
 #include "solvers/modes.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include "examples/named_values.hpp"
 #include "examples/program.hpp"
@@ -45,14 +42,8 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--youngs-factor", a.youngs_factor, "on the elastic constants of the tube")->capture_default_str();
     app.add_option("--modes", a.modes, "number of modes printed")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_option("--write", a.write, "write the arm with the beam as URDF to this file");
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-        if (!(a.youngs_factor > 0) || std::isinf(a.youngs_factor))
-            throw InputError("--youngs-factor", "value", a.youngs_factor, "finite and > 0");
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    require_positive("--youngs-factor", "value", a.youngs_factor);
     return -1;
 }
 

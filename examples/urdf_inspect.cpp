@@ -8,10 +8,7 @@
 #include "mbs/metric.hpp"
 #include "mbs/summary.hpp"
 #include "mbs/urdf.hpp"
-#include "mbs/version.hpp"
 #include "solvers/modes.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include "examples/named_values.hpp"
 #include "examples/program.hpp"
@@ -43,13 +40,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--modes", a.modes, "number of modes printed")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_flag("--undamped", a.undamped, "without the viscous damping of the file");
     app.add_option("--write", a.write, "write the tree as URDF to this file");
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return -1;
+    return program::parse(app, argc, argv);
 }
 
 std::string limit(double value) {

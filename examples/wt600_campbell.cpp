@@ -5,13 +5,10 @@
 // constant, their eigenvalues are the natural frequencies and damping ratios in the fixed frame.
 // Reference: the values with 3 elements per blade and tower in docs/wt600.md.
 #include "mbs/error.hpp"
-#include "mbs/version.hpp"
 #include "solvers/campbell_csv.hpp"
 #include "solvers/hdf5_campbell.hpp"
 #include "solvers/plot_campbell.hpp"
 #include "turbines/wt600.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include "examples/program.hpp"
 #include <array>
@@ -73,12 +70,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--modes", a.modes,
                  "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
     if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
     if (a.gravity) a.assembly.gravity = {0, 0, -9.80665};
     if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};

@@ -39,7 +39,7 @@ public:
     /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.
     void solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator);
 
-    const std::vector<bool>& driven() const { return driven_; }
+    bool is_driven(int a) const { return driven_[static_cast<std::size_t>(a)] != 0; }
 
 private:
     /// Articulated inertia about the joint origin, base axes, [A C^T; C M] for [angular; linear]: a subtree whose free
@@ -56,8 +56,7 @@ private:
     static void solve_from_rest(const Arrays& arrays, const double* Q, double* qdd, double* reaction);
 
     const Model* model_;
-    std::vector<bool> driven_;
-    std::vector<char> held_;  ///< as driven_, for the loops
+    std::vector<char> driven_;  ///< no vector<bool>: the loops read it through a pointer
     std::vector<Articulated> articulated_;
     Vector armature_diagonal_, residual_, correction_, reaction_, zero_;
     std::vector<int> support_;  ///< free coordinates in armatures of several coordinates

@@ -39,14 +39,13 @@ CARDAN_INLINE void subtract(Packed33<double>& X, const Packed3<double>& u, const
 ForwardDynamics::ForwardDynamics(const Model& model) : ForwardDynamics(model, model.coordinates().driven()) {}
 
 ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
-    : model_(&model), driven_(std::move(driven)) {
+    : model_(&model), driven_(driven.begin(), driven.end()) {
     const int n = model.size();
     if (driven_.size() != static_cast<std::size_t>(n))
         throw InputError("forward dynamics", "number of driven flags", driven_.size(), text(n, ", one per coordinate"));
     armature_diagonal_.setZero(n);
     for (Vector* x : {&residual_, &correction_, &reaction_, &zero_}) x->setZero(n);
     articulated_.resize(static_cast<std::size_t>(n));
-    held_.assign(driven_.begin(), driven_.end());
     // An armature over several coordinates is split: its diagonal goes into the recursion, which keeps every pivot
     // positive even where only the armature has inertia; the rest follows by a low-rank correction (Woodbury). Beside
     // such a one a negative armature goes into the correction as a whole: the recursion works on more than the metric.
@@ -56,7 +55,7 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
         const bool in_recursion = armature.inertia > 0 || !coupled;
         for (const auto& [a, s] : armature.spin) {
             if (in_recursion) armature_diagonal_(a) += armature.inertia * s * s;
-            if ((armature.spin.size() > 1 || !in_recursion) && !driven_[static_cast<std::size_t>(a)] &&
+            if ((armature.spin.size() > 1 || !in_recursion) && !is_driven(a) &&
                 std::find(support_.begin(), support_.end(), a) == support_.end())
                 support_.push_back(a);
         }
@@ -182,7 +181,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     const Eigen::Index n = model_->size();
     assert(&kin.model() == model_ && Q.size() == n && qdd.size() == n && actuator.size() == n);
     for (Eigen::Index k = 0; k < n; ++k)
-        if (!held_[static_cast<std::size_t>(k)]) qdd(k) = 0;
+        if (!driven_[static_cast<std::size_t>(k)]) qdd(k) = 0;
     inverse_dynamics<double>(kin, qd, qdd, residual_);
     body_inertias(kin);
     residual_ = Q - residual_;
@@ -192,7 +191,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
                         ws.frame.data(),
                         ws.J.data(),
                         armature_diagonal_.data(),
-                        held_.data(),
+                        driven_.data(),
                         articulated_.data()};
     factorise(arrays);
     solve_from_rest(arrays, residual_.data(), correction_.data(), reaction_.data());
@@ -218,7 +217,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     }
     actuator.setZero();
     for (Eigen::Index k = 0; k < n; ++k)
-        if (held_[static_cast<std::size_t>(k)])
+        if (driven_[static_cast<std::size_t>(k)])
             actuator(k) = reaction_(k) - residual_(k);
         else
             qdd(k) = correction_(k);
@@ -226,8 +225,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     for (const Model::Spin& armature : model_->armatures())
         for (const auto& [a, sa] : armature.spin)
             for (const auto& [b, sb] : armature.spin)
-                if (driven_[static_cast<std::size_t>(a)] && !driven_[static_cast<std::size_t>(b)])
-                    actuator(a) += armature.inertia * sa * sb * correction_(b);
+                if (is_driven(a) && !is_driven(b)) actuator(a) += armature.inertia * sa * sb * correction_(b);
 }
 
 }  // namespace cardan

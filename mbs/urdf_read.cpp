@@ -119,6 +119,11 @@ private:
     }
 
     void joint(const JointEntry& entry) {
+        bodies_of(entry);
+        joint_of_body_.resize(out_.tree.bodies().size(), &entry);
+    }
+
+    void bodies_of(const JointEntry& entry) {
         const urdf::Joint& joint = *source_.getJoint(entry.name);
         const Place start{frame_of_link_.at(entry.parent), placement(joint.parent_to_joint_origin_transform)};
         switch (joint.type) {
@@ -264,21 +269,11 @@ private:
         for (std::size_t k = 0; k < carries.size(); ++k) {
             const BodySpec& body = out_.tree.bodies()[k].spec;
             if (carries[k] || !body.inertia.is_massless()) continue;
-            const JointEntry& joint = joint_of(body.coordinate.name);
+            const JointEntry& joint = *joint_of_body_[k];
             throw InputError(text(outline_.at(line_of_link_.at(joint.child)), "link '", joint.child,
                                   "' ends a branch and is moved by joint '", joint.name,
                                   "', but neither it nor a link fixed to it has an inertia; give it an <inertial>"));
         }
-    }
-
-    // Coordinates are called "<joint>" or "<joint> rotation ...": the longest name that fits.
-    const JointEntry& joint_of(const std::string& coordinate) const {
-        const JointEntry* found = &outline_.joints.front();
-        std::size_t length = 0;
-        for (const JointEntry& joint : outline_.joints)
-            if (coordinate.starts_with(joint.name) && joint.name.size() > length)
-                found = &joint, length = joint.name.size();
-        return *found;
     }
 
     const Outline& outline_;
@@ -288,6 +283,7 @@ private:
     UniqueNames names_, coordinates_;
     std::map<std::string, std::string> name_of_link_;
     std::map<std::string, int> line_of_link_;
+    std::vector<const JointEntry*> joint_of_body_;
     std::map<std::string, FrameId> frame_of_link_;
 };
 

@@ -1,9 +1,9 @@
 #include "solvers/blade_shapes.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/pending_file.hpp"
 #include "mbs/spatial.hpp"
 #include "mbs/version.hpp"
-#include "solvers/pending_file.hpp"
 
 #include <algorithm>
 #include <fstream>

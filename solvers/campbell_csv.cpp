@@ -1,8 +1,8 @@
 #include "solvers/campbell_csv.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/pending_file.hpp"
 #include "mbs/version.hpp"
-#include "solvers/pending_file.hpp"
 
 #include <fstream>
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "mbs/error.hpp"
+#include "mbs/pending_file.hpp"
 #include "solvers/hdf5_file.hpp"
 #include "solvers/hdf5_storage.hpp"
-#include "solvers/pending_file.hpp"
 
 #include <optional>
 #include <string>

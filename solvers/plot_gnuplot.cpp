@@ -1,7 +1,7 @@
 #include "solvers/plot_gnuplot.hpp"
 
 #include "mbs/error.hpp"
-#include "solvers/pending_file.hpp"
+#include "mbs/pending_file.hpp"
 
 #include <algorithm>
 #include <cctype>

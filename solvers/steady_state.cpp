@@ -2,10 +2,9 @@
 
 #include "mbs/derivatives.hpp"
 #include "mbs/error.hpp"
+#include "solvers/sundials_memory.hpp"
 
 #include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -18,28 +17,9 @@ namespace cardan::solvers {
 
 namespace {
 
-template <auto Free>
-struct Deleter {
-    template <class T>
-    void operator()(T* p) const {
-        Free(p);
-    }
-};
-void free_linear_solver(SUNLinearSolver s) {
-    SUNLinSolFree(s);
-}
 void free_kinsol(void* memory) {
     KINFree(&memory);
 }
-void free_context(SUNContext c) {
-    SUNContext_Free(&c);
-}
-
-using ContextPtr = std::unique_ptr<std::remove_pointer_t<SUNContext>, Deleter<free_context>>;
-using VectorPtr = std::unique_ptr<std::remove_pointer_t<N_Vector>, Deleter<N_VDestroy>>;
-using MatrixPtr = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Deleter<SUNMatDestroy>>;
-using SolverPtr = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Deleter<free_linear_solver>>;
-using KinsolPtr = std::unique_ptr<void, Deleter<free_kinsol>>;
 
 // Residual and Jacobian on the unknowns (free coordinates without the spin).
 class Residual {
@@ -126,8 +106,6 @@ int jacobian_callback(N_Vector x, N_Vector, SUNMatrix J, void* user, N_Vector, N
     });
 }
 
-void quiet(int, const char*, const char*, char*, void*) {}
-
 const char* reason(int flag) {
     switch (flag) {
         case KIN_LINESEARCH_NONCONV:
@@ -167,11 +145,11 @@ private:
     Residual residual_;
     Vector scale_, r_;
     // In this order: KINSOL goes before what it uses, the context last.
-    ContextPtr context_;
-    VectorPtr x_, x_scale_, f_scale_;
-    MatrixPtr J_;
-    SolverPtr linear_;
-    KinsolPtr kinsol_;
+    SundialsContext context_;
+    SundialsVector x_, x_scale_, f_scale_;
+    SundialsMatrix J_;
+    SundialsLinear linear_;
+    std::unique_ptr<void, SundialsDeleter<free_kinsol>> kinsol_;
 };
 
 SteadySolver::Memory::Memory(const System& system, int spin)
@@ -180,17 +158,16 @@ SteadySolver::Memory::Memory(const System& system, int spin)
     if (n == 0) return;
     scale_.resize(n);
     r_.resize(n);
-    SUNContext context = nullptr;
-    if (SUNContext_Create(nullptr, &context) != 0) throw NumericalError("SUNDIALS: no context");
-    context_.reset(context);
-    for (VectorPtr* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
+    context_ = make_sundials_context();
+    SUNContext context = context_.get();
+    for (SundialsVector* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
     N_VConst(1.0, x_scale_.get());
     J_.reset(SUNDenseMatrix(n, n, context));
     linear_.reset(SUNLinSol_Dense(x_.get(), J_.get(), context));
     kinsol_.reset(KINCreate(context));
     void* kin = kinsol_.get();
     const bool ok = KINInit(kin, residual_callback, x_.get()) == 0 && KINSetUserData(kin, &residual_) == 0 &&
-                    KINSetErrHandlerFn(kin, quiet, nullptr) == 0 &&
+                    KINSetErrHandlerFn(kin, sundials_quiet, nullptr) == 0 &&
                     KINSetLinearSolver(kin, linear_.get(), J_.get()) == 0 && KINSetJacFn(kin, jacobian_callback) == 0 &&
                     KINSetMaxSetupCalls(kin, 1) == 0 && KINSetScaledStepTol(kin, 1e-14) == 0 &&
                     KINSetMaxNewtonStep(kin, 10.0) == 0;

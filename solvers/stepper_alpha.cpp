@@ -11,7 +11,7 @@ namespace cardan::solvers {
 namespace {
 
 // Parameters of second order with the least dissipation of low frequencies at a given spectral radius at infinity.
-//                                                                       [Chung and Hulbert 1993, eq. 25]
+//                                                                           [Chung and Hulbert 1993]
 struct Alpha {
     explicit Alpha(double rho)
         : m((2 * rho - 1) / (rho + 1)),
@@ -28,8 +28,7 @@ struct Alpha {
 //   (1 - m) a_1 + m a_0 = (1 - f) qdd_1 + f qdd_0
 //   q_1  = q_0 + h qd_0 + h^2 ((1/2 - beta) a_0 + beta a_1)
 //   qd_1 = qd_0 + h ((1 - gamma) a_0 + gamma a_1)
-// a_0 stands for the acceleration at t_0 + (m - f) h.            [Chung and Hulbert 1993; Arnold and Bruels 2007, eq.
-// 7]
+// a_0 stands for the acceleration at t_0 + (m - f) h.                  [Chung and Hulbert 1993; Arnold and Bruels 2007]
 class AlphaStepper : public Stepper {
 public:
     AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options);

@@ -2,8 +2,8 @@
 #include "mbs/christoffel.hpp"
 #include "mbs/derivatives.hpp"
 #include "mbs/lagrange.hpp"
+#include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/random_tree.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -15,32 +15,9 @@ namespace {
 
 constexpr double h = 1e-40;  // complex step
 
-struct Sample {
-    explicit Sample(unsigned seed, RandomTreeOptions options = {})
-        : random(seed),
-          model(make(random, options)),
-          workspace(model),
-          n(model.size()),
-          q(random_state(random, n)),
-          qd(random_state(random, n, 2)),
-          qdd(random_state(random, n, 3)) {}
-    static Model make(Random& random, RandomTreeOptions options) {
-        options.bodies = std::uniform_int_distribution<int>(6, 14)(random);
-        return Model(random_tree(random, options));
-    }
-    Kinematics kin() { return kinematics(model, q, workspace); }
-    Matrix g() {
-        Matrix m(n, n);
-        metric(kin(), m);
-        return m;
-    }
-
-    Random random;
-    Model model;
-    Workspace workspace;
-    int n;
-    Vector q, qd, qdd;
-};
+int bodies(unsigned seed) {
+    return 6 + static_cast<int>(seed % 9);
+}
 
 double scaled(const Matrix& difference, const Matrix& reference) {
     return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
@@ -66,9 +43,9 @@ std::vector<Matrix> metric_derivatives(const Model& model, const Vector& q) {
 TEST_CASE("metric: the composite form equals the sum over basis functions, is symmetric and positive definite",
           "[property]") {
     for (unsigned seed = 0; seed < 200; ++seed) {
-        Sample s(seed, {.armatures = seed % 2 == 0});
+        SampledTree s(seed, {.bodies = bodies(seed), .armatures = seed % 2 == 0});
         const Matrix g = s.g();
-        const Kinematics kin = s.kin();
+        const Kinematics& kin = s.kin;
         Matrix plain(s.n, s.n);
         for (int a = 0; a < s.n; ++a)
             for (int b = 0; b < s.n; ++b) plain(a, b) = lagrange::metric(kin, a, b);
@@ -82,9 +59,9 @@ TEST_CASE("metric: the composite form equals the sum over basis functions, is sy
 TEST_CASE("christoffel: the packed table, eq. (9) summed over bodies and the complex-step derivative of g agree",
           "[property]") {
     for (unsigned seed = 0; seed < 200; ++seed) {
-        Sample s(seed);
+        SampledTree s(seed, {.bodies = bodies(seed)});
         Christoffel gamma(s.model);
-        const Kinematics kin = s.kin();
+        const Kinematics& kin = s.kin;
         christoffel_first_kind(kin, gamma);
         const std::vector<Matrix> dg = metric_derivatives(s.model, s.q);
         const auto d = [&](int c, int a, int b) { return dg[static_cast<std::size_t>(c)](a, b); };
@@ -106,9 +83,9 @@ TEST_CASE("christoffel: the packed table, eq. (9) summed over bodies and the com
 
 TEST_CASE("christoffel: contraction and Coriolis matrix equal the O(n) recursion; gdot - 2C is skew", "[property]") {
     for (unsigned seed = 0; seed < 200; ++seed) {
-        Sample s(seed);
+        SampledTree s(seed, {.bodies = bodies(seed)});
         Christoffel gamma(s.model);
-        const Kinematics kin = s.kin();
+        const Kinematics& kin = s.kin;
         christoffel_first_kind(kin, gamma);
         Vector contracted(s.n), recursion(s.n);
         gamma.contract(s.qd, contracted);
@@ -126,9 +103,9 @@ TEST_CASE("christoffel: contraction and Coriolis matrix equal the O(n) recursion
 
 TEST_CASE("inverse dynamics: Newton-Euler equals g qdd + Gamma qd qd", "[property]") {
     for (unsigned seed = 0; seed < 200; ++seed) {
-        Sample s(seed, {.armatures = seed % 3 == 0});
+        SampledTree s(seed, {.bodies = bodies(seed), .armatures = seed % 3 == 0});
         const Matrix g = s.g();
-        const Kinematics kin = s.kin();
+        const Kinematics& kin = s.kin;
         Christoffel gamma(s.model);
         christoffel_first_kind(kin, gamma);
         Vector tau(s.n), h_(s.n);
@@ -140,11 +117,11 @@ TEST_CASE("inverse dynamics: Newton-Euler equals g qdd + Gamma qd qd", "[propert
 
 TEST_CASE("forward dynamics: inverse of the inverse dynamics, with armatures and driven coordinates", "[property]") {
     for (unsigned seed = 0; seed < 300; ++seed) {
-        Sample s(seed, {.armatures = seed % 2 == 0});
+        SampledTree s(seed, {.bodies = bodies(seed), .armatures = seed % 2 == 0});
         std::vector<bool> driven(static_cast<std::size_t>(s.n));
         for (std::size_t k = 0; k < driven.size(); ++k) driven[k] = seed % 3 == 0 && uniform(s.random, 0, 1) < 0.4;
         ForwardDynamics forward(s.model, driven);
-        const Kinematics kin = s.kin();
+        const Kinematics& kin = s.kin;
         Vector tau(s.n), qdd = s.qdd, actuator(s.n), Q(s.n);
         inverse_dynamics<double>(kin, s.qd, s.qdd, tau);
         Q = tau;
@@ -162,9 +139,9 @@ TEST_CASE("forward dynamics: inverse of the inverse dynamics, with armatures and
 
 TEST_CASE("derivatives: inverse dynamics by the analytic recursion equals the complex step", "[property]") {
     for (unsigned seed = 0; seed < 200; ++seed) {
-        Sample s(seed, {.armatures = seed % 2 == 0});
+        SampledTree s(seed, {.bodies = bodies(seed), .armatures = seed % 2 == 0});
         Matrix by_q(s.n, s.n), by_qd(s.n, s.n), expected_q(s.n, s.n), expected_qd(s.n, s.n);
-        inverse_dynamics_derivatives<double>(s.kin(), s.qd, s.qdd, by_q, by_qd);
+        inverse_dynamics_derivatives<double>(s.kin, s.qd, s.qdd, by_q, by_qd);
         WorkspaceT<Complex> workspace(s.model);
         ComplexVector tau(s.n), qdd = s.qdd.cast<Complex>();
         for (int j = 0; j < s.n; ++j) {

@@ -3,6 +3,7 @@
 #include "mbs/christoffel.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -36,6 +37,11 @@ double Differences::largest() const {
 std::string Differences::text() const {
     return cardan::text("metric ", metric, ", bias ", bias, ", christoffel ", christoffel, ", gravity ", gravity,
                         ", inverse ", inverse, ", forward ", forward);
+}
+
+void require_equal(const Differences& d) {
+    INFO(d.text());
+    REQUIRE(d.largest() < 1e-9);
 }
 
 Differences compare(const Model& model, const std::vector<PeerLink>& links, const MakePeer& make, Random& random) {

@@ -35,6 +35,9 @@ using MakePeer = std::function<std::unique_ptr<Peer>(const std::vector<PeerLink>
 Differences compare(const Model& model, const std::vector<PeerLink>& links, const MakePeer& make,
                     testing::Random& random);
 
+/// Fails the test, and says by how much, if two quantities differ by more than 1e-9.
+void require_equal(const Differences& d);
+
 /// A random tree whose bodies carry further pieces, on frames at random places.
 struct WeldedTree {
     Tree tree;                    ///< the pieces merged into their bodies

@@ -9,15 +9,8 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr double tolerance = 1e-9;
-
 std::unique_ptr<Peer> make(const std::vector<PeerLink>& links, Gravity gravity) {
     return std::make_unique<MujocoPeer>(links, gravity);
-}
-
-void require_equal(const Differences& d) {
-    INFO(d.text());
-    REQUIRE(d.largest() < tolerance);
 }
 
 }  // namespace

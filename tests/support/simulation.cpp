@@ -16,7 +16,7 @@ Simulation::Response Simulation::response(double time, const Vector& q, const Ve
     Vector Q(n);
     Response out{Vector::Zero(n), Vector::Zero(n)};
     for (int k = 0; k < model.size(); ++k)
-        if (drive_ && forward_.driven()[static_cast<std::size_t>(k)]) out.qdd(k) = drive_(time, k);
+        if (drive_ && forward_.is_driven(static_cast<int>(k))) out.qdd(k) = drive_(time, k);
     const Kinematics kin = kinematics(model, q, workspace_);
     system_->forces.generalised_forces(kin, time, q, qd, Q);
     forward_.solve(kin, qd, Q, out.qdd, out.actuator);

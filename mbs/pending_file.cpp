@@ -1,13 +1,14 @@
-#include "solvers/pending_file.hpp"
+#include "mbs/pending_file.hpp"
 
 #include "mbs/error.hpp"
 
 #include <cerrno>
 #include <fcntl.h>
+#include <fstream>
 #include <system_error>
 #include <unistd.h>
 
-namespace cardan::solvers {
+namespace cardan {
 namespace fs = std::filesystem;
 
 PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(path_ + ".partial") {
@@ -52,4 +53,20 @@ void PendingFile::discard() const noexcept {
     fs::remove(partial_, ignored);
 }
 
-}  // namespace cardan::solvers
+void write_file(const fs::path& path, std::string_view contents) {
+    const PendingFile pending(path);
+    try {
+        errno = 0;
+        std::ofstream out(pending.partial(), std::ios::binary | std::ios::trunc);
+        out << contents;
+        out.close();
+        if (!out)
+            throw FileError(pending.path(), text("cannot be completed: ", std::generic_category().message(errno)));
+        pending.commit();
+    } catch (...) {
+        pending.discard();
+        throw;
+    }
+}
+
+}  // namespace cardan

@@ -4,8 +4,9 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
-namespace cardan::solvers {
+namespace cardan {
 
 /// The way from "being written" to "there": the contents go to partial(), which lies beside path(); commit() renames.
 /// An interrupted run therefore leaves "<path>.partial" and whatever stood under path() before, never half a result.
@@ -28,4 +29,7 @@ private:
     std::string partial_;
 };
 
-}  // namespace cardan::solvers
+/// Writes a whole text on this way. Throws FileError; then what stood under the path stays, and nothing new beside it.
+void write_file(const std::filesystem::path& path, std::string_view contents);
+
+}  // namespace cardan
