@@ -64,6 +64,16 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     set_sides(-1);
 }
 
+Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
+                       IntegrationOptions options)
+    : Integrator(system, std::move(drives), from.time, from.q, from.qd, std::move(options)) {
+    works_ = from.works;
+    kinetic_at_start_ = from.kinetic_at_start;
+    potential_at_start_ = from.potential_at_start;
+    earlier_ = from.statistics;
+    ++earlier_.restarts;
+}
+
 Integrator::~Integrator() = default;
 
 void Integrator::check_options() const {
@@ -286,9 +296,13 @@ EnergyBalance Integrator::energy() {
 }
 
 IntegrationStatistics Integrator::statistics() const {
-    IntegrationStatistics all = stepper_->statistics();
-    all.restarts = std::max(0L, starts_ - 1);
-    return all;
+    IntegrationStatistics own = stepper_->statistics();
+    own.restarts = std::max(0L, starts_ - 1);
+    return sum(earlier_, own);
+}
+
+Checkpoint Integrator::checkpoint() const {
+    return {state_.time, state_.q, state_.qd, works_, kinetic_at_start_, potential_at_start_, statistics()};
 }
 
 void Integrator::set_motion(int coordinate, Motion motion) {

@@ -105,6 +105,16 @@ struct [[nodiscard]] Advance {
     bool reached() const { return end == End::reached; }
 };
 
+/// All that is needed to go on from a moment, in another process if need be. A method of several steps starts anew
+/// there. Motions and forces that events have exchanged are the user's to exchange again.
+struct Checkpoint {
+    double time = 0;
+    Vector q, qd;  ///< size n
+    Works works;
+    double kinetic_at_start = 0, potential_at_start = 0;  ///< J, when the works were zero
+    IntegrationStatistics statistics;
+};
+
 class Stepper;
 
 /// Integrates the equations of motion. At breaks of the motions it stops and starts, so that the method sees smooth
@@ -119,6 +129,9 @@ public:
     /// @param q, qd   start, size n; what has a motion takes it from there
     /// @throws InputError for values out of range
     Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
+               IntegrationOptions options = {});
+    /// Goes on from a checkpoint of the same system: works, energies and statistics go on as well.
+    Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                IntegrationOptions options = {});
     ~Integrator();
     Integrator(const Integrator&) = delete;
@@ -140,6 +153,7 @@ public:
     /// Energies at the present state. Allocates.  @throws InputError if works are not integrated
     EnergyBalance energy();
     IntegrationStatistics statistics() const;
+    Checkpoint checkpoint() const;
 
     /// Another motion of a driven coordinate from now on; position and rate must not jump. The method starts anew.
     void set_motion(int coordinate, Motion motion);
@@ -174,6 +188,7 @@ private:
     DynamicState state_;
     Works works_;
     double kinetic_at_start_ = 0, potential_at_start_ = 0;
+    IntegrationStatistics earlier_;  ///< up to the checkpoint it started from
 };
 
 }  // namespace cardan::solvers

@@ -42,6 +42,7 @@ IntegrationStatistics sum(const IntegrationStatistics& earlier, const Integratio
     all.jacobians += earlier.jacobians;
     all.factorisations += earlier.factorisations;
     all.iterations += earlier.iterations;
+    all.restarts += earlier.restarts;
     return all;
 }
 
