@@ -54,6 +54,7 @@ public:
     void set_motion(int coordinate, Motion motion, double time);
     /// Other forces from now on (nullptr: those of the system); they must live as long as they are in use.
     void set_forces(const Forces* forces);
+    const Forces& forces() const { return *forces_; }
 
     /// Breaks of all motions, rising, each once.
     std::vector<double> breaks() const;

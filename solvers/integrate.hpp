@@ -150,6 +150,8 @@ public:
     /// At a break: accelerations and forces of drives just before it.
     const DynamicState& state() const { return state_; }
     const Works& works() const { return works_; }
+    /// That act now.
+    const Forces& forces() const { return equations_.forces(); }
     /// Energies at the present state. Allocates.  @throws InputError if works are not integrated
     EnergyBalance energy();
     IntegrationStatistics statistics() const;
