@@ -161,7 +161,7 @@ UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vec
             for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(index[static_cast<std::size_t>(i)]) -= r.force(i);
         });
     };
-    force.jacobian = [each](const ForceInput& at, MatrixOut dQ_dq, MatrixOut) {
+    force.jacobian = [each](const ForceInput& at, MatrixOut dQ_dq, const MatrixOut&) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i)
                 for (Eigen::Index j = 0; j < r.force.size(); ++j)

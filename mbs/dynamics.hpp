@@ -43,25 +43,44 @@ public:
 
 private:
     /// Articulated inertia about the joint origin, base axes, [A C^T; C M] for [angular; linear]: a subtree whose free
-    /// joints yield. U = I S, the pivot D = S . U.
+    /// joints yield. U = I S; yield = 1 / D of the pivot D = S . U.
     struct Articulated {
         Packed33<double> A, C, M;
         Packed3<double> U_angular, U_linear;
-        double D;
+        double yield;
         Packed3<double> force, moment;    // that pass the joint in the backward sweep
         Packed3<double> angular, linear;  // acceleration in the forward sweep
     };
+    /// The same on the way from the base to the coordinates that armatures couple, for one of several loads.
+    struct OnPath {
+        double qdd;  ///< in: load; out: acceleration
+        double reaction;
+        Packed3<double> force, moment, angular, linear;
+    };
+    struct Path {
+        int body;
+        int parent;  ///< on the path, -1: base
+    };
     struct Arrays;
     static void factorise(const Arrays& arrays);
-    static void solve_from_rest(const Arrays& arrays, const double* Q, double* qdd, double* reaction);
+    static void backward(const Arrays& arrays, const double* Q, double* qdd, double* reaction);
+    static void forward(const Arrays& arrays, double* qdd, double* reaction);
+    static void backward_on_path(const Arrays& arrays, std::ptrdiff_t loads);
+    static void forward_on_path(const Arrays& arrays, std::ptrdiff_t loads);
+    void find_support(bool coupled);
+    void find_path();
+    void couple(const Arrays& arrays);
 
     const Model* model_;
     std::vector<char> driven_;  ///< no vector<bool>: the loops read it through a pointer
     std::vector<Articulated> articulated_;
-    Vector armature_diagonal_, residual_, correction_, reaction_, zero_;
+    Vector armature_diagonal_, residual_, correction_, reaction_;
     std::vector<int> support_;  ///< free coordinates in armatures of several coordinates
     Matrix coupling_;           ///< off-diagonal part of these armatures on the support
-    Matrix support_solution_, support_reaction_, capacity_;
+    std::vector<Path> path_;    ///< all bodies that lead to the support, parents first
+    std::vector<int> at_;       ///< where the support lies on the path
+    std::vector<OnPath> on_path_;
+    Matrix support_inverse_, capacity_;
     Eigen::PartialPivLU<Matrix> capacity_lu_;
     Vector support_qdd_, support_load_, support_correction_;
 };

@@ -86,12 +86,6 @@ Forces Forces::with_gravity(const Vec3& g) const {
     return other;
 }
 
-Forces Forces::undamped() const {
-    Forces other = *this;
-    for (Law& law : other.laws_) law.D.setZero();
-    return other;
-}
-
 Forces Forces::with_load_factor(double factor, bool gravity_too) const {
     if (!std::isfinite(factor)) throw InputError("forces", "load factor", factor, "finite");
     Forces other = *this;

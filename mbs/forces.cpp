@@ -190,6 +190,16 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
     for (const User& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
 }
 
+double Forces::dissipation(const Vector& qd) const {
+    double power = 0;
+    for (const Law& law : laws_)
+        for (Eigen::Index j = 0; j < law.D.cols(); ++j)
+            for (Eigen::Index i = 0; i < law.D.rows(); ++i)
+                power +=
+                    qd(law.at[static_cast<std::size_t>(i)]) * law.D(i, j) * qd(law.at[static_cast<std::size_t>(j)]);
+    return power;
+}
+
 double Forces::gravity_energy(const Kinematics& kin) const {
     double energy = 0;
     for (int k = 0; k < kin.model().size(); ++k)

@@ -120,9 +120,10 @@ public:
     Wrench at_frame(const FrameLoad& load, const Kinematics& kin) const;
     const Vec3& gravity() const { return gravity_; }
     bool has_gravity() const { return !gravity_.isZero(0); }
-    /// The same forces under another gravity, or without any damping.
+    /// Power that the dampers of the linear laws take away, qd^T D qd, W.  Cost O(n), no allocation.
+    double dissipation(const Vector& qd) const;
+    /// The same forces under another gravity.
     Forces with_gravity(const Vec3& g) const;
-    Forces undamped() const;
     /// The same forces with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian
     /// and energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.

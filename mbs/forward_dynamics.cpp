@@ -44,40 +44,54 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
     if (driven_.size() != static_cast<std::size_t>(n))
         throw InputError("forward dynamics", "number of driven flags", driven_.size(), text(n, ", one per coordinate"));
     armature_diagonal_.setZero(n);
-    for (Vector* x : {&residual_, &correction_, &reaction_, &zero_}) x->setZero(n);
+    for (Vector* x : {&residual_, &correction_, &reaction_}) x->setZero(n);
     articulated_.resize(static_cast<std::size_t>(n));
-    // An armature over several coordinates is split: its diagonal goes into the recursion, which keeps every pivot
-    // positive even where only the armature has inertia; the rest follows by a low-rank correction (Woodbury). Beside
-    // such a one a negative armature goes into the correction as a whole: the recursion works on more than the metric.
     const auto& armatures = model.armatures();
-    const bool coupled = std::any_of(armatures.begin(), armatures.end(), [](auto& x) { return x.spin.size() > 1; });
-    for (const Model::Spin& armature : armatures) {
-        const bool in_recursion = armature.inertia > 0 || !coupled;
+    find_support(std::any_of(armatures.begin(), armatures.end(), [](auto& x) { return x.spin.size() > 1; }));
+    find_path();
+}
+
+// An armature over several coordinates is split: its diagonal goes into the recursion, which keeps every pivot positive
+// even where only the armature has inertia; the rest follows by a low-rank correction (Woodbury). Beside such a one a
+// negative armature goes into the correction as a whole: the recursion works on more than the metric.
+void ForwardDynamics::find_support(bool coupled) {
+    const auto in_recursion = [&](const Model::Spin& armature) { return armature.inertia > 0 || !coupled; };
+    for (const Model::Spin& armature : model_->armatures())
         for (const auto& [a, s] : armature.spin) {
-            if (in_recursion) armature_diagonal_(a) += armature.inertia * s * s;
-            if ((armature.spin.size() > 1 || !in_recursion) && !is_driven(a) &&
+            if (in_recursion(armature)) armature_diagonal_(a) += armature.inertia * s * s;
+            if ((armature.spin.size() > 1 || !in_recursion(armature)) && !is_driven(a) &&
                 std::find(support_.begin(), support_.end(), a) == support_.end())
                 support_.push_back(a);
         }
-    }
     const auto r = static_cast<Eigen::Index>(support_.size());
     coupling_.setZero(r, r);
-    for (const Model::Spin& armature : armatures)
+    for (const Model::Spin& armature : model_->armatures())
         for (const auto& [a, sa] : armature.spin)
             for (const auto& [b, sb] : armature.spin) {
-                const bool in_recursion = a == b && (armature.inertia > 0 || !coupled);
+                if (a == b && in_recursion(armature)) continue;
                 const auto ia = std::find(support_.begin(), support_.end(), a);
                 const auto ib = std::find(support_.begin(), support_.end(), b);
-                if (!in_recursion && ia != support_.end() && ib != support_.end())
+                if (ia != support_.end() && ib != support_.end())
                     coupling_(ia - support_.begin(), ib - support_.begin()) += armature.inertia * sa * sb;
             }
-    support_solution_.setZero(n, r);
-    support_reaction_.setZero(n, r);
-    capacity_.setZero(r, r);
-    support_qdd_.setZero(r);
-    support_load_.setZero(r);
-    support_correction_.setZero(r);
+    for (Matrix* m : {&support_inverse_, &capacity_}) m->setZero(r, r);
+    for (Vector* v : {&support_qdd_, &support_load_, &support_correction_}) v->setZero(r);
     capacity_lu_ = Eigen::PartialPivLU<Matrix>(r);
+}
+
+void ForwardDynamics::find_path() {
+    std::vector<int> place(static_cast<std::size_t>(model_->size()), -1);
+    const auto at = [&](int body) -> int& { return place[static_cast<std::size_t>(body)]; };
+    for (const int support : support_)
+        for (int k = support; k >= 0; k = model_->links()[static_cast<std::size_t>(k)].parent) at(k) = 0;
+    for (int k = 0; k < model_->size(); ++k) {
+        if (at(k) < 0) continue;
+        at(k) = static_cast<int>(path_.size());
+        const int parent = model_->links()[static_cast<std::size_t>(k)].parent;
+        path_.push_back({k, parent < 0 ? -1 : at(parent)});
+    }
+    for (const int support : support_) at_.push_back(at(support));
+    on_path_.resize(path_.size() * std::max<std::size_t>(1, support_.size()));
 }
 
 struct ForwardDynamics::Arrays {
@@ -89,6 +103,9 @@ struct ForwardDynamics::Arrays {
     const double* armature;
     const char* held;
     Articulated* body;
+    const Path* path;
+    std::ptrdiff_t path_length;
+    OnPath* on_path;
 
     // Articulated inertias, tip to base, deepest bodies first: those of parallel branches do not wait for each other.
     // The yield of a joint, U U^T / D, is taken away after the shift to the parent's joint origin, so that the division
@@ -106,7 +123,7 @@ struct ForwardDynamics::Arrays {
                 own.U_angular = transpose(own.C) * e;
                 own.U_linear = own.M * e;
             }
-            own.D = dot(e, links[k].revolute ? own.U_angular : own.U_linear) + armature[k];
+            own.yield = 1 / (dot(e, links[k].revolute ? own.U_angular : own.U_linear) + armature[k]);
             if (links[k].parent < 0) continue;
             Articulated& parent = body[links[k].parent];
             Packed33<double> A = own.A, C = own.C, M = own.M;
@@ -122,23 +139,23 @@ struct ForwardDynamics::Arrays {
             parent.C += C;
             parent.M += M;
             if (held[k]) continue;
-            const double yield = 1 / own.D;
-            const Packed3<double> angular = yield * U_angular, linear = yield * own.U_linear;
+            const Packed3<double> angular = own.yield * U_angular, linear = own.yield * own.U_linear;
             subtract(parent.A, U_angular, angular);
             subtract(parent.C, own.U_linear, angular);
             subtract(parent.M, own.U_linear, linear);
         }
     }
 
-    // Solves for the motion that the forces Q produce from rest. reaction: what held joints carry.
-    CARDAN_INLINE void solve(const double* Q, double* qdd, double* reaction) const {
+    // The motion that the forces Q produce from rest, by two sweeps through the levels of the tree, so that parallel
+    // branches do not wait for each other. reaction: what held joints carry.
+    CARDAN_INLINE void backward(const double* Q, double* qdd, double* reaction) const {
         using P3 = Packed3<double>;
         for (std::ptrdiff_t k = 0; k < n; ++k) body[k].force = body[k].moment = P3::zero();
-        for (std::ptrdiff_t k = n - 1; k >= 0; --k) {
+        for (std::ptrdiff_t i = n - 1; i >= 0; --i) {
+            const std::ptrdiff_t k = order[i];
             Articulated& own = body[k];
-            const P3& e = frame[k].E[2];
-            reaction[k] = dot(e, links[k].revolute ? own.moment : own.force);
-            qdd[k] = held[k] ? 0.0 : (Q[k] - reaction[k]) / own.D;
+            reaction[k] = dot(frame[k].E[2], links[k].revolute ? own.moment : own.force);
+            qdd[k] = held[k] ? 0.0 : (Q[k] - reaction[k]) * own.yield;
             if (links[k].parent < 0) continue;
             const P3 force = own.force + qdd[k] * own.U_linear, moment = own.moment + qdd[k] * own.U_angular;
             Articulated& parent = body[links[k].parent];
@@ -146,9 +163,12 @@ struct ForwardDynamics::Arrays {
             parent.moment += moment;
             if (!links[k].coincident) parent.moment += cross(frame[k].o - frame[links[k].parent].o, force);
         }
-        for (std::ptrdiff_t k = 0; k < n; ++k) {
+    }
+    CARDAN_INLINE void forward(double* qdd, double* reaction) const {
+        using P3 = Packed3<double>;
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            const std::ptrdiff_t k = order[i];
             Articulated& own = body[k];
-            const P3& e = frame[k].E[2];
             P3 angular = P3::zero(), linear = P3::zero();
             if (links[k].parent >= 0) {
                 const Articulated& parent = body[links[k].parent];
@@ -159,9 +179,49 @@ struct ForwardDynamics::Arrays {
             if (held[k])
                 reaction[k] += carried;
             else
-                qdd[k] -= carried / own.D;
-            (links[k].revolute ? angular : linear) += qdd[k] * e;
+                qdd[k] -= carried * own.yield;
+            (links[k].revolute ? angular : linear) += qdd[k] * frame[k].E[2];
             own.angular = angular, own.linear = linear;
+        }
+    }
+
+    // The same sweeps on the path to the coupled coordinates, for several loads side by side.
+    CARDAN_INLINE void backward_on_path(std::ptrdiff_t loads) const {
+        using P3 = Packed3<double>;
+        for (std::ptrdiff_t i = 0; i < path_length * loads; ++i) on_path[i].force = on_path[i].moment = P3::zero();
+        for (std::ptrdiff_t i = path_length - 1; i >= 0; --i) {
+            const std::ptrdiff_t k = path[i].body;
+            const Articulated& joint = body[k];
+            for (std::ptrdiff_t j = 0; j < loads; ++j) {
+                OnPath& own = on_path[i * loads + j];
+                own.reaction = dot(frame[k].E[2], links[k].revolute ? own.moment : own.force);
+                own.qdd = held[k] ? 0.0 : (own.qdd - own.reaction) * joint.yield;
+                if (path[i].parent < 0) continue;
+                OnPath& parent = on_path[path[i].parent * loads + j];
+                const P3 force = own.force + own.qdd * joint.U_linear;
+                parent.force += force;
+                parent.moment += own.moment + own.qdd * joint.U_angular;
+                if (!links[k].coincident) parent.moment += cross(frame[k].o - frame[links[k].parent].o, force);
+            }
+        }
+    }
+    CARDAN_INLINE void forward_on_path(std::ptrdiff_t loads) const {
+        using P3 = Packed3<double>;
+        for (std::ptrdiff_t i = 0; i < path_length; ++i) {
+            const std::ptrdiff_t k = path[i].body;
+            const Articulated& joint = body[k];
+            for (std::ptrdiff_t j = 0; j < loads; ++j) {
+                OnPath& own = on_path[i * loads + j];
+                P3 angular = P3::zero(), linear = P3::zero();
+                if (path[i].parent >= 0) {
+                    const OnPath& parent = on_path[path[i].parent * loads + j];
+                    angular = parent.angular, linear = parent.linear;
+                    if (!links[k].coincident) linear += cross(angular, frame[k].o - frame[links[k].parent].o);
+                }
+                if (!held[k]) own.qdd -= (dot(joint.U_angular, angular) + dot(joint.U_linear, linear)) * joint.yield;
+                (links[k].revolute ? angular : linear) += own.qdd * frame[k].E[2];
+                own.angular = angular, own.linear = linear;
+            }
         }
     }
 };
@@ -169,10 +229,51 @@ struct ForwardDynamics::Arrays {
 CARDAN_VECTORISED void ForwardDynamics::factorise(const Arrays& arrays) {
     arrays.factorise();
 }
+CARDAN_VECTORISED void ForwardDynamics::backward(const Arrays& arrays, const double* Q, double* qdd, double* reaction) {
+    arrays.backward(Q, qdd, reaction);
+}
+CARDAN_VECTORISED void ForwardDynamics::forward(const Arrays& arrays, double* qdd, double* reaction) {
+    arrays.forward(qdd, reaction);
+}
+CARDAN_VECTORISED void ForwardDynamics::backward_on_path(const Arrays& arrays, std::ptrdiff_t loads) {
+    arrays.backward_on_path(loads);
+}
+CARDAN_VECTORISED void ForwardDynamics::forward_on_path(const Arrays& arrays, std::ptrdiff_t loads) {
+    arrays.forward_on_path(loads);
+}
 
-CARDAN_VECTORISED void ForwardDynamics::solve_from_rest(const Arrays& arrays, const double* Q, double* qdd,
-                                                        double* reaction) {
-    arrays.solve(Q, qdd, reaction);
+// After the backward sweep: loads on the coupled coordinates that stand for what the recursion left out,
+//   (g_0 + W X W^T) qdd = Q:   g_0 qdd = Q - W (1 + X W^T g_0^-1 W)^-1 X W^T g_0^-1 Q.
+// Only the way from the base to these coordinates is swept.                                             [Woodbury]
+void ForwardDynamics::couple(const Arrays& arrays) {
+    const auto r = static_cast<Eigen::Index>(support_.size());
+    const auto state = [&](std::size_t i, Eigen::Index j, Eigen::Index loads) -> OnPath& {
+        return on_path_[i * static_cast<std::size_t>(loads) + static_cast<std::size_t>(j)];
+    };
+    const auto place = [&](Eigen::Index i) { return static_cast<std::size_t>(at_[static_cast<std::size_t>(i)]); };
+    for (OnPath& x : on_path_) x.qdd = 0;
+    for (Eigen::Index j = 0; j < r; ++j) state(place(j), j, r).qdd = 1;
+    backward_on_path(arrays, r);
+    forward_on_path(arrays, r);
+    for (Eigen::Index i = 0; i < r; ++i)
+        for (Eigen::Index j = 0; j < r; ++j) support_inverse_(i, j) = state(place(i), j, r).qdd;
+
+    for (std::size_t i = 0; i < path_.size(); ++i) on_path_[i].qdd = correction_(path_[i].body);
+    forward_on_path(arrays, 1);
+    for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = on_path_[place(i)].qdd;
+    capacity_.setIdentity();
+    capacity_ += coupling_.lazyProduct(support_inverse_);
+    capacity_lu_.compute(capacity_);
+    support_load_.noalias() = coupling_ * support_qdd_;
+    support_correction_.noalias() = capacity_lu_.solve(support_load_);
+
+    for (std::size_t i = 0; i < path_.size(); ++i) on_path_[i].qdd = 0;
+    for (Eigen::Index i = 0; i < r; ++i) on_path_[place(i)].qdd = -support_correction_(i);
+    backward_on_path(arrays, 1);
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+        correction_(path_[i].body) += on_path_[i].qdd;
+        reaction_(path_[i].body) += on_path_[i].reaction;
+    }
 }
 
 void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator) {
@@ -192,29 +293,14 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
                         ws.J.data(),
                         armature_diagonal_.data(),
                         driven_.data(),
-                        articulated_.data()};
+                        articulated_.data(),
+                        path_.data(),
+                        static_cast<std::ptrdiff_t>(path_.size()),
+                        on_path_.data()};
     factorise(arrays);
-    solve_from_rest(arrays, residual_.data(), correction_.data(), reaction_.data());
-
-    if (const auto r = static_cast<Eigen::Index>(support_.size()); r > 0) {
-        // (g0 + W X W^T) qdd = rhs:  qdd = y - Y (1 + X W^T Y)^-1 X W^T y
-        for (Eigen::Index j = 0; j < r; ++j) {
-            zero_(support_[static_cast<std::size_t>(j)]) = 1;
-            solve_from_rest(arrays, zero_.data(), support_solution_.col(j).data(), support_reaction_.col(j).data());
-            zero_(support_[static_cast<std::size_t>(j)]) = 0;
-        }
-        for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = correction_(support_[static_cast<std::size_t>(i)]);
-        capacity_.setIdentity();
-        for (Eigen::Index i = 0; i < r; ++i)
-            for (Eigen::Index j = 0; j < r; ++j)
-                for (Eigen::Index l = 0; l < r; ++l)
-                    capacity_(i, j) += coupling_(i, l) * support_solution_(support_[static_cast<std::size_t>(l)], j);
-        support_load_.noalias() = coupling_ * support_qdd_;
-        capacity_lu_.compute(capacity_);
-        support_correction_.noalias() = capacity_lu_.solve(support_load_);
-        correction_.noalias() -= support_solution_ * support_correction_;
-        reaction_.noalias() -= support_reaction_ * support_correction_;
-    }
+    backward(arrays, residual_.data(), correction_.data(), reaction_.data());
+    if (!support_.empty()) couple(arrays);
+    forward(arrays, correction_.data(), reaction_.data());
     actuator.setZero();
     for (Eigen::Index k = 0; k < n; ++k)
         if (driven_[static_cast<std::size_t>(k)])

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -12,17 +13,16 @@ using Index = Eigen::Index;
 // Eigen copies both factors of a product: depth * 256 * 8 bytes stay below its limit for the stack, 128 KiB.
 constexpr Index tile = 256, depth = 48;
 
-// Columns [from, to) of A by elimination with row exchanges, which the other columns and B follow.
-void factor_panel(Matrix& A, Matrix& B, Index from, Index to) {
+// Columns [from, to) of A by elimination with row exchanges, which the other columns follow and `exchanged` is told.
+template <class Exchanged>
+void factor_panel(Matrix& A, Index from, Index to, Exchanged&& exchanged) {
     const Index n = A.rows();
     for (Index k = from; k < to; ++k) {
         Index pivot = 0;
         A.col(k).tail(n - k).cwiseAbs().maxCoeff(&pivot);
         pivot += k;
-        if (pivot != k) {
-            A.row(k).swap(A.row(pivot));
-            B.row(k).swap(B.row(pivot));
-        }
+        if (pivot != k) A.row(k).swap(A.row(pivot));
+        exchanged(k, pivot);
         A.col(k).tail(n - k - 1) /= A(k, k);
         for (Index j = k + 1; j < to; ++j) A.col(j).tail(n - k - 1) -= A(k, j) * A.col(k).tail(n - k - 1);
     }
@@ -52,14 +52,40 @@ void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign) {
             }
 }
 
+namespace {
+
+// Columns [from, to) of A, and what they leave of the columns behind.
+template <class Exchanged>
+void eliminate(Matrix& A, Index from, Index to, Exchanged&& exchanged) {
+    const Index n = A.rows(), rest = n - to, block = to - from;
+    factor_panel(A, from, to, exchanged);
+    for (Index j = to; j < n; ++j) solve_lower(A, from, to, A.col(j).data());
+    add_product(A.bottomRightCorner(rest, rest), A.block(to, from, rest, block), A.block(from, to, block, rest), -1);
+}
+
+}  // namespace
+
+void LuFactors::factorise() {
+    const Index n = lu_.rows();
+    const auto exchange = [&](Index k, Index pivot) { exchanges_[static_cast<std::size_t>(k)] = pivot; };
+    for (Index k = 0; k < n; k += depth) eliminate(lu_, k, std::min(n, k + depth), exchange);
+}
+
+void LuFactors::solve(Vector& b) const {
+    for (Index k = 0; k < b.size(); ++k) std::swap(b(k), b(exchanges_[static_cast<std::size_t>(k)]));
+    lu_.triangularView<Eigen::UnitLower>().solveInPlace(b);
+    lu_.triangularView<Eigen::Upper>().solveInPlace(b);
+}
+
 void solve_in_place(Matrix& A, Matrix& B) {
     const Index n = A.rows();
+    const auto exchange = [&](Index k, Index pivot) {
+        if (pivot != k) B.row(k).swap(B.row(pivot));
+    };
     for (Index k = 0; k < n; k += depth) {
         const Index end = std::min(n, k + depth), block = end - k, rest = n - end;
-        factor_panel(A, B, k, end);
-        for (Index j = end; j < n; ++j) solve_lower(A, k, end, A.col(j).data());
+        eliminate(A, k, end, exchange);
         for (Index j = 0; j < B.cols(); ++j) solve_lower(A, k, end, B.col(j).data());
-        add_product(A.bottomRightCorner(rest, rest), A.block(end, k, rest, block), A.block(k, end, block, rest), -1);
         add_product(B.bottomRows(rest), A.block(end, k, rest, block), B.middleRows(k, block), -1);
     }
     for (Index end = n; end > 0;) {

@@ -56,7 +56,6 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
                                      const Vector& qd)
     : system_(&system),
       forces_(&system.forces),
-      undamped_(system.forces.undamped()),
       drives_(all_drives(system.model, std::move(drives), time, q, qd)),
       driven_(flags(system.model, drives_)),
       workspace_(system.model),
@@ -66,7 +65,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
     const int n = system.model.size();
     for (int i = 0; i < n; ++i)
         if (!driven_[static_cast<std::size_t>(i)]) free_.push_back(i);
-    for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &Q_undamped_, &tau_, &actuator_}) v->setZero(n);
+    for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_}) v->setZero(n);
     for (Matrix* m : {&g_, &tau_q_, &tau_qd_}) m->setZero(n, n);
     for (Matrix* m : {&by_q_, &by_qd_}) m->setZero(size(), size());
 }
@@ -89,7 +88,6 @@ void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
 
 void EquationsOfMotion::set_forces(const Forces* forces) {
     forces_ = forces ? forces : &system_->forces;
-    undamped_ = forces_->undamped();
 }
 
 std::vector<double> EquationsOfMotion::breaks() const {
@@ -131,7 +129,7 @@ bool EquationsOfMotion::all_finite(const Vector& values, const char* quantity) {
 bool EquationsOfMotion::solve(double time, const double* x) {
     expand(time, x);
     if (!all_finite(q_, "position") || !all_finite(qd_, "rate")) return false;
-    const Kinematics kin = kinematics(model(), q_, workspace_);
+    const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
     forces_->generalised_forces(kin, time, q_, qd_, Q_);
     if (!all_finite(Q_, "generalised force")) return false;
     forward_.solve(kin, qd_, Q_, qdd_, actuator_);
@@ -146,7 +144,7 @@ bool EquationsOfMotion::accelerations(double time, const double* x, double* qdd)
 
 bool EquationsOfMotion::jacobian(double time, const double* x) {
     if (!solve(time, x)) return false;
-    const Kinematics kin = kinematics(model(), q_, workspace_);
+    const Kinematics& kin = *kin_;
     forces_->derivatives(kin, time, q_, qd_, force_derivatives_);
     if (const PivotStatus status = derivatives_.compute(kin, qd_, qdd_, &force_derivatives_); !status) {
         problem_ = text("at ", time, " s: ", status.message());
@@ -165,7 +163,7 @@ bool EquationsOfMotion::residual(double time, const double* x, const double* qdd
     expand(time, x);
     for (std::size_t i = 0; i < free_.size(); ++i) qdd_(free_[i]) = qdd[i];
     if (!all_finite(q_, "position") || !all_finite(qd_, "rate") || !all_finite(qdd_, "acceleration")) return false;
-    const Kinematics kin = kinematics(model(), q_, workspace_);
+    const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
     forces_->generalised_forces(kin, time, q_, qd_, Q_);
     inverse_dynamics<double>(kin, qd_, qdd_, tau_);
     for (std::size_t i = 0; i < free_.size(); ++i) r[i] = tau_(free_[i]) - Q_(free_[i]);
@@ -173,7 +171,7 @@ bool EquationsOfMotion::residual(double time, const double* x, const double* qdd
 }
 
 void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) {
-    const Kinematics kin = kinematics(model(), q_, workspace_);
+    const Kinematics& kin = *kin_;
     forces_->derivatives(kin, time_, q_, qd_, force_derivatives_);
     metric<double>(kin, g_);
     inverse_dynamics_derivatives<double>(kin, qd_, qdd_, tau_q_, tau_qd_);
@@ -198,9 +196,7 @@ bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out
 
 bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
     if (!solve(time, x)) return false;
-    const Kinematics kin = kinematics(model(), q_, workspace_);
-    undamped_.generalised_forces(kin, time, q_, qd_, Q_undamped_);
-    out = {Q_.dot(qd_), (Q_undamped_ - Q_).dot(qd_), actuator_.dot(qd_)};
+    out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_)};
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include "mbs/system.hpp"
 #include "solvers/motion.hpp"
 
+#include <optional>
 #include <string>
 
 namespace cardan::solvers {
@@ -75,7 +76,8 @@ public:
     /// Residual of the unknowns at given accelerations.
     /// @param x, qdd  as above;  @param r  out, size()
     bool residual(double time, const double* x, const double* qdd, double* r);
-    /// Tangent at the last residual(): c_qdd dr/dqdd + c_qd dr/dqd + c_q dr/dq, exact.
+    /// Tangent at the last residual(), which nothing else may have followed: c_qdd dr/dqdd + c_qd dr/dqd + c_q dr/dq,
+    /// exact.
     /// @param K  out, size() x size()
     void tangent(double c_qdd, double c_qd, double c_q, MatrixOut K);
 
@@ -102,16 +104,16 @@ private:
 
     const System* system_;
     const Forces* forces_;
-    Forces undamped_;
     std::vector<Drive> drives_;
     std::vector<bool> driven_;
     std::vector<int> free_;
     Workspace workspace_;
+    std::optional<Kinematics> kin_;  ///< at the last state
     ForwardDynamics forward_;
     ForwardDynamicsDerivatives derivatives_;
     ForceDerivatives force_derivatives_;
     double inside_, time_ = 0;
-    Vector q_, qd_, qdd_, Q_, Q_undamped_, tau_, actuator_;
+    Vector q_, qd_, qdd_, Q_, tau_, actuator_;
     Matrix by_q_, by_qd_, g_, tau_q_, tau_qd_;
     std::string problem_;
 };

@@ -11,9 +11,13 @@
 namespace cardan::solvers {
 
 enum class Method : std::uint8_t {
-    bdf,    ///< CVODE, BDF of order 1 to 5, Newton with the exact Jacobian: stiff systems, the default
+    /// ARKODE, diagonally implicit Runge-Kutta method of order 5, L-stable, Newton with the exact Jacobian: elastic
+    /// machines at any accuracy, the default.                                      [Kennedy and Carpenter 2019]
+    dirk,
+    /// CVODE, BDF of order 1 to 5, Newton with the exact Jacobian: strongly damped stiff systems, loose tolerances.
+    /// Weakly damped fast modes limit its steps where a higher order is unstable.           [Hindmarsh 1992]
+    bdf,
     adams,  ///< CVODE, Adams-Moulton of order 1 to 12, fixed-point iteration: smooth motions without stiffness
-    dirk,   ///< ARKODE, singly diagonally implicit Runge-Kutta of order 4, L-stable
     erk,    ///< ARKODE, Dormand and Prince's explicit method of order 5
     generalised_alpha  ///< second order, numerical dissipation of high frequencies chosen by its spectral radius
 };
@@ -61,17 +65,17 @@ struct Event {
 };
 
 struct IntegrationOptions {
-    Method method = Method::bdf;
+    Method method = Method::dirk;
     Tolerances tolerances = {};
     double max_step = 0;  ///< s; 0: no limit
-    /// Highest order of bdf (up to 5) and adams (up to 12); 0: that. BDF of order 3 and more makes weakly damped modes
-    /// grow in a range of steps; with 2 it is stable for all.
+    /// Highest order of bdf (up to 5) and adams (up to 12); 0: that.
     int max_order = 0;
     double first_step = 0;  ///< s; 0: chosen by the method
     /// s; above zero steps are of this length (shorter only to end at a break): dirk, erk, generalised_alpha
     double fixed_step = 0;
     double spectral_radius = 0.8;  ///< of generalised_alpha at infinite frequency, 0 ... 1 (1: no dissipation)
-    /// Works are integrated beside the motion by Gauss' formula with three points per step; costs three evaluations.
+    /// Works are integrated beside the motion by Gauss' formula, which costs two evaluations per step (three with dirk
+    /// and erk).
     bool works = true;
     std::vector<double> breaks = {};  ///< more times, rising, at which to stop and start: jumps of user forces
     std::vector<Event> events = {};

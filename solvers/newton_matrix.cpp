@@ -29,10 +29,8 @@ int solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, re
 
 NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
     : equations_(equations),
-      reduced_(equations.size(), equations.size()),
-      right_(equations.size()),
       rates_(equations.size()),
-      lu_(equations.size()),
+      reduced_(equations.size()),
       matrix_(SUNMatNewEmpty(context)),
       solver_(SUNLinSolNewEmpty(context)) {
     if (!matrix_ || !solver_) throw NumericalError("SUNDIALS: no memory for a linear solver");
@@ -52,19 +50,22 @@ bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
         ++jacobians;
     }
     c_ = c;
-    reduced_ = -c * equations_.by_qd() - c * c * equations_.by_q();
-    reduced_.diagonal().array() += 1;
-    lu_.compute(reduced_);
+    reduced_.matrix() = -c * equations_.by_qd() - c * c * equations_.by_q();
+    reduced_.matrix().diagonal().array() += 1;
+    reduced_.factorise();
     ++factorisations;
     return true;
 }
 
 void NewtonMatrix::solve(const double* b, double* x) {
-    const Eigen::Index m = reduced_.rows();
+    const Eigen::Index m = rates_.size();
     const Eigen::Map<const Vector> b1(b, m), b2(b + m, m);
-    right_ = b2;
-    right_.noalias() += c_ * (equations_.by_q() * b1);
-    rates_ = lu_.solve(right_);
+    rates_ = b2;
+    // The rows of the positions are linear: the first iteration leaves of their residual nothing but rounding. It
+    // reaches the rates as b_1 / c at most, however stiff A is.
+    if (b1.lpNorm<Eigen::Infinity>() > 1e-6 * c_ * b2.lpNorm<Eigen::Infinity>())
+        rates_.noalias() += c_ * (equations_.by_q() * b1);
+    reduced_.solve(rates_);
     for (Eigen::Index i = 0; i < m; ++i) {
         x[i] = b[i] + c_ * rates_(i);
         x[m + i] = rates_(i);

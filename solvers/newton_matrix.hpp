@@ -2,9 +2,9 @@
 /// The matrix of Newton's method for implicit methods of first order, as SUNDIALS' linear solver. For sources only.
 #pragma once
 
+#include "solvers/dense.hpp"
 #include "solvers/equations_of_motion.hpp"
 
-#include <Eigen/LU>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
@@ -16,7 +16,7 @@ namespace cardan::solvers {
 ///   (I - c B - c^2 A) x_2 = b_2 + c A b_1,   x_1 = b_1 + c x_2,
 /// so that a matrix of half the size is factorised: an eighth of the work.
 ///
-/// Cost O(n^3) to form, O(n^2) to solve; allocates nothing (above about 128 unknowns Eigen takes scratch memory).
+/// Cost O(n^3) to form, O(n^2) to solve; allocates nothing.
 class NewtonMatrix {
 public:
     NewtonMatrix(EquationsOfMotion& equations, SUNContext context);
@@ -44,9 +44,8 @@ private:
     EquationsOfMotion& equations_;
     double c_ = 0;
     bool has_jacobian_ = false;
-    Matrix reduced_;
-    Vector right_, rates_;
-    Eigen::PartialPivLU<Matrix> lu_;
+    Vector rates_;
+    LuFactors reduced_;
     std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix> matrix_;
     std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeSolver> solver_;
 };

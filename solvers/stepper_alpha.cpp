@@ -1,7 +1,6 @@
 #include "mbs/error.hpp"
+#include "solvers/dense.hpp"
 #include "solvers/stepper.hpp"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <limits>
@@ -48,7 +47,13 @@ private:
     double trial_step() const;
     bool fail(std::string_view why, double h);
     void predict(double h);
+    enum class Tangent : std::uint8_t { kept, fresh };
     bool iterate(double h);
+    bool iterate(double h, Tangent tangent);
+    void form_matrix(double h);
+    // d qdd / d q and d qd / d q at the end of a step.
+    double per_position(double h) const { return (1 - alpha_.m) / ((1 - alpha_.f) * alpha_.beta * h * h); }
+    double per_rate(double h) const { return alpha_.gamma / (alpha_.beta * h); }
     void correct(double h);
     double error(double h);
     void accept(double h);
@@ -61,10 +66,11 @@ private:
     double max_step_, wanted_first_, fixed_step_;
     double time_ = 0, begin_ = 0, stop_ = 0, next_ = 0, last_ = 0;
     End from_, to_;
-    Vector a_start_, jerk_, residual_, change_, w_, errors_;
+    Vector a_start_, jerk_, change_, w_, errors_;
     bool has_jerk_ = false;
-    Matrix tangent_;
-    Eigen::PartialPivLU<Matrix> lu_;
+    LuFactors matrix_;
+    double matrix_step_ = 0;  ///< it was formed for; 0: it has to be formed anew
+    double contraction_ = 1;  ///< of the iteration with it
     IntegrationStatistics statistics_;
 };
 
@@ -76,14 +82,13 @@ AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOption
       max_step_(options.max_step > 0 ? options.max_step : std::numeric_limits<double>::max()),
       wanted_first_(options.first_step),
       fixed_step_(options.fixed_step),
-      tangent_(m_, m_),
-      lu_(m_) {
+      matrix_(m_) {
     for (End* end : {&from_, &to_}) {
         end->x.setZero(2 * m_);
         end->qdd.setZero(m_);
         end->a.setZero(m_);
     }
-    for (Vector* v : {&a_start_, &jerk_, &residual_, &change_}) v->setZero(m_);
+    for (Vector* v : {&a_start_, &jerk_, &change_}) v->setZero(m_);
     for (Vector* v : {&w_, &errors_}) v->setZero(2 * m_);
     statistics_.order = 2;
 }
@@ -98,6 +103,7 @@ void AlphaStepper::start(double time, const double* x, double stop) {
     to_.a = to_.qdd;
     last_ = next_ = 0;
     has_jerk_ = false;
+    matrix_step_ = 0;  // forces may have changed
 }
 
 // So short that the acceleration moves nothing by more than the tolerance; it grows fast.
@@ -144,28 +150,45 @@ void AlphaStepper::predict(double h) {
     correct(h);
 }
 
-// Newton's method for the accelerations at the end, in terms of the positions there.
+// The tangent by the positions at the end, at the last residual.
+void AlphaStepper::form_matrix(double h) {
+    equations_.tangent(per_position(h), per_rate(h), 1, matrix_.matrix());
+    matrix_.factorise();
+    matrix_step_ = h;
+    contraction_ = 1;
+    ++statistics_.jacobians;
+    ++statistics_.factorisations;
+}
+
+// Newton's method for the accelerations at the end, in terms of the positions there. The matrix is kept from step to
+// step as long as the iteration contracts well with it.
 bool AlphaStepper::iterate(double h) {
-    const double per_q = (1 - alpha_.m) / ((1 - alpha_.f) * alpha_.beta * h * h),
-                 rate = alpha_.gamma / (alpha_.beta * h);
+    if (matrix_step_ > 0 && std::abs(h / matrix_step_ - 1) < 0.3) {
+        if (iterate(h, Tangent::kept)) return true;
+        predict(h);
+    }
+    return iterate(h, Tangent::fresh);
+}
+
+bool AlphaStepper::iterate(double h, Tangent tangent) {
     double norm_before = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 12; ++i) {
         ++statistics_.evaluations;
         ++statistics_.iterations;
-        if (!equations_.residual(begin_ + h, to_.x.data(), to_.qdd.data(), residual_.data())) return false;
-        equations_.tangent(per_q, rate, 1, tangent_);
-        ++statistics_.jacobians;
-        lu_.compute(tangent_);
-        ++statistics_.factorisations;
-        change_ = lu_.solve(residual_);
+        if (!equations_.residual(begin_ + h, to_.x.data(), to_.qdd.data(), change_.data())) return false;
+        if (tangent == Tangent::fresh && (i == 0 || contraction_ > 0.3)) form_matrix(h);
+        matrix_.solve(change_);
         if (!change_.allFinite()) return false;
-        to_.qdd -= per_q * change_;
+        // What dominates a matrix of another step grows with 1/h^2: half of that is made up for.
+        change_ *= 2 / (1 + per_position(h) / per_position(matrix_step_));
+        to_.qdd -= per_position(h) * change_;
         correct(h);
         errors_.head(m_) = change_;
-        errors_.tail(m_) = rate * change_;
+        errors_.tail(m_) = per_rate(h) * change_;
         const double norm = std::sqrt(errors_.cwiseProduct(w_).squaredNorm() / static_cast<double>(2 * m_));
-        if (norm < 1e-3) return true;  // the next change would be of the order of its square
-        if (i > 3 && norm > norm_before) return false;
+        if (i > 0) contraction_ = std::max(0.3 * contraction_, norm / norm_before);
+        if (norm * std::min(1.0, contraction_) < 1e-3) return true;
+        if (i > 0 && contraction_ > (tangent == Tangent::kept ? 0.5 : 2.0)) return false;
         norm_before = norm;
     }
     return false;
@@ -193,7 +216,9 @@ void AlphaStepper::accept(double h) {
 // A step that was cut to end at a break says nothing against the longer one that had been proposed.
 void AlphaStepper::propose(double h, double e) {
     const double longer = h * std::clamp(0.9 / std::cbrt(e + 1e-9), 0.3, 3.0);
-    next_ = next_ > h ? std::max(next_, longer) : longer;
+    // Little is gained by a step that is a little longer, and the matrix would have to follow.
+    const double next = longer > h && longer < 1.2 * h ? h : longer;
+    next_ = next_ > h ? std::max(next_, next) : next;
 }
 
 bool AlphaStepper::step(double horizon) {

@@ -1,11 +1,7 @@
-#include "solvers/newton_matrix.hpp"
-#include "solvers/stepper.hpp"
-#include "solvers/sundials_memory.hpp"
+#include "solvers/stepper_sundials.hpp"
 
 #include <algorithm>
 #include <arkode/arkode_arkstep.h>
-#include <exception>
-#include <optional>
 #include <utility>
 
 namespace cardan::solvers {
@@ -16,79 +12,44 @@ void free_arkode(void* memory) {
     ARKStepFree(&memory);
 }
 
-const char* reason(int flag) {
-    switch (flag) {
-        case ARK_TOO_MUCH_ACC:
-            return "the tolerances ask for more than double precision has";
-        case ARK_ERR_FAILURE:
-            return "the error test failed again and again";
-        case ARK_CONV_FAILURE:
-            return "the iteration did not converge, not even with the smallest step";
-        case ARK_LSETUP_FAIL:
-        case ARK_LSOLVE_FAIL:
-            return "the matrix of the iteration could not be formed";
-        case ARK_RHSFUNC_FAIL:
-        case ARK_FIRST_RHSFUNC_ERR:
-        case ARK_REPTD_RHSFUNC_ERR:
-        case ARK_UNREC_RHSFUNC_ERR:
-            return "the accelerations could not be computed";
-        default:
-            return "ARKODE reported an error";
-    }
-}
-
-class ArkodeStepper : public Stepper {
+class ArkodeStepper : public SundialsStepper {
 public:
     ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
     void start(double time, const double* x, double stop) override;
     bool step(double horizon) override;
-    double time() const override { return to_.time; }
+    double time() const override { return time_; }
     void state_at(double time, double* x) override;
-    IntegrationStatistics statistics() const override { return sum(before_, since_start()); }
 
 private:
-    static int rates(realtype t, N_Vector x, N_Vector xd, void* user);
-    static int weights(N_Vector x, N_Vector w, void* user);
-    static int linear_system(realtype t, N_Vector x, N_Vector xd, SUNMatrix, SUNMatrix, booleantype old_will_do,
-                             booleantype* is_new, realtype c, void* user, N_Vector, N_Vector, N_Vector);
+    static int linear_system(realtype t, N_Vector x, N_Vector, SUNMatrix, SUNMatrix, booleantype old_will_do,
+                             booleantype* is_new, realtype c, void* user, N_Vector, N_Vector, N_Vector) {
+        return static_cast<ArkodeStepper*>(static_cast<SundialsStepper*>(user))
+            ->form_matrix(t, x, c, old_will_do, is_new);
+    }
     void set_up(const IntegrationOptions& options);
+    bool set_up_newton(void* ark);
     void complete_ends();
-    IntegrationStatistics since_start() const;
-    std::string explain(std::string_view why);
+    IntegrationStatistics since_start() const override;
+    bool local_errors() override;
     ARKRhsFn explicit_rates() const { return implicit_ ? nullptr : rates; }
     ARKRhsFn implicit_rates() const { return implicit_ ? rates : nullptr; }
 
-    EquationsOfMotion& equations_;
-    ErrorWeights weights_;
     bool implicit_;
-    double stop_ = 0, first_step_, fixed_step_;
+    double fixed_step_;
     struct End {
         double time = 0;
         Vector x, qdd;
         bool known = false;  ///< the accelerations
     };
     End from_, to_;
-    std::exception_ptr thrown_;
-    IntegrationStatistics before_;  ///< up to the last start
-    // In this order: ARKODE goes before what it uses, the context last.
-    SundialsContext context_;
-    SundialsVector x_, errors_, error_weights_;
-    std::optional<NewtonMatrix> newton_;
     std::unique_ptr<void, SundialsDeleter<free_arkode>> arkode_;
 };
 
 ArkodeStepper::ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
-    : equations_(equations),
-      weights_(equations, options.tolerances),
+    : SundialsStepper("ARKODE", equations, options),
       implicit_(options.method == Method::dirk),
-      first_step_(options.first_step),
-      fixed_step_(options.fixed_step),
-      context_(make_sundials_context()) {
-    for (SundialsVector* v : {&x_, &errors_, &error_weights_}) {
-        v->reset(N_VNew_Serial(weights_.size(), context_.get()));
-        N_VConst(0, v->get());
-    }
+      fixed_step_(options.fixed_step) {
     for (End* end : {&from_, &to_}) {
         end->x.setZero(weights_.size());
         end->qdd.setZero(equations.size());
@@ -97,89 +58,62 @@ ArkodeStepper::ArkodeStepper(EquationsOfMotion& equations, const IntegrationOpti
 }
 
 void ArkodeStepper::set_up(const IntegrationOptions& options) {
-    arkode_.reset(ARKStepCreate(explicit_rates(), implicit_rates(), 0, x_.get(), context_.get()));
+    arkode_.reset(ARKStepCreate(explicit_rates(), implicit_rates(), 0, vector(), context()));
     void* ark = arkode_.get();
-    const auto implicit_table = implicit_ ? ARKODE_SDIRK_5_3_4 : ARKODE_DIRK_NONE;
+    SundialsStepper* user = this;
+    const auto implicit_table = implicit_ ? ARKODE_ESDIRK547L2SA_7_4_5 : ARKODE_DIRK_NONE;
     const auto explicit_table = implicit_ ? ARKODE_ERK_NONE : ARKODE_DORMAND_PRINCE_7_4_5;
-    bool ok = ark && ARKStepSetErrHandlerFn(ark, sundials_quiet, nullptr) == 0 && ARKStepSetUserData(ark, this) == 0 &&
+    bool ok = ark && ARKStepSetErrHandlerFn(ark, sundials_quiet, nullptr) == 0 && ARKStepSetUserData(ark, user) == 0 &&
               ARKStepSetTableNum(ark, implicit_table, explicit_table) == 0 && ARKStepWFtolerances(ark, weights) == 0 &&
               ARKStepSetMaxHnilWarns(ark, -1) == 0 && ARKStepSetMaxStep(ark, options.max_step) == 0;
     if (fixed_step_ > 0) ok = ok && ARKStepSetFixedStep(ark, fixed_step_) == 0;
-    if (implicit_) {
-        newton_.emplace(equations_, context_.get());
-        ok = ok && ARKStepSetLinearSolver(ark, newton_->solver(), newton_->matrix()) == 0 &&
-             ARKStepSetLinSysFn(ark, linear_system) == 0;
-    }
-    // What does not converge cannot be tried again with a shorter step then: fresh matrices, more patience.
-    if (fixed_step_ > 0 && implicit_)
-        ok = ok && ARKStepSetMaxNonlinIters(ark, 12) == 0 && ARKStepSetLSetupFrequency(ark, 1) == 0 &&
-             ARKStepSetJacEvalFrequency(ark, 1) == 0;
+    if (implicit_) ok = ok && set_up_newton(ark);
     if (!ok) throw NumericalError("SUNDIALS: ARKODE could not be set up");
 }
 
-// Exceptions must not cross ARKODE: kept and rethrown outside. What only concerns a trial state may be tried again with
-// a shorter step.
-int ArkodeStepper::rates(realtype t, N_Vector x, N_Vector xd, void* user) {
-    auto& self = *static_cast<ArkodeStepper*>(user);
-    const Eigen::Index m = self.equations_.size();
-    const double* in = N_VGetArrayPointer(x);
-    double* out = N_VGetArrayPointer(xd);
-    try {
-        if (!self.equations_.accelerations(t, in, out + m)) return 1;
-    } catch (...) {
-        self.thrown_ = std::current_exception();
-        return -1;
-    }
-    std::copy(in + m, in + 2 * m, out);
-    return 0;
-}
-
-int ArkodeStepper::weights(N_Vector x, N_Vector w, void* user) {
-    static_cast<ArkodeStepper*>(user)->weights_.set(N_VGetArrayPointer(x), N_VGetArrayPointer(w));
-    return 0;
-}
-
-int ArkodeStepper::linear_system(realtype t, N_Vector x, N_Vector, SUNMatrix, SUNMatrix, booleantype old_will_do,
-                                 booleantype* is_new, realtype c, void* user, N_Vector, N_Vector, N_Vector) {
-    auto& self = *static_cast<ArkodeStepper*>(user);
-    *is_new = old_will_do ? SUNFALSE : SUNTRUE;
-    try {
-        return self.newton_->form(t, N_VGetArrayPointer(x), c, !old_will_do) ? 0 : 1;
-    } catch (...) {
-        self.thrown_ = std::current_exception();
-        return -1;
-    }
+// The stages are solved well below the tolerance: what the iteration leaves of the stiff parts would be taken for an
+// error of the step. Then the rates can follow from the stages and cost no evaluations of their own.
+bool ArkodeStepper::set_up_newton(void* ark) {
+    use_newton();
+    bool ok = ARKStepSetLinearSolver(ark, newton_->solver(), newton_->matrix()) == 0 &&
+              ARKStepSetLinSysFn(ark, linear_system) == 0 && ARKStepSetNonlinConvCoef(ark, 0.003) == 0 &&
+              ARKStepSetMaxNonlinIters(ark, 8) == 0 && ARKStepSetDeduceImplicitRhs(ark, SUNTRUE) == 0 &&
+              ARKStepSetPredictorMethod(ark, 1) == 0 && ARKStepSetInterpolantDegree(ark, 3) == 0;
+    // What does not converge cannot be tried again with a shorter step then: fresh matrices, more patience.
+    if (fixed_step_ > 0)
+        ok = ok && ARKStepSetMaxNonlinIters(ark, 12) == 0 && ARKStepSetLSetupFrequency(ark, 1) == 0 &&
+             ARKStepSetJacEvalFrequency(ark, 1) == 0;
+    return ok;
 }
 
 void ArkodeStepper::start(double time, const double* x, double stop) {
-    before_ = statistics();
+    begin(time, x, stop);
     to_.time = from_.time = time;
     to_.known = false;
-    stop_ = stop;
     std::copy(x, x + weights_.size(), to_.x.data());
-    std::copy(x, x + weights_.size(), N_VGetArrayPointer(x_.get()));
-    if (newton_) newton_->jacobians = newton_->factorisations = 0;
     void* ark = arkode_.get();
-    bool ok = ARKStepReInit(ark, explicit_rates(), implicit_rates(), time, x_.get()) == 0;
+    bool ok = ARKStepReInit(ark, explicit_rates(), implicit_rates(), time, vector()) == 0;
     if (fixed_step_ == 0) ok = ok && ARKStepSetInitStep(ark, std::min(first_step_, stop - time)) == 0;
     if (std::isfinite(stop)) ok = ok && ARKStepSetStopTime(ark, stop) == 0;
     if (!ok) throw NumericalError("SUNDIALS: ARKODE could not be started");
 }
 
 bool ArkodeStepper::step(double horizon) {
-    double towards = std::min(horizon, stop_), reached = to_.time;
-    if (!std::isfinite(towards)) towards = to_.time + 1;
     equations_.forget_problem();
-    const int flag = ARKStepEvolve(arkode_.get(), towards, x_.get(), &reached, ARK_ONE_STEP);
-    if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
-    if (flag < 0 || (reached != stop_ && stands_still(to_.time, reached))) {
-        failure_ = explain(flag < 0 ? reason(flag) : standstill);
+    const double from = time_;
+    const int flag = ARKStepEvolve(arkode_.get(), towards(horizon), vector(), &time_, ARK_ONE_STEP);
+    rethrow();
+    if (flag < 0 || (time_ != stop_ && stands_still(from, time_))) {
+        time_ = from;
+        failure_ = explain(flag,
+                           "jumps of forces (give their times as breaks), a step too long for the explicit method or a "
+                           "motion that ends in infinity");
         return false;
     }
     std::swap(from_, to_);
-    to_.time = reached;
+    to_.time = time_;
     to_.known = false;
-    std::copy(N_VGetArrayPointer(x_.get()), N_VGetArrayPointer(x_.get()) + weights_.size(), to_.x.data());
+    std::copy(data(), data() + weights_.size(), to_.x.data());
     return true;
 }
 
@@ -216,21 +150,9 @@ void ArkodeStepper::state_at(double time, double* x) {
     }
 }
 
-std::string ArkodeStepper::explain(std::string_view why) {
-    void* ark = arkode_.get();
-    std::string message =
-        text("no step possible at ", to_.time, " s: ", why, " (last step ", since_start().last_step, " s)");
-    if (!equations_.problem().empty()) message += text("; ", equations_.problem());
-    if (ARKStepGetEstLocalErrors(ark, errors_.get()) == 0 && ARKStepGetErrWeights(ark, error_weights_.get()) == 0) {
-        const LimitingEntry worst = limiting_entry(N_VGetArrayPointer(errors_.get()),
-                                                   N_VGetArrayPointer(error_weights_.get()), 2 * equations_.size());
-        if (worst.entry >= 0)
-            message += text("; the largest local error, ", worst.error, " times the allowed one, has the ",
-                            equations_.name_of(worst.entry));
-    }
-    return message +
-           "; look for jumps of forces (give their times as breaks), a step too long for the explicit method "
-           "or a motion that ends in infinity";
+bool ArkodeStepper::local_errors() {
+    return ARKStepGetEstLocalErrors(arkode_.get(), errors()) == 0 &&
+           ARKStepGetErrWeights(arkode_.get(), error_weights()) == 0;
 }
 
 IntegrationStatistics ArkodeStepper::since_start() const {
@@ -243,7 +165,7 @@ IntegrationStatistics ArkodeStepper::since_start() const {
     ARKStepGetNumRhsEvals(ark, &out.evaluations, &implicit_evaluations);
     out.evaluations += implicit_evaluations;
     ARKStepGetLastStep(ark, &out.last_step);
-    out.order = implicit_ ? 4 : 5;
+    out.order = 5;
     if (newton_) {
         ARKStepGetNumNonlinSolvIters(ark, &out.iterations);
         out.jacobians = newton_->jacobians;

@@ -133,6 +133,12 @@ TEST_CASE("dense kernels: product, elimination and definiteness agree with Eigen
         Matrix lu = A, x = B;
         solve_in_place(lu, x);
         CHECK((A * x - B).norm() < 1e-13 * A.norm() * x.norm());
+        LuFactors factors(n);
+        factors.matrix() = A;
+        factors.factorise();
+        Vector y = B.col(0);
+        factors.solve(y);
+        CHECK((y - x.col(0)).norm() < 1e-12 * A.norm() * x.norm());
         Matrix S = A * A.transpose() + 1e-3 * Matrix::Identity(n, n);
         const Matrix definite = S;
         CHECK(positive_definite(S));
@@ -150,6 +156,11 @@ TEST_CASE("real eigen and dense kernels: nothing is allocated, for large matrice
         Matrix C = B, D = A;
         CHECK(allocations([&] { add_product(C, A, B); }) == 0);
         CHECK(allocations([&] { solve_in_place(D, C); }) == 0);
+        LuFactors factors(n);
+        factors.matrix() = A;
+        Vector y = B.col(0);
+        CHECK(allocations([&] { factors.factorise(); }) == 0);
+        CHECK(allocations([&] { factors.solve(y); }) == 0);
         D = A;
         CHECK(allocations([&] { (void)positive_definite(D); }) == 0);
         if (n > 150) continue;

@@ -1,0 +1,97 @@
+// Time marching of the 600 kW machine with gravity at its rated speed, 27.1 rpm, beside one evaluation of forward
+// dynamics of the same model in the same run. "x real time" depends on the machine; "step / forward dynamics" and
+// "second / forward dynamics" (per second of simulated time) are the figures to keep.
+#include "mbs/error.hpp"
+#include "solvers/integrate.hpp"
+#include "solvers/steady_state.hpp"
+#include "turbines/wt600.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+
+using namespace cardan;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration d) {
+    return std::chrono::duration<double>(d).count();
+}
+
+// From the steady state at standstill, with the rotor set in motion; the transients have gone after 5 s.
+struct Run {
+    explicit Run(int elements, solvers::Method method) : turbine(turbines::wt600(options(elements))) {
+        const System& system = turbine.system();
+        const int spin = turbine.rotor().spin;
+        const double speed = 27.1 * pi / 30;
+        Vector q = solvers::steady_state(system, spin).at.q, qd = Vector::Zero(system.model.size());
+        qd(spin) = speed;
+        solvers::IntegrationOptions how;
+        how.method = method;
+        how.tolerances = {1e-5, 1e-7, 1e-7, 1e-6, 1e-6};
+        integrator.emplace(system, std::vector<solvers::Drive>{{spin, solvers::Motion::constant_rate(q(spin), speed)}},
+                           0, q, qd, how);
+        if (!integrator->advance(5).reached()) throw NumericalError("the benchmark's run failed");
+    }
+    static turbines::AssemblyOptions options(int elements) {
+        turbines::AssemblyOptions o;
+        o.tower_elements = o.blade_elements = elements;
+        o.gravity = {0, 0, -9.80665};
+        return o;
+    }
+
+    turbines::Turbine turbine;
+    std::optional<solvers::Integrator> integrator;
+};
+
+// One evaluation of kinematics, forces and forward dynamics, s.
+double forward_dynamics_time(const System& system, const solvers::DynamicState& at) {
+    Workspace workspace(system.model);
+    ForwardDynamics forward(system.model);
+    Vector Q = at.q, qdd = at.qdd, actuator = at.actuator;
+    constexpr int times = 2000;
+    const auto start = Clock::now();
+    for (int i = 0; i < times; ++i) {
+        const Kinematics kin = kinematics(system.model, at.q, workspace);
+        system.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+        forward.solve(kin, at.qd, Q, qdd, actuator);
+        benchmark::DoNotOptimize(qdd.data());
+    }
+    return seconds(Clock::now() - start) / times;
+}
+
+void time_marching(benchmark::State& state, solvers::Method method) {
+    Run run(static_cast<int>(state.range(0)), method);
+    solvers::Integrator& integrator = *run.integrator;
+    const solvers::IntegrationStatistics before = integrator.statistics();
+    const double from = integrator.time();
+    Clock::duration marching{};
+    double evaluation = 0;
+    for (auto _ : state) {
+        const auto start = Clock::now();
+        if (!integrator.advance(integrator.time() + 1).reached()) state.SkipWithError("the run failed");
+        marching += Clock::now() - start;
+        state.PauseTiming();
+        evaluation += forward_dynamics_time(run.turbine.system(), integrator.state());
+        state.ResumeTiming();
+    }
+    const solvers::IntegrationStatistics after = integrator.statistics();
+    const auto steps = static_cast<double>(after.steps - before.steps);
+    const double simulated = integrator.time() - from;
+    evaluation /= static_cast<double>(state.iterations());
+    state.counters["coordinates"] = run.turbine.system().model.size();
+    state.counters["x real time"] = simulated / seconds(marching);
+    state.counters["steps per second"] = steps / simulated;
+    state.counters["step / forward dynamics"] = seconds(marching) / steps / evaluation;
+    state.counters["second / forward dynamics"] = seconds(marching) / simulated / evaluation;
+}
+BENCHMARK_CAPTURE(time_marching, dirk, solvers::Method::dirk)->Arg(3)->Arg(12)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_marching, bdf, solvers::Method::bdf)->Arg(3)->Arg(12)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_marching, generalised_alpha, solvers::Method::generalised_alpha)
+    ->Arg(3)
+    ->Arg(12)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
