@@ -62,6 +62,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
         throw NumericalError(text(place, ": no start: ", equations_.problem()));
     kinetic_at_start_ = equations_.kinetic_energy(state_);
     potential_at_start_ = equations_.potential_energy(state_);
+    x_between_ = x_;
     for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, time);
     set_sides(-1);
 }
