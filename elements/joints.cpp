@@ -15,7 +15,7 @@ Mat3 axis_rotation(Axis axis) {
 }
 
 JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, const std::string& name,
-                       const PartLabel& label, const Vec3& offset) {
+                       const PartLabel& label, const Vec3& offset, CoordinateRole role) {
     const Mat3 R = axis_rotation(axis);
     BodySpec spec;
     spec.name = name;
@@ -24,6 +24,7 @@ JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, c
     spec.joint = kind;
     spec.coordinate.part = label.part;
     spec.coordinate.blade = label.blade;
+    spec.coordinate.role = role;
     const BodyId body = tree.add_body(spec);
     return {body, tree.add_frame(tree.frame_of(body), Placement::rotation(R.transpose()), name + " axes")};
 }

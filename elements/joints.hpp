@@ -25,7 +25,8 @@ struct JointedFrame {
 /// A massless body on a joint about (revolute) or along (prismatic) an axis of `carrier`, at `offset` in it.
 /// Its coordinate has the body's name; the frame is called "<name> axes".
 JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, const std::string& name,
-                       const PartLabel& label, const Vec3& offset = Vec3::Zero());
+                       const PartLabel& label, const Vec3& offset = Vec3::Zero(),
+                       CoordinateRole role = CoordinateRole::free);
 
 /// Rotation that takes the z axis onto the given axis (cyclic permutation of the axes).
 Mat3 axis_rotation(Axis axis);

@@ -1,0 +1,51 @@
+/// @file
+/// The periodic response of the blades, by integration in time until the transient has died away.
+#pragma once
+
+#include "solvers/recorder.hpp"
+#include "turbines/nrel5mw_platform.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cardan::platform {
+
+/// Least common multiple of some periods, s: at most 40 times the longest one.
+/// @throws InputError if there is none within a relative 1e-9
+double common_period(const std::vector<double>& periods);
+
+struct ResponseOptions {
+    double period = 0;       ///< s, that is compared with the one before
+    double settled = 5e-6;   ///< largest change of a tip deflection from one period to the next, m
+    int most_periods = 300;  ///< then it ends unsettled
+    int samples = 720;       ///< of the last period
+    solvers::IntegrationOptions integration = {};
+    std::function<void(int period, double change)> progress = {};
+};
+
+struct Response {
+    solvers::History last;  ///< one period, both ends included
+    std::vector<double>
+        changes;  ///< of the tip deflections in every period from the one before, m; the first: infinite
+    bool settled = false;
+    bool stalled = false;           ///< ended because the changes have ceased to fall
+    bool complete = false;          ///< false: cancelled
+    solvers::EnergyBalance energy;  ///< from the start; zero if works are not integrated
+    solvers::IntegrationStatistics statistics;
+};
+
+/// Starts at time zero with the undeformed blades at rest relative to the hub.
+/// @throws NumericalError if the integration fails
+Response periodic_response(const turbines::Nrel5mwPlatform& machine, const std::vector<solvers::Drive>& drives,
+                           const ResponseOptions& options);
+
+/// A periodic signal y = mean + sum A_k cos(2 pi k t / T + phase_k).
+struct Harmonics {
+    double mean, max, min;
+    std::vector<double> amplitude, phase;  ///< of k = 1, 2 ...; phase in rad, -pi ... pi
+};
+/// @param samples  of one period from time zero of the phases on, equally spaced, the last one a period after the first
+Harmonics harmonics(const std::vector<double>& samples, int count);
+
+}  // namespace cardan::platform
