@@ -193,7 +193,8 @@ Hdf5File::Impl& Hdf5File::readable() const {
 
 Hdf5File::Impl& Hdf5File::writable() const {
     Impl& impl = readable();
-    if (!impl.pending) throw InputError(text(impl.path, ": the file is open for reading, not for writing"));
+    if (!impl.pending && !impl.in_place)
+        throw InputError(text(impl.path, ": the file is open for reading, not for writing"));
     if (impl.failed) throw FileError(impl.path, "cannot be continued: an earlier write failed");
     return impl;
 }
@@ -203,16 +204,20 @@ const std::string& Hdf5File::path() const {
     return impl_->path;
 }
 
+void Hdf5File::Impl::check_readable(const std::string& path) {
+    std::error_code code;
+    const std::filesystem::file_status there = std::filesystem::status(path, code);
+    if (std::filesystem::is_directory(there)) throw FileError(path, "is a folder, not a file");
+    if (std::filesystem::is_other(there)) throw FileError(path, "is not an ordinary file");
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) throw FileError(path, text("cannot be opened: ", std::generic_category().message(errno)));
+    ::close(fd);
+}
+
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
     const Quiet quiet;
     auto impl = std::make_unique<Impl>(path.string());
-    std::error_code code;
-    const std::filesystem::file_status there = std::filesystem::status(path, code);
-    if (std::filesystem::is_directory(there)) throw FileError(impl->path, "is a folder, not a file");
-    if (std::filesystem::is_other(there)) throw FileError(impl->path, "is not an ordinary file");
-    const int fd = ::open(impl->path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) throw FileError(impl->path, text("cannot be opened: ", std::generic_category().message(errno)));
-    ::close(fd);
+    Impl::check_readable(impl->path);
     impl->file = H5Fopen(impl->path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     impl->ok(impl->file, "", "be opened as an HDF5 file");
     return Hdf5File(std::move(impl));

@@ -7,9 +7,11 @@
 #include "solvers/hdf5_file.hpp"
 #include "solvers/hdf5_storage.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -23,6 +25,7 @@ struct Hdf5File::Impl {
 
     std::string path;
     std::optional<PendingFile> pending;  ///< only when writing
+    bool in_place = false;               ///< written under its own name, by an owner who completes it
     detail::DiskState disk;
     hid_t file = -1;
     bool failed = false;  ///< a step of writing failed: what is on the disk cannot be trusted
@@ -56,6 +59,12 @@ struct Hdf5File::Impl {
             throw;
         }
     }
+
+    /// For owners who open the file by other means than Hdf5File's own.
+    static Hdf5File wrap(std::unique_ptr<Impl> impl) { return Hdf5File(std::move(impl)); }
+    static Impl& of(const Hdf5File& file) { return file.readable(); }
+    /// @throws FileError unless it is an ordinary file that may be read
+    static void check_readable(const std::string& path);
 
     [[nodiscard]] bool exists(std::string_view name) const;
     [[nodiscard]] detail::Handle open_object(std::string_view name) const;

@@ -127,6 +127,14 @@ Motion Motion::rate_ramp(double position, double rate_from, double rate_to, doub
     return {"ramp of the rate", law, {t0, t1}};
 }
 
+Motion Motion::travel(const Travel& travel) {
+    const auto law = [=](double t, double inside) {
+        const Travel::State s = travel.at(t, inside);
+        return MotionState{s.position, s.rate, s.acceleration};
+    };
+    return {"travel", law, travel.breaks()};
+}
+
 Motion Motion::harmonic(double mean, double amplitude, double period, double phase) {
     for (double value : {mean, amplitude, phase}) require_finite("harmonic motion", "mean, amplitude or phase", value);
     require_positive("harmonic motion", "period [s]", period);

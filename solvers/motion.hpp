@@ -2,6 +2,7 @@
 /// Prescribed motions of driven coordinates as functions of time.
 #pragma once
 
+#include "mbs/travel.hpp"
 #include "mbs/types.hpp"
 
 #include <functional>
@@ -33,6 +34,9 @@ public:
     /// The same for the rate, from `rate_from` to `rate_to`; the position is `position` at t0. Start-up and shut-down
     /// of a rotor. Derivative of the acceleration continuous.
     static Motion rate_ramp(double position, double rate_from, double rate_to, double t0, double t1);
+    /// To rest at a target within limits of rate and acceleration, from any state (see Travel): a drive with orders. As
+    /// the action of an event: set_motion(i, Motion::travel({t, {q, qd, 0}, target, limits})).
+    static Motion travel(const Travel& travel);
     /// mean + amplitude sin(2 pi t / period + phase); phase in rad.
     static Motion harmonic(double mean, double amplitude, double period, double phase = 0);
     /// Piecewise cubic through points, monotone where the points are: velocity continuous, acceleration jumps at the

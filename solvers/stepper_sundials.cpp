@@ -63,8 +63,9 @@ void SundialsStepper::begin(double time, const double* x, double stop) {
 }
 
 double SundialsStepper::towards(double horizon) const {
-    const double nearest = std::min(horizon, stop_);
-    return std::isfinite(nearest) ? nearest : time_ + 1;
+    // One step is taken whatever this is, but the libraries refuse to start toward a time that is almost now.
+    const double nearest = std::min(horizon, stop_), shortest = 1e-6 * std::max(1.0, std::abs(time_));
+    return std::isfinite(nearest) && nearest - time_ > shortest ? nearest : time_ + 1;
 }
 
 // The two libraries number their reasons alike.

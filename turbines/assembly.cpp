@@ -47,6 +47,7 @@ public:
         for (int elements : {options.tower_elements, options.blade_elements})
             if (elements > 1000) throw InputError(d_.name, "number of elements", elements, "1 ... 1000");
         forces.set_gravity(options.gravity);
+        layout.pitch_setting = options.pitch;
     }
 
     void whole_machine() {
@@ -64,7 +65,9 @@ public:
         const FrameId shaft = Tree::base();
         const JointedFrame spinner = add_joint(tree, shaft, JointKind::revolute, Axis::x, "spin", {"rotor"});
         spin = spinner.body;
-        hub_frame = tree.add_frame(spinner.frame, Placement::rotation(hub_axes()), "hub");
+        layout.azimuth = {{spin, 1.0}};
+        layout.shaft = shaft;
+        layout.hub = hub_frame = tree.add_frame(spinner.frame, Placement::rotation(hub_axes()), "hub");
         add_blade(hub_frame, 1, false);
     }
 
@@ -77,6 +80,7 @@ public:
     std::vector<PartAxes> parts;
     std::vector<Polyline> lines;
     std::vector<std::string> warnings;
+    MachineLayout layout;
 
 private:
     void positive(const char* quantity, double value) const { require_positive(d_.name, quantity, value); }
@@ -99,7 +103,9 @@ private:
                                                 beam_options(options_, options_.tower_elements, damping_.tower));
         keep(beam);
         lines.push_back({"tower", 0, beam.nodes});
-        return tree.add_frame(beam.tip(), Placement::rotation(upward.transpose()), "tower top");
+        layout.tower = beam;
+        layout.tower_foot = foot;
+        return layout.tower_top = tree.add_frame(beam.tip(), Placement::rotation(upward.transpose()), "tower top");
     }
 
     FrameId add_yaw_and_nacelle(FrameId top) {
@@ -107,7 +113,9 @@ private:
         FrameId at = top;
         at = sprung_joint(at, JointKind::prismatic, Axis::x, "yaw bearing x", label, d_.yaw.translation).frame;
         at = sprung_joint(at, JointKind::prismatic, Axis::y, "yaw bearing y", label, d_.yaw.translation).frame;
-        at = sprung_joint(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation).frame;
+        const JointedFrame yaw = sprung_joint(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation);
+        at = yaw.frame;
+        layout.yaw = yaw.body;
         tree.weld(at, d_.nacelle.inertia, "nacelle");
         parts.push_back(
             {"yaw", Tree::base(), {"yaw bearing fore-aft", "yaw bearing side-side", ""}, {"", "", "rotor yaw"}});
@@ -134,6 +142,10 @@ private:
         tree.add_armature({"generator", t.generator_inertia * squared, {{generator.body, 1.0}}});
         tree.add_armature({"gearbox", t.gearbox_inertia, {{generator.body, 1.0}, {gearbox.body, 1.0}}});
         spin = generator.body;
+        layout.generator = generator.body;
+        layout.gear_ratio = t.gear_ratio;
+        layout.shaft = shaft;
+        layout.azimuth = {{generator.body, 1.0}, {gearbox.body, 1.0}};
         parts.push_back({"drive train", shaft, {}, {"drive-train torsion", "", ""}});
         return gearbox.frame;
     }
@@ -143,6 +155,7 @@ private:
         const Vec3 rotor_centre(-d_.nacelle.overhang, 0, 0);
         const JointedFrame hub = sprung_joint(gearbox, JointKind::revolute, Axis::x, "main shaft twist",
                                               {"drive train"}, d_.drive_train.main_shaft);
+        layout.azimuth.emplace_back(hub.body, 1.0);
         return add_hub_frame(shaft, tree.add_frame(hub.frame, Placement::translation(rotor_centre), "rotor centre"));
     }
 
@@ -160,6 +173,7 @@ private:
         const auto& e = beam.elements.front();
         if (options_.joint_damping)
             forces.add_spring("main shaft damper", e.bodies[2], 0, d_.drive_train.main_shaft.damping);
+        layout.azimuth.emplace_back(e.bodies[2], -1.0);        // torsion, about the axis of the beam
         rotating_pairs.push_back({e.bodies[0], e.bodies[1]});  // (ay1, az1)
         rotating_pairs.push_back({e.bodies[4], e.bodies[3]});  // (ay2, az2)
         parts.back().rotation = {"drive-train torsion", "shaft bending", "shaft bending"};
@@ -167,7 +181,7 @@ private:
     }
 
     FrameId add_hub_frame(FrameId shaft, FrameId rotor_centre) {
-        hub_frame = tree.add_frame(rotor_centre, Placement::rotation(hub_axes()), "hub");
+        layout.hub = hub_frame = tree.add_frame(rotor_centre, Placement::rotation(hub_axes()), "hub");
         lines.push_back({"shaft", 0, {tree.frame("tower top"), shaft, hub_frame}});
         return hub_frame;
     }
@@ -179,11 +193,13 @@ private:
         const Mat3 azimuth = rot_z(2 * pi * (number - 1) / d_.blades), cone = rot_y(-d_.blade.cone);
         const Placement root_pose = Placement::rotation(azimuth * cone) * Placement::translation({d_.hub.radius, 0, 0});
         FrameId root = tree.add_frame(hub, root_pose, name + " pitch axis");
+        layout.pitch_axes.push_back(root);
         std::vector<BodyId> coordinates;
         if (with_pitch_joint) {
             const JointedFrame pitch =
                 sprung_joint(root, JointKind::revolute, Axis::x, name + " pitch", {"pitch", number}, d_.blade.pitch);
             coordinates.push_back(pitch.body);
+            layout.pitch.push_back(pitch.body);
             root = pitch.frame;
         }
         const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-options_.pitch)), name + " root");
@@ -192,6 +208,8 @@ private:
         for (const CardanBeam::Element& element : beam.elements)
             coordinates.insert(coordinates.end(), element.bodies.begin(), element.bodies.end());
         blades.push_back(coordinates);
+        layout.blades.push_back(beam);
+        layout.blade_roots.push_back(axes);
         keep(beam);
         std::vector<FrameId> points{hub};
         points.insert(points.end(), beam.nodes.begin(), beam.nodes.end());
@@ -241,6 +259,13 @@ PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& opt
 
 }  // namespace
 
+Turbine Turbine::with_forces(const ForceSet& forces) const {
+    Turbine other = *this;
+    other.forces_ = std::make_shared<const ForceSet>(forces);
+    other.system_ = std::make_shared<const System>(*tree_, forces);
+    return other;
+}
+
 std::string Turbine::summary() const {
     std::string out = text(rotor_.machine, "\n", cardan::summary(*tree_));
     for (const std::string& warning : warnings_) out += text("\nwarning: ", warning, "\n");
@@ -269,6 +294,8 @@ RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& na
 void Turbine::finish(const Assembler& assembler, const std::string& name, std::string source,
                      const std::string& settings) {
     tree_ = std::make_shared<const Tree>(assembler.tree);
+    forces_ = std::make_shared<const ForceSet>(assembler.forces);
+    layout_ = std::make_shared<const MachineLayout>(assembler.layout);
     system_ = std::make_shared<const System>(assembler.tree, assembler.forces);
     rotor_ = rotor_map(assembler, system_->model, name);
     warnings_ = assembler.warnings;

@@ -2,6 +2,7 @@
 /// From a description to a system: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
 #pragma once
 
+#include "elements/coordinate_force.hpp"
 #include "mbs/rotor_map.hpp"
 #include "mbs/system.hpp"
 #include "turbines/description.hpp"
@@ -30,12 +31,33 @@ struct AssemblyOptions {
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
 };
 
+/// Where things are in the tree of a machine, for loads and channels. What a machine does not have is empty.
+struct MachineLayout {
+    std::optional<CardanBeam> tower;
+    FrameId tower_foot, tower_top;         ///< axes of the tower's beam; x downwind, z up at rest
+    FrameId shaft;                         ///< carries the drive train, x along the shaft, downwind
+    FrameId hub;                           ///< see RotorMap
+    std::optional<BodyId> yaw, generator;  ///< the generator's azimuth is the spin coordinate
+    CoordinateSum azimuth;                 ///< of the hub relative to the shaft frame
+    double gear_ratio = 1;                 ///< generator speed over the rate of its coordinate
+    std::vector<CardanBeam> blades;
+    std::vector<FrameId> pitch_axes;   ///< per blade, before the pitch joint: x along the blade, z downwind
+    std::vector<FrameId> blade_roots;  ///< behind pitch joint and pitch setting: the blade's axes
+    std::vector<BodyId> pitch;         ///< pitch joints; their coordinates are positive away from feather
+    double pitch_setting = 0;          ///< rad, positive toward feather
+};
+
 /// A machine ready for the solvers. Immutable and cheap to copy.
 class Turbine {
 public:
     const System& system() const { return *system_; }
     const RotorMap& rotor() const { return rotor_; }
     const Tree& tree() const { return *tree_; }
+    const ForceSet& forces() const { return *forces_; }
+    const MachineLayout& layout() const { return *layout_; }
+    /// The same machine under other forces: mostly a copy of forces() with generator, brake or loads added.
+    /// @throws InputError as System does
+    Turbine with_forces(const ForceSet& forces) const;
     const std::string& source() const { return source_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
     /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.
@@ -49,6 +71,8 @@ private:
                 const std::string& settings);
 
     std::shared_ptr<const Tree> tree_;
+    std::shared_ptr<const ForceSet> forces_;
+    std::shared_ptr<const MachineLayout> layout_;
     std::shared_ptr<const System> system_;
     RotorMap rotor_;
     std::string source_;

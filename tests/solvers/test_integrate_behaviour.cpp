@@ -142,6 +142,18 @@ TEST_CASE("integrate: steps of a large system allocate nothing either", "[solver
     }
 }
 
+TEST_CASE("integrate: an output may follow a break at any distance", "[solvers][integrate]") {
+    const System system = Oscillator{}.system();
+    for (Method method : methods) {
+        CAPTURE(static_cast<int>(method));
+        IntegrationOptions options = with(method, 1e-6, 1e-8);
+        options.breaks = {1};
+        Integrator integrator(system, {}, 0, vector({0.3}), vector({0}), options);
+        for (double time : {1 + 2e-15, 1 + 1e-13, 1 + 1e-10, 1 + 1e-7, 1.5}) CHECK(integrator.advance(time).reached());
+        CHECK(integrator.state().q(0) == Approx(Oscillator{}.position(1.5)).margin(1e-4));
+    }
+}
+
 TEST_CASE("integrate: from a checkpoint it goes on as if it had not stopped", "[solvers][integrate][property]") {
     const System system = chain(0.4, CoordinateRole::driven);
     const std::vector<Drive> drives{{0, Motion::harmonic(0, 0.3, 1.5)}};

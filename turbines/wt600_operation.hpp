@@ -1,0 +1,55 @@
+/// @file
+/// The 600 kW machine in operation: generator, brake, pitch drives and a prescribed load on the rotor.
+///
+/// The induction machine is that of the data set. The rest is assumed: nothing is published about it.
+#pragma once
+
+#include "elements/brake.hpp"
+#include "elements/drive.hpp"
+#include "elements/generator.hpp"
+#include "elements/rotor_load.hpp"
+#include "turbines/channels.hpp"
+#include "turbines/wt600.hpp"
+
+namespace cardan::turbines {
+
+enum class Wt600Generator : std::uint8_t {
+    induction,  ///< at the grid: 1500 rpm, Kloss' law; about 30.4 rpm of the rotor at 600 kW
+    converter   ///< torque over speed: best tip speed ratio from 20 rpm up, 600 kW at 27.1 rpm
+};
+
+/// "generator_sync_speed" ... of the data set.  @throws FileError, ParseError
+InductionMachine wt600_induction_machine();
+InductionMachine wt600_induction_machine(const std::filesystem::path& folder);
+/// Torque of the generator with converter (assumed): none below 19 rpm of the rotor, from 20 to 26 rpm that of the best
+/// tip speed ratio, 4228 N m from 27.1 rpm on.
+TorqueTable wt600_torque_table();
+/// Load on the rotor (assumed): power coefficient 0.42 at the tip speed ratio of Table 1, 6.25; thrust coefficient 0.8.
+RotorCurve wt600_rotor_curve();
+
+struct Wt600OperationOptions {
+    AssemblyOptions assembly = {.gravity = Vec3(0, 0, -9.80665)};
+    std::filesystem::path data = {};  ///< folder of the data set; empty: built in
+    Wt600Generator generator = Wt600Generator::induction;
+    bool at_grid = true;      ///< the generator's contact at the start
+    double pitch = 0;         ///< ordered at the start, rad, positive toward feather
+    double wind = 11.86;      ///< m/s
+    double tower_shadow = 0;  ///< see RotorCurve
+};
+
+/// The machine with what acts on it. Pitch drives have taken the place of the pitch springs, with the same stiffness.
+/// Switches and orders are shared by copies: one simulation at a time.
+struct Wt600Operation {
+    Turbine turbine;
+    std::shared_ptr<Switch> grid, brake_valve;
+    std::shared_ptr<DriveOrder> pitch;  ///< of all blades, positive toward feather; 8 deg/s, 15 deg/s^2 (assumed)
+    Generator generator;
+    Brake brake;  ///< on the generator's shaft: 6 kN m within 0.5 s, regularised at 1 rad/s (assumed)
+    RotorLoad rotor;
+    std::vector<ChannelGroup> channels;  ///< of the turbine and of all these
+};
+
+/// @throws InputError, FileError, ParseError
+Wt600Operation wt600_operation(const Wt600OperationOptions& options = {});
+
+}  // namespace cardan::turbines
