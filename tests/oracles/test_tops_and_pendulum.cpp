@@ -109,6 +109,34 @@ TEST_CASE("free asymmetric top: Jacobi's functions against Euler's equations on 
             CHECK((top.angular_velocity(t) - w).norm() < 1e-10);
         }
         CHECK((top.angular_velocity(top.period()) - top.angular_velocity(0.0)).norm() < 1e-12);
+
+        // The attitude: the angular momentum stands still in space, along z, and R^T R' is the angular velocity.
+        for (const double t : {0.6, 5.3, -2.1, 40.0}) {
+            const Eigen::Vector3d momentum = top.attitude(t) * inertia.cwiseProduct(top.angular_velocity(t));
+            CHECK((momentum - top.angular_momentum() * Eigen::Vector3d::UnitZ()).norm() < 1e-12);
+            const double h = 1e-5;
+            const Eigen::Matrix3d dr = (top.attitude(t + h) - top.attitude(t - h)) / (2.0 * h);
+            const Eigen::Matrix3d spin = top.attitude(t).transpose() * dr;
+            const Eigen::Vector3d from_attitude(spin(2, 1), spin(0, 2), spin(1, 0));
+            CHECK((from_attitude - top.angular_velocity(t)).norm() < 2e-8);
+        }
+        CHECK(top.kinetic_energy() == Approx(0.5 * (omega1 * omega1 + 2.8 * omega3 * omega3)).epsilon(1e-14));
+        // The whole path against Runge and Kutta's, with the attitude as a matrix: R' = R omega^.
+        using Rows = Eigen::Matrix<double, 3, 4>;  // R and omega
+        Rows start;
+        start << top.attitude(0.0), top.angular_velocity(0.0);
+        const Rows end = integrate(
+            start,
+            [&](const Rows& y) {
+                Rows rate;
+                const Eigen::Vector3d w = y.col(3);
+                for (int row = 0; row < 3; ++row)
+                    rate.row(row).head<3>() = Eigen::Vector3d(y.row(row).head<3>()).cross(w).transpose();
+                rate.col(3) = euler_equations(inertia, w);
+                return rate;
+            },
+            11.0, 20000);
+        CHECK((end.leftCols<3>() - top.attitude(11.0)).norm() < 1e-10);
     }
     CHECK_THROWS_AS(FreeAsymmetricTop(Eigen::Vector3d(2.0, 1.0, 3.0), 1.0, 1.0), std::invalid_argument);
 }

@@ -35,7 +35,11 @@ private:
 
 /// Free asymmetric top, principal inertias I1 < I2 < I3, started where omega2 = 0: the angular velocity in body axes
 /// by Jacobi's functions (sn for the middle axis; dn for the axis about which the motion circulates, cn for the other).
-/// [Landau and Lifshitz, Mechanics, section 37, eq. 37.10]
+/// The attitude has Euler angles z-x-z about the angular momentum H: of theta and phi (spin about axis 3) the
+/// components of H in body axes tell the value, the precession is a quadrature of Jacobi's functions, to rounding:
+///     H (sin(theta) sin(phi), sin(theta) cos(phi), cos(theta)) = (I1 omega1, I2 omega2, I3 omega3),
+///     psi' = H (I1 omega1^2 + I2 omega2^2) / (I1^2 omega1^2 + I2^2 omega2^2).
+/// [Landau and Lifshitz, Mechanics, section 37, eq. 37.10, 37.14 and 37.15]
 class FreeAsymmetricTop {
 public:
     /// @param inertia  (I1, I2, I3), rising, kg m^2
@@ -45,9 +49,14 @@ public:
 
     Eigen::Vector3d angular_velocity(double time) const;  ///< body axes, rad/s
     double period() const;                                ///< of the angular velocity in body axes, s
+    double angular_momentum() const;                      ///< H, N m s
+    double kinetic_energy() const;                        ///< J
+    /// Rotation body -> space; the space z axis lies along H, the precession angle is zero at t = 0. omega1 not zero.
+    Eigen::Matrix3d attitude(double time) const;
     bool circulates_about_axis_3() const { return about_3_; }
 
 private:
+    Eigen::Vector3d inertia_;
     bool about_3_;
     double k_;
     double rate_;                // d tau / dt, 1/s
