@@ -59,7 +59,7 @@ double Generator::torque(double rate) const {
 UserForce generator_force(const Generator& generator) {
     if (!std::isfinite(generator.gear_ratio) || generator.gear_ratio == 0)
         throw InputError(generator.name, "gear ratio", generator.gear_ratio, "finite and not zero");
-    std::visit([&](const auto& own) { own.check(generator.name); }, generator.law);
+    if (const auto* machine = std::get_if<InductionMachine>(&generator.law)) machine->check(generator.name);
     const auto law = [generator](double, double, double rate) -> CoordinateLaw {
         if (generator.grid && !generator.grid->is_on()) return {};
         const double ratio = generator.gear_ratio, speed = ratio * rate;

@@ -47,7 +47,6 @@ public:
 
     double torque(double speed) const { return at(speed).torque; }
     double slope(double speed) const { return at(speed).slope; }
-    void check(std::string_view) const {}
 
 private:
     struct Value {

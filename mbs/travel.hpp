@@ -13,7 +13,8 @@ struct TravelLimits {
 };
 
 /// A motion in three phases: to a rate, at that rate, to rest at the target. The rate changes along 3 x^2 - 2 x^3, as
-/// fast as the limits allow. Position and rate are continuous; so is the acceleration, but for one that it starts with.
+/// fast as the limits allow. Position, rate and acceleration are continuous; the acceleration is zero at both ends of
+/// every phase.
 class Travel {
 public:
     struct State {
@@ -22,7 +23,7 @@ public:
 
     /// At rest.  @throws InputError if it is not finite
     explicit Travel(double position);
-    /// From a state at a time to rest at `to`. With a rate that leads away or too far it turns back.
+    /// From a position and a rate at a time to rest at `to`. With a rate that leads away or too far it turns back.
     /// @throws InputError for values that are not finite and limits that are not positive
     Travel(double time, const State& from, double to, const TravelLimits& limits);
 

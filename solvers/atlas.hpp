@@ -22,6 +22,7 @@ struct Chart {
 /// its quality falls below the least. Coordinates that are called the same in all charts are taken over (see
 /// change_of_chart()); the others are those by which charts differ, such as the three rotations of a floating body,
 /// and all of them carry one frame. Works, energies and statistics go on; the method of integration starts anew.
+/// Motions and forces that events have exchanged in one chart are not known to the others.
 ///
 /// If no other chart is better it stays where it is. Near a singularity steps become short and rounding is amplified by
 /// one over the square of the distance (rad).
