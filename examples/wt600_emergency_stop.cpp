@@ -36,6 +36,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--no-gravity", a.no_gravity, "leave out gravity");
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
     a.by_delay = brake_delay->count() > 0;
+    program::check_simulation_options(a.simulation);
     require_positive("--rpm", "value", a.speed);
     require_positive("--brake-speed", "value", a.brake_speed);
     require_positive("--grid-loss", "value", a.loss);
@@ -147,7 +148,7 @@ int run(const Arguments& a) {
     solvers::IntegrationOptions options = program::integration_options(a.simulation);
     options.events = supervisor.events();
     solvers::Integrator integrator(system, {}, 0, start.q, start.qd, options);
-    solvers::Recorder recorder(system, machine.channels);
+    solvers::Recorder recorder(integrator, machine.channels);
     program::Rows rows("emergency stop of the 600 kW machine", machine.turbine.summary(), a.simulation, integrator,
                        recorder);
 

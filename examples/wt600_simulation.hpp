@@ -44,6 +44,12 @@ inline void add_simulation_options(CLI::App& app, SimulationArguments& a) {
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
 }
 
+/// Before any file is begun.  @throws InputError
+inline void check_simulation_options(const SimulationArguments& a) {
+    require_positive("--duration", "value", a.duration);
+    require_positive("--step", "value", a.step);
+}
+
 inline turbines::Wt600OperationOptions operation_options(const SimulationArguments& a) {
     turbines::Wt600OperationOptions options;
     options.assembly.blade_elements = a.blade_elements;

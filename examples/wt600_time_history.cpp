@@ -39,7 +39,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--tower-shadow", a.shadow, "share of the rotor load that is lost when a blade passes the tower")
         ->capture_default_str();
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
-    require_positive("--duration", "value", a.simulation.duration);
+    program::check_simulation_options(a.simulation);
     require_positive("--pitch-rate", "value", a.pitch_rate);
     return -1;
 }
@@ -156,7 +156,7 @@ int run(const Arguments& a) {
     options.events = events(machine, connected_at);
     options.breaks = machine.pitch->breaks();
     solvers::Integrator integrator(system, {}, 0, start.q, start.qd, options);
-    solvers::Recorder recorder(system, machine.channels);
+    solvers::Recorder recorder(integrator, machine.channels);
     program::Rows rows(text("start-up of the 600 kW machine, ", a.mode, " speed"), machine.turbine.summary(), s,
                        integrator, recorder);
 

@@ -50,6 +50,7 @@ public:
     const std::vector<int>& unknowns() const { return free_; }
     int size() const { return static_cast<int>(free_.size()); }
     const std::vector<Drive>& drives() const { return drives_; }
+    bool is_driven(int coordinate) const { return driven_[static_cast<std::size_t>(coordinate)]; }
     /// Replaces the motion of a driven coordinate from now on.
     /// @throws InputError if the coordinate is not driven, or if its position or rate would jump at `time`
     void set_motion(int coordinate, Motion motion, double time);

@@ -9,6 +9,7 @@ namespace cardan::solvers::detail {
 namespace {
 
 constexpr const char* checkpoint_group = "run/checkpoint/";
+constexpr const char* notes_group = "run/checkpoint/notes";
 constexpr const char* statistics_group = "run/statistics/";
 
 /// One number of a checkpoint or of the statistics.
@@ -93,6 +94,9 @@ Checkpoint checkpoint_of(const Hdf5File& file) {
     for (const auto& f : works_numbers) checkpoint.works.*f.member = file.read_doubles(group + f.name).at(0);
     checkpoint.q = vector_of(file, group + "q");
     checkpoint.qd = vector_of(file, group + "qd");
+    if (file.has(notes_group))
+        for (const std::string& name : file.children(notes_group))
+            checkpoint.notes[name] = file.read_doubles(text(notes_group, "/", name)).at(0);
     return checkpoint;
 }
 
@@ -105,6 +109,8 @@ void put_checkpoint(Hdf5File& file, const Checkpoint& checkpoint, std::size_t ro
     for (const auto& f : works_numbers) put(file, group + f.name, checkpoint.works.*f.member, {f.units, f.long_name});
     put(file, group + "q", checkpoint.q, {"rad or m", "coordinates"});
     put(file, group + "qd", checkpoint.qd, {"rad s-1 or m s-1", "rates of the coordinates"});
+    for (const auto& [name, value] : checkpoint.notes)
+        put(file, text(notes_group, "/", name), value, {"1", "note of the program for itself"});
     put_statistics(file, checkpoint.statistics);
 }
 

@@ -73,6 +73,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, const Ch
     works_ = from.works;
     kinetic_at_start_ = from.kinetic_at_start;
     potential_at_start_ = from.potential_at_start;
+    notes_ = from.notes;
     earlier_ = from.statistics;
     ++earlier_.restarts;
 }
@@ -313,7 +314,14 @@ IntegrationStatistics Integrator::statistics() const {
 }
 
 Checkpoint Integrator::checkpoint() const {
-    return {state_.time, state_.q, state_.qd, works_, kinetic_at_start_, potential_at_start_, statistics()};
+    return {state_.time, state_.q, state_.qd, works_, kinetic_at_start_, potential_at_start_, statistics(), notes_};
+}
+
+void Integrator::note(const std::string& name, double value) {
+    // A history keeps it under that name in a group of its own.
+    if (name.empty() || name == "." || name.find('/') != std::string::npos)
+        throw InputError(place, "name of a note", text("'", name, "'"), "neither empty nor '.', and without '/'");
+    notes_[name] = value;
 }
 
 void Integrator::set_motion(int coordinate, Motion motion) {

@@ -4,6 +4,7 @@
 
 #include "solvers/equations_of_motion.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -110,13 +111,14 @@ struct [[nodiscard]] Advance {
 };
 
 /// All that is needed to go on from a moment, in another process if need be. A method of several steps starts anew
-/// there. Motions and forces that events have exchanged are the user's to exchange again.
+/// there. Motions and forces that events have exchanged are the user's to exchange again; notes tell which.
 struct Checkpoint {
     double time = 0;
     Vector q, qd;  ///< size n
     Works works;
     double kinetic_at_start = 0, potential_at_start = 0;  ///< J, when the works were zero
     IntegrationStatistics statistics;
+    std::map<std::string, double> notes = {};  ///< see Integrator::note()
 };
 
 class Stepper;
@@ -150,6 +152,9 @@ public:
     /// @param times  rising
     Advance run(const std::vector<double>& times, const std::function<void(Integrator&)>& output);
 
+    const Model& model() const { return equations_.model(); }
+    /// By a motion, or by its role.
+    bool is_driven(int coordinate) const { return equations_.is_driven(coordinate); }
     double time() const { return state_.time; }
     /// At a break: accelerations and forces of drives just before it.
     const DynamicState& state() const { return state_; }
@@ -160,6 +165,11 @@ public:
     EnergyBalance energy();
     IntegrationStatistics statistics() const;
     Checkpoint checkpoint() const;
+    /// Keeps a number for checkpoints from now on: what the action of an event has done, so that a run that goes on can
+    /// do it again. It is not looked at otherwise.
+    /// @throws InputError for a name that is empty, "." or has a '/'
+    void note(const std::string& name, double value);
+    const std::map<std::string, double>& notes() const { return notes_; }
 
     /// Another motion of a driven coordinate from now on; position and rate must not jump. The method starts anew.
     void set_motion(int coordinate, Motion motion);
@@ -194,6 +204,7 @@ private:
     DynamicState state_;
     Works works_;
     double kinetic_at_start_ = 0, potential_at_start_ = 0;
+    std::map<std::string, double> notes_;
     IntegrationStatistics earlier_;  ///< up to the checkpoint it started from
 };
 

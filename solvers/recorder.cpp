@@ -28,13 +28,13 @@ std::array<double, 7> values_of(const IntegrationStatistics& s) {
 
 }  // namespace
 
-Recorder::Recorder(const System& system, std::vector<ChannelGroup> more, RecorderOptions options)
-    : system_(&system),
+Recorder::Recorder(const Integrator& integrator, std::vector<ChannelGroup> more, RecorderOptions options)
+    : model_(&integrator.model()),
       energies_(options.energies),
       statistics_(options.statistics),
       more_(std::move(more)),
-      workspace_(system.model) {
-    add_states(options);
+      workspace_(integrator.model()) {
+    add_states(options, integrator);
     if (energies_) add_energies();
     if (statistics_) add_statistics();
     for (const ChannelGroup& group : more_) {
@@ -44,8 +44,8 @@ Recorder::Recorder(const System& system, std::vector<ChannelGroup> more, Recorde
     check_names();
 }
 
-void Recorder::add_states(const RecorderOptions& options) {
-    const CoordinateTable& table = system_->model.coordinates();
+void Recorder::add_states(const RecorderOptions& options, const Integrator& integrator) {
+    const CoordinateTable& table = model_->coordinates();
     const auto add = [&](const char* suffix, const char* what, const char* per, Vector DynamicState::*vector) {
         for (int k = 0; k < table.size(); ++k) {
             channels_.push_back({.name = table[k].name + suffix,
@@ -59,6 +59,7 @@ void Recorder::add_states(const RecorderOptions& options) {
     if (options.accelerations) add(" acceleration", "acceleration", " s-2", &DynamicState::qdd);
     if (!options.actuators) return;
     for (int k = 0; k < table.size(); ++k) {
+        if (!integrator.is_driven(k)) continue;
         channels_.push_back({.name = table[k].name + " drive",
                              .units = table[k].unit == "rad" ? "N m" : "N",
                              .long_name = text("force of the drive on the coordinate '", table[k].name, "'")});
@@ -108,7 +109,7 @@ void Recorder::sample(Integrator& integrator, double* values) {
     if (energies_) values = std::ranges::copy(values_of(integrator.energy()), values).out;
     if (statistics_) values = std::ranges::copy(values_of(integrator.statistics()), values).out;
     if (more_.empty()) return;
-    const Kinematics kin = kinematics(system_->model, state.q, workspace_);
+    const Kinematics kin = kinematics(*model_, state.q, workspace_);
     const Forces& forces = integrator.forces();
     const Transmission carried = transmission(kin, forces, state.qd, state.qdd);
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, state.actuator, kin, forces, carried};

@@ -15,17 +15,18 @@ struct RecorderOptions {
     bool coordinates = true;     ///< "<coordinate>", rad or m
     bool rates = true;           ///< "<coordinate> rate"
     bool accelerations = false;  ///< "<coordinate> acceleration"
-    bool actuators = true;       ///< "<coordinate> drive": force of the drive on a driven coordinate
+    bool actuators = true;       ///< "<coordinate> drive": force of the drive, for driven coordinates
     bool energies = true;        ///< "kinetic energy" ... "energy error", J; see EnergyBalance
     bool statistics = true;      ///< "steps", "rejected steps" ..., see IntegrationStatistics
 };
 
-/// Values of a fixed list of channels at the state of an integrator. Keeps a reference to the system.
+/// Values of a fixed list of channels at the state of an integrator. Keeps a reference to its model.
 class Recorder {
 public:
-    /// @param more  channels of elements, machines and users
+    /// @param integrator  or another one of the same system with the same driven coordinates
+    /// @param more        channels of elements, machines and users
     /// @throws InputError for a name or alias that comes twice, or a channel without a name, units or long_name
-    explicit Recorder(const System& system, std::vector<ChannelGroup> more = {}, RecorderOptions options = {});
+    explicit Recorder(const Integrator& integrator, std::vector<ChannelGroup> more = {}, RecorderOptions options = {});
 
     const std::vector<Channel>& channels() const { return channels_; }
     /// @param values  out, one per channel.  Allocates.
@@ -37,12 +38,12 @@ private:
         Vector DynamicState::*vector;
         Eigen::Index entry;
     };
-    void add_states(const RecorderOptions& options);
+    void add_states(const RecorderOptions& options, const Integrator& integrator);
     void add_energies();
     void add_statistics();
     void check_names() const;
 
-    const System* system_;
+    const Model* model_;
     std::vector<Channel> channels_;
     std::vector<State> states_;
     bool energies_, statistics_;

@@ -64,8 +64,8 @@ Response periodic_response(const turbines::Nrel5mwPlatform& machine, const std::
     const double T = options.period;
     const Vector rest = Vector::Zero(machine.system->model.size());
     solvers::Integrator integrator(*machine.system, drives, 0, rest, rest, options.integration);
-    solvers::Recorder tips(*machine.system, {turbines::blade_channels(machine)}, channels_only(false));
-    solvers::Recorder all(*machine.system, {turbines::blade_channels(machine), turbines::drive_channels(machine)},
+    solvers::Recorder tips(integrator, {turbines::blade_channels(machine)}, channels_only(false));
+    solvers::Recorder all(integrator, {turbines::blade_channels(machine), turbines::drive_channels(machine)},
                           channels_only(options.integration.works));
     Response response;
     const auto run = [&](solvers::Recorder& recorder, int samples, solvers::History& into) {

@@ -120,7 +120,7 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
         own.forces().derivatives(own.kin(), own.time, own.q, own.qd, a);
         differenced.forces().derivatives(differenced.kin(), differenced.time, differenced.q, differenced.qd, b);
         CHECK(a.loads.norm() > 1e-2);
-        CHECK(a.damping.norm() > 1e-2);
+        CHECK(a.damping.norm() > 1e-3);
         CHECK(scaled(a.loads - b.loads, a.loads) < 1e-8);
         CHECK(scaled(a.damping - b.damping, a.damping) < 1e-8);
         Vector Q(ForcedTree::n);

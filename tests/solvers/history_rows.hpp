@@ -46,6 +46,7 @@ inline solvers::Checkpoint checkpoint_of(std::size_t row) {
     checkpoint.works = {x + 1, x + 2, x + 3};
     checkpoint.kinetic_at_start = 5;
     checkpoint.potential_at_start = 6;
+    checkpoint.notes = {{"grid contact", x}, {"pitch from [s]", -x}};
     checkpoint.statistics.steps = static_cast<long>(row);
     checkpoint.statistics.order = 3;
     checkpoint.statistics.last_step = x / 7;
@@ -78,9 +79,10 @@ inline bool whole(const solvers::HistoryInfo& info) {
     const solvers::Checkpoint& c = *info.checkpoint;
     return c.time == expected.time && c.q == expected.q && c.qd == expected.qd &&
            c.works.forces == expected.works.forces && c.works.dissipation == expected.works.dissipation &&
-           c.works.drives == expected.works.drives && c.kinetic_at_start == expected.kinetic_at_start &&
-           c.potential_at_start == expected.potential_at_start && c.statistics.steps == expected.statistics.steps &&
-           c.statistics.order == expected.statistics.order && c.statistics.last_step == expected.statistics.last_step;
+           c.works.drives == expected.works.drives && c.notes == expected.notes &&
+           c.kinetic_at_start == expected.kinetic_at_start && c.potential_at_start == expected.potential_at_start &&
+           c.statistics.steps == expected.statistics.steps && c.statistics.order == expected.statistics.order &&
+           c.statistics.last_step == expected.statistics.last_step;
 }
 
 }  // namespace cardan::test

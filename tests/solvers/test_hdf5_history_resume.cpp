@@ -53,7 +53,7 @@ struct Run {
 
     History uninterrupted() {
         Integrator integrator = fresh();
-        Recorder recorder(system, {}, recorded);
+        Recorder recorder(integrator, {}, recorded);
         History history;
         CHECK(record(integrator, recorder, times, history).reached());
         return history;
@@ -62,7 +62,7 @@ struct Run {
         IntegrationOptions options = accurate();
         options.cancelled = cancelled;
         Integrator integrator(system, {}, 0, Vector(Vec3(0.8, 0.4, -0.6)), Vector::Zero(3), options);
-        Recorder recorder(system, {}, recorded);
+        Recorder recorder(integrator, {}, recorded);
         HistoryWriter file = HistoryWriter::create(path, recorder.channels(), {.title = "chain"}, {.chunk = 32});
         (void)record(integrator, recorder, times, file);
     }
@@ -70,7 +70,7 @@ struct Run {
         const std::optional<Checkpoint> from = read_checkpoint(path);
         REQUIRE(from);
         Integrator integrator(system, {}, *from, accurate());
-        Recorder recorder(system, {}, recorded);
+        Recorder recorder(integrator, {}, recorded);
         HistoryWriter file = HistoryWriter::append_to(path, recorder.channels());
         CHECK(file.last_time() <= from->time);
         CHECK(record(integrator, recorder, times, file).reached());
@@ -168,7 +168,7 @@ TEST_CASE("history: a run that was finished is prolonged", "[property]") {
     run.times.resize(101);
     {
         Integrator integrator = run.fresh();
-        Recorder recorder(run.system, {}, recorded);
+        Recorder recorder(integrator, {}, recorded);
         HistoryWriter file = HistoryWriter::create(path, recorder.channels());
         CHECK(record(integrator, recorder, run.times, file).reached());
         file.finish();
@@ -199,7 +199,7 @@ TEST_CASE("history: a recorder with other channels than the file is refused") {
     const Folder folder;
     Run run;
     Integrator integrator = run.fresh();
-    Recorder recorder(run.system, {}, recorded), other(run.system);
+    Recorder recorder(integrator, {}, recorded), other(integrator);
     HistoryWriter file = HistoryWriter::create(folder / "a.h5", other.channels());
     CHECK_THROWS_WITH(record(integrator, recorder, run.times, file), Contains("channels to record = channel 7 is "));
 }
@@ -210,7 +210,7 @@ TEST_CASE("history: files for the program history", "[.files][slow]") {
     Run run;
     {
         Integrator integrator = run.fresh();
-        Recorder recorder(run.system, {}, recorded);
+        Recorder recorder(integrator, {}, recorded);
         HistoryWriter file = HistoryWriter::create(folder + "history_finished.h5", recorder.channels(),
                                                    {"chain", "BDF", "three pendulums"}, {.replace = true});
         CHECK(record(integrator, recorder, run.times, file).reached());

@@ -177,6 +177,25 @@ TEST_CASE("integrate: from a checkpoint it goes on as if it had not stopped", "[
     }
 }
 
+TEST_CASE("integrate: notes of events come with the checkpoint", "[solvers][integrate][property]") {
+    const System system = pendulum();
+    IntegrationOptions options;
+    options.events = {{.name = "lowest",
+                       .function = [](const ForceInput& at) { return at.q(0); },
+                       .action =
+                           [](Integrator& i) {
+                               i.note("first passage [s]", i.time());
+                               return AfterEvent::stop;
+                           }}};
+    Integrator integrator(system, {}, 0, vector({0.5}), vector({0}), options);
+    CHECK(integrator.checkpoint().notes.empty());
+    CHECK(integrator.advance(5).end == Advance::End::event);
+    const Integrator next(system, {}, integrator.checkpoint());
+    CHECK(next.notes() == std::map<std::string, double>{{"first passage [s]", integrator.time()}});
+    for (const char* name : {"", ".", "a/b"})
+        check_refused([&] { integrator.note(name, 1); }, {"name of a note", text("'", name, "'")});
+}
+
 TEST_CASE("integrate: bad input is refused", "[solvers][integrate]") {
     const System system = Shaker().system();
     const Vector zero = vector({0, 0});

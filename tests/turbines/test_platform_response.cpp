@@ -61,7 +61,7 @@ struct Run {
         : machine(std::move(on)),
           integrator(*machine.system, drives(motions), 0, Vector::Zero(machine.system->model.size()),
                      Vector::Zero(machine.system->model.size()), options(tolerance)),
-          recorder(*machine.system, {turbines::blade_channels(machine)}, channels_only()) {}
+          recorder(integrator, {turbines::blade_channels(machine)}, channels_only()) {}
 
     History record(double from, double to, int samples) {
         History history;
