@@ -24,6 +24,7 @@ struct Brake {
     /// rad/s: 76 % of the torque at this speed, 99.5 % at three times as much. Small values make the motion stiff.
     double regularisation = 0;
     std::shared_ptr<const Switch> applied = {};  ///< on: brakes; none: always
+    std::string alias = "HSSBrTq";               ///< of the channel of its torque; a second brake needs another or none
 
     /// Share of the torque at a time, 0 ... 1.
     double application(double time) const;
@@ -43,7 +44,7 @@ struct Brake {
 /// Q = -ratio * torque.  @throws InputError for bad numbers
 UserForce brake_force(const Brake& brake);
 
-/// "<name> torque" (HSSBrTq; of the disc) and "<name> power" (heat).
+/// "<name> torque" (of the disc) and "<name> power" (heat).
 ChannelGroup brake_channels(const Brake& brake);
 
 }  // namespace cardan

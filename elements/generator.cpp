@@ -77,7 +77,7 @@ ChannelGroup generator_channels(const Generator& generator) {
     group.channels = {{.name = generator.name + " torque",
                        .units = "N m",
                        .long_name = "torque of the generator on its own shaft, positive: braking",
-                       .alias = "GenTq"},
+                       .alias = generator.alias},
                       {.name = generator.name + " power",
                        .units = "W",
                        .long_name = "power that the generator takes from its shaft, losses not counted"}};

@@ -64,6 +64,7 @@ struct Generator {
     double gear_ratio = 1;  ///< speed of the machine over the rate of the coordinate; negative: it turns the other way
     std::variant<InductionMachine, TorqueTable> law = InductionMachine{};
     std::shared_ptr<const Switch> grid = {};  ///< off: no torque; none: always on
+    std::string alias = "GenTq";  ///< of the channel of its torque; a second generator needs another or none
 
     /// Of the machine, N m, at a rate of the coordinate, rad/s; and what it takes from the shaft, W.
     double torque(double rate) const;
@@ -73,7 +74,7 @@ struct Generator {
 /// @throws InputError for bad numbers
 UserForce generator_force(const Generator& generator);
 
-/// "<name> torque" (GenTq; of the machine) and "<name> power" (taken from the shaft: without losses).
+/// "<name> torque" (of the machine) and "<name> power" (taken from the shaft: without losses).
 ChannelGroup generator_channels(const Generator& generator);
 
 }  // namespace cardan

@@ -89,7 +89,7 @@ Wrench RotorLoad::wrench(const ForceInput& in) const {
 
 namespace {
 
-void add_force(const RotorLoad& load, const ForceInput& in, VectorOut Q) {
+void add_force(const RotorLoad& load, const ForceInput& in, VectorOut& Q) {
     const RotorCurve::Value v = load.value(in);
     const Pose<double> hub = pose(in.kinematics, load.hub);
     const Vec3 axis = hub.R.col(2);
@@ -116,7 +116,7 @@ void add_stiffness_of_axes(const RotorLoad& load, const ForceInput& in, const Ro
         }
 }
 
-void add_jacobian(const RotorLoad& load, const ForceInput& in, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
+void add_jacobian(const RotorLoad& load, const ForceInput& in, MatrixOut& dQ_dq, MatrixOut& dQ_dqd) {
     const RotorCurve::Value v = load.value(in);
     add_stiffness_of_axes(load, in, v, dQ_dq);
     const Pose<double> hub = pose(in.kinematics, load.hub);

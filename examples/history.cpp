@@ -102,7 +102,7 @@ int repair(const Arguments& a) {
 
 /// A header field in quotes if it has to be.
 std::string field(const std::string& name, const std::string& units) {
-    const std::string plain = name + "[" + (units == "1" ? "-" : units) + "]";
+    std::string plain = name + "[" + (units == "1" ? "-" : units) + "]";
     if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
     std::string quoted = "\"";
     for (const char c : plain) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -66,6 +66,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--rpm", a.rpm, "rotor speed: lines at its multiples nP, rev/min");
     app.add_option("--blades", a.blades, "number of blades, for nP")->capture_default_str();
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    require_not_negative("--rpm", "value", a.rpm);
     if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string();
     a.spectrum = a.spectrum || a.density;
     return -1;
@@ -129,8 +130,9 @@ std::vector<std::string> chosen(const solvers::History& history, const std::vect
 }
 
 void print_list(const solvers::History& history) {
-    std::cout << history.channels.size() << " channels, " << history.time.size() << " samples from "
-              << history.time.front() << " to " << history.time.back() << " s\n";
+    std::cout << history.channels.size() << " channels, " << history.time.size() << " samples";
+    if (!history.time.empty()) std::cout << " from " << history.time.front() << " to " << history.time.back() << " s";
+    std::cout << "\n";
     for (const Channel& channel : history.channels) {
         std::cout << "  " << channel.name << " [" << channel.units << "]";
         if (!channel.alias.empty()) std::cout << " (" << channel.alias << ")";

@@ -166,7 +166,7 @@ private:
 inline solvers::Advance record(solvers::Integrator& integrator, solvers::Recorder& recorder, double to, double step,
                                Rows& rows) {
     const std::vector<double> times = solvers::sample_times(integrator.time(), to, step);
-    const solvers::Advance result = solvers::record(
+    solvers::Advance result = solvers::record(
         integrator, recorder, times, [&](double time, const std::vector<double>& values) { rows(time, values); });
     if (result.end == solvers::Advance::End::failed) throw NumericalError(result.message);
     return result;

@@ -194,6 +194,13 @@ bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out
     return true;
 }
 
+void EquationsOfMotion::positions(double time, const double* x, DynamicState& out) {
+    expand(time, x);
+    out.time = time;
+    out.q = q_;
+    out.qd = qd_;
+}
+
 bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
     if (!solve(time, x)) return false;
     out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_)};

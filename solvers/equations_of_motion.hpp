@@ -85,6 +85,8 @@ public:
     /// All coordinates, accelerations and forces of drives at a state.
     /// @return false, and `out` as it was, if a number is not finite; problem() says which
     bool complete(double time, const double* x, DynamicState& out);
+    /// Time, positions and rates alone.
+    void positions(double time, const double* x, DynamicState& out);
     bool powers(double time, const double* x, Powers& out);
     double kinetic_energy(const DynamicState& at);
     double potential_energy(const DynamicState& at);

@@ -197,8 +197,8 @@ Advance record(Integrator& integrator, Recorder& recorder, const std::vector<dou
         throw InputError(into.path(), "channels to record", which, "those of the file");
     const CheckpointsFrom checkpoints(integrator, into);
     const std::vector<double> left(std::ranges::upper_bound(times, into.last_time()), times.end());
-    const Advance result = record(integrator, recorder, left,
-                                  [&](double time, const std::vector<double>& values) { into.append(time, values); });
+    Advance result = record(integrator, recorder, left,
+                            [&](double time, const std::vector<double>& values) { into.append(time, values); });
     into.flush();
     return result;
 }

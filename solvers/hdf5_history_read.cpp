@@ -23,7 +23,6 @@ Hdf5File open_journaled(const std::string& path, JournalLink& link) {
 
 HistorySource::HistorySource(std::string path) : path_(std::move(path)) {
     open();
-    first_ = link_.file->found();
 }
 
 void HistorySource::open() {
@@ -33,7 +32,8 @@ void HistorySource::open() {
     link_ = {.reading = true};
     file_ = open_journaled(path_, link_);
     const struct stat& found = link_.file->found();
-    if (again && (found.st_dev != first_.st_dev || found.st_ino != first_.st_ino))
+    if (!again) first_ = found;
+    if (found.st_dev != first_.st_dev || found.st_ino != first_.st_ino)
         throw FileError(path_, "was replaced by another file while it was read");
 }
 

@@ -228,7 +228,19 @@ int JournaledFile::fail(int reason) {
     return error_;
 }
 
+// Removed or cut off by somebody else: what would be written is lost, or no file any more.
+void JournaledFile::check_place() {
+    struct stat now {};
+    if (::fstat(fd_, &now) != 0)
+        fail(errno);
+    else if (now.st_nlink == 0)
+        fail(ENOENT);
+    else if (static_cast<std::uint64_t>(now.st_size) < end_)
+        fail(EIO);
+}
+
 int JournaledFile::commit(std::uint64_t end) {
+    if (error_ == 0) check_place();
     if (error_ == 0 && !blocks_.empty()) write_journal(end);
     if (error_ == 0) apply(end);
     return error_;

@@ -64,6 +64,7 @@ public:
     /// After an error of the disk, which is kept (error()), all goes to memory and nothing is committed any more.
     void write(std::uint64_t address, std::span<const char> from);
     /// @param end  length of the contents from now on
+    /// @return also ENOENT if the file has been removed, EIO if somebody has cut it off
     int commit(std::uint64_t end);
     [[nodiscard]] int error() const { return error_; }
 
@@ -75,6 +76,7 @@ private:
     void hold(std::uint64_t address, std::span<const char> from);
     int read_disk(std::uint64_t address, std::span<char> to) const;
     [[nodiscard]] std::vector<char> journal(std::uint64_t start, std::uint64_t end) const;
+    void check_place();
     int write_journal(std::uint64_t end);
     int apply(std::uint64_t end);
     int fail(int reason);

@@ -70,6 +70,12 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
 Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                        IntegrationOptions options)
     : Integrator(system, std::move(drives), from.time, from.q, from.qd, std::move(options)) {
+    go_on_from(from);
+}
+
+Integrator::~Integrator() = default;
+
+void Integrator::go_on_from(const Checkpoint& from) {
     works_ = from.works;
     kinetic_at_start_ = from.kinetic_at_start;
     potential_at_start_ = from.potential_at_start;
@@ -77,8 +83,6 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, const Ch
     earlier_ = from.statistics;
     ++earlier_.restarts;
 }
-
-Integrator::~Integrator() = default;
 
 void Integrator::check_options() const {
     const Tolerances& tolerances = options_.tolerances;
@@ -88,6 +92,9 @@ void Integrator::check_options() const {
     require_not_negative(place, "largest step [s]", options_.max_step);
     require_not_negative(place, "first step [s]", options_.first_step);
     require_not_negative(place, "fixed step [s]", options_.fixed_step);
+    if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
+        throw InputError(place, "fixed step [s]", options_.fixed_step,
+                         text("at most the largest step, ", options_.max_step));
     const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
     if (options_.max_order < 0 || options_.max_order > highest)
         throw InputError(place, "highest order", options_.max_order, text("0 ... ", highest, " with this method"));
@@ -135,7 +142,7 @@ void Integrator::set_sides(int happened) {
     for (std::size_t i = 0; i < sides_.size(); ++i) {
         const bool own = static_cast<int>(i) == happened;
         if (own && sign(values_[i]) == 0)
-            sides_[i] = -sides_[i];
+            sides_[i] = 0;  // it has happened; its side will be the one it leaves zero to
         else if (sign(values_[i]) != 0 && (own || !due(i)))
             sides_[i] = sign(values_[i]);
     }
@@ -229,15 +236,16 @@ bool Integrator::process(double to, Advance& result) {
         return false;
     }
     stepper_->state_at(at, x_.data());
-    state_.time = at;
+    equations_.positions(at, x_.data(), state_);
     if (sides_.empty()) return true;
     if (event >= 0 && at < to) {
         x_between_ = x_;
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
+    // An action that throws is due again when the run goes on.
+    const AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
     set_sides(event);
     if (event < 0) return true;
-    const AfterEvent after = act(event);
     if (after != AfterEvent::go_on) begin_piece();
     if (after != AfterEvent::stop) return true;
     result.end = Advance::End::event;
@@ -245,7 +253,7 @@ bool Integrator::process(double to, Advance& result) {
     return false;
 }
 
-Advance Integrator::advance(double target, bool one_step) {
+Advance Integrator::advance(double target, bool one_step) try {
     Advance result;
     bool stepped = false;
     while (one_step ? !stepped : state_.time < target) {
@@ -263,6 +271,7 @@ Advance Integrator::advance(double target, bool one_step) {
             if (!stepper_->step(one_step ? infinity : target)) {
                 result.end = Advance::End::failed;
                 result.message = stepper_->failure();
+                start_pending_ = true;
                 break;
             }
             if (options_.progress) options_.progress(stepper_->time(), statistics());
@@ -272,6 +281,9 @@ Advance Integrator::advance(double target, bool one_step) {
     }
     complete(result);
     return result;
+} catch (...) {
+    start_pending_ = true;  // the method may have been left in the middle of a step
+    throw;
 }
 
 Advance Integrator::advance(double time) {

@@ -177,6 +177,7 @@ public:
     void set_forces(const Forces* forces);
 
 private:
+    void go_on_from(const Checkpoint& from);
     void check_options() const;
     void find_breaks();
     void begin_piece();

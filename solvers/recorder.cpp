@@ -133,6 +133,9 @@ std::vector<double> sample_times(double from, double to, double step) {
 }
 
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, const RecordRow& row) {
+    if (const auto falls = std::ranges::is_sorted_until(times); falls != times.end())
+        throw InputError(place, "time of a sample [s]", *falls,
+                         text("not before that of the sample before, ", falls[-1]));
     std::vector<double> values(recorder.channels().size());
     const auto hand_out = [&] {
         recorder.sample(integrator, values.data());
@@ -142,8 +145,7 @@ Advance record(Integrator& integrator, Recorder& recorder, const std::vector<dou
     double last = -std::numeric_limits<double>::infinity();
     for (double time : times) {
         result = integrator.advance(time);
-        if (!result.reached() && !(integrator.time() > last)) break;
-        hand_out();
+        if (integrator.time() > last) hand_out();  // a time that comes twice is recorded once
         last = integrator.time();
         if (!result.reached()) break;
     }

@@ -56,9 +56,10 @@ void check(std::span<const double> time, std::span<const double> values) {
 }
 
 std::size_t segment_length(double seconds, double step, std::size_t samples) {
+    if (samples < 8) throw InputError(place, "number of samples", samples, "at least 8");
     const double length = seconds == 0 ? static_cast<double>(samples) : std::round(seconds / step);
     if (!(length >= 8 && length <= static_cast<double>(samples)))
-        throw InputError(place, "segment [s]", seconds == 0 ? static_cast<double>(samples) * step : seconds,
+        throw InputError(place, "segment [s]", seconds,
                          text(8 * step, " (8 samples) to ", static_cast<double>(samples) * step, " (all samples)"));
     return static_cast<std::size_t>(length);
 }

@@ -52,6 +52,8 @@ public:
 protected:
     /// A step from one time to the other is no step: the clock has not moved, or by a few of its last digits only.
     static bool stands_still(double from, double to);
+    /// Weighted errors below this do not tell what limits a step.
+    static constexpr double informative = 1e-3;
     static constexpr std::string_view standstill = "the step became as short as the clock can tell";
 
     std::string failure_;

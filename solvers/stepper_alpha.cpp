@@ -108,8 +108,9 @@ void AlphaStepper::start(double time, const double* x, double stop) {
 
 // So short that the acceleration moves nothing by more than the tolerance; it grows fast.
 double AlphaStepper::first_step(double horizon) {
-    const double towards = std::min(horizon, stop_) - time_;
-    const double longest = std::min(max_step_, std::isfinite(towards) ? towards : 1.0);
+    // An output that is almost now is no scale.
+    const double towards = std::min(horizon, stop_) - time_, shortest = 1e-6 * std::max(1.0, std::abs(time_));
+    const double longest = std::min(max_step_, std::isfinite(towards) && towards > shortest ? towards : 1.0);
     if (wanted_first_ > 0) return std::min(wanted_first_, longest);
     double largest = 0;
     for (Eigen::Index i = 0; i < m_; ++i) largest = std::max(largest, std::abs(to_.qdd(i) * w_(i)));
@@ -127,7 +128,7 @@ bool AlphaStepper::fail(std::string_view why, double h) {
     failure_ = text("no step possible at ", time_, " s: ", why, " (step ", h, " s)");
     if (!equations_.problem().empty()) failure_ += text("; ", equations_.problem());
     const LimitingEntry worst = limiting_entry(errors_.data(), w_.data(), static_cast<int>(2 * m_));
-    if (worst.entry >= 0)
+    if (worst.entry >= 0 && worst.error > informative)
         failure_ += text("; the largest local error or correction, ", worst.error, " times the allowed one, has the ",
                          equations_.name_of(worst.entry));
     failure_ += "; look for jumps of forces (give their times as breaks), or take shorter steps";

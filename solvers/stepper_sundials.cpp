@@ -104,7 +104,7 @@ std::string SundialsStepper::explain(int flag, std::string_view advice) {
     if (local_errors()) {
         const LimitingEntry worst = limiting_entry(N_VGetArrayPointer(errors_.get()),
                                                    N_VGetArrayPointer(error_weights_.get()), 2 * equations_.size());
-        if (worst.entry >= 0)
+        if (worst.entry >= 0 && worst.error > informative)
             message += text("; the largest local error, ", worst.error, " times the allowed one, has the ",
                             equations_.name_of(worst.entry));
     }

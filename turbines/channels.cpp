@@ -56,12 +56,12 @@ void add_loads(ChannelGroup& group, const std::string& where, const std::string&
         const std::string letter(1, "xyz"[i % 3]);
         const bool force = i < 3;
         const std::string& stem = force ? force_alias : moment_alias;
-        group.channels.push_back({.name = where + (force ? " force " : " moment ") + letter,
+        group.channels.push_back({.name = text(where, force ? " force " : " moment ", letter),
                                   .units = force ? "N" : "N m",
                                   .long_name = text(what[i], " at the ", point),
                                   .frame = axes,
                                   .point = point,
-                                  .alias = suffix.empty() ? "" : stem + letter + suffix});
+                                  .alias = suffix.empty() ? "" : text(stem, letter, suffix)});
     }
 }
 

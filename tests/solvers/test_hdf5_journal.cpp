@@ -174,6 +174,25 @@ TEST_CASE("journal: one writer; a reader without a writer keeps writers out") {
     CHECK(nothing.open((folder / "none").c_str(), Mode::read) == ENOENT);
 }
 
+TEST_CASE("journal: a file that was removed or cut off is no place to commit to") {
+    const Folder folder;
+    const std::string path = folder / "a";
+    for (const bool removed : {true, false}) {
+        JournaledFile file;
+        REQUIRE(file.open(path.c_str(), Mode::create) == 0);
+        file.write(0, std::string(2000, 'a'));
+        CHECK(file.commit(2000) == 0);
+        if (removed)
+            std::filesystem::remove(path);
+        else
+            std::filesystem::resize_file(path, 100);
+        file.write(0, std::string(2000, 'b'));
+        CHECK(file.commit(2000) == (removed ? ENOENT : EIO));
+        CHECK(file.commit(2000) == (removed ? ENOENT : EIO));
+        CHECK(file.close() == 0);
+    }
+}
+
 TEST_CASE("journal: a writer waits for a reader, but not for ever", "[slow]") {
     const Folder folder;
     const std::string path = folder / "a";

@@ -322,5 +322,5 @@ TEST_CASE("spectrum: bad input is refused with place, value and limit") {
 
     History history{"run", {{"a", "m", "a"}}, {0, 1}, {{1, 2}}};
     check_refused([&] { (void)spectrum(history, "b"); }, {"history 'run'", "'b'", "'a'"});
-    check_refused([&] { (void)spectrum(history, "a"); }, {"channel 'a': spectrum: segment"});
+    check_refused([&] { (void)spectrum(history, "a"); }, {"channel 'a': spectrum: number of samples"});
 }
