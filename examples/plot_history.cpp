@@ -10,6 +10,7 @@
 #include "solvers/sampling.hpp"
 #include "turbines/csv.hpp"
 
+#include "examples/history_parts.hpp"
 #include "examples/program.hpp"
 #include <algorithm>
 #include <charconv>
@@ -204,16 +205,11 @@ void print_peaks(const solvers::History& history, const std::vector<std::string>
 
 // The channels alone, in equal steps.
 solvers::History sampled_evenly(const solvers::History& history, const std::vector<std::string>& names) {
-    solvers::History part{history.title, {}, history.time, {}};
-    for (const std::string& name : names) {
-        part.channels.push_back(history.channels[history.index(name)]);
-        part.values.push_back(history[name]);
-    }
     const solvers::TimeSteps steps = solvers::time_steps(history.time);
-    if (steps.uniform()) return part;
-    std::cout << "the steps between samples are not equal: resampled every " << steps.median
-              << " s by cubic pieces for the spectra\n";
-    return solvers::resample(part, steps.median);
+    if (!steps.uniform())
+        std::cout << "the steps between samples are not equal: resampled every " << steps.median
+                  << " s by cubic pieces for the spectra\n";
+    return program::in_equal_steps(program::part_of(history, names));
 }
 
 void draw_spectra(const solvers::History& history, const std::vector<std::string>& names,

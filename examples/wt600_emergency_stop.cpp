@@ -13,15 +13,15 @@ namespace {
 
 struct Arguments {
     program::SimulationArguments simulation;
-    double speed = 27.1, wind = 11.86, loss = 5, overspeed = 1.1, brake_speed = 12, brake_delay = 0, after = 5;
+    double speed = 27.1, wind = 11.86, loss = 5, overspeed = 1.1, brake_speed = 12, brake_delay = 0, after = 20;
     bool by_delay = false, no_gravity = false;
 };
 
 int parse(int argc, char** argv, Arguments& a) {
     CLI::App app(
         "Emergency stop of the 600 kW machine: grid loss, overspeed, pitch to feather, brake, standstill.\n"
-        "Prints the events, the largest loads and the balance of energy; writes PREFIX.h5, .svg, .png and "
-        "_energy.png.");
+        "Prints the events, the largest loads and the balance of energy; writes PREFIX.h5, .svg, .png, "
+        "_energy.png and\n_spectrum.png (after standstill).");
     a.simulation.out = "wt600_emergency_stop";
     program::add_simulation_options(app, a.simulation);
     app.add_option("--rpm", a.speed, "rotor speed at the start, rev/min")->capture_default_str();
@@ -153,10 +153,12 @@ int run(const Arguments& a) {
                        recorder);
 
     const program::Stopwatch watch;
-    solvers::Advance end = program::record(integrator, recorder, a.simulation.duration, a.simulation.step, rows);
+    solvers::Advance end = program::record(integrator, recorder, 0, a.simulation.duration, a.simulation.step, rows);
     const bool stands = end.end == solvers::Advance::End::event;
+    const double standstill = integrator.time();
     if (stands && a.after > 0)
-        end = program::record(integrator, recorder, integrator.time() + a.after, a.simulation.step, rows);
+        end = program::record(integrator, recorder, integrator.time(), integrator.time() + a.after, a.simulation.step,
+                              rows);
     const program::Elapsed elapsed = watch.elapsed();
     program::progress("\r                              \r");
 
@@ -170,14 +172,15 @@ int run(const Arguments& a) {
         rows.history, {"TwrBsMyt", "TwrBsMxt", "TwrBsFxt", "TTDspFA", "YawBrTAxp", "RootMyb1", "RootMxb1", "RootFzb1",
                        "OoPDefl1", "IPDefl1", "RotTorq", "HSSBrTq", "GenTq"});
     bool good = program::check_energy(integrator, rows.history, a.simulation);
+    const double spectra_from = stands ? standstill : integrator.time() - 40;
     if (end.end == solvers::Advance::End::cancelled) {
-        program::write_outputs(rows, a.simulation.out);
+        program::write_outputs(rows, a.simulation.out, false, spectra_from);
         return 130;
     }
     good = program::check("events in order, rotor stands (0: yes)", stands && in_order(supervisor.list) ? 0 : 1, 0) &&
            good;
     program::print_effort(integrator, system, elapsed);
-    program::write_outputs(rows, a.simulation.out);
+    program::write_outputs(rows, a.simulation.out, true, spectra_from);
     return good ? 0 : 1;
 }
 

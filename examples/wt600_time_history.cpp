@@ -1,23 +1,34 @@
 // Start-up of the 600 kW machine, through the resonance of its tower, to operation.
 //
 // Problem: from standstill with the blades in feather these are pitched slowly into the wind; the rotor speeds up, and
-// three times its speed (the tower's shadow falls on every blade in turn) passes the first frequency of the tower. With
-// --mode fixed the induction generator (Kloss' law) is connected to the grid when it reaches the synchronous speed,
-// with
-// --mode variable a converter loads it by a table of torque over speed. Gravity and a prescribed load on the rotor (no
-// aerodynamics, see elements/rotor_load.hpp).
+// three times its speed (the tower's shadow falls on every blade in turn) passes the first frequency of the tower.
+// --mode fixed: the induction generator (Kloss' law) is connected to the grid when it reaches the synchronous speed;
+// --mode variable: a converter loads it by a table of torque over speed. Gravity and a prescribed load on the rotor (no
+// aerodynamics, see elements/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
 // Checks: the theorem of energy, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
 #include "solvers/campbell.hpp"
 
+#include "examples/motion_option.hpp"
 #include "examples/wt600_simulation.hpp"
+#include <array>
 
 using namespace cardan;
 
 namespace {
 
+constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+constexpr std::array<const char*, names.size()> directions{
+    "of a platform under the tower, downwind, m",
+    "likewise, to the left for who looks downwind, m",
+    "up, m",
+    "about the downwind axis, deg",
+    "about the sway axis, deg: positive moves the top of the tower downwind",
+    "about the tower axis, deg"};
+
 struct Arguments {
     program::SimulationArguments simulation;
+    std::array<std::string, names.size()> motions;
     std::string mode = "fixed";
     double wind = 11.86, pitch_rate = 1.5, shadow = 0.1;
 };
@@ -25,10 +36,10 @@ struct Arguments {
 int parse(int argc, char** argv, Arguments& a) {
     CLI::App app(
         "Start-up of the 600 kW machine through the resonance of its tower, to operation with an induction generator "
-        "at "
-        "the grid (fixed) or with a converter (variable).\nPrints events, resonances, the largest loads and the "
-        "balance "
-        "of energy.");
+        "at the grid (fixed) or with a converter (variable).\nPrints events, resonances, the largest loads and the "
+        "balance of energy; writes PREFIX.h5, .svg, .png, _energy.png and\n_spectrum.png (last 40 s).\n\nThe tower "
+        "stands on the ground, or on a platform with prescribed motions if there are any. " +
+        std::string(program::motion_help));
     a.simulation.out = "wt600_time_history";
     a.simulation.duration = 120;
     program::add_simulation_options(app, a.simulation);
@@ -38,6 +49,9 @@ int parse(int argc, char** argv, Arguments& a) {
         ->capture_default_str();
     app.add_option("--tower-shadow", a.shadow, "share of the rotor load that is lost when a blade passes the tower")
         ->capture_default_str();
+    program::add_motion_options(app, names, directions, a.motions);
+    app.add_flag("--resume", a.simulation.resume,
+                 "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration");
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
     program::check_simulation_options(a.simulation);
     require_positive("--pitch-rate", "value", a.pitch_rate);
@@ -52,8 +66,38 @@ turbines::Wt600Operation machine_of(const Arguments& a) {
     options.pitch = pi / 2;
     options.wind = a.wind;
     options.tower_shadow = a.shadow;
+    if (std::ranges::any_of(a.motions, [](const std::string& given) { return !given.empty(); }))
+        options.assembly.platform.emplace();
     return turbines::wt600_operation(options);
 }
+
+std::string title(const Arguments& a) {
+    std::string motions;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (!a.motions.at(i).empty())
+            motions += text(motions.empty() ? ", platform " : ", ", names.at(i), " ", a.motions.at(i));
+    return text("start-up of the 600 kW machine, ", a.mode, " speed", motions);
+}
+
+std::vector<solvers::Drive> drives(const Arguments& a, const turbines::Turbine& turbine) {
+    std::vector<solvers::Drive> all;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (a.motions.at(i).empty()) continue;
+        const int coordinate = turbine.system().model.index(turbine.layout().platform->coordinates.at(i));
+        const double unit = turbine.system().model.body(coordinate).revolute ? program::degree : 1;
+        all.push_back({coordinate, program::motion_option(text("--", names.at(i)), a.motions.at(i), {}).motion(unit)});
+    }
+    return all;
+}
+
+// Where the driven coordinates are at time zero.
+Vector first_position(const System& system, const std::vector<solvers::Drive>& drives) {
+    Vector q = Vector::Zero(system.model.size());
+    for (const solvers::Drive& drive : drives) q(drive.coordinate) = drive.motion.at(0).position;
+    return q;
+}
+
+constexpr const char* connected = "generator connected [s]";
 
 // Connects the induction machine when it comes to its synchronous speed.
 std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, double& connected_at) {
@@ -68,6 +112,7 @@ std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, doub
     connect.action = [grid = machine.grid, &connected_at](solvers::Integrator& integrator) {
         if (grid->is_on()) return solvers::AfterEvent::go_on;
         connected_at = integrator.time();
+        integrator.note(connected, connected_at);
         grid->turn(true, integrator.time());
         return solvers::AfterEvent::restart;
     };
@@ -144,24 +189,39 @@ double last_speed(const solvers::History& history) {
     return sum / count;
 }
 
+std::string options_of(const Arguments& a) {
+    return text("wind ", a.wind, " m/s, pitch rate ", a.pitch_rate, " deg/s, tower shadow ", a.shadow, ", ",
+                program::options_text(a.simulation));
+}
+
 int run(const Arguments& a) {
     const program::SimulationArguments& s = a.simulation;
-    program::check_outputs(s.out, program::simulation_outputs);
+    if (!s.resume) program::check_outputs(s.out, program::simulation_outputs);
     const turbines::Wt600Operation machine = machine_of(a);
     const System& system = machine.turbine.system();
-    const program::Start start = program::standing_start(machine);
+    const std::vector<solvers::Drive> platform = drives(a, machine.turbine);
+    const std::string description = text(title(a), ", ", options_of(a), "\n", machine.turbine.summary());
+    const std::optional<solvers::Checkpoint> broken_off = program::start_of(s, description);
     machine.pitch->move_to(0, 0, a.pitch_rate * program::degree);
     double connected_at = -1;
+    if (broken_off && broken_off->notes.contains(connected)) {
+        connected_at = broken_off->notes.at(connected);
+        machine.grid->turn(true, connected_at);
+    }
     solvers::IntegrationOptions options = program::integration_options(s);
     options.events = events(machine, connected_at);
     options.breaks = machine.pitch->breaks();
-    solvers::Integrator integrator(system, {}, 0, start.q, start.qd, options);
+    const auto begin = [&] {
+        const program::Start start = program::standing_start(machine, first_position(system, platform));
+        return solvers::Integrator(system, platform, 0, start.q, start.qd, options);
+    };
+    solvers::Integrator integrator = broken_off ? solvers::Integrator(system, platform, *broken_off, options) : begin();
     solvers::Recorder recorder(integrator, machine.channels);
-    program::Rows rows(text("start-up of the 600 kW machine, ", a.mode, " speed"), machine.turbine.summary(), s,
-                       integrator, recorder);
+    program::Rows rows = broken_off ? program::Rows(s, integrator, recorder)
+                                    : program::Rows(title(a), description, s, integrator, recorder);
 
     const program::Stopwatch watch;
-    const solvers::Advance end = program::record(integrator, recorder, s.duration, s.step, rows);
+    const solvers::Advance end = program::record(integrator, recorder, 0, s.duration, s.step, rows);
     const program::Elapsed elapsed = watch.elapsed();
     program::progress("\r                              \r");
 
@@ -182,8 +242,10 @@ int run(const Arguments& a) {
                good;
     }
     program::print_effort(integrator, system, elapsed);
-    program::write_outputs(rows, s.out);
-    if (end.end == solvers::Advance::End::cancelled) return 130;
+    const bool complete = end.reached();
+    const double spectra_from = std::max(integrator.time() - 40, integrator.time() / 2);
+    program::write_outputs(rows, s.out, complete, spectra_from);
+    if (!complete) return 130;
     return good ? 0 : 1;
 }
 

@@ -129,7 +129,7 @@ public:
                   "',11'\n");
         double y = top_margin;
         if (!stack_.title.empty()) {
-            s += text("set label 1 ", gnuplot_text(shortened(stack_.title, letters_across())), " at screen ",
+            s += text("set label 1 ", gnuplot_text(shortened(stack_.title, title_letters())), " at screen ",
                       across(left_margin), ",", down(y + title_height / 2 - 4), " left font ',14'\n");
             y += title_height;
         }
@@ -141,6 +141,7 @@ private:
     double across(double pixels) const { return pixels / stack_.width; }
     double down(double pixels) const { return 1 - pixels / height_; }
     double inner_width() const { return stack_.width - left_margin - right_margin; }
+    std::size_t title_letters() const { return static_cast<std::size_t>(inner_width() / (letter * 14 / 12)); }
     std::size_t letters_across() const { return static_cast<std::size_t>((inner_width() - legend_sample) / letter); }
 
     void check() const {

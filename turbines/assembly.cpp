@@ -51,14 +51,14 @@ public:
     }
 
     void whole_machine() {
+        add_platform();
         const FrameId top = add_tower();
         const FrameId nacelle = add_yaw_and_nacelle(top);
         const FrameId shaft = add_tilt(nacelle);
         const FrameId hub = options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft);
         add_hub(hub);
         for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, true);
-        parts.insert(parts.begin(),
-                     {"tower", Tree::base(), {}, {"tower side-side", "tower fore-aft", "tower torsion"}});
+        parts.insert(parts.begin(), {"tower", foundation_, {}, {"tower side-side", "tower fore-aft", "tower torsion"}});
     }
 
     void one_blade() {
@@ -96,9 +96,20 @@ private:
 
     void keep(const CardanBeam& beam) { warnings.insert(warnings.end(), beam.warnings.begin(), beam.warnings.end()); }
 
+    void add_platform() {
+        if (!options_.platform) return;
+        layout.platform = add_moving_base(tree, Tree::base(), "platform", options_.platform->coordinates);
+        foundation_ = layout.platform->frame;
+        if (!options_.platform->inertia.is_massless()) tree.weld(foundation_, options_.platform->inertia, "platform");
+        parts.push_back({"platform",
+                         Tree::base(),
+                         {"platform surge", "platform sway", "platform heave"},
+                         {"platform roll", "platform pitch", "platform yaw"}});
+    }
+
     FrameId add_tower() {
         const Mat3 upward = axis_rotation(Axis::y);  // x -> z, y -> x, z -> y
-        const FrameId foot = tree.add_frame(Tree::base(), Placement::rotation(upward), "tower foot");
+        const FrameId foot = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
         const CardanBeam beam = add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
                                                 beam_options(options_, options_.tower_elements, damping_.tower));
         keep(beam);
@@ -118,7 +129,7 @@ private:
         layout.yaw = yaw.body;
         tree.weld(at, d_.nacelle.inertia, "nacelle");
         parts.push_back(
-            {"yaw", Tree::base(), {"yaw bearing fore-aft", "yaw bearing side-side", ""}, {"", "", "rotor yaw"}});
+            {"yaw", foundation_, {"yaw bearing fore-aft", "yaw bearing side-side", ""}, {"", "", "rotor yaw"}});
         return tree.add_frame(at, {}, "nacelle");
     }
 
@@ -126,7 +137,7 @@ private:
         const Vec3 centre(0, 0, d_.nacelle.shaft_height);
         const JointedFrame tilt =
             sprung_joint(nacelle, JointKind::revolute, Axis::y, "tilt", {"tilt"}, d_.nacelle.tilt_bearing, centre);
-        parts.push_back({"tilt", Tree::base(), {}, {"", "rotor tilt", ""}});
+        parts.push_back({"tilt", foundation_, {}, {"", "rotor tilt", ""}});
         return tree.add_frame(tilt.frame, Placement::rotation(rot_y(d_.nacelle.tilt)), "shaft");
     }
 
@@ -223,6 +234,7 @@ private:
     const TurbineDescription& d_;
     const AssemblyOptions& options_;
     const PartDamping& damping_;
+    FrameId foundation_ = Tree::base();  // what the tower stands on
 };
 
 namespace {
@@ -313,7 +325,8 @@ std::string settings(const AssemblyOptions& o) {
                 ", pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
                 ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
                 o.joint_damping ? "on" : "off", ", main shaft ",
-                o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"));
+                o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
+                o.platform ? text(", on a platform of ", o.platform->inertia.mass, " kg") : std::string());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "elements/coordinate_force.hpp"
+#include "elements/moving_base.hpp"
 #include "mbs/rotor_map.hpp"
 #include "mbs/system.hpp"
 #include "turbines/description.hpp"
@@ -19,6 +20,15 @@ struct ShaftBeam {
     double mass = 1;  ///< kg/m; not zero, for nothing else gives the tilt joint an inertia apart from the hub's
 };
 
+/// What the tower stands on if that moves, fixed to the foot of the tower: a floating platform, a shaking table.
+struct PlatformOptions {
+    /// With the default the coordinates are driven; axes, signs and order of rotations are those of OpenFAST.
+    MovingBaseOptions coordinates = {};
+    /// Of the platform itself; axes x downwind, z up, origin at the foot. Tower base loads are without it, the forces
+    /// of the drives with it.
+    RigidInertia inertia = {};
+};
+
 struct AssemblyOptions {
     int tower_elements = 3;
     int blade_elements = 3;
@@ -29,10 +39,12 @@ struct AssemblyOptions {
     bool structural_damping = true;  ///< of tower and blades
     bool joint_damping = true;       ///< of yaw, tilt, drive train, pitch
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
+    std::optional<PlatformOptions> platform = std::nullopt;  ///< under the whole machine; none: the ground
 };
 
 /// Where things are in the tree of a machine, for loads and channels. What a machine does not have is empty.
 struct MachineLayout {
+    std::optional<MovingBase> platform;  ///< "platform surge" ... "platform yaw"; its frame is the tower's foot, z up
     std::optional<CardanBeam> tower;
     FrameId tower_foot, tower_top;         ///< axes of the tower's beam; x downwind, z up at rest
     FrameId shaft;                         ///< carries the drive train, x along the shaft, downwind
@@ -79,12 +91,14 @@ private:
     std::vector<std::string> warnings_;
 };
 
-/// The whole machine. Coordinates in order: tower, yaw x, y, rotation, tilt, generator, gearbox, hub (or shaft beam),
-/// then every blade's pitch and elements. The spin coordinate is the generator's azimuth relative to the nacelle.
+/// The whole machine. Coordinates in order: platform if there is one, tower, yaw x, y, rotation, tilt, generator,
+/// gearbox, hub (or shaft beam), then every blade's pitch and elements. The spin coordinate is the generator's azimuth
+/// relative to the nacelle.
 /// @throws InputError for bad data; the part is named.
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
 
-/// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (no pitch joint, no tilt).
+/// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (no pitch joint, no tilt,
+/// no platform).
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {});
 
 }  // namespace cardan::turbines

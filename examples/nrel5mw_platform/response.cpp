@@ -15,14 +15,14 @@ bool is_multiple(double whole, double part) {
     return std::abs(ratio - std::round(ratio)) < 1e-9 * ratio;
 }
 
-// Largest difference of the tip deflections of two periods.
-double change(const solvers::History& before, const solvers::History& now) {
+// Largest difference of some channels between two periods, at every `stride`-th row.
+double change(const solvers::History& before, const solvers::History& now, const std::vector<std::string>& channels,
+              std::size_t stride) {
     if (before.values.empty()) return std::numeric_limits<double>::infinity();
     double largest = 0;
-    for (std::size_t c = 0; c < now.channels.size(); ++c) {
-        if (now.channels[c].units != "m") continue;
-        for (std::size_t i = 0; i < now.time.size(); ++i)
-            largest = std::max(largest, std::abs(now.values[c][i] - before.values[c][i]));
+    for (const std::string& channel : channels) {
+        const std::vector<double>&a = before[channel], &b = now[channel];
+        for (std::size_t i = 0; i < b.size(); i += stride) largest = std::max(largest, std::abs(b[i] - a[i]));
     }
     return largest;
 }
@@ -33,15 +33,6 @@ bool has_stalled(const std::vector<double>& changes) {
     if (changes.size() < 2 * window) return false;
     return *std::min_element(changes.end() - window, changes.end()) >
            0.9 * *std::min_element(changes.end() - 2 * window, changes.end() - window);
-}
-
-solvers::RecorderOptions channels_only(bool energies) {
-    return {.coordinates = false,
-            .rates = false,
-            .accelerations = false,
-            .actuators = false,
-            .energies = energies,
-            .statistics = false};
 }
 
 }  // namespace
@@ -58,38 +49,38 @@ double common_period(const std::vector<double>& periods) {
                      "with a common multiple of at most 40 times the longest (revolutions=N is exact)");
 }
 
-Response periodic_response(const turbines::Nrel5mwPlatform& machine, const std::vector<solvers::Drive>& drives,
-                           const ResponseOptions& options) {
-    constexpr int coarse = 48;  // samples of a period that is only compared
+Response periodic_response(solvers::Integrator& integrator, solvers::Recorder& recorder, const ResponseOptions& options,
+                           const solvers::RecordRow& row) {
+    constexpr int compared = 48;  // rows of a period
     const double T = options.period;
-    const Vector rest = Vector::Zero(machine.system->model.size());
-    solvers::Integrator integrator(*machine.system, drives, 0, rest, rest, options.integration);
-    solvers::Recorder tips(integrator, {turbines::blade_channels(machine)}, channels_only(false));
-    solvers::Recorder all(integrator, {turbines::blade_channels(machine), turbines::drive_channels(machine)},
-                          channels_only(options.integration.works));
+    const int stride = std::max(1, static_cast<int>(std::ceil(T / options.step / compared)));
     Response response;
-    const auto run = [&](solvers::Recorder& recorder, int samples, solvers::History& into) {
+    const auto run = [&](int rows, solvers::History& into) {
         const double start = integrator.time();
         std::vector<double> times;
-        for (int i = 0; i <= samples; ++i) times.push_back(start + T * i / samples);
-        const solvers::Advance end = solvers::record(integrator, recorder, times, into);
+        for (int i = 0; i <= rows; ++i) times.push_back(start + T * i / rows);
+        into.channels = recorder.channels();
+        into.values.resize(into.channels.size());
+        const solvers::Advance end =
+            solvers::record(integrator, recorder, times, [&](double time, const std::vector<double>& values) {
+                row(time, values);
+                into.time.push_back(time);
+                for (std::size_t i = 0; i < values.size(); ++i) into.values[i].push_back(values[i]);
+            });
         if (end.end == solvers::Advance::End::failed) throw NumericalError(end.message);
         return end.reached();
     };
     solvers::History before;
     for (int period = 1; period <= options.most_periods && !response.settled && !response.stalled; ++period) {
         solvers::History now;
-        if (!run(tips, coarse, now)) return response;
-        response.changes.push_back(change(before, now));
+        if (!run(stride * compared, now)) return response;
+        response.changes.push_back(change(before, now, options.compared, static_cast<std::size_t>(stride)));
         response.settled = response.changes.back() <= options.settled;
         response.stalled = has_stalled(response.changes);
         if (options.progress) options.progress(period, response.changes.back());
         before = std::move(now);
     }
-    if (!run(all, options.samples, response.last)) return response;
-    response.complete = true;
-    if (options.integration.works) response.energy = integrator.energy();
-    response.statistics = integrator.statistics();
+    response.complete = run(options.samples, response.last);
     return response;
 }
 

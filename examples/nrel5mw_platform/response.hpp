@@ -3,7 +3,6 @@
 #pragma once
 
 #include "solvers/recorder.hpp"
-#include "turbines/nrel5mw_platform.hpp"
 
 #include <functional>
 #include <string>
@@ -16,29 +15,28 @@ namespace cardan::platform {
 double common_period(const std::vector<double>& periods);
 
 struct ResponseOptions {
-    double period = 0;       ///< s, that is compared with the one before
-    double settled = 5e-6;   ///< largest change of a tip deflection from one period to the next, m
-    int most_periods = 300;  ///< then it ends unsettled
-    int samples = 720;       ///< of the last period
-    solvers::IntegrationOptions integration = {};
+    double period = 0;                       ///< s, that is compared with the one before
+    std::vector<std::string> compared = {};  ///< channels: deflections
+    double settled = 5e-6;                   ///< largest change of these from one period to the next, m
+    int most_periods = 300;                  ///< then it ends unsettled
+    double step = 0.1;                       ///< largest time between rows up to the last period, s
+    int samples = 720;                       ///< of the last period
     std::function<void(int period, double change)> progress = {};
 };
 
 struct Response {
-    solvers::History last;  ///< one period, both ends included
-    std::vector<double>
-        changes;  ///< of the tip deflections in every period from the one before, m; the first: infinite
+    solvers::History last;        ///< one period, both ends included
+    std::vector<double> changes;  ///< in every period from the one before, m; the first: infinite
     bool settled = false;
-    bool stalled = false;           ///< ended because the changes have ceased to fall
-    bool complete = false;          ///< false: cancelled
-    solvers::EnergyBalance energy;  ///< from the start; zero if works are not integrated
-    solvers::IntegrationStatistics statistics;
+    bool stalled = false;   ///< ended because the changes have ceased to fall
+    bool complete = false;  ///< false: cancelled
 };
 
-/// Starts at time zero with the undeformed blades at rest relative to the hub.
+/// Integrates from where the integrator is until the response is periodic, and one period more.
+/// @param row  receives all rows; those where two periods meet come twice
 /// @throws NumericalError if the integration fails
-Response periodic_response(const turbines::Nrel5mwPlatform& machine, const std::vector<solvers::Drive>& drives,
-                           const ResponseOptions& options);
+Response periodic_response(solvers::Integrator& integrator, solvers::Recorder& recorder, const ResponseOptions& options,
+                           const solvers::RecordRow& row);
 
 /// A periodic signal y = mean + sum A_k cos(2 pi k t / T + phase_k).
 struct Harmonics {

@@ -310,6 +310,6 @@ TEST_CASE("history: readers and a writer in two programs do not disturb each oth
     CHECK(WIFSIGNALED(wait_for(child)));
     const std::size_t flushed = last_of(ends[0]);
     CHECK(grown > 3);
-    CHECK(flushed >= before);
+    CHECK(flushed + 8 >= before);  // it may be killed between a flush and the report of it
     check_broken_off(path, flushed, flushed + 8);
 }
