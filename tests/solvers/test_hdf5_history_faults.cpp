@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <poll.h>
 #include <random>
 #include <sys/mount.h>
 #include <sys/stat.h>
@@ -114,7 +115,7 @@ std::size_t last_of(int pipe) {
     return last;
 }
 
-/// Every second writer has begun when the time until its end starts to run.
+/// Every second writer has told of rows when the time until its end starts to run, however slow the machine is.
 void kill_at_random(int runs, unsigned seed) {
     const Folder folder;
     std::mt19937 random(seed);
@@ -127,7 +128,8 @@ void kill_at_random(int runs, unsigned seed) {
         const pid_t child = ::fork();
         if (child == 0) write_until_killed(path, ends[1]);
         ::close(ends[1]);
-        while (run % 2 == 1 && !fs::exists(path)) std::this_thread::sleep_for(std::chrono::microseconds(100));
+        pollfd told{ends[0], POLLIN, 0};
+        if (run % 2 == 1) REQUIRE(::poll(&told, 1, -1) == 1);
         std::this_thread::sleep_for(pause);
         ::kill(child, SIGKILL);
         CHECK(WIFSIGNALED(wait_for(child)));
@@ -137,7 +139,7 @@ void kill_at_random(int runs, unsigned seed) {
         if (fs::exists(path)) check_broken_off(path, flushed, flushed + 8);
         if (flushed > 0) ++with_rows;
     }
-    CHECK(with_rows > static_cast<std::size_t>(runs) / 4);
+    CHECK(with_rows >= static_cast<std::size_t>(runs) / 2);
 }
 
 }  // namespace
