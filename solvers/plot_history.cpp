@@ -132,10 +132,22 @@ void plot(const History& history, const std::vector<HistoryPanel>& panels, const
 }
 
 void plot_energies(const History& history, const std::filesystem::path& path, const HistoryPlotOptions& options) {
+    check_lengths(history);
     const std::vector<HistoryPanel> panels{
         {{"kinetic energy", "potential energy", "dissipated energy", "energy from drives", "energy from loads"}},
         {{"energy error"}}};
-    plot(history, panels, path, options);
+    History energies{history.title, {}, history.time, {}};
+    for (const HistoryPanel& panel : panels)
+        for (const std::string& name : panel.channels) {
+            const std::size_t i = history.index(name);
+            energies.channels.push_back(history.channels[i]);
+            energies.values.push_back(history.values[i]);
+        }
+    // That of tall machines counts from the ground: its changes would not be seen.
+    std::vector<double>& potential = energies.values[1];
+    energies.channels[1].long_name = "change of the potential energy since the start";
+    for (double start = potential.empty() ? 0 : potential.front(); double& value : potential) value -= start;
+    plot(energies, panels, path, options);
 }
 
 void plot_spectra(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,

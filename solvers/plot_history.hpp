@@ -51,9 +51,9 @@ struct HistoryPlotOptions {
 void plot(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
           const HistoryPlotOptions& options = {});
 
-/// Where the energy is, from the recorder's channels: kinetic, potential and dissipated energy and what drives and
-/// loads supplied in one panel, the error of the integration in a second one. Kinetic + potential + dissipated less
-/// supplied energy keeps its value but for this error.
+/// Where the energy is, from the recorder's channels: kinetic energy, change of the potential energy since the start,
+/// dissipated energy and what drives and loads supplied in one panel, the error of the integration in a second one.
+/// Kinetic + potential + dissipated less supplied energy keeps its value but for this error.
 /// @throws as plot(); InputError if an energy was not recorded
 void plot_energies(const History& history, const std::filesystem::path& path, const HistoryPlotOptions& options = {});
 

@@ -221,6 +221,9 @@ TEST_CASE("energy pictures: the error has a panel of its own; missing energies a
     plot_energies(h, folder.path / "e.svg");
     CHECK_THAT(bytes_of(folder / "e.svg"), Contains(">MJ<") && Contains(">µJ<") && Contains("energy from drives") &&
                                                Contains("dissipated energy") && Contains("energy error"));
+    for (double& value : h.values[1]) value += 3e7;  // the potential counts from the start
+    plot_energies(h, folder.path / "high.svg");
+    CHECK(bytes_of(folder / "high.svg") == bytes_of(folder / "e.svg"));
     h.channels.pop_back();
     h.values.pop_back();
     check_refused([&] { plot_energies(h, folder.path / "f.svg"); }, {"history 'start'", "'energy error'"});
