@@ -14,7 +14,7 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, RotorS
     const std::size_t blades = rotor.blades.size();
     if (blades == 2)
         throw InputError(rotor.machine, "number of blades", blades,
-                         "3 or more, or 1 (two blades have a periodic system, which is not available yet)");
+                         "3 or more, or 1 (two blades have a periodic system: see floquet())");
     std::vector<int> unknowns;
     for (int i : system.model.coordinates().free())
         if (i != rotor.spin || (spin == RotorSpin::free && blades > 1)) unknowns.push_back(i);

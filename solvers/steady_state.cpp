@@ -212,12 +212,12 @@ void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
         residual_.turn_to(options.azimuth + turn);
         const double largest = largest_residual();
         if (!(largest < 1e-7))
-            throw NumericalError(
-                text("no constant steady state at ", options.rotor_speed, " rad/s: with the rotor turned by ", turn,
-                     " rad the forces leave a residual of ", largest,
-                     " (residual over stiffness, rad or m; allowed 1e-7). Gravity in rotation, an unbalanced or a "
-                     "two-bladed rotor have a periodic steady state, which is not available yet; leave gravity out or "
-                     "stop the rotor"));
+            throw NumericalError(text(
+                "no constant steady state at ", options.rotor_speed, " rad/s: with the rotor turned by ", turn,
+                " rad the forces leave a residual of ", largest,
+                " (residual over stiffness, rad or m; allowed 1e-7). Gravity in rotation, an unbalanced or a "
+                "two-bladed rotor have a periodic steady state: see harmonic_balance(); or leave gravity out or stop "
+                "the rotor"));
     }
     residual_.turn_to(options.azimuth);
 }

@@ -4,6 +4,7 @@
 #include "tests/oracles/teetered_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
+#include "tests/turbines/teetered_table.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -48,32 +49,9 @@ oracles::RigidTeeteredRotor rigid_rotor() {
             .rotor_speed = speed};
 }
 
-struct Row {
-    const char* family;
-    std::size_t ordinal;  // from 1
-    double exact, unit;   // per rev; what its digits leave open
-};
-
-// Converged by another implementation (docs/teetered.md).
-const std::vector<Row> ratio_100{{"tower lateral", 1, 0.7112, 1e-4},      {"tower fore-aft", 1, 0.7026, 1e-4},
-                                 {"tower lateral", 2, 13.092, 1e-3},      {"tower fore-aft", 2, 12.856, 1e-3},
-                                 {"tower torsion", 1, 136.67, 1e-2},      {"tower torsion", 2, 410.01, 1e-2},
-                                 {"symmetric flap", 1, 3.557, 1e-3},      {"antisymmetric flap", 1, 10.167, 1e-3},
-                                 {"symmetric flap", 2, 20.359, 1e-3},     {"antisymmetric flap", 2, 34.073, 1e-3},
-                                 {"symmetric torsion", 1, 43.837, 1e-3},  {"antisymmetric torsion", 1, 44.18, 1e-2},
-                                 {"symmetric torsion", 2, 131.480, 1e-3}, {"antisymmetric torsion", 2, 131.9, 0.5},
-                                 {"symmetric lag", 1, 3.091, 1e-3},       {"antisymmetric lag", 1, 3.447, 1e-3},
-                                 {"symmetric lag", 2, 19.771, 1e-3},      {"antisymmetric lag", 2, 20.118, 1e-3}};
-const std::vector<Row> rigid{{"symmetric flap", 1, 3.4015, 1e-4},     {"antisymmetric flap", 1, 10.167, 1e-3},
-                             {"symmetric flap", 2, 20.069, 1e-3},     {"antisymmetric flap", 2, 34.073, 1e-3},
-                             {"symmetric torsion", 1, 43.837, 1e-3},  {"antisymmetric torsion", 1, 43.875, 1e-3},
-                             {"symmetric torsion", 2, 131.480, 1e-3}, {"antisymmetric torsion", 2, 131.49, 1e-2},
-                             {"symmetric lag", 1, 3.2434, 1e-4},      {"antisymmetric lag", 1, 3.411, 1e-3},
-                             {"symmetric lag", 2, 19.712, 1e-3},      {"antisymmetric lag", 2, 20.018, 1e-3}};
-
 // Within 0.3 % of every first mode and 1 % of every second one, undamped.
-void check_rows(const HalfTurnFloquet& floquet, const std::vector<Row>& rows, int steps) {
-    for (const Row& row : rows) {
+void check_rows(const HalfTurnFloquet& floquet, const std::vector<TeeteredRow>& rows, int steps) {
+    for (const TeeteredRow& row : rows) {
         const std::vector<Complex> found = floquet.of(row.family);
         CAPTURE(row.family, row.ordinal, row.exact);
         REQUIRE(found.size() >= row.ordinal);
@@ -125,7 +103,7 @@ TEST_CASE("teetered machine: multipliers of the undamped machine come in recipro
 TEST_CASE("teetered machine: three elements per part give the first modes within 1 %", "[published]") {
     for (bool rigid_tower : {false, true}) {
         const HalfTurnFloquet result = floquet(machine_of(3, rigid_tower), speed, 100);
-        for (const Row& row : rigid_tower ? rigid : ratio_100) {
+        for (const TeeteredRow& row : rigid_tower ? teetered_rigid : teetered_ratio_100) {
             if (row.ordinal > 1 || row.exact > 20) continue;
             CAPTURE(row.family, rigid_tower);
             REQUIRE(!result.of(row.family).empty());
@@ -139,7 +117,7 @@ TEST_CASE("teetered machine: three elements per part give the first modes within
 
 TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes of the table", "[published][slow]") {
     const HalfTurnFloquet result = floquet(machine_of(6, true), speed, 700);
-    check_rows(result, rigid, 700);
+    check_rows(result, teetered_rigid, 700);
     const RigidMotions motions = rigid_motions(result);
     REQUIRE(motions.yaw.size() == 2);
     for (double off : motions.yaw) CHECK(off < 1e-4);  // a Jordan block: square root of rounding
@@ -151,7 +129,7 @@ TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes
 TEST_CASE("teetered machine: six elements per part on a tower of a hundred times the blade's rigidity, all modes",
           "[published][slow]") {
     const HalfTurnFloquet result = floquet(machine_of(6, false), speed, 1500);
-    check_rows(result, ratio_100, 1500);
+    check_rows(result, teetered_ratio_100, 1500);
     const RigidMotions motions = rigid_motions(result);
     REQUIRE(motions.yaw.size() == 2);
     for (double off : motions.yaw) CHECK(off < 1e-4);
@@ -167,7 +145,7 @@ TEST_CASE("teetered machine: with more elements the frequencies converge with or
     std::vector<HalfTurnFloquet> results;
     const std::vector<int> elements{3, 6, 12};
     for (int n : elements) results.push_back(floquet(machine_of(n, false), speed, 300));
-    for (const Row& row : ratio_100) {
+    for (const TeeteredRow& row : teetered_ratio_100) {
         if (row.exact > 50 || std::string(row.family) == "antisymmetric torsion") continue;
         CAPTURE(row.family, row.ordinal);
         const auto f = [&](std::size_t i) { return results[i].of(row.family).at(row.ordinal - 1).imag(); };
