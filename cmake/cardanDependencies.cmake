@@ -35,6 +35,22 @@ macro(cardan_find_hdf5)
     endif()
 endmacro()
 
+# libmatio has no package config of its own.
+macro(cardan_find_matio)
+    if(NOT TARGET matio::matio)
+        find_path(MATIO_INCLUDE_DIR matio.h)
+        find_library(MATIO_LIBRARY matio)
+        if(NOT MATIO_INCLUDE_DIR OR NOT MATIO_LIBRARY)
+            message(FATAL_ERROR "cardan needs libmatio (Debian: libmatio-dev; elsewhere set MATIO_INCLUDE_DIR and "
+                                "MATIO_LIBRARY).")
+        endif()
+        mark_as_advanced(MATIO_INCLUDE_DIR MATIO_LIBRARY)
+        add_library(matio::matio UNKNOWN IMPORTED)
+        set_target_properties(matio::matio PROPERTIES IMPORTED_LOCATION "${MATIO_LIBRARY}"
+                                                      INTERFACE_INCLUDE_DIRECTORIES "${MATIO_INCLUDE_DIR}")
+    endif()
+endmacro()
+
 macro(cardan_find_tbb)
     if(NOT TARGET TBB::tbb)
         find_package(TBB 2021 REQUIRED CONFIG COMPONENTS tbb)

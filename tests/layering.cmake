@@ -1,8 +1,8 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Fails when a source includes a header it must not see: mbs <- elements <- turbines, mbs <- solvers; SUNDIALS in
-# solvers only, HDF5 in solvers/hdf5* only, urdfdom in mbs/urdf* only, oneTBB in mbs/batch* only, Boost in
-# elements/reference_line only, Eigen's unsupported part in solvers/fourier only.
+# solvers only, HDF5 in solvers/hdf5* only, libmatio in solvers/matio* only, urdfdom in mbs/urdf* only, oneTBB in
+# mbs/batch* only, Boost in elements/reference_line only, Eigen's unsupported part in solvers/fourier only.
 set(seen_by_mbs mbs)
 set(seen_by_elements mbs elements)
 set(seen_by_turbines mbs elements turbines)
@@ -29,6 +29,8 @@ foreach(folder IN ITEMS mbs elements turbines solvers)
             elseif(header MATCHES "^${sundials}" AND NOT folder STREQUAL "solvers")
                 set(allowed FALSE)
             elseif(header MATCHES "^(hdf5|H5)" AND NOT name MATCHES "^solvers/hdf5")
+                set(allowed FALSE)
+            elseif(header MATCHES "^matio" AND NOT name MATCHES "^solvers/matio")
                 set(allowed FALSE)
             elseif(header MATCHES "^boost/" AND NOT name MATCHES "^elements/reference_line")
                 set(allowed FALSE)

@@ -4,7 +4,9 @@
 #include "mbs/error.hpp"
 #include "mbs/version.hpp"
 #include "solvers/hdf5_campbell.hpp"
+#include "solvers/matio_state_space.hpp"
 #include "solvers/plot_campbell.hpp"
+#include "solvers/state_space.hpp"
 #include "turbines/wt600.hpp"
 
 #include <cmath>
@@ -17,6 +19,9 @@ int main() try {
         solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 27, 27));
     solvers::write_hdf5(diagram, "consumer.h5");
     solvers::plot(diagram, "consumer.svg");
+    const solvers::LinearModel linear =
+        solvers::state_space(turbine.system(), turbine.rotor(), diagram.points[0].at, {}, {});
+    solvers::write_mat(linear, {}, "consumer.mat");
     const double tower = diagram.natural_hz(diagram.branch("1st tower fore-aft"), 1);
     std::cout << "cardan " << version() << ": 1st tower fore-aft at 27 rpm " << tower << " Hz\n";
     // Many states at rest on all processors: no forces.

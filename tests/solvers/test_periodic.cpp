@@ -103,7 +103,7 @@ TEST_CASE("periodic state: an unbalanced rotor on unequal springs has the amplit
             expected.row(x).segment(1, 2) << along_x.real(), -along_x.imag();
             expected.row(y).segment(1, 2) << along_y.real(), -along_y.imag();
             const double size = expected.cwiseAbs().maxCoeff();
-            CHECK((state.coefficients - expected).cwiseAbs().maxCoeff() < (balance ? 1e-13 : 1e-10) * size);
+            CHECK((state.coefficients - expected).cwiseAbs().maxCoeff() < 1e-13 * size);
             CHECK(state.amplitude(1) == Approx(std::max(std::abs(along_x), std::abs(along_y))));
             CHECK(state.remainder < 1e-9);
         }

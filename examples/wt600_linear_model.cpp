@@ -1,0 +1,187 @@
+// Linear model of the 600 kW machine for the design of controllers.
+//
+// Problem: at a rotor speed the machine is linearised about its steady state, x' = A(psi) x + B(psi) u,
+// y = C(psi) x + D(psi) u, with the torque of the generator, moments of yaw and pitch drives and thrust as inputs and
+// speeds, accelerations and loads as outputs; the multi-blade transformation makes the matrices constant; balanced
+// truncation leaves a small model to design with.
+// Reference: the modes of A are those of the Campbell diagram at this rotor speed (docs/wt600.md).
+#include "mbs/error.hpp"
+#include "solvers/campbell.hpp"
+#include "solvers/hdf5_state_space.hpp"
+#include "solvers/lin_file.hpp"
+#include "solvers/matio_state_space.hpp"
+#include "solvers/model_reduction.hpp"
+#include "solvers/multi_blade_model.hpp"
+#include "solvers/state_space.hpp"
+#include "turbines/channels.hpp"
+#include "turbines/wt600.hpp"
+
+#include "examples/program.hpp"
+#include <algorithm>
+#include <cstdio>
+
+using namespace cardan;
+
+namespace {
+
+struct Arguments {
+    double rotor_rpm = 27, max_frequency = 10;
+    int azimuths = 12, order = 16, harmonics = 8;
+    bool gravity = false, prescribed = false;
+    std::string out = "wt600_linear_model", data;
+    turbines::AssemblyOptions assembly;
+};
+
+int parse(int argc, char** argv, Arguments& a) {
+    CLI::App app(
+        "Linear model of the 600 kW three-blade machine for control design.\n"
+        "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.");
+    app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min")->capture_default_str();
+    app.add_option("--azimuths", a.azimuths, "azimuths per revolution")->capture_default_str();
+    app.add_option("--order", a.order, "order of the balanced model")->capture_default_str();
+    app.add_option("--max-frequency", a.max_frequency, "modes up to this frequency are printed, Hz")
+        ->capture_default_str();
+    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
+    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
+    app.add_flag("--gravity", a.gravity, "about the periodic steady state under gravity");
+    app.add_flag("--rotor-prescribed", a.prescribed, "rotor speed prescribed instead of free");
+    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+    app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
+    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    if (a.gravity) a.assembly.gravity = {0, 0, -9.80665};
+    return -1;
+}
+
+std::vector<solvers::LinearInput> inputs(const turbines::Turbine& turbine, bool rotor_free) {
+    using solvers::LinearInput;
+    const turbines::MachineLayout& layout = turbine.layout();
+    const Model& model = turbine.system().model;
+    std::vector<LinearInput> list;
+    // Positive: brakes, on the fast shaft.
+    if (rotor_free)
+        list.push_back(
+            LinearInput::generalised_force("generator torque", {{turbine.rotor().spin, -layout.gear_ratio}}));
+    list.push_back(LinearInput::generalised_force("yaw moment", {{model.index(*layout.yaw), 1.0}}));
+    list.push_back(LinearInput::force("thrust", layout.hub, Vec3::UnitZ(), WrenchAxes::frame));
+    list.push_back(LinearInput::moment("rotor torque", layout.hub, Vec3::UnitZ(), WrenchAxes::frame));
+    for (std::size_t k = 0; k < layout.pitch.size(); ++k)  // positive toward feather
+        list.push_back(LinearInput::generalised_force(text("blade ", k + 1, " pitch moment"),
+                                                      {{model.index(layout.pitch[k]), -1.0}}));
+    return list;
+}
+
+const std::vector<std::string> outputs{"GenSpeed",  "RotSpeed",  "RotTorq",   "TTDspFA",   "TTDspSS",
+                                       "YawBrTAxp", "YawBrTAyp", "NacYaw",    "TwrBsMxt",  "TwrBsMyt",
+                                       "TwrBsMzt",  "RootMxb1",  "RootMxb2",  "RootMxb3",  "RootMyb1",
+                                       "RootMyb2",  "RootMyb3",  "BldPitch1", "BldPitch2", "BldPitch3"};
+
+solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments& a) {
+    const double rotor_speed = a.rotor_rpm * pi / 30;
+    solvers::StateSpaceOptions options;
+    options.azimuths = a.azimuths;
+    options.outputs = outputs;
+    options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
+    const auto list = inputs(turbine, !a.prescribed);
+    const auto channels = turbines::channels(turbine);
+    const int spin = turbine.rotor().spin;
+    if (a.gravity && rotor_speed != 0) {
+        solvers::PeriodicOptions periodic;
+        periodic.rotor_speed = rotor_speed;
+        periodic.harmonics = a.harmonics;
+        const auto state = solvers::harmonic_balance(turbine.system(), spin, periodic);
+        if (!state.converged) throw NumericalError(state.message);
+        return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);
+    }
+    solvers::SteadyOptions steady;
+    steady.rotor_speed = rotor_speed;
+    const solvers::SteadyState state = solvers::steady_state(turbine.system(), spin, steady);
+    if (!state.converged) throw NumericalError(state.message);
+    return solvers::state_space(turbine.system(), turbine.rotor(), state.at, list, channels, options);
+}
+
+// Modes of the linear model beside those of the Campbell diagram.
+void print_modes(const turbines::Turbine& turbine, const solvers::ConstantModel& fixed, const Arguments& a) {
+    const std::vector<Complex> poles = fixed.poles();
+    solvers::Campbell diagram;
+    if (!a.gravity) {
+        const double speed[] = {a.rotor_rpm * pi / 30};
+        solvers::CampbellOptions options;
+        options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
+        options.max_frequency_hz = a.max_frequency;
+        options.keep_shapes = false;
+        diagram = solvers::campbell(turbine.system(), turbine.rotor(), speed, options);
+    }
+    std::printf("modes of A%s\n", a.gravity ? "" : " and of the Campbell diagram");
+    std::printf("  natural Hz  damping %%%s\n", a.gravity ? "" : "    natural Hz  damping %");
+    for (const Complex& pole : poles) {
+        const double hertz = std::abs(pole) / (2 * pi), damping = -100 * pole.real() / std::abs(pole);
+        if (pole.imag() <= 1e-3 || hertz > a.max_frequency) continue;
+        std::printf("%12.6f %10.4f", hertz, damping);
+        const solvers::Branch* best = nullptr;
+        double nearest = 1e-3 * std::abs(pole);
+        for (const solvers::Branch& branch : diagram.branches) {
+            if (branch.mode[0] < 0) continue;
+            const Complex other = diagram.points[0].modes[static_cast<std::size_t>(branch.mode[0])].mode.eigenvalue;
+            if (std::abs(other - pole) < nearest) best = &branch, nearest = std::abs(other - pole);
+        }
+        if (best)
+            std::printf("  %12.6f %10.4f  %s", diagram.natural_hz(*best, 0), 100 * diagram.damping_ratio(*best, 0),
+                        best->name.c_str());
+        std::printf("\n");
+    }
+}
+
+// Sizes that count as much in each signal, so that newtons do not outweigh radians: 10 kN (m), and 0.01 of the others.
+solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Arguments& a) {
+    solvers::BalancedOptions options;
+    options.order = a.order;
+    options.static_gain = solvers::StaticGain::kept;
+    const auto sizes = [](const std::vector<solvers::Signal>& signals) {
+        Vector size(static_cast<Eigen::Index>(signals.size()));
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            const std::string& units = signals[i].units;
+            size(static_cast<Eigen::Index>(i)) = units == "N m" || units == "N" ? 1e4 : 0.01;
+        }
+        return size;
+    };
+    options.input_size = sizes(fixed.inputs);
+    options.output_size = sizes(fixed.outputs);
+    return solvers::balanced_truncation(fixed, options);
+}
+
+int run(const Arguments& a) {
+    if (!std::isfinite(a.rotor_rpm) || a.rotor_rpm < 0) throw InputError("--rpm", "value", a.rotor_rpm, ">= 0");
+    const turbines::TurbineDescription description =
+        a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
+    const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
+    program::check_outputs(a.out, {".h5", ".mat", ".1.lin"});
+
+    const solvers::LinearModel model = linearise(turbine, a);
+    const solvers::MultiBladeModel fixed = solvers::multi_blade(model, turbine.rotor());
+    const solvers::BalancedModel small = balanced(fixed, a);
+    std::printf("%s at %g rpm: %zu states, %zu inputs, %zu outputs, %zu azimuths\n", model.machine.c_str(), a.rotor_rpm,
+                model.states.size(), model.inputs.size(), model.outputs.size(), model.samples.size());
+    std::printf("periodic remainder of the multi-blade matrices, relative: A %.1e, B %.1e, C %.1e, D %.1e\n",
+                fixed.A_remainder, fixed.B_remainder, fixed.C_remainder, fixed.D_remainder);
+    std::printf("estimated error of C and D, relative: %.1e\n\n", model.output_error.maxCoeff());
+    print_modes(turbine, fixed, a);
+    std::printf("\nbalanced model: order %d and %d states that are not stable; error at most %.2e of %.2e (scaled)\n",
+                small.order, small.kept_as_is, small.error_bound, 2 * small.hankel.sum());
+    std::printf("Hankel singular values:");
+    for (Eigen::Index i = 0; i < std::min<Eigen::Index>(small.hankel.size(), small.order + 4); ++i)
+        std::printf("%s%s %.3e", i % 8 == 0 ? "\n " : "", i == small.order ? " |" : "", small.hankel(i));
+
+    const std::vector<solvers::NamedModel> constant{{"multi_blade", fixed}, {"balanced", small}};
+    solvers::write_hdf5(model, constant, a.out + ".h5");
+    solvers::write_mat(model, constant, a.out + ".mat");
+    const auto files = solvers::write_lin(model, a.out);
+    std::printf("\n\nfiles: %s.h5, %s.mat, %s ... %zu files\n", a.out.c_str(), a.out.c_str(),
+                files.front().string().c_str(), files.size());
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return program::run_program("wt600_linear_model", argc, argv, parse, run);
+}

@@ -1,0 +1,198 @@
+#include "solvers/matio_state_space.hpp"
+
+#include "mbs/error.hpp"
+#include "mbs/pending_file.hpp"
+#include "mbs/version.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <matio.h>
+#include <memory>
+#include <set>
+#include <span>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+struct FreeVariable {
+    void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using Variable = std::unique_ptr<matvar_t, FreeVariable>;
+
+struct CloseFile {
+    void operator()(mat_t* file) const { Mat_Close(file); }
+};
+using File = std::unique_ptr<mat_t, CloseFile>;
+
+Variable checked(matvar_t* made) {
+    if (made == nullptr) throw NumericalError("MATLAB file: a variable cannot be made");
+    return Variable(made);
+}
+
+Variable numbers(std::vector<double> values, std::vector<std::size_t> shape) {
+    return checked(Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, static_cast<int>(shape.size()), shape.data(),
+                                 values.data(), 0));
+}
+
+Variable number(double value) {
+    return numbers({value}, {1, 1});
+}
+
+Variable matrix(const Matrix& A) {
+    return numbers({A.data(), A.data() + A.size()},
+                   {static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols())});
+}
+
+Variable characters(const std::string& words, const char* name = nullptr) {
+    std::array<std::size_t, 2> shape{words.empty() ? std::size_t{0} : std::size_t{1}, words.size()};
+    std::string copy = words;
+    return checked(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF8, 2, shape.data(), copy.data(), 0));
+}
+
+Variable cells(const std::vector<Signal>& signals, std::string Signal::*field) {
+    std::array<std::size_t, 2> shape{signals.size(), 1};
+    Variable all = checked(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, shape.data(), nullptr, 0));
+    for (std::size_t i = 0; i < signals.size(); ++i)
+        Mat_VarSetCell(all.get(), static_cast<int>(i), characters(signals[i].*field).release());
+    return all;
+}
+
+// A structure that is filled field by field.
+class Structure {
+public:
+    explicit Structure(const std::string& name) {
+        const std::array<std::size_t, 2> one{1, 1};
+        variable_ = checked(Mat_VarCreateStruct2(name.c_str(), 2, one.data(), nullptr));
+    }
+    void set(const char* field, Variable value) {
+        if (Mat_VarAddStructField(variable_.get(), field) != 0)
+            throw NumericalError(text("MATLAB file: the field ", field, " cannot be made"));
+        Mat_VarSetStructFieldByName(variable_.get(), field, 0, value.release());
+    }
+    matvar_t* get() const { return variable_.get(); }
+
+private:
+    Variable variable_;
+};
+
+void set_signals(Structure& s, const std::vector<Signal>& states, const std::vector<Signal>& inputs,
+                 const std::vector<Signal>& outputs) {
+    s.set("state_names", cells(states, &Signal::name));
+    s.set("state_units", cells(states, &Signal::units));
+    s.set("input_names", cells(inputs, &Signal::name));
+    s.set("input_units", cells(inputs, &Signal::units));
+    s.set("output_names", cells(outputs, &Signal::name));
+    s.set("output_units", cells(outputs, &Signal::units));
+    s.set("output_aliases", cells(outputs, &Signal::alias));
+}
+
+struct NamedMatrix {
+    const char* name;
+    const char* in_series;
+    Matrix StateMatrices::*matrix;
+};
+constexpr NamedMatrix matrices[] = {{"A", "fourier_A", &StateMatrices::A},
+                                    {"B", "fourier_B", &StateMatrices::B},
+                                    {"C", "fourier_C", &StateMatrices::C},
+                                    {"D", "fourier_D", &StateMatrices::D}};
+
+// Side by side along the third axis.
+template <class Items>
+Variable stack(const Items& items, Matrix StateMatrices::*m) {
+    const Matrix& first = items.front().*m;
+    std::vector<double> values;
+    for (const auto& item : items) values.insert(values.end(), (item.*m).data(), (item.*m).data() + (item.*m).size());
+    return numbers(std::move(values),
+                   {static_cast<std::size_t>(first.rows()), static_cast<std::size_t>(first.cols()), items.size()});
+}
+
+Variable columns(const LinearModel& model, Vector LinearSample::*field) {
+    Matrix all((model.samples[0].*field).size(), static_cast<Index>(model.samples.size()));
+    for (std::size_t i = 0; i < model.samples.size(); ++i) all.col(static_cast<Index>(i)) = model.samples[i].*field;
+    return matrix(all);
+}
+
+Structure periodic(const LinearModel& model) {
+    Structure s("model");
+    s.set("machine", characters(model.machine));
+    s.set("description", characters(model.description));
+    s.set("cardan_version", characters(std::string(version())));
+    s.set("rotor_speed", number(model.rotor_speed));
+    s.set("blades", number(model.blades));
+    Matrix azimuth(1, static_cast<Index>(model.samples.size()));
+    for (std::size_t i = 0; i < model.samples.size(); ++i) azimuth(0, static_cast<Index>(i)) = model.samples[i].azimuth;
+    s.set("azimuth", matrix(azimuth));
+    set_signals(s, model.states, model.inputs, model.outputs);
+    const std::vector<StateMatrices> series = fourier_coefficients(model);
+    for (const NamedMatrix& m : matrices) {
+        s.set(m.name, stack(model.samples, m.matrix));
+        s.set(m.in_series, stack(series, m.matrix));
+    }
+    s.set("x_operating", columns(model, &LinearSample::x));
+    s.set("xdot_operating", columns(model, &LinearSample::xdot));
+    s.set("u_operating", columns(model, &LinearSample::u));
+    s.set("y_operating", columns(model, &LinearSample::y));
+    s.set("output_error", matrix(model.output_error));
+    return s;
+}
+
+Structure constant_model(const NamedModel& named) {
+    const ConstantModel& model = named.model;
+    Structure s(named.name);
+    s.set("machine", characters(model.machine));
+    s.set("description", characters(model.description));
+    s.set("rotor_speed", number(model.rotor_speed));
+    set_signals(s, model.states, model.inputs, model.outputs);
+    for (const NamedMatrix& m : matrices) s.set(m.name, matrix(model.*m.matrix));
+    return s;
+}
+
+void check_names(const std::vector<NamedModel>& models) {
+    std::set<std::string> names{"model"};
+    for (const NamedModel& named : models) {
+        const auto good = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+        if (named.name.empty() || named.name.size() > 63 || !std::isalpha(static_cast<unsigned char>(named.name[0])) ||
+            !std::ranges::all_of(named.name, good) || !names.insert(named.name).second)
+            throw InputError("MATLAB file", "name of a model", text("'", named.name, "'"),
+                             "letters, digits and '_' after a letter, at most 63, each once");
+    }
+}
+
+// libmatio does not look at every write: what is there is read again, checksums of the compression included.
+bool readable(const std::string& path, std::size_t variables) {
+    const File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+    if (!file) return false;
+    std::size_t count = 0;
+    while (const Variable variable{Mat_VarReadNext(file.get())}) ++count;
+    return count == variables;
+}
+
+}  // namespace
+
+void write_mat(const LinearModel& model, const std::vector<NamedModel>& constant, const std::filesystem::path& path) {
+    if (model.samples.empty()) throw InputError("MATLAB file", "number of azimuths", 0, ">= 1");
+    check_names(constant);
+    const PendingFile pending(path);
+    try {
+        std::vector<Structure> all;
+        all.push_back(periodic(model));
+        for (const NamedModel& named : constant) all.push_back(constant_model(named));
+        const std::string head = text("MATLAB 5.0 MAT-file, Cardan ", version());
+        File file(Mat_CreateVer(pending.partial().c_str(), head.c_str(), MAT_FT_MAT5));
+        bool good = file != nullptr;
+        for (const Structure& s : all) good = good && Mat_VarWrite(file.get(), s.get(), MAT_COMPRESSION_ZLIB) == 0;
+        if (file) good = Mat_Close(file.release()) == 0 && good;
+        if (!good || !readable(pending.partial(), all.size()))
+            throw FileError(pending.path(), "cannot be written completely (is the disk full?)");
+        pending.commit();
+    } catch (...) {
+        pending.discard();
+        throw;
+    }
+}
+
+}  // namespace cardan::solvers

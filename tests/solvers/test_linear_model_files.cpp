@@ -1,0 +1,258 @@
+// Linear models in files and back: HDF5, MATLAB, OpenFAST's text format.
+#include "solvers/hdf5_file.hpp"
+#include "solvers/hdf5_state_space.hpp"
+#include "solvers/lin_file.hpp"
+#include "solvers/matio_state_space.hpp"
+#include "solvers/multi_blade_model.hpp"
+#include "solvers/state_space.hpp"
+#include "tests/solvers/small_rotor.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/refusal.hpp"
+
+#include <fstream>
+#include <map>
+#include <matio.h>
+#include <memory>
+#include <sstream>
+
+using namespace cardan;
+using namespace cardan::solvers;
+using namespace cardan::testing;
+using cardan::test::Folder;
+using cardan::test::SizeLimit;
+
+namespace {
+
+struct Example {
+    SmallRotor rotor = small_rotor({.damping = 4, .elastic_support = true});
+    LinearModel model;
+    std::vector<NamedModel> constant;
+
+    Example() {
+        std::vector<LinearInput> inputs{
+            LinearInput::moment("nacelle moment", rotor.map.hub, Vec3::UnitX(), WrenchAxes::base)};
+        ChannelGroup group;
+        for (int b = 1; b <= 3; ++b) {
+            inputs.push_back(LinearInput::generalised_force(
+                text("blade ", b, " flap moment"), {{rotor.map.blades[static_cast<std::size_t>(b - 1)][0], 1.0}}));
+            group.channels.push_back(
+                {text("blade ", b, " acceleration"), "rad s-2", "flap", {}, {}, text("FlapAcc", b)});
+        }
+        group.channels.push_back({"power", "W", "a fixed-frame signal"});
+        group.sample = [map = rotor.map](const ChannelInput& in, double* values) {
+            for (const std::vector<int>& blade : map.blades) *values++ = in.qdd(blade[0]);
+            *values = in.qd(0) * 5 + in.qd(map.spin);
+        };
+        StateSpaceOptions options;
+        options.azimuths = 4;
+        model = state_space(rotor.system, rotor.map, rotor.spinning(6), inputs, {group}, options);
+        model.description = "three masses\non hinges";
+        constant.push_back({"multi_blade", multi_blade(model, rotor.map)});
+    }
+};
+
+const Example& example() {
+    static const Example made;
+    return made;
+}
+
+// A reader of the text format: by words, as the toolboxes do.
+struct LinFile {
+    struct Row {
+        double value;
+        std::string rotating;
+        int order;
+        std::string description;
+    };
+    std::map<std::string, double> head;
+    std::map<std::string, std::vector<Row>> tables;
+    std::map<std::string, Matrix> matrices;
+    std::vector<std::string> lines;
+
+    explicit LinFile(const std::string& path) {
+        std::ifstream in(path);
+        for (std::string line; std::getline(in, line);) lines.push_back(line);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const std::size_t colon = lines[i].find(':');
+            if (lines[i].starts_with("   ") && colon != std::string::npos && tables.empty())
+                head[lines[i].substr(3, colon - 3)] = std::stod(lines[i].substr(colon + 1));
+            if (lines[i].starts_with("Order of ")) i = read_table(i, lines[i].substr(9, colon - 9));
+            if (colon == 1) i = read_matrix(i);
+        }
+    }
+    std::size_t read_table(std::size_t i, const std::string& name) {
+        for (i += 3; !lines[i].empty(); ++i) {
+            std::istringstream words(lines[i]);
+            std::size_t count = 0;
+            Row row;
+            words >> count >> row.value >> row.rotating >> row.order >> std::ws;
+            std::getline(words, row.description);
+            tables[name].push_back(row);
+            REQUIRE(count == tables[name].size());
+        }
+        return i;
+    }
+    std::size_t read_matrix(std::size_t i) {
+        std::istringstream title(lines[i].substr(2));
+        Eigen::Index rows = 0, columns = 0;
+        char times = 0;
+        title >> rows >> times >> columns;
+        Matrix& A = matrices[lines[i].substr(0, 1)];
+        A.resize(rows, columns);
+        for (Eigen::Index r = 0; r < rows; ++r) {
+            std::istringstream values(lines[++i]);
+            for (Eigen::Index c = 0; c < columns; ++c) values >> A(r, c);
+            REQUIRE(values);
+        }
+        return i;
+    }
+};
+
+struct FreeVariable {
+    void operator()(matvar_t* v) const { Mat_VarFree(v); }
+};
+
+const matvar_t* field(matvar_t* structure, const char* name) {
+    matvar_t* found = Mat_VarGetStructFieldByName(structure, name, 0);
+    REQUIRE(found != nullptr);
+    return found;
+}
+
+Matrix numbers(const matvar_t* v, std::size_t slice = 0) {
+    REQUIRE(v->class_type == MAT_C_DOUBLE);
+    const auto rows = static_cast<Eigen::Index>(v->dims[0]), columns = static_cast<Eigen::Index>(v->dims[1]);
+    return Eigen::Map<const Matrix>(static_cast<const double*>(v->data) + slice * v->dims[0] * v->dims[1], rows,
+                                    columns);
+}
+
+std::string characters(const matvar_t* v) {
+    return v->nbytes == 0 ? std::string() : std::string(static_cast<const char*>(v->data), v->nbytes);
+}
+
+}  // namespace
+
+TEST_CASE("linear model files: HDF5 gives back what was written", "[property]") {
+    const Example& e = example();
+    const Folder folder;
+    write_hdf5(e.model, e.constant, folder / "m.h5");
+    const Hdf5File file = Hdf5File::open(folder / "m.h5");
+    const auto n = e.model.states.size();
+    REQUIRE(file.shape("A") == Shape{4, n, n});
+    CHECK(file.dimension("A", 0) == "/azimuth");
+    CHECK(file.read_doubles("azimuth")[1] == pi / 2);
+    CHECK(file.double_attribute("/", "rotor_speed") == 6);
+    const auto check = [&](const std::string& name, std::size_t slice, const Matrix& expected) {
+        const std::vector<double> values = file.read_doubles(name);
+        const auto size = static_cast<std::size_t>(expected.size());
+        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> found(
+            values.data() + slice * size, expected.rows(), expected.cols());
+        INFO(name);
+        CHECK(found == expected);
+    };
+    check("A", 3, e.model.samples[3].A);
+    check("B", 2, e.model.samples[2].B);
+    check("C", 1, e.model.samples[1].C);
+    check("D", 0, e.model.samples[0].D);
+    check("operating_point/x", 2, e.model.samples[2].x.transpose());
+    check("fourier/A", 1, fourier_coefficients(e.model)[1].A);
+    check("multi_blade/A", 0, e.constant[0].model.A);
+    check("multi_blade/D", 0, e.constant[0].model.D);
+    CHECK(file.read_strings("states/name")[0] == e.model.states[0].name);
+    CHECK(file.read_strings("inputs/units")[0] == "N m");
+    CHECK(file.read_strings("outputs/alias")[2] == "FlapAcc3");
+    CHECK(file.read_ints("outputs/blade") == std::vector<std::int64_t>{1, 2, 3, 0});
+    CHECK(file.read_strings("multi_blade/inputs/name")[1] == "blade flap moment (collective)");
+}
+
+TEST_CASE("linear model files: MATLAB's format gives back what was written", "[property]") {
+    const Example& e = example();
+    const Folder folder;
+    const std::string path = folder / "m.mat";
+    write_mat(e.model, e.constant, path);
+    mat_t* file = Mat_Open(path.c_str(), MAT_ACC_RDONLY);
+    REQUIRE(file != nullptr);
+    const std::unique_ptr<matvar_t, FreeVariable> model(Mat_VarRead(file, "model")),
+        fixed(Mat_VarRead(file, "multi_blade"));
+    Mat_Close(file);
+    REQUIRE(model != nullptr);
+    REQUIRE(fixed != nullptr);
+    const auto check = [](const Matrix& found, const Matrix& expected) { CHECK(found == expected); };
+    check(numbers(field(model.get(), "A"), 3), e.model.samples[3].A);
+    check(numbers(field(model.get(), "B"), 2), e.model.samples[2].B);
+    check(numbers(field(model.get(), "C"), 1), e.model.samples[1].C);
+    check(numbers(field(model.get(), "D"), 0), e.model.samples[0].D);
+    check(numbers(field(model.get(), "x_operating")).col(2), e.model.samples[2].x);
+    check(numbers(field(model.get(), "fourier_B"), 2), fourier_coefficients(e.model)[2].B);
+    check(numbers(field(fixed.get(), "A")), e.constant[0].model.A);
+    CHECK(numbers(field(model.get(), "rotor_speed"))(0, 0) == 6);
+    CHECK(characters(field(model.get(), "machine")) == "small rotor");
+    matvar_t* names = Mat_VarGetStructFieldByName(fixed.get(), "input_names", 0);
+    REQUIRE(names->class_type == MAT_C_CELL);
+    CHECK(names->dims[0] == 4);
+    CHECK(characters(Mat_VarGetCell(names, 3)) == "blade flap moment (sine 1)");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("linear model files: OpenFAST's text format gives back what was written", "[property]") {
+    const Example& e = example();
+    const Folder folder;
+    const auto paths = write_lin(e.model, folder / "m");
+    REQUIRE(paths.size() == 4);
+    CHECK(paths[1] == folder / "m.2.lin");
+    LinFile file(paths[1].string());
+    const LinearSample& sample = e.model.samples[1];
+    CHECK(file.head.at("Rotor Speed") == 6);
+    CHECK(file.head.at("Azimuth") == sample.azimuth);
+    CHECK(file.head.at("Simulation time") == sample.time);
+    CHECK(file.head.at("Number of continuous states") == static_cast<double>(e.model.states.size()));
+    CHECK(file.head.at("Number of inputs") == 4);
+    CHECK(file.head.at("Number of outputs") == 4);
+    CHECK(file.matrices.at("A") == sample.A);
+    CHECK(file.matrices.at("B") == sample.B);
+    CHECK(file.matrices.at("C") == sample.C);
+    CHECK(file.matrices.at("D") == sample.D);
+    const auto& states = file.tables.at("continuous states");
+    const auto& derivatives = file.tables.at("continuous state derivatives");
+    const std::size_t half = states.size() / 2;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        CHECK(states[i].value == sample.x(static_cast<Eigen::Index>(i)));
+        CHECK(derivatives[i].value == sample.xdot(static_cast<Eigen::Index>(i)));
+        CHECK(states[i].order == 2);
+        CHECK(states[i].rotating == (e.model.states[i].blade > 0 ? "T" : "F"));
+    }
+    CHECK(states[0].description == "Cardan tilt, rad");
+    CHECK(states[half].description == "Cardan First time derivative of tilt, rad/s");
+    CHECK(derivatives[0].description == "First time derivative of Cardan tilt, rad/s");
+    CHECK(file.tables.at("inputs")[0].rotating == "F");
+    CHECK(file.tables.at("inputs")[1].rotating == "T");
+    CHECK(file.tables.at("inputs")[1].description == "Cardan blade 1 flap moment, N-m");
+    CHECK(file.tables.at("outputs")[2].description == "Cardan FlapAcc3, rad/s^2");
+    CHECK(file.tables.at("outputs")[3].description == "Cardan power, W");
+    // Line by line, as readers that count expect it: five lines before the title of the head, matrices without gaps.
+    CHECK(file.lines[0].empty());
+    CHECK(file.lines[1].starts_with("Linearized model: Cardan"));
+    CHECK(file.lines[3].empty());
+    CHECK(file.lines[4] == "small rotor; three masses");
+    CHECK(file.lines[5].empty());
+    CHECK(file.lines[6] == "Simulation information:");
+    CHECK(file.lines[15].starts_with("   Jacobians included in this file?"));
+    CHECK(file.lines[17] == "Order of continuous states:");
+}
+
+TEST_CASE("linear model files: what cannot be written is said and leaves nothing", "[property]") {
+    const Example& e = example();
+    const Folder folder;
+    CHECK_THROWS_AS(write_lin(e.model, folder / "no/m"), FileError);
+    CHECK_THROWS_AS(write_mat(e.model, e.constant, folder / "no/m.mat"), FileError);
+    CHECK_THROWS_AS(write_hdf5(e.model, e.constant, folder / "no/m.h5"), FileError);
+    {
+        const SizeLimit limit(2000);
+        CHECK_THROWS_AS(write_mat(e.model, e.constant, folder / "m.mat"), FileError);
+        CHECK_THROWS_AS(write_lin(e.model, folder / "m"), FileError);
+    }
+    CHECK(folder.files() == 0);
+    check_refused([&] { write_mat(e.model, {{"2nd", e.constant[0].model}}, folder / "m.mat"); }, {"'2nd'", "letter"});
+    check_refused([&] { write_mat(e.model, {{"model", e.constant[0].model}}, folder / "m.mat"); }, {"'model'", "once"});
+    check_refused([&] { (void)write_lin(LinearModel{}, folder / "m"); }, {"azimuths = 0"});
+}
