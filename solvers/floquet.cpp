@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -169,11 +170,11 @@ std::vector<Matrix> Analysis::integrate(int steps) const {
 
 // P Phi(T/Q) as a product.
 std::vector<Matrix> Analysis::factors(const std::vector<Matrix>& samples) const {
-    const int each = grid_.samples / grid_.factors;
+    const std::size_t each = samples.size() / static_cast<std::size_t>(grid_.factors);
     std::vector<Matrix> product;
-    for (int k = 0; k < grid_.factors; ++k) {
-        Matrix F = samples[static_cast<std::size_t>(k * each)];
-        for (int i = 1; i < each; ++i) F = samples[static_cast<std::size_t>(k * each + i)] * F;
+    for (std::size_t k = 0; k < samples.size(); k += each) {
+        Matrix F = samples[k];
+        for (std::size_t i = k + 1; i < k + each; ++i) F = samples[i] * F;
         product.push_back(std::move(F));
     }
     if (permutation_.size() > 0) product.back() = permutation_ * product.back();

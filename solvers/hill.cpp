@@ -57,7 +57,7 @@ Vector units(const PeriodicSystem& system) {
 
 struct Candidate {
     FloquetSolution solution;
-    double centre;
+    double centre = 0;  // of the harmonics
 };
 
 double centre_of(const FloquetSolution& s, const EnergyWeights& w, double omega) {
@@ -106,10 +106,10 @@ Candidate conjugate(const Candidate& one) {
 
 // Positions of all harmonics first: of more no eigenvectors are wanted.
 std::vector<Index> positions_first(const PeriodicSystem& system, int H) {
-    const Index n = system.states(), r = system.rows();
+    const Index n = system.states(), r = system.rows(), count = 2 * H + 1;
     std::vector<Index> order;
     for (const auto& [from, to] : {std::pair(Index(0), r), std::pair(r, n)})
-        for (Index l = 0; l <= 2 * H; ++l)
+        for (Index l = 0; l < count; ++l)
             for (Index i = from; i < to; ++i) order.push_back(l * n + i);
     return order;
 }
@@ -169,6 +169,7 @@ Floquet hill(const PeriodicSystem& system, const HillOptions& options) {
         throw NumericalError(text("Hill's method: ", found.size(), " exponents found for ", system.states(),
                                   " states; take more than ", H, " harmonics"));
     std::vector<Complex> logarithms;
+    logarithms.reserve(found.size());
     for (const Candidate& one : found) logarithms.push_back(one.solution.exponent * system.period());
     for (const Representative& which : representatives(logarithms)) {
         FloquetSolution solution = found[which.index].solution;
