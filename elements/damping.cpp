@@ -1,10 +1,8 @@
 #include "elements/damping.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/spatial.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace cardan {
 

@@ -1,6 +1,6 @@
 #include "elements/mean_difference.hpp"
 
-#include <Eigen/LU>
+#include "mbs/decompositions.hpp"
 
 namespace cardan {
 

@@ -1,12 +1,10 @@
 // Boundary equations, steady state and small vibrations of the mixed beam.
 #include "elements/mixed_beam.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/spatial.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "elements/quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "mbs/decompositions.hpp"
 
 namespace cardan {
 

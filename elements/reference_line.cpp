@@ -1,9 +1,8 @@
 #include "elements/reference_line.hpp"
 
 #include "elements/quadrature.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/LU>
 
 #include <array>
 #include <boost/math/interpolators/cubic_hermite.hpp>

@@ -1,8 +1,7 @@
 #include "elements/section_loads.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/LU>
 
 namespace cardan {
 

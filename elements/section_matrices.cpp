@@ -1,11 +1,8 @@
 #include "elements/section_matrices.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/spatial.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 namespace cardan {
 

@@ -1,8 +1,7 @@
 #include "elements/timoshenko.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/Cholesky>
 
 namespace cardan {
 

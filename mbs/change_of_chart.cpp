@@ -1,11 +1,10 @@
 #include "mbs/change_of_chart.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/kinematics.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <limits>

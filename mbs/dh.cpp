@@ -1,6 +1,6 @@
 #include "mbs/dh.hpp"
 
-#include <Eigen/LU>
+#include "mbs/decompositions.hpp"
 
 namespace cardan {
 

@@ -1,7 +1,6 @@
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/forces.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 

@@ -1,8 +1,7 @@
 #include "mbs/inertia.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/Eigenvalues>
 
 namespace cardan {
 

@@ -1,11 +1,9 @@
 #include "solvers/buckling.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/load_path.hpp"
 #include "solvers/modes.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>

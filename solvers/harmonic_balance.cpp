@@ -1,8 +1,6 @@
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/rotor_equations.hpp"
-
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <limits>

@@ -1,10 +1,9 @@
 #include "solvers/harmonics.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/types.hpp"
 #include "solvers/sampling.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <complex>

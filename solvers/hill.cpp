@@ -1,10 +1,9 @@
 #include "solvers/hill.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/fourier_series.hpp"
 #include "solvers/real_eigen.hpp"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

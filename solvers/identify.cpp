@@ -1,9 +1,7 @@
 #include "solvers/identify.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <map>

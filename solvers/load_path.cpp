@@ -1,9 +1,8 @@
 #include "solvers/load_path.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/linearise.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>

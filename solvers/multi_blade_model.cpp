@@ -1,9 +1,8 @@
 #include "solvers/multi_blade_model.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/coleman.hpp"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <map>

@@ -1,8 +1,7 @@
 #include "solvers/product_eigen.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>

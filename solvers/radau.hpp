@@ -2,9 +2,8 @@
 /// Radau's collocation methods for equations of second order whose matrices differ from stage to stage.
 #pragma once
 
+#include "mbs/decompositions.hpp"
 #include "mbs/types.hpp"
-
-#include <Eigen/LU>
 
 namespace cardan::solvers {
 

@@ -2,9 +2,8 @@
 /// Eigenvalues and eigenvectors of real matrices, one after the other in the same memory.
 #pragma once
 
+#include "mbs/decompositions.hpp"
 #include "solvers/schur.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <vector>
 

@@ -1,8 +1,7 @@
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/radau.hpp"
 #include "solvers/rotor_equations.hpp"
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <limits>

@@ -1,10 +1,9 @@
 #include "solvers/state_space.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
 #include "solvers/state_space_impl.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,8 @@ cmake_minimum_required(VERSION 3.25)
 
 # Fails when a source includes a header it must not see: mbs <- elements <- turbines, mbs <- solvers; SUNDIALS in
 # solvers only, HDF5 in solvers/hdf5* only, libmatio in solvers/matio* only, urdfdom in mbs/urdf* only, oneTBB in
-# mbs/batch* only, Boost in elements/reference_line only, Eigen's unsupported part in solvers/fourier only.
+# mbs/batch* only, Boost in elements/reference_line only, Eigen's unsupported part in solvers/fourier only, Eigen's
+# decompositions through mbs/decompositions.hpp only (and the inverses of small matrices in mbs/dynamics.hpp).
 set(seen_by_mbs mbs)
 set(seen_by_elements mbs elements)
 set(seen_by_turbines mbs elements turbines)
@@ -35,6 +36,9 @@ foreach(folder IN ITEMS mbs elements turbines solvers)
             elseif(header MATCHES "^boost/" AND NOT name MATCHES "^elements/reference_line")
                 set(allowed FALSE)
             elseif(header MATCHES "^unsupported/" AND NOT name MATCHES "^solvers/fourier")
+                set(allowed FALSE)
+            elseif(header MATCHES "^Eigen/(Cholesky|Dense|Eigenvalues|LU|QR|SVD)$" AND
+                   NOT name MATCHES "^mbs/(decompositions|dynamics).hpp$")
                 set(allowed FALSE)
             elseif(header MATCHES "^(tbb|oneapi)/" AND NOT name MATCHES "^mbs/batch")
                 set(allowed FALSE)

@@ -1,9 +1,8 @@
 #include "turbines/assembly.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/summary.hpp"
-
-#include <Eigen/Eigenvalues>
 
 namespace cardan::turbines {
 

@@ -2,14 +2,12 @@
 
 #include "elements/mixed_beam.hpp"
 #include "elements/quadrature.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/kinematics.hpp"
 #include "solvers/buckling.hpp"
 #include "solvers/load_path.hpp"
 #include "solvers/modes.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include "examples/beam_accuracy/corotational.hpp"
 #include <cmath>

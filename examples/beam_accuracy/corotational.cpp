@@ -1,8 +1,7 @@
 #include "examples/beam_accuracy/corotational.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/LU>
 
 #include <cmath>
 

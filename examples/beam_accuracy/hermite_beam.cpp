@@ -1,6 +1,7 @@
 #include "examples/beam_accuracy/hermite_beam.hpp"
 
-#include <Eigen/Dense>
+#include "mbs/decompositions.hpp"
+
 #include <Eigen/SparseCholesky>
 
 #include <cmath>

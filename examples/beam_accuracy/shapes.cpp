@@ -1,8 +1,7 @@
 #include "examples/beam_accuracy/shapes.hpp"
 
 #include "elements/quadrature.hpp"
-
-#include <Eigen/LU>
+#include "mbs/decompositions.hpp"
 
 namespace cardan::accuracy {
 

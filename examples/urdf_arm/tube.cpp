@@ -1,8 +1,7 @@
 #include "examples/urdf_arm/tube.hpp"
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
-
-#include <Eigen/LU>
 
 namespace arm {
 

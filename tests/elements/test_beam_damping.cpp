@@ -1,14 +1,11 @@
 // Structural damping of beams: complex modes of clamped beams, and the damping matrix itself.
 #include "elements/cardan_beam.hpp"
 #include "elements/section_matrices.hpp"
+#include "mbs/decompositions.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

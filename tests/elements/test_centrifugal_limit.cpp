@@ -1,9 +1,8 @@
 // The rotor speed at which the centrifugal force softens a beam of mean differences, against its eigenvalues.
 #include "elements/centrifugal_limit.hpp"
+#include "mbs/decompositions.hpp"
 #include "tests/elements/rotating_cantilever.hpp"
 #include "tests/oracles/wt600_stations.hpp"
-
-#include <Eigen/Eigenvalues>
 
 using namespace cardan;
 using namespace cardan::testing;

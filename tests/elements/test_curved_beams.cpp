@@ -1,10 +1,9 @@
 // Curved beams of cardanic elements: each straight along its chord, fixed kinks between them.
+#include "mbs/decompositions.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/elements/rods.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

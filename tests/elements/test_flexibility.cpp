@@ -1,11 +1,9 @@
 // The elastic law of the element against the continuum that it stands for, and against the printed spring constants.
 #include "elements/cardan_beam.hpp"
 #include "elements/quadrature.hpp"
+#include "mbs/decompositions.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,13 +1,12 @@
 // The laws of the hinges at large angles: exact derivatives, the same at rest, what they gain.
 #include "elements/cardan_beam.hpp"
+#include "mbs/decompositions.hpp"
 #include "solvers/modes.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/elements/rods.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,11 +1,10 @@
 // Partitions of mass: each body of its own, the momentum of the static shapes, and where the static moments fail.
+#include "mbs/decompositions.hpp"
 #include "solvers/campbell.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
 #include "turbines/wt600.hpp"
-
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

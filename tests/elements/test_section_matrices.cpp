@@ -2,14 +2,11 @@
 // from them, and matrices that must be refused.
 #include "elements/cardan_beam.hpp"
 #include "elements/section_matrices.hpp"
+#include "mbs/decompositions.hpp"
 #include "solvers/linearise.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 using namespace cardan;
 using namespace cardan::testing;

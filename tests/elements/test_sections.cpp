@@ -1,10 +1,8 @@
 // Cross sections: compliance and inertia in beam axes, tables of stations, tubes.
 #include "elements/section.hpp"
+#include "mbs/decompositions.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,11 +1,9 @@
 // The elastic law of the element: what test_flexibility.cpp leaves out.
 #include "elements/cardan_beam.hpp"
+#include "mbs/decompositions.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -2,9 +2,8 @@
 // mbs/lagrange, their derivatives by the complex step. Nothing of it is shared with mbs/curvature.
 #pragma once
 
+#include "mbs/decompositions.hpp"
 #include "mbs/lagrange.hpp"
-
-#include <Eigen/LU>
 
 namespace cardan::testing {
 

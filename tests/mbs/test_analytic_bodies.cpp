@@ -1,11 +1,10 @@
 // Sliding masses, oscillators, gears and drives against equations solved by hand.
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/simulation.hpp"
 #include "tests/support/tree_tools.hpp"
-
-#include <Eigen/Eigenvalues>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,12 +1,11 @@
 // Pendulums against elliptic functions and equations written out.
+#include "mbs/decompositions.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/pendulum.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/simulation.hpp"
 #include "tests/support/tree_tools.hpp"
-
-#include <Eigen/Eigenvalues>
 
 using namespace cardan;
 using namespace cardan::testing;

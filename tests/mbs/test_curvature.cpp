@@ -1,12 +1,11 @@
 // Connection and curvature of random trees against their definitions.
 #include "mbs/christoffel.hpp"
 #include "mbs/curvature.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/derivatives.hpp"
 #include "tests/mbs/riemann_oracle.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/Cholesky>
 
 using namespace cardan;
 using namespace cardan::testing;

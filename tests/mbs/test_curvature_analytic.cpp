@@ -1,11 +1,10 @@
 // Curvature of spaces whose geometry is known in closed form.
 #include "mbs/curvature.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
-
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

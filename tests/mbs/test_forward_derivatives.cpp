@@ -1,13 +1,11 @@
 // Derivatives of the forward dynamics. Oracle: the complex step through the dense equation g_ff qdd_f = Q_f - tau_f,
 // solved by Eigen in complex numbers.
+#include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/forward_derivatives.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <array>
 

@@ -1,12 +1,10 @@
 // Identities that hold on every tree, on hundreds of random branched trees with prismatic joints and massless bodies.
 #include "mbs/christoffel.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/derivatives.hpp"
 #include "mbs/lagrange.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,12 +1,11 @@
 // The factor of the metric on the branches. Oracle: Eigen's dense Cholesky factorisation, which knows no tree.
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/metric_factor.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <limits>
 

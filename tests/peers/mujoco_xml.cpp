@@ -1,7 +1,7 @@
+#include "mbs/decompositions.hpp"
 #include "mbs/spatial.hpp"
 #include "tests/peers/mujoco_peer.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <sstream>

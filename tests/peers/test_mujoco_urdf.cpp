@@ -1,11 +1,10 @@
 // URDF robots: MuJoCo reads the same text by itself, so that reader, writer and dynamics are all compared.
+#include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/urdf.hpp"
 #include "tests/peers/mujoco_peer.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <fstream>
 #include <sstream>

@@ -2,11 +2,9 @@
 /// Comparison of Floquet exponents, which are known modulo i omega, for the tests.
 #pragma once
 
+#include "mbs/decompositions.hpp"
 #include "solvers/floquet.hpp"
 #include "tests/support/simulation.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <functional>

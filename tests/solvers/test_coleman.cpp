@@ -1,4 +1,5 @@
 // Multi-blade transformation against its definition, finite differences, Floquet theory and closed forms.
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/coleman.hpp"
 #include "solvers/identify.hpp"
@@ -7,8 +8,6 @@
 #include "tests/support/refusal.hpp"
 #include "tests/support/simulation.hpp"
 #include "tests/support/tree_tools.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <numeric>

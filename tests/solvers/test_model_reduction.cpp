@@ -1,11 +1,9 @@
 // Reduction of linear models: Lyapunov's equation, modal and balanced truncation.
+#include "mbs/decompositions.hpp"
 #include "solvers/model_reduction.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <algorithm>
 

@@ -1,10 +1,9 @@
 // Complex modes of second-order systems against closed forms.
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/modes.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <numeric>
 

@@ -1,12 +1,9 @@
 // Eigenvalues and vectors of products: against the multiplied-out matrix where that is accurate, against factors built
 // with known ones where it is not.
+#include "mbs/decompositions.hpp"
 #include "solvers/product_eigen.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <random>

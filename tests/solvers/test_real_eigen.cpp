@@ -1,11 +1,9 @@
 // Eigenvalues of general real matrices and the dense kernels: against Eigen's, by residuals, and without allocations.
+#include "mbs/decompositions.hpp"
 #include "solvers/dense.hpp"
 #include "solvers/real_eigen.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <limits>

@@ -1,13 +1,12 @@
 // Linear models with inputs and outputs: systems of one or two coordinates by hand, what follows from the matrices of
 // the linearised equations, Fourier series, bad input.
+#include "mbs/decompositions.hpp"
 #include "solvers/multi_blade_model.hpp"
 #include "solvers/periodic_system.hpp"
 #include "solvers/state_space.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::solvers;

@@ -1,16 +1,13 @@
 // Free vibrations in time against the eigenvalues of the linearised system, and what methods with fixed steps make of
 // an oscillator against their amplification matrices.
 #include "elements/cardan_beam.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/coleman.hpp"
 #include "solvers/integrate.hpp"
 #include "solvers/modes.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 using namespace cardan;
 using namespace cardan::solvers;

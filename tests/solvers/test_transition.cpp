@@ -1,11 +1,10 @@
 // Radau's methods and transition matrices of linear periodic systems.
+#include "mbs/decompositions.hpp"
 #include "solvers/radau.hpp"
 #include "solvers/transition.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/simulation.hpp"
-
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::solvers;

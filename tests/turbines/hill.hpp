@@ -4,8 +4,8 @@
 #pragma once
 
 #include "elements/mixed_beam.hpp"
+#include "mbs/decompositions.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseLU>
 
 #include <algorithm>

@@ -3,11 +3,9 @@
 /// most of the elastic energy. Independent of the library's solvers but for the linearisation.
 #pragma once
 
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/linearise.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <functional>

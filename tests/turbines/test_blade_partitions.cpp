@@ -1,6 +1,7 @@
 // The four partitions on two blades with few elements: errors of the first two flap and edge modes, at rest and at
 // rated speed. The tables of docs/partitions.md are these numbers.
 #include "elements/centrifugal_limit.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "solvers/modes.hpp"
 #include "tests/oracles/rotating_blade.hpp"
@@ -8,8 +9,6 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/test_nrel5mw_blade.hpp"
 #include "turbines/wt600.hpp"
-
-#include <Eigen/Cholesky>
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,5 +1,6 @@
 // Linear models of the 600 kW machine for control: against the Campbell diagram, forward dynamics, integration in time,
 // and a drive-train damper that is designed on the reduced model and tried in the nonlinear simulation.
+#include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
 #include "solvers/campbell.hpp"
@@ -12,9 +13,6 @@
 #include "tests/support/random_tree.hpp"
 #include "turbines/channels.hpp"
 #include "turbines/wt600.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 

@@ -1,11 +1,9 @@
 // Coleman's transformation against Floquet's theory on the untransformed machine: equations linearised at every azimuth
 // in blade coordinates, integrated over a third of a revolution.
+#include "mbs/decompositions.hpp"
 #include "solvers/linearise.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/test_wt600.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;

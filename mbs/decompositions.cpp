@@ -1,0 +1,5 @@
+#include "mbs/decompositions.hpp"
+
+namespace Eigen {
+CARDAN_DECOMPOSITIONS(template)
+}
