@@ -5,7 +5,7 @@
 namespace cardan::solvers {
 
 Vector fourier_basis(double psi, int harmonics, int derivative) {
-    Vector basis(2 * harmonics + 1);
+    Vector basis(Eigen::Index{2} * harmonics + 1);
     basis(0) = derivative == 0 ? 1 : 0;
     for (int j = 1; j <= harmonics; ++j) {
         // Every derivative turns both by a quarter and multiplies by j.

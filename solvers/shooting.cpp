@@ -159,7 +159,8 @@ Vector Shooting::newton_step() {
 bool Shooting::search(const Vector& step) {
     const Vector from = start_;
     const double before = miss();
-    for (double part = 1; part > 1e-3; part /= 2) {
+    double part = 1;
+    for (int halvings = 0; halvings < 10; ++halvings, part /= 2) {
         start_ = from + part * step;
         if (revolve() && miss() < (1 - 1e-4 * part) * before) return true;
     }
