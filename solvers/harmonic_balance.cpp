@@ -81,7 +81,8 @@ void Balance::set_scales() {
     scale_ = scale_.cwiseMax(1e-12 * stiffest);
     unit_.resize(x_.size());
     for (Index l = 0; l < x_.cols(); ++l) {
-        const auto j = static_cast<double>((l + 1) / 2);
+        const Index harmonic = (l + 1) / 2;
+        const auto j = static_cast<double>(harmonic);
         unit_.segment(l * x_.rows(), x_.rows()) = (scale_ * std::max(1.0, j * j)).cwiseSqrt().cwiseInverse();
     }
 }
@@ -181,7 +182,8 @@ void Balance::describe(const Vector& null_vector) {
 bool Balance::search(const Matrix& dx) {
     const double before = norm(R_);
     Matrix x, R;
-    for (double part = 1; part > 1e-6; part /= 2) {
+    double part = 1;
+    for (int halvings = 0; halvings < 20; ++halvings, part /= 2) {
         x = x_ + part * dx;
         if (!evaluate(x, R) || !(norm(R) <= (1 - 1e-4 * part) * before)) continue;
         x_ = x;
