@@ -171,7 +171,8 @@ int run(const Arguments& a) {
     for (Eigen::Index i = 0; i < std::min<Eigen::Index>(small.hankel.size(), small.order + 4); ++i)
         std::printf("%s%s %.3e", i % 8 == 0 ? "\n " : "", i == small.order ? " |" : "", small.hankel(i));
 
-    const std::vector<solvers::NamedModel> constant{{"multi_blade", fixed}, {"balanced", small}};
+    const std::vector<solvers::NamedModel> constant{{"multi_blade", static_cast<const solvers::ConstantModel&>(fixed)},
+                                                    {"balanced", static_cast<const solvers::ConstantModel&>(small)}};
     solvers::write_hdf5(model, constant, a.out + ".h5");
     solvers::write_mat(model, constant, a.out + ".mat");
     const auto files = solvers::write_lin(model, a.out);

@@ -24,6 +24,7 @@ std::size_t count(Index n) {
 void write_signals(Hdf5File& file, const std::string& group, const std::vector<Signal>& signals, const char* what) {
     const auto column = [&](const char* name, std::string Signal::*field, const std::string& long_name) {
         std::vector<std::string> values;
+        values.reserve(signals.size());
         for (const Signal& signal : signals) values.push_back(signal.*field);
         file.write(group + "/" + name, values, {values.size()}, long_name);
     };
@@ -33,6 +34,7 @@ void write_signals(Hdf5File& file, const std::string& group, const std::vector<S
     column("long_name", &Signal::long_name, "description" + of);
     column("alias", &Signal::alias, "name in OpenFAST, if any," + of);
     std::vector<int> blade;
+    blade.reserve(signals.size());
     for (const Signal& signal : signals) blade.push_back(signal.blade);
     file.write(group + "/blade", blade, {blade.size()}, {"1", "blade number, 0: none," + of});
 }
@@ -99,6 +101,8 @@ void write_operating_point(Hdf5File& file, const LinearModel& model) {
 
 void write_hdf5(const LinearModel& model, const std::vector<NamedModel>& constant, const std::filesystem::path& path) {
     const std::vector<StateMatrices> series = fourier_coefficients(model);
+    check_names(constant, "HDF5 file",
+                {"A", "B", "C", "D", "azimuth", "time", "states", "inputs", "outputs", "operating_point", "fourier"});
     Hdf5File file = Hdf5File::create(path);
     for (auto& [name, value] : Attributes{{"title", std::string("linear model of ") + model.machine},
                                           {"machine", model.machine},

@@ -11,7 +11,8 @@ namespace cardan::solvers {
 /// Writes names, units, azimuths, operating points, matrices and Fourier coefficients of a model, and models with
 /// constant matrices made from it, each in a group of its own.
 /// @param constant  names of groups ("multi_blade", "balanced") and models
-/// @throws FileError if the path cannot be written or the disk is full; InputError for a name that does not do
+/// @throws FileError if the path cannot be written or the disk is full; InputError for a name that is no identifier,
+/// comes twice or is that of something else in the file
 void write_hdf5(const LinearModel& model, const std::vector<NamedModel>& constant, const std::filesystem::path& path);
 
 }  // namespace cardan::solvers

@@ -108,7 +108,8 @@ public:
 
 private:
     void head(std::string& out, const LinearSample& sample) const {
-        const std::string description = m_.description.substr(0, m_.description.find('\n'));
+        std::string description = m_.description.substr(0, m_.description.find('\n'));
+        if (description == m_.machine) description.clear();
         out += text("\nLinearized model: Cardan ", version(), "\n units: SI (rad, rad/s, m, N, N-m)\n\n");
         out += text(m_.machine, description.empty() ? "" : "; ", description, "\n\nSimulation information:\n");
         const auto quantity = [&](const char* name, double value, const char* units) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 namespace cardan::solvers {
@@ -52,7 +53,7 @@ StateMatrices evaluate(const std::vector<StateMatrices>& coefficients, double ps
 }
 
 ComplexMatrix ConstantModel::transfer(Complex s) const {
-    const ComplexMatrix direct = D.cast<Complex>();
+    ComplexMatrix direct = D.cast<Complex>();
     if (A.rows() == 0) return direct;
     ComplexMatrix pencil = -A.cast<Complex>();
     pencil.diagonal().array() += s;
@@ -72,6 +73,16 @@ std::vector<Complex> ConstantModel::poles() const {
         return size_a != size_b ? size_a < size_b : a.imag() > b.imag();
     });
     return found;
+}
+
+void check_names(const std::vector<NamedModel>& models, const char* file, std::set<std::string> taken) {
+    for (const NamedModel& named : models) {
+        const auto good = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+        if (named.name.empty() || named.name.size() > 63 || !std::isalpha(static_cast<unsigned char>(named.name[0])) ||
+            !std::ranges::all_of(named.name, good) || !taken.insert(named.name).second)
+            throw InputError(file, "name of a model", text("'", named.name, "'"),
+                             "letters, digits and '_' after a letter, at most 63, each once");
+    }
 }
 
 ConstantModel at_sample(const LinearModel& model, std::size_t sample) {

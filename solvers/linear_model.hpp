@@ -4,6 +4,7 @@
 
 #include "mbs/types.hpp"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,7 @@ struct ConstantModel : StateMatrices {
     std::vector<Signal> states;
     std::vector<Signal> inputs, outputs;
 
-    /// G(s) = C (s - A)^-1 B + D.  @throws NumericalError if s is a pole
+    /// G(s) = C (s - A)^-1 B + D.  @throws NumericalError if s is a pole exactly; near one what rounding leaves
     ComplexMatrix transfer(Complex s) const;
     /// Poles, rising in magnitude; of conjugate pairs the member with positive imaginary part comes first.
     std::vector<Complex> poles() const;
@@ -77,6 +78,11 @@ struct NamedModel {
     std::string name;
     ConstantModel model;
 };
+
+/// Refuses what is no identifier of MATLAB, comes twice or is `taken` in the file already.
+/// @param file  the kind of file, for the message
+/// @throws InputError
+void check_names(const std::vector<NamedModel>& models, const char* file, std::set<std::string> taken);
 
 /// The model at one azimuth, as it is.
 ConstantModel at_sample(const LinearModel& model, std::size_t sample);

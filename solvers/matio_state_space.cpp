@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <matio.h>
 #include <memory>
-#include <set>
 #include <span>
 
 namespace cardan::solvers {
@@ -151,17 +149,6 @@ Structure constant_model(const NamedModel& named) {
     return s;
 }
 
-void check_names(const std::vector<NamedModel>& models) {
-    std::set<std::string> names{"model"};
-    for (const NamedModel& named : models) {
-        const auto good = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-        if (named.name.empty() || named.name.size() > 63 || !std::isalpha(static_cast<unsigned char>(named.name[0])) ||
-            !std::ranges::all_of(named.name, good) || !names.insert(named.name).second)
-            throw InputError("MATLAB file", "name of a model", text("'", named.name, "'"),
-                             "letters, digits and '_' after a letter, at most 63, each once");
-    }
-}
-
 // libmatio does not look at every write: what is there is read again, checksums of the compression included.
 bool readable(const std::string& path, std::size_t variables) {
     const File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
@@ -175,7 +162,7 @@ bool readable(const std::string& path, std::size_t variables) {
 
 void write_mat(const LinearModel& model, const std::vector<NamedModel>& constant, const std::filesystem::path& path) {
     if (model.samples.empty()) throw InputError("MATLAB file", "number of azimuths", 0, ">= 1");
-    check_names(constant);
+    check_names(constant, "MATLAB file", {"model"});
     const PendingFile pending(path);
     try {
         std::vector<Structure> all;

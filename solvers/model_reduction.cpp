@@ -29,6 +29,19 @@ void name_states(ConstantModel& model, const char* stem) {
         model.states.push_back({.name = text(stem, " state ", i + 1), .units = "1", .long_name = "of a reduced model"});
 }
 
+void check(const char* here, const ConstantModel& model) {
+    const Index n = model.A.rows();
+    if (n == 0) throw InputError(here, "number of states", n, ">= 1");
+    if (model.A.cols() != n || model.B.rows() != n || model.C.cols() != n || model.D.rows() != model.C.rows() ||
+        model.D.cols() != model.B.cols())
+        throw InputError(here, "sizes of A, B, C, D",
+                         text(n, " x ", model.A.cols(), ", ", model.B.rows(), " x ", model.B.cols(), ", ",
+                              model.C.rows(), " x ", model.C.cols(), ", ", model.D.rows(), " x ", model.D.cols()),
+                         "n x n, n x m, p x n, p x m");
+    for (const Matrix* m : {&model.A, &model.B, &model.C, &model.D})
+        if (!m->allFinite()) throw InputError(here, "matrices of the model", "not finite", "finite");
+}
+
 // First part as it is, second part reduced, side by side.
 void join(StateMatrices& out, const StateMatrices& a, const StateMatrices& b) {
     const Index n = a.A.rows(), m = b.A.rows();
@@ -80,6 +93,7 @@ StateMatrices cut(const StateMatrices& s, Index order, StaticGain gain) {
 
 ConstantModel modal_truncation(const ConstantModel& model, const ModalOptions& options) {
     const char* here = "modal truncation";
+    check(here, model);
     require_not_negative(here, "largest frequency [Hz]", options.max_frequency_hz);
     const ShiftedSchur schur(model.A);
     std::vector<Complex> wanted;
@@ -114,6 +128,7 @@ ConstantModel modal_truncation(const ConstantModel& model, const ModalOptions& o
 
 BalancedModel balanced_truncation(const ConstantModel& model, const BalancedOptions& options) {
     const char* here = "balanced truncation";
+    check(here, model);
     require_not_negative(here, "stability margin [1/s]", options.stability_margin);
     if (!(options.tolerance >= 0 && options.tolerance < 1))
         throw InputError(here, "tolerance", options.tolerance, "0 ... 1");

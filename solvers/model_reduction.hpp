@@ -22,8 +22,8 @@ struct ModalOptions {
 
 /// The part of a model in the invariant subspace of some modes, D with the static gain of the others if wanted.
 /// The eigenvalues of the new A are poles of the model to working precision.
-/// @throws InputError for a frequency or poles that are not finite, or if nothing is kept; NumericalError if the
-/// eigenvalue iteration fails
+/// @throws InputError for a frequency or poles that are not finite, if nothing is kept, or for a model without states,
+/// with sizes that do not fit or entries that are not finite; NumericalError if the eigenvalue iteration fails
 ConstantModel modal_truncation(const ConstantModel& model, const ModalOptions& options);
 
 struct BalancedOptions {
@@ -47,7 +47,9 @@ struct BalancedModel : ConstantModel {
 
 /// Balanced truncation of the stable part by the square-root method.          [Moore 1981; Glover 1984; Laub et al.
 /// 1987; singular perturbation: Liu and Anderson 1989]
-/// @throws InputError for sizes, order or tolerance out of range; NumericalError if an iteration fails
+/// States with Hankel values below 1e-10 of the largest are rounding and left out, also where `order` asks for them.
+/// @throws InputError for sizes, order or tolerance out of range, and for models as modal_truncation(); NumericalError
+/// if an iteration fails
 BalancedModel balanced_truncation(const ConstantModel& model, const BalancedOptions& options = {});
 
 /// Solution of A X + X A^T + Q = 0 for stable A, by Schur's form of (A - sigma)^-1.   [after Bartels and Stewart 1972]

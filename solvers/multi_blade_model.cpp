@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace cardan::solvers {
@@ -154,6 +155,13 @@ void check(const LinearModel& model, const RotorMap& rotor) {
         throw InputError(place, "number of blades", model.blades, text(rotor.blades.size(), ", as the rotor has"));
     if (model.samples.empty() || (model.rotor_speed != 0 && model.samples.size() < 3))
         throw InputError(place, "number of azimuths", model.samples.size(), "3 or more of a rotor that turns");
+    // The transformed matrices repeat after 1/B of a revolution.
+    const auto different =
+        static_cast<int>(model.samples.size()) / std::gcd(static_cast<int>(model.samples.size()), model.blades);
+    if (model.rotor_speed != 0 && model.blades > 2 && different < 3)
+        throw InputError(place, "number of azimuths", model.samples.size(),
+                         text("one at which the rotor of ", model.blades, " blades stands in 3 different ways (",
+                              model.blades + 1, ", ", 3 * model.blades, ")"));
 }
 
 double remainder(const Matrix& difference, const Matrix& mean) {

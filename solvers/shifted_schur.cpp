@@ -103,13 +103,29 @@ Matrix ShiftedSchur::subspace(std::vector<bool> chosen) const {
     return Matrix(parts.colPivHouseholderQr().householderQ()).leftCols(count);
 }
 
+namespace {
+
+// Conjugates differ by rounding: both go where the one above the real axis goes, also at the edge of a choice.
+std::vector<bool> by_pairs(const ShiftedSchur& schur, const std::function<bool(Complex)>& first) {
+    std::vector<bool> chosen;
+    for (Index i = 0; i < schur.size(); ++i) {
+        const Complex own = schur.eigenvalue(i);
+        Complex other = own;
+        for (Index j = 0; j < schur.size(); ++j)
+            if (std::abs(schur.eigenvalue(j) - std::conj(own)) < std::abs(other - std::conj(own)))
+                other = schur.eigenvalue(j);
+        chosen.push_back(first(own.imag() < other.imag() ? other : own));
+    }
+    return chosen;
+}
+
+}  // namespace
+
 Decoupled decouple(const Matrix& A, const ShiftedSchur& schur, const std::function<bool(Complex)>& first) {
     const Index n = schur.size();
-    std::vector<bool> in_first, in_second;
-    for (Index i = 0; i < n; ++i) {
-        in_first.push_back(first(schur.eigenvalue(i)));
-        in_second.push_back(!in_first.back());
-    }
+    const std::vector<bool> in_first = by_pairs(schur, first);
+    std::vector<bool> in_second = in_first;
+    in_second.flip();
     Decoupled d;
     d.right_1 = schur.subspace(in_first);
     d.right_2 = schur.subspace(in_second);

@@ -38,7 +38,8 @@ struct Decoupled {
     Matrix right_1, right_2, left_1, left_2;
     Matrix A_1, A_2;
 };
-/// @param first  which eigenvalues belong to the first block; of conjugates both or none
+/// @param first  which eigenvalues belong to the first block; of conjugates the one with positive imaginary part
+/// decides for both
 Decoupled decouple(const Matrix& A, const ShiftedSchur& schur, const std::function<bool(Complex)>& first);
 
 }  // namespace cardan::solvers

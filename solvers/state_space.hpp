@@ -74,9 +74,9 @@ struct StateSpaceOptions {
 ///
 /// Cost per azimuth O(n^3), and 4 evaluations of the channels per state and input.
 /// @param rotor  its spin, number of blades and name are used; a machine without spin is taken at one instant
-/// @throws InputError for inputs without effect or with names twice, coordinates or frames that are not there, a
-/// coordinate moved by inputs of both kinds or moved and loaded, an unknown output, too few azimuths, a steady state
-/// that did not converge or of another system; NumericalError if a channel is not finite
+/// @throws InputError for inputs without effect, with names or a coordinate twice, coordinates or frames that are not
+/// there, a coordinate moved by inputs of both kinds or moved and loaded, an unknown output, too few azimuths, a steady
+/// state that did not converge or of another system; NumericalError if a channel is not finite
 LinearModel state_space(const System& system, const RotorMap& rotor, const PeriodicSteadyState& about,
                         const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
                         const StateSpaceOptions& options = {});

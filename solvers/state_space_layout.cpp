@@ -120,9 +120,12 @@ void Layout::check(const LinearInput& input) const {
         return;
     }
     if (input.coordinates().empty()) throw InputError(where, "number of coordinates", 0, ">= 1");
+    std::set<int> seen;
     for (const auto& [coordinate, factor] : input.coordinates()) {
         if (coordinate < 0 || coordinate >= model.size())
             throw InputError(where, "index of a coordinate", coordinate, text("0 ... ", model.size() - 1));
+        if (!seen.insert(coordinate).second)
+            throw InputError(where, "coordinate", model.coordinates()[coordinate].name, "each once");
         if (!std::isfinite(factor) || factor == 0) throw InputError(where, "factor", factor, "finite and not zero");
         if (input.kind() == LinearInput::Kind::generalised_force && Moved::contains(driven, coordinate))
             throw InputError(where, "coordinate", model.coordinates()[coordinate].name,

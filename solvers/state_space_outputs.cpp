@@ -86,8 +86,12 @@ Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actua
         const std::optional<FrameLoad> load = layout.wrench_of(j);
         // Positions: the error of the extrapolated difference, h^4, and rounding, 1e-16 / h, are about alike. Channels
         // are quadratic in the rates and linear in accelerations and forces: a large step has the least rounding.
-        const double largest = qdd.cwiseAbs().maxCoeff();
-        const double h = !q.isZero(0) ? 1e-3 : !qd.isZero(0) ? 1e-2 : largest > 0 ? 100 / largest : 1;
+        // By the largest entry of the direction: the factor of an input of motion may be anything.
+        const auto largest = [](const auto& direction) { return direction.cwiseAbs().maxCoeff(); };
+        const double h = !q.isZero(0)     ? 1e-3 / largest(q)
+                         : !qd.isZero(0)  ? 1e-2 / largest(qd)
+                         : !qdd.isZero(0) ? 100 / largest(qdd)
+                                          : 1;
         const auto value = [&](double step) {
             OperatingPoint moved = state;
             moved.q += step * q;

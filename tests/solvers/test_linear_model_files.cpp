@@ -240,6 +240,37 @@ TEST_CASE("linear model files: OpenFAST's text format gives back what was writte
     CHECK(file.lines[17] == "Order of continuous states:");
 }
 
+TEST_CASE("linear model files: a model without inputs and outputs can be written and read", "[property]") {
+    const Example& e = example();
+    StateSpaceOptions options;
+    options.azimuths = 4;
+    LinearModel bare = state_space(e.rotor.system, e.rotor.map, e.rotor.spinning(6), {}, {}, options);
+    bare.machine = bare.description = "M\u00fchle";
+    const std::vector<NamedModel> constant{{"fixed", multi_blade(bare, e.rotor.map)}};
+    const Folder folder;
+    write_hdf5(bare, constant, folder / "b.h5");
+    const Hdf5File file = Hdf5File::open(folder / "b.h5");
+    const std::size_t n = bare.states.size();
+    CHECK(file.shape("B") == Shape{4, n, 0});
+    CHECK(file.shape("fixed/D") == Shape{0, 0});
+    CHECK(file.read_strings("inputs/name").empty());
+    write_mat(bare, constant, folder / "b.mat");
+    mat_t* mat = Mat_Open((folder / "b.mat").c_str(), MAT_ACC_RDONLY);
+    REQUIRE(mat != nullptr);
+    const std::unique_ptr<matvar_t, FreeVariable> model(Mat_VarRead(mat, "model"));
+    Mat_Close(mat);
+    REQUIRE(model != nullptr);
+    CHECK(numbers(field(model.get(), "A"), 3) == bare.samples[3].A);
+    CHECK(field(model.get(), "C")->dims[0] == 0);
+    CHECK(field(model.get(), "input_names")->dims[0] == 0);
+    const LinFile lin(write_lin(bare, folder / "b")[3].string());
+    CHECK(lin.matrices.at("A") == bare.samples[3].A);
+    CHECK(lin.matrices.size() == 1);
+    CHECK(lin.tables.size() == 2);
+    CHECK(lin.head.at("Number of inputs") == 0);
+    CHECK(lin.lines[4] == bare.machine);
+}
+
 TEST_CASE("linear model files: what cannot be written is said and leaves nothing", "[property]") {
     const Example& e = example();
     const Folder folder;
@@ -254,5 +285,12 @@ TEST_CASE("linear model files: what cannot be written is said and leaves nothing
     CHECK(folder.files() == 0);
     check_refused([&] { write_mat(e.model, {{"2nd", e.constant[0].model}}, folder / "m.mat"); }, {"'2nd'", "letter"});
     check_refused([&] { write_mat(e.model, {{"model", e.constant[0].model}}, folder / "m.mat"); }, {"'model'", "once"});
+    for (const char* name : {"", "A", "states", "fourier", "twice", "a/b"})
+        check_refused(
+            [&] {
+                write_hdf5(e.model, {{"twice", e.constant[0].model}, {name, e.constant[0].model}}, folder / "m.h5");
+            },
+            {"HDF5 file: name of a model", name, "once"});
     check_refused([&] { (void)write_lin(LinearModel{}, folder / "m"); }, {"azimuths = 0"});
+    CHECK(folder.files() == 0);
 }

@@ -6,6 +6,8 @@
 #include "tests/support/refusal.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 using namespace cardan;
 using namespace cardan::solvers;
@@ -178,8 +180,39 @@ TEST_CASE("balanced truncation: Hankel values of one state by hand, static gain 
     CHECK(lost.D == model.D);
 }
 
+TEST_CASE("modal truncation: a limit at a natural frequency keeps or leaves both poles of the pair", "[property]") {
+    // Of the two computed magnitudes either may be the larger one by rounding.
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        const ConstantModel model = flexible(seed, 4, 0, 1, 1, 1);
+        const std::vector<Complex> poles = model.poles();
+        ModalOptions options;
+        options.max_frequency_hz = std::abs(poles[seed % 2 == 0 ? 2 : 3]) / (2 * pi);
+        const ConstantModel low = modal_truncation(model, options);
+        CAPTURE(seed);
+        REQUIRE(low.A.rows() % 2 == 0);
+        const std::vector<Complex> kept = low.poles();
+        for (std::size_t i = 0; i < kept.size(); ++i) CHECK(std::abs(kept[i] - poles[i]) < 1e-9 * std::abs(kept[i]));
+    }
+}
+
 TEST_CASE("reduction: bad input is refused", "[property]") {
     const ConstantModel model = flexible(1, 2, 0, 1, 1);
+    for (const auto& reduce :
+         {std::function<void(const ConstantModel&)>(
+              [](const ConstantModel& m) { (void)modal_truncation(m, {.max_frequency_hz = 1, .keep = {1.0}}); }),
+          std::function<void(const ConstantModel&)>([](const ConstantModel& m) { (void)balanced_truncation(m); })}) {
+        ConstantModel wrong;
+        wrong.B.resize(0, 1), wrong.C.resize(1, 0), wrong.D = Matrix::Ones(1, 1);
+        check_refused([&] { reduce(wrong); }, {"number of states = 0"});
+        for (Matrix StateMatrices::*m : {&StateMatrices::A, &StateMatrices::B, &StateMatrices::C, &StateMatrices::D}) {
+            wrong = model;
+            (wrong.*m)(0, 0) = std::nan("");
+            check_refused([&] { reduce(wrong); }, {"not finite"});
+        }
+        wrong = model;
+        wrong.C.resize(1, 3);
+        check_refused([&] { reduce(wrong); }, {"sizes of A, B, C, D = 4 x 4, 4 x 1, 1 x 3, 1 x 1"});
+    }
     check_refused([&] { (void)modal_truncation(model, {.max_frequency_hz = -1}); }, {"frequency", "-1"});
     check_refused([&] { (void)modal_truncation(model, {.max_frequency_hz = 1e-3}); }, {"keeps a mode"});
     check_refused([&] { (void)balanced_truncation(model, {.order = 5}); }, {"order = 5", "0 ... 4"});

@@ -160,6 +160,19 @@ TEST_CASE("state space: an accelerated coordinate with states of its own gives t
     CHECK((together - one.col(0)).norm() < 1e-9 * one.norm());
 }
 
+TEST_CASE("state space: D of a motion is in proportion to its factor, however large or small that is", "[property]") {
+    const SlidingMass x(CoordinateRole::driven);
+    const System system(x.tree, x.forces);
+    const OperatingPoint at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
+    const auto D = [&](double factor) {
+        return state_space(system, no_rotor(), at, {LinearInput::motion("arm", {{x.arm, factor}})}, x.channels())
+            .samples[0]
+            .D;
+    };
+    const Matrix one = D(1);
+    for (double factor : {300.0, 1e-4}) check_equal(D(factor) / factor, one, 1e-9);
+}
+
 TEST_CASE("state space: a channel in rad may jump by a turn", "[property]") {
     const SlidingMass x;
     const System system(x.tree, x.forces);
@@ -265,6 +278,7 @@ TEST_CASE("state space: bad input is refused with what is allowed", "[property]"
     refused({LinearInput::generalised_force("a", {{9, 1.0}})}, {"'a'", "coordinate = 9", "0 ... 1"});
     refused({LinearInput::generalised_force("a", {})}, {"number of coordinates = 0"});
     refused({LinearInput::generalised_force("a", {{0, 0.0}})}, {"factor = 0"});
+    refused({LinearInput::generalised_force("a", {{0, 1.0}, {0, -1.0}})}, {"'a'", "coordinate = arm", "each once"});
     refused({LinearInput::motion("a", {{-1, 1.0}})}, {"'a'", "= -1"});
     refused({LinearInput::force("a", FrameId{0}, Vec3::UnitX(), WrenchAxes::base)}, {"frame = 0", "of a body"});
     refused({LinearInput::force("a", x.mass_frame, Vec3::Zero(), WrenchAxes::base)}, {"direction", "not zero"});
@@ -285,4 +299,15 @@ TEST_CASE("state space: bad input is refused with what is allowed", "[property]"
     check_refused([&] { (void)at_sample(model, 1); }, {"= 1", "below 1"});
     check_refused([&] { (void)index_of(model.outputs, "x"); }, {"'x'", "'arm torque'"});
     check_refused([&] { (void)multi_blade(model, heavy_rotor().map); }, {"number of blades = 0"});
+    // Gravity makes the multi-blade matrices periodic three times per revolution, which three or six azimuths hide.
+    const SmallRotor rotor = heavy_rotor();
+    StateSpaceOptions few;
+    for (const int azimuths : {3, 6}) {
+        few.azimuths = azimuths;
+        const LinearModel hidden = state_space(rotor.system, rotor.map, rotor.spinning(8), {}, {}, few);
+        check_refused([&] { (void)multi_blade(hidden, rotor.map); }, {text("azimuths = ", azimuths), "4, 9"});
+    }
+    few.azimuths = 9;
+    const LinearModel seen = state_space(rotor.system, rotor.map, rotor.spinning(8), {}, {}, few);
+    CHECK(multi_blade(seen, rotor.map).A_remainder > 1e-6);
 }

@@ -250,6 +250,12 @@ TEST_CASE("modes of the teetered machine: six elements per part on a tower of a 
 
     const solvers::Floquet whole = periodic.modes(25, false);
     check_close(up_to(25, half), up_to(25, whole), {1e-9, 1e-7});
-    const solvers::Floquet balanced = solvers::hill(periodic.system, {.harmonics = 4});
+}
+
+TEST_CASE("modes of the teetered machine: three elements per part, Hill's method", "[crosscheck][slow]") {
+    const TeeteredTurbine machine = machine_of(3);
+    const Periodic periodic(machine);
+    const solvers::Floquet half = periodic.modes(16, true);
+    const solvers::Floquet balanced = solvers::hill(periodic.system, {.harmonics = 6});
     check_close(up_to(4, half), up_to(4, balanced), {1e-5, 1e-3});
 }
