@@ -6,13 +6,13 @@
 // Reference: the values with 3 elements per blade and tower in docs/wt600.md.
 #include "mbs/error.hpp"
 #include "solvers/campbell_csv.hpp"
+#include "solvers/campbell_difference.hpp"
 #include "solvers/hdf5_campbell.hpp"
 #include "solvers/plot_campbell.hpp"
 #include "turbines/wt600.hpp"
 
-#include "examples/program.hpp"
+#include "examples/campbell_program.hpp"
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 
@@ -26,28 +26,9 @@ struct Arguments {
     std::string data;
     turbines::AssemblyOptions assembly;
     bool undamped = false, frozen = false, prescribed = false, modes = false, summary = false;
-    bool gravity = false, shaft_beam = false;
+    bool gravity = false, shaft_beam = false, floquet = false;
     double max_frequency = 16;
 };
-
-// FIRST:LAST:STEP or one number.
-std::vector<double> rotor_speeds(const std::string& given) {
-    std::vector<double> numbers;
-    const char* at = given.data();
-    const char* const end = at + given.size();
-    while (true) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || (next != end && *next != ':'))
-            throw InputError("--rpm", "value", given, "FIRST:LAST:STEP or one number, rev/min");
-        numbers.push_back(value);
-        if (next == end) break;
-        at = next + 1;
-    }
-    if (numbers.size() == 1) return solvers::rpm_range(numbers[0], numbers[0], 1);
-    if (numbers.size() != 3) throw InputError("--rpm", "value", given, "FIRST:LAST:STEP or one number, rev/min");
-    return solvers::rpm_range(numbers[0], numbers[1], numbers[2]);
-}
 
 int parse(int argc, char** argv, Arguments& a) {
     CLI::App app(
@@ -62,9 +43,14 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
     app.add_flag("--undamped", a.undamped, "leave out all damping");
     app.add_flag("--generator-prescribed", a.prescribed, "generator speed prescribed instead of free");
-    app.add_flag("--frozen-azimuth", a.frozen,
-                 "eigenvalues at one azimuth, as published in 2007 (no motions of the machine)");
-    app.add_flag("--gravity", a.gravity, "with gravity (standstill only: in rotation the steady state is periodic)");
+    auto* frozen = app.add_flag("--frozen-azimuth", a.frozen,
+                                "eigenvalues at one azimuth, as published in 2007 (no motions of the machine)");
+    app.add_flag("--floquet", a.floquet,
+                 "by Floquet's theory about the periodic steady state, beside the mean of the multi-blade system over "
+                 "the azimuth (PREFIX_averaged.csv, PREFIX_difference.svg, .png)")
+        ->excludes(frozen);
+    app.add_flag("--gravity", a.gravity,
+                 "with gravity (in rotation the steady state is periodic: with --floquet only)");
     app.add_flag("--shaft-beam", a.shaft_beam,
                  "main shaft as one beam element (EI 2e8 N m^2) instead of a torsion spring");
     app.add_flag("--modes", a.modes,
@@ -75,10 +61,6 @@ int parse(int argc, char** argv, Arguments& a) {
     if (a.gravity) a.assembly.gravity = {0, 0, -9.80665};
     if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};
     return -1;
-}
-
-void progress(int done, int total) {
-    program::progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
 }
 
 // The arrangement of the paper's Figs. 8 and 9.
@@ -102,36 +84,21 @@ void draw_panels(const solvers::Campbell& machine, const solvers::Campbell& blad
     solvers::plot_panels(machine, out + "_flap_edge.png", blades);
 }
 
-std::string file_name(const std::string& mode) {
-    std::string name;
-    for (char c : mode)
-        if (std::isalnum(static_cast<unsigned char>(c)))
-            name += c;
-        else if (!name.empty() && name.back() != '_')
-            name += '_';
-    while (!name.empty() && name.back() == '_') name.pop_back();
-    return name;
-}
-
-// Mode shapes at the first and the last rotor speed (the paper's Figs. 4-7).
-void draw_modes(const solvers::Campbell& diagram, const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw FileError(folder.string(), error.message());
-    std::vector<std::size_t> points{0};
-    if (diagram.points.size() > 1) points.push_back(diagram.points.size() - 1);
-    for (const solvers::Branch& branch : diagram.branches)
-        for (std::size_t point : points) {
-            if (branch.mode[point] < 0) continue;
-            const auto rpm = std::lround(diagram.points[point].rotor_speed * 30 / pi);
-            for (const char* kind : {".svg", ".png"})
-                solvers::plot_mode(diagram, branch, point,
-                                   folder / text(file_name(branch.name), "_", rpm, "rpm", kind));
-        }
+// The mean of the multi-blade system over the azimuth about the same steady states.
+void compare(const turbines::Turbine& turbine, const solvers::Campbell& diagram, solvers::CampbellOptions options,
+             const std::string& out) {
+    options.method = solvers::CampbellMethod::averaged;
+    options.progress = {};
+    options.keep_shapes = false;
+    const solvers::Campbell averaged =
+        solvers::campbell(turbine.system(), turbine.rotor(), diagram.rotor_speeds(), options);
+    std::cout << "\n" << solvers::difference_table(diagram, averaged) << std::flush;
+    solvers::write_csv(averaged, out + "_averaged.csv");
+    for (const char* kind : {".svg", ".png"}) solvers::plot_differences(diagram, averaged, out + "_difference" + kind);
 }
 
 int run(const Arguments& a) {
-    const std::vector<double> speeds = rotor_speeds(a.rpm);
+    const std::vector<double> speeds = program::rotor_speeds(a.rpm);
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
     const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
@@ -139,12 +106,15 @@ int run(const Arguments& a) {
     for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
 
     solvers::CampbellOptions options;
-    options.method = a.frozen ? solvers::CampbellMethod::frozen_azimuth : solvers::CampbellMethod::coleman;
+    options.method = a.frozen    ? solvers::CampbellMethod::frozen_azimuth
+                     : a.floquet ? solvers::CampbellMethod::floquet
+                                 : solvers::CampbellMethod::coleman;
     options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
     options.max_frequency_hz = a.max_frequency;
-    options.progress = progress;
+    options.progress = program::speed_progress;
     options.cancelled = program::interrupted;
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"});
+    if (a.floquet) program::check_outputs(a.out, {"_averaged.csv", "_difference.svg", "_difference.png"});
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     program::stop_at_once();
     std::cout << solvers::table(diagram) << std::flush;
@@ -161,8 +131,10 @@ int run(const Arguments& a) {
         const turbines::Turbine blade = turbines::isolated_blade(description, a.assembly);
         draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
     }
-    if (a.modes && diagram.complete) draw_modes(diagram, a.out + "_modes");
+    if (a.floquet && diagram.complete) compare(turbine, diagram, options, a.out);
+    if (a.modes && diagram.complete) program::draw_modes(diagram, a.out + "_modes");
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _tower_yaw_tilt.png, _flap_edge.png"
+              << (a.floquet ? ", _averaged.csv, _difference.svg, .png" : "")
               << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";
     return diagram.complete ? 0 : 130;
 }

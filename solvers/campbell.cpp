@@ -2,11 +2,16 @@
 
 #include "mbs/error.hpp"
 #include "solvers/campbell_point.hpp"
+#include "solvers/floquet_mac.hpp"
 #include "solvers/tracking.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
+#include <sstream>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -46,16 +51,28 @@ void drop_high_modes(Campbell& diagram, double limit_hz) {
     }
 }
 
-// Motions of frames in some modes: the shape in blade coordinates at azimuth 0 times the frame Jacobians.
-std::vector<std::vector<FrameMotion>> motions(const System& system, const PointSolver& solver,
+// Shapes in blade coordinates at azimuth 0.
+ComplexMatrix shapes_at_azimuth_0(const PointMethod& solver, const CampbellPoint& point,
+                                  const std::vector<int>& modes) {
+    const Matrix T = solver.rotating_coordinates();
+    ComplexMatrix shapes(T.rows(), static_cast<Eigen::Index>(modes.size()));
+    for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
+        const CampbellMode& m = point.modes[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])];
+        if (m.floquet)
+            shapes.col(j) = T * m.floquet->shape(0);
+        else
+            shapes.col(j) = T * m.mode.shape;
+    }
+    return shapes;
+}
+
+// Motions of frames in some modes: the shapes times the frame Jacobians.
+std::vector<std::vector<FrameMotion>> motions(const System& system, const PointMethod& solver,
                                               const CampbellPoint& point, const std::vector<int>& modes,
                                               const std::vector<FrameId>& frames) {
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, point.at.q, workspace);
-    const Matrix T = solver.rotating_coordinates();
-    ComplexMatrix shapes(T.rows(), static_cast<Eigen::Index>(modes.size()));
-    for (Eigen::Index j = 0; j < shapes.cols(); ++j)
-        shapes.col(j) = T * point.modes[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])].mode.shape;
+    const ComplexMatrix shapes = shapes_at_azimuth_0(solver, point, modes);
     Matrix jacobian(6, system.model.size());
     std::vector<std::vector<FrameMotion>> motions(point.modes.size());
     for (FrameId frame : frames) {
@@ -92,13 +109,20 @@ std::vector<FrameId> recorded_frames(const System& system, const RotorMap& rotor
     return frames;
 }
 
+// A vibration at two neighbouring points; a motion that is locked at a multiple of the rotor speed crosses nothing.
+bool vibrates(const Campbell& diagram, const Branch& branch, std::size_t point) {
+    const CampbellMode* mode = diagram.mode(branch, point);
+    return mode && mode->kind() == FloquetKind::oscillation;
+}
+
 void find_crossings(Campbell& diagram) {
     for (std::size_t b = 0; b < diagram.branches.size(); ++b)
         for (int n : rotor_multiples(diagram.blades))
             for (std::size_t i = 0; i + 1 < diagram.points.size(); ++i) {
+                const Branch& branch = diagram.branches[b];
+                if (!vibrates(diagram, branch, i) || !vibrates(diagram, branch, i + 1)) continue;
                 const double w0 = diagram.points[i].rotor_speed, w1 = diagram.points[i + 1].rotor_speed;
-                const double f0 = diagram.damped_hz(diagram.branches[b], i),
-                             f1 = diagram.damped_hz(diagram.branches[b], i + 1);
+                const double f0 = diagram.damped_hz(branch, i), f1 = diagram.damped_hz(branch, i + 1);
                 const double d0 = f0 - n * w0 / (2 * pi), d1 = f1 - n * w1 / (2 * pi);
                 if (!(d0 * d1 <= 0) || d0 == d1 || (d1 == 0 && i + 2 < diagram.points.size())) continue;
                 const double t = d0 / (d0 - d1);
@@ -121,9 +145,13 @@ void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (!warning.empty()) return;
     for (const CampbellMode& m : point.modes) {
         const Complex lambda = m.mode.eigenvalue;
+        if (m.kind() == FloquetKind::rigid) continue;
         if (lambda.real() > 1e-6 * std::max(1.0, std::abs(lambda))) {
-            warning = text("unstable at ", point.rotor_speed * 30 / pi, " rpm: a motion at ", lambda.imag() / (2 * pi),
-                           " Hz grows with ", lambda.real(), " 1/s");
+            std::ostringstream out;
+            out.precision(4);
+            out << "unstable at " << point.rotor_speed * 30 / pi << " rpm: a motion at " << lambda.imag() / (2 * pi)
+                << " Hz grows with " << lambda.real() << " 1/s";
+            warning = out.str();
             return;
         }
     }
@@ -133,14 +161,153 @@ void append(std::string& warning, const std::string& more) {
     if (!more.empty()) warning += (warning.empty() ? "" : "; ") + more;
 }
 
-const char* method_name(CampbellMethod method, std::size_t blades) {
-    if (blades < 2) return "rotating frame of the blade";
-    return method == CampbellMethod::coleman ? "Coleman (fixed frame)" : "frozen azimuth (as published in 2007)";
+std::string method_name(CampbellMethod method, std::size_t blades) {
+    const char* rotating = "rotating frame of the blade";
+    switch (method) {
+        case CampbellMethod::coleman:
+            return blades < 2 ? rotating : "Coleman (fixed frame)";
+        case CampbellMethod::frozen_azimuth:
+            return blades < 2 ? rotating : "frozen azimuth (as published in 2007)";
+        case CampbellMethod::floquet:
+            return text("Floquet (principal frequencies, ",
+                        blades > 2    ? "fixed frame"
+                        : blades == 2 ? "blade modes in the rotating frame"
+                                      : "rotating frame of the blade",
+                        ")");
+        case CampbellMethod::averaged:
+            return blades < 2 ? text(rotating, ", mean over the azimuth")
+                              : "Coleman (fixed frame), mean over the azimuth about the periodic steady state";
+    }
+    return {};
+}
+
+// The diagram of one machine or of several like it, point by point.
+class Sweep {
+public:
+    Sweep(const CampbellOptions& options, std::size_t points, const std::string& parameter = {})
+        : options_(options), points_(points) {
+        diagram_.parameter = parameter;
+        if (!(options.max_frequency_hz > 0))
+            throw InputError("Campbell diagram", "largest frequency [Hz]", options.max_frequency_hz, "> 0");
+    }
+
+    void set_machine(const System& system, const RotorMap& rotor, const PointMethod& solver);
+    /// False if it was cancelled.
+    bool add(const System& system, PointMethod& solver, double rotor_speed);
+    /// @param solvers  by point, or one for all
+    Campbell finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
+
+private:
+    void align(const Identification& own, CampbellPoint& point);
+    void set_branches(const std::vector<const PointMethod*>& solvers);
+    void set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
+
+    const CampbellOptions& options_;
+    std::size_t points_;
+    Campbell diagram_;
+    std::vector<FrameId> frames_;
+    std::vector<const System*> systems_;     // by point
+    const Identification* first_ = nullptr;  // of the first machine
+    Tracker tracker_;
+    std::string instability_;
+};
+
+void Sweep::set_machine(const System& system, const RotorMap& rotor, const PointMethod& solver) {
+    diagram_.machine = rotor.machine;
+    diagram_.source = rotor.description;
+    diagram_.spin = options_.spin;
+    diagram_.blades = static_cast<int>(rotor.blades.size());
+    diagram_.method = method_name(options_.method, rotor.blades.size());
+    diagram_.coordinates = system.model.coordinates();
+    diagram_.unknowns = solver.unknowns();
+    diagram_.rows = solver.row_names();
+    frames_ = recorded_frames(system, rotor, diagram_);
+}
+
+bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
+    if (options_.cancelled && options_.cancelled()) {
+        diagram_.complete = false;
+        return false;
+    }
+    CampbellPoint point;
+    solver.solve(rotor_speed, point);
+    align(*solver.identification(), point);
+    if (options_.method == CampbellMethod::floquet) {
+        const PeriodicLikeness likeness = periodic_likeness(solver.system(), tracker_.last(), point.modes);
+        tracker_.add(likeness.score, likeness.mac, point);
+    } else {
+        tracker_.add(solver.system(), point);
+    }
+    if (std::isfinite(point.stability_margin)) warn_of_instability(point, instability_);
+    diagram_.points.push_back(std::move(point));
+    systems_.push_back(&system);
+    if (options_.progress) options_.progress(static_cast<int>(diagram_.points.size()), static_cast<int>(points_));
+    return true;
+}
+
+// Another machine may have its component modes in another order.
+void Sweep::align(const Identification& own, CampbellPoint& point) {
+    if (!first_) first_ = &own;
+    if (first_ == &own) return;
+    const std::vector<Component>&wanted = first_->components(), &there = own.components();
+    std::vector<std::size_t> order;
+    for (const Component& c : wanted) {
+        const auto found = std::find_if(there.begin(), there.end(), [&](const Component& other) {
+            return other.part == c.part && other.family == c.family && other.ordinal == c.ordinal;
+        });
+        if (found == there.end() || there.size() != wanted.size())
+            throw InputError(diagram_.machine, text("component modes at point ", diagram_.points.size() + 1),
+                             there.size(), text(wanted.size(), " with the same names as at the first point"));
+        order.push_back(static_cast<std::size_t>(found - there.begin()));
+    }
+    for (CampbellMode& m : point.modes) {
+        std::vector<Share> shares;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            shares.push_back(m.shares[order[i]]);
+            shares.back().component = static_cast<int>(i);
+        }
+        m.shares = std::move(shares);
+    }
+}
+
+void Sweep::set_branches(const std::vector<const PointMethod*>& solvers) {
+    const Identification* identification = solvers[0]->identification();
+    if (!identification) return;
+    diagram_.components = identification->components();
+    const bool whirl = options_.method != CampbellMethod::frozen_azimuth &&
+                       std::any_of(diagram_.points.begin(), diagram_.points.end(),
+                                   [](const CampbellPoint& p) { return p.rotor_speed != 0; });
+    diagram_.branches = tracker_.branches(diagram_.points, *identification, diagram_.rows, whirl);
+    std::erase_if(diagram_.branches,
+                  [&](const Branch& b) { return lowest_frequency(diagram_, b) > options_.max_frequency_hz; });
+    drop_high_modes(diagram_, options_.max_frequency_hz);
+    if (!options_.keep_shapes) return;
+    for (std::size_t i = 0; i < diagram_.points.size(); ++i)
+        diagram_.motions.push_back(motions(*systems_[i], *solvers[std::min(i, solvers.size() - 1)], diagram_.points[i],
+                                           modes_of_branches(diagram_, i), frames_));
+}
+
+void Sweep::set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers) {
+    if (options_.method == CampbellMethod::frozen_azimuth && rotor.blades.size() > 2)
+        diagram_.warning =
+            "frozen azimuth: these are eigenvalues of the equations at one azimuth, no motions of the machine; they "
+            "show spurious damping. Use the Coleman result for design";
+    for (const PointMethod* solver : solvers)
+        if (solvers.size() == 1 || diagram_.warning.empty()) append(diagram_.warning, solver->warning());
+    append(diagram_.warning, instability_);
+}
+
+Campbell Sweep::finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers) {
+    set_branches(solvers);
+    set_warning(rotor, solvers);
+    if (diagram_.parameter.empty()) find_crossings(diagram_);
+    return std::move(diagram_);
 }
 
 }  // namespace
 
 std::vector<int> rotor_multiples(int blades) {
+    if (blades == 2) return {1, 2, 4, 6};
     std::set<int> n{1, 2, 3};
     for (int k = 1; k <= 4 && blades > 0; ++k) n.insert(k * blades);
     return {n.begin(), n.end()};
@@ -162,53 +329,37 @@ std::vector<double> rpm_range(double first, double last, double step) {
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options) {
     check_speeds(rotor_speed);
-    if (!(options.max_frequency_hz > 0))
-        throw InputError("Campbell diagram", "largest frequency [Hz]", options.max_frequency_hz, "> 0");
-    PointSolver solver(system, rotor, options);
-    Campbell diagram;
-    diagram.machine = rotor.machine;
-    diagram.source = rotor.description;
-    diagram.spin = options.spin;
-    diagram.blades = static_cast<int>(rotor.blades.size());
-    diagram.method = method_name(options.method, rotor.blades.size());
-    diagram.coordinates = system.model.coordinates();
-    diagram.unknowns = solver.unknowns();
-    diagram.rows = solver.row_names();
-    const std::vector<FrameId> frames = recorded_frames(system, rotor, diagram);
-    Tracker tracker;
-    std::string instability;
-    for (std::size_t i = 0; i < rotor_speed.size(); ++i) {
-        if (options.cancelled && options.cancelled()) {
-            diagram.complete = false;
-            break;
-        }
-        solver.solve(rotor_speed[i], diagram.points.emplace_back());
-        tracker.add(solver.system(), diagram.points.back());
-        if (options.method == CampbellMethod::coleman) warn_of_instability(diagram.points.back(), instability);
-        if (options.progress) options.progress(static_cast<int>(i) + 1, static_cast<int>(rotor_speed.size()));
+    Sweep sweep(options, rotor_speed.size());
+    const std::unique_ptr<PointMethod> solver = point_method(system, rotor, options);
+    sweep.set_machine(system, rotor, *solver);
+    for (const double speed : rotor_speed)
+        if (!sweep.add(system, *solver, speed)) break;
+    return sweep.finish(rotor, {solver.get()});
+}
+
+Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter, const CampbellOptions& options) {
+    if (cases.empty()) throw InputError("Campbell diagram", "number of points", 0, "at least one");
+    if (parameter.empty()) throw InputError("Campbell diagram", "name of the parameter", "''", "not empty");
+    Sweep sweep(options, cases.size(), parameter);
+    std::vector<std::unique_ptr<PointMethod>> solvers;
+    std::vector<const PointMethod*> used;
+    std::vector<double> parameters;
+    for (const CampbellCase& one : cases) {
+        if (!std::isfinite(one.parameter) || (!parameters.empty() && !(one.parameter > parameters.back())))
+            throw InputError("Campbell diagram", parameter, one.parameter, "finite and increasing");
+        if (!(one.rotor_speed >= 0) || std::isinf(one.rotor_speed))
+            throw InputError("Campbell diagram", "rotor speed [rad/s]", one.rotor_speed, "finite and >= 0");
+        solvers.push_back(point_method(*one.system, *one.rotor, options));
+        if (parameters.empty()) sweep.set_machine(*one.system, *one.rotor, *solvers.back());
+        if (solvers.back()->row_names() != solvers.front()->row_names())
+            throw InputError(one.rotor->machine, text("rows at ", parameter, " ", one.parameter),
+                             solvers.back()->unknowns().size(), "those of the first machine");
+        used.push_back(solvers.back().get());
+        if (!sweep.add(*one.system, *solvers.back(), one.rotor_speed)) break;
+        parameters.push_back(one.parameter);
     }
-    if (const Identification* identification = solver.identification()) {
-        diagram.components = identification->components();
-        const bool whirl = options.method == CampbellMethod::coleman &&
-                           std::any_of(diagram.points.begin(), diagram.points.end(),
-                                       [](const CampbellPoint& p) { return p.rotor_speed != 0; });
-        diagram.branches = tracker.branches(diagram.points, *identification, whirl);
-        std::erase_if(diagram.branches,
-                      [&](const Branch& b) { return lowest_frequency(diagram, b) > options.max_frequency_hz; });
-        drop_high_modes(diagram, options.max_frequency_hz);
-        if (options.keep_shapes)
-            for (std::size_t i = 0; i < diagram.points.size(); ++i)
-                diagram.motions.push_back(
-                    motions(system, solver, diagram.points[i], modes_of_branches(diagram, i), frames));
-    }
-    if (options.method == CampbellMethod::frozen_azimuth && rotor.blades.size() > 2)
-        diagram.warning =
-            "frozen azimuth: these are eigenvalues of the equations at one azimuth, no motions of the machine; they "
-            "show "
-            "spurious damping. Use the Coleman result for design";
-    append(diagram.warning, solver.warning());
-    append(diagram.warning, instability);
-    find_crossings(diagram);
+    Campbell diagram = sweep.finish(*cases[0].rotor, used);
+    diagram.parameters = std::move(parameters);
     return diagram;
 }
 

@@ -2,9 +2,12 @@
 /// Campbell diagram: modes over rotor speed, named and tracked.
 #pragma once
 
+#include "solvers/floquet_mode.hpp"
 #include "solvers/identify.hpp"
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 
 namespace cardan::solvers {
@@ -18,9 +21,27 @@ enum class RotorSpin : std::uint8_t { free, prescribed };
 
 /// Frequencies in which frame.
 enum class CampbellMethod : std::uint8_t {
-    coleman,        ///< fixed frame, by multi-blade transformation: motions of the machine
-    frozen_azimuth  ///< equations linearised at azimuth 0 with the rotor frozen there: as published in 2007, no motions
-                    ///< of the machine
+    coleman,         ///< fixed frame, by multi-blade transformation: motions of the machine; three and more blades
+    frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: as published in 2007, no
+                     ///< motions of the machine
+    floquet,  ///< motions of the machine about its periodic steady state by Floquet's theory, in multi-blade rows: any
+              ///< number of blades, gravity, blades that differ. The frequencies are principal ones: in the fixed
+              ///< frame, but those of blade modes of two blades in the rotating frame
+    averaged  ///< as `floquet`, but eigenvalues of the multi-blade system's mean over the azimuth: an approximation,
+              ///< for comparison; three and more blades
+};
+
+/// For CampbellMethod::floquet (and, but for the accuracy, averaged).
+struct CampbellFloquetOptions {
+    int harmonics = 8;  ///< of the revolution in the periodic steady state
+    /// Model indices of coordinates that change sign when two blades have changed places (teeter): then half a
+    /// revolution is integrated. Those that are no unknowns do not count; where the machine is not symmetric in this
+    /// way the whole revolution is integrated.
+    std::vector<int> odd = {};
+    std::vector<int> held = {};  ///< as PeriodicOptions::held
+    double per_period = 0;       ///< modes up to so many per revolution are accurate; 0: up to `max_frequency_hz`
+    double tolerance = 1e-9;     ///< of exponents, over the rotor speed
+    int most_steps = 0;          ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
 };
 
 struct CampbellOptions {
@@ -29,6 +50,7 @@ struct CampbellOptions {
     double max_frequency_hz =
         10;                   ///< branches that stay above are left out (all modes take part in tracking and naming)
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
+    CampbellFloquetOptions floquet = {};
     /// Called after every rotor speed with the numbers done and to do.
     std::function<void(int done, int total)> progress = {};
     /// Asked before every rotor speed: true ends the sweep; what was computed is kept and `complete` is false.
@@ -37,22 +59,40 @@ struct CampbellOptions {
 
 /// A mode at one rotor speed.
 struct CampbellMode {
+    /// By Floquet's theory the principal exponent and the shape of the principal harmonic at unit energy of its own;
+    /// of a rigid motion at 1 J of kinetic energy at unit rate.
     Mode mode;
-    std::vector<Share> shares;  ///< of the elastic energy, by component
+    std::vector<Share> shares;  ///< of the elastic energy, by component (sum over the harmonics)
     Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
+    /// Row after which a motion (almost) without elastic energy is named, the one with most kinetic energy: yaw,
+    /// teeter. -1: named by its elastic energy.
+    int row = -1;
+    /// Everything by Floquet's theory, in multi-blade rows; empty for the other methods and at standstill. Harmonics
+    /// at the ends that hold less than 1e-12 of the energy are left out.
+    std::optional<FloquetMode> floquet = {};
+
+    /// That of `floquet`, else oscillation or aperiodic.
+    FloquetKind kind() const;
+    /// "oscillation", "aperiodic", "rigid", "locked at 1 per rev", "locked at 1/2 per rev"
+    std::string kind_name() const;
 };
 
 struct CampbellPoint {
-    double rotor_speed = 0;  ///< rad/s
-    OperatingPoint at;
+    double rotor_speed = 0;           ///< rad/s
+    OperatingPoint at;                ///< steady state, at azimuth 0
     std::vector<CampbellMode> modes;  ///< by natural frequency
+    /// How far the fastest growing motion (rigid ones left out) is from growing, 1/s; negative: unstable. NaN where
+    /// eigenvalues are no motions (frozen azimuth).
+    double stability_margin = std::numeric_limits<double>::quiet_NaN();
+    std::optional<PeriodicSteadyState> periodic = {};  ///< where the method is `floquet` or `averaged`
 };
 
 /// A mode followed over rotor speed.
 struct Branch {
-    std::string name;    ///< "1st blade flap (backward)"
-    std::string family;  ///< "blade flap"
-    int component = -1;  ///< of Campbell::components
+    std::string name;    ///< "1st blade flap (backward)", "1st blade flap (symmetric)", "yaw (rigid)"
+    std::string family;  ///< "blade flap", "yaw"
+    int component = -1;  ///< of Campbell::components; -1: named after a coordinate
+    int row = -1;        ///< of Campbell::rows, for motions without elastic energy
     RotorPattern pattern = RotorPattern::none;
     int harmonic = 1;                 ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
     std::vector<int> mode;            ///< at every point the index in CampbellPoint::modes, -1: none
@@ -70,7 +110,7 @@ struct Crossing {
 };
 
 /// Complex motion of a frame in a mode: [rotation; displacement of the origin], base axes, azimuth 0, rad and m at unit
-/// modal energy (1 J).
+/// modal energy (1 J). By Floquet's theory the sum of all harmonics at azimuth 0.
 struct FrameMotion {
     Vec6T<Complex> motion;
 };
@@ -87,7 +127,9 @@ struct Campbell {
     std::vector<Vec3> frame_positions;  ///< undeformed, azimuth 0, m
     std::vector<Polyline> lines;        ///< FrameId counts in `frames`
     std::vector<CampbellPoint> points;
-    std::vector<Branch> branches;  ///< by frequency at the first point
+    std::string parameter;           ///< what the points differ in; empty: in the rotor speed
+    std::vector<double> parameters;  ///< its values, by point; empty: the rotor speeds
+    std::vector<Branch> branches;    ///< by frequency at the first point
     std::vector<Crossing> crossings;
     bool complete = true;  ///< false: the sweep was cancelled
 
@@ -95,7 +137,10 @@ struct Campbell {
     /// NaN where the branch has no mode.
     double natural_hz(const Branch& branch, std::size_t point) const;
     double damped_hz(const Branch& branch, std::size_t point) const;
+    /// Also NaN for rigid motions.
     double damping_ratio(const Branch& branch, std::size_t point) const;
+    /// Null where the branch has no mode.
+    const CampbellMode* mode(const Branch& branch, std::size_t point) const;
     /// @throws InputError with the names there are.
     const Branch& branch(std::string_view name) const;
     /// Motions of all `frames` in a mode of a branch.
@@ -105,14 +150,37 @@ struct Campbell {
 };
 
 /// Modes at every rotor speed: steady state, linearisation, Coleman transformation, eigenvalues; then identification
-/// and tracking by optimal assignment on the complex energy MAC.
-/// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, or fewer
-/// than three blades (a rotor with one blade, the isolated blade, is taken in its rotating frame); NumericalError where
-/// no constant steady state exists or is found.
+/// and tracking by optimal assignment on the complex energy MAC. A rotor with one blade, the isolated blade, is taken
+/// in its rotating frame.
+///
+/// By Floquet's theory the steady state is periodic and begun from that of the speed before; modes are named after the
+/// elastic energy of all harmonics, and the MAC is that of all harmonics, which may have moved by up to two multiples
+/// of the rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the machine is
+/// linearised at azimuth 0.
+/// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, two blades
+/// unless the method is `floquet`, no rotor for `floquet` and `averaged`, and options out of range; NumericalError
+/// where no (constant or periodic) steady state exists or is found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options = {});
 
-/// Multiples n of the rotor speed that are drawn and looked for crossings: 1, 2, 3 and B, 2B, 3B, 4B.
+/// One point of a diagram over something else than rotor speed.
+struct CampbellCase {
+    const System* system = nullptr;
+    const RotorMap* rotor = nullptr;
+    double rotor_speed = 0;  ///< rad/s
+    double parameter = 0;    ///< its place on the axis
+};
+
+/// Modes over a parameter other than rotor speed, such as the rigidity of the tower: machines with the same coordinates
+/// are followed from one to the next. What the diagram says about the machine is that of the first; no crossings.
+/// @param parameter  what the parameter is, with its unit, for axes and tables
+/// @throws InputError also for an empty name, parameters that are not finite or not increasing, and machines whose rows
+/// or component modes have other names than those of the first
+Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter,
+                  const CampbellOptions& options = {});
+
+/// Multiples n of the rotor speed that are drawn and looked for crossings: 1, 2, 3 and B, 2B, 3B, 4B; of two blades 1,
+/// 2, 4, 6.
 std::vector<int> rotor_multiples(int blades);
 
 /// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings, for a

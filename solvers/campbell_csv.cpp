@@ -8,6 +8,15 @@
 
 namespace cardan::solvers {
 
+namespace {
+
+// Names with a comma (whirl of a higher harmonic) are quoted.
+std::string field(const std::string& name) {
+    return name.find(',') == std::string::npos ? name : text("\"", name, "\"");
+}
+
+}  // namespace
+
 void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
     PendingFile pending(path);
     std::ofstream out(pending.partial());
@@ -16,13 +25,19 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
     if (!diagram.warning.empty()) out << "# warning: " << diagram.warning << "\n";
     if (!diagram.complete) out << "# the sweep was interrupted\n";
     out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"
-           "mostly[-]\n";
+           "mostly[-],kind[-],growth_rate[1/s],stability_margin[1/s]"
+        << (diagram.parameter.empty() ? "" : ",") << field(diagram.parameter) << "\n";
     for (std::size_t i = 0; i < diagram.points.size(); ++i)
         for (const Branch& branch : diagram.branches) {
-            if (branch.mode[i] < 0) continue;
-            out << diagram.points[i].rotor_speed * 30 / pi << ',' << branch.name << ',' << diagram.natural_hz(branch, i)
-                << ',' << diagram.damped_hz(branch, i) << ',' << diagram.damping_ratio(branch, i) << ','
-                << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0) << ',' << branch.mostly[i] << '\n';
+            const CampbellMode* mode = diagram.mode(branch, i);
+            if (!mode) continue;
+            out << diagram.points[i].rotor_speed * 30 / pi << ',' << field(branch.name) << ','
+                << diagram.natural_hz(branch, i) << ',' << diagram.damped_hz(branch, i) << ','
+                << diagram.damping_ratio(branch, i) << ',' << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0)
+                << ',' << field(branch.mostly[i]) << ',' << mode->kind_name() << ',' << mode->mode.eigenvalue.real()
+                << ',' << diagram.points[i].stability_margin;
+            if (!diagram.parameters.empty()) out << ',' << diagram.parameters[i];
+            out << '\n';
         }
     out.close();
     if (!out) throw FileError(path.string(), "the table could not be written completely (is the disk full?)");

@@ -9,8 +9,10 @@
 namespace cardan::solvers {
 
 /// One line per rotor speed and mode: rotor_speed[rpm], mode, natural_frequency[Hz], damped_frequency[Hz],
-/// damping_ratio[-], mac[-], doubtful[-], mostly[-] (the name that holds most energy there); comment lines begin with
-/// #. Ten significant digits.
+/// damping_ratio[-], mac[-], doubtful[-], mostly[-] (the name that holds most energy there), kind[-] (see
+/// CampbellMode::kind_name), growth_rate[1/s], stability_margin[1/s] (of the rotor speed); comment lines begin with #.
+/// Over another parameter that is the last column. Names that have a comma in them are in quotation marks. Ten
+/// significant digits.
 /// @throws FileError if the path cannot be written or the disk is full
 void write_csv(const Campbell& diagram, const std::filesystem::path& path);
 

@@ -10,14 +10,14 @@ namespace cardan::solvers {
 
 namespace {
 
-std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, RotorSpin spin) {
+std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
     const std::size_t blades = rotor.blades.size();
-    if (blades == 2)
+    if (blades == 2 && options.method != CampbellMethod::floquet)
         throw InputError(rotor.machine, "number of blades", blades,
-                         "3 or more, or 1 (two blades have a periodic system: see floquet())");
+                         "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
     std::vector<int> unknowns;
     for (int i : system.model.coordinates().free())
-        if (i != rotor.spin || (spin == RotorSpin::free && blades > 1)) unknowns.push_back(i);
+        if (i != rotor.spin || (options.spin == RotorSpin::free && blades > 1)) unknowns.push_back(i);
     return unknowns;
 }
 
@@ -27,12 +27,12 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
     : system_(system),
       rotor_(rotor),
       method_(options.method),
-      unknowns_(unknowns_of(system, rotor, options.spin)),
+      unknowns_(unknowns_of(system, rotor, options)),
       plain_rows_(unknowns_.size()),
       steady_solver_(system, rotor.spin),
       lineariser_(system),
       mode_solver_(static_cast<Eigen::Index>(unknowns_.size())) {
-    if (rotor.blades.size() > 2) coleman_.emplace(rotor, unknowns_);
+    if (rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
 }
 
 void PointSolver::find_steady_state(double rotor_speed) {
@@ -45,15 +45,27 @@ void PointSolver::find_steady_state(double rotor_speed) {
 
 // At the first point: the components, and memory that it may not need itself (nothing is averaged at standstill).
 void PointSolver::start() {
-    identification_.emplace(lin_, system_.model, rotor_, unknowns_, rows());
+    if (!identification_) identify(lin_);
     restrict_to(lin_, unknowns_, rotor_.spin, other_);
     turned_ = steady_.at;
+}
+
+void PointSolver::identify(const Linearisation& lin) {
+    identification_.emplace(lin, system_.model, rotor_, unknowns_, rows());
+}
+
+// Eigenvalues at a frozen azimuth tell nothing about stability.
+void PointSolver::set_margin(CampbellPoint& point) const {
+    double growth = -std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : point.modes) growth = std::max(growth, m.mode.eigenvalue.real());
+    const bool motions = method_ != CampbellMethod::frozen_azimuth || rotor_.blades.size() < 3;
+    point.stability_margin = motions ? -growth : std::numeric_limits<double>::quiet_NaN();
 }
 
 void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     find_steady_state(rotor_speed);
     lineariser_.linearise(steady_.at, lin_);
-    if (!identification_) start();
+    if (turned_.q.size() == 0) start();
     set_system(rotor_speed);
     point.rotor_speed = rotor_speed;
     point.at = steady_.at;
@@ -63,7 +75,11 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
         mode_solver_.copy(i, m.mode);
         mode_solver_.energy_by_row(i, m.row_shares);
         identification_->shares(m.mode, m.shares);
+        m.row = -1;
+        m.floquet.reset();
     }
+    point.periodic.reset();
+    set_margin(point);
 }
 
 // Modes come and go with the rotor speed (a pair may turn into two aperiodic motions). What goes keeps its memory here,

@@ -61,9 +61,8 @@ std::string multi_blade_name(const MultiBladeRow& row) {
 
 ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
-    if (blades_ < 3)
-        throw InputError(rotor.machine, "number of blades", blades_,
-                         "at least 3 for a multi-blade transformation (two blades need Floquet's theory)");
+    if (blades_ < 2)
+        throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
     if (blades_ > most_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", most_blades));
     for (const std::vector<int>& blade : rotor.blades)
         if (blade.size() != rotor.blades[0].size())

@@ -27,7 +27,9 @@ std::string multi_blade_name(const MultiBladeRow& row);
 /// stands in the place of blade 1, cosine and sine in those of blades 2 and 3, and so on.
 class ColemanTransform {
 public:
-    /// @throws InputError if there are fewer than three blades or more than 32, or if they differ in their number of
+    /// Of two blades there are the collective and the differential row, T is constant and the system stays periodic
+    /// (see floquet()).
+    /// @throws InputError if there are fewer than two blades or more than 32, or if they differ in their number of
     /// coordinates.
     ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
 
@@ -36,8 +38,8 @@ public:
     const std::vector<MultiBladeRow>& rows() const { return rows_; }
 
     /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
-    /// matrices are constant for an isotropic rotor without gravity. With dT/dpsi = T G, G constant and of 2 x 2 blocks
-    /// [0 n; -n 0],
+    /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G
+    /// constant and of 2 x 2 blocks [0 n; -n 0],
     ///   M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
     /// T couples no more than the B blades' rows of one coordinate, and T(psi) is T(0) with these pairs of columns
     /// turned by n psi.  Cost O(n^2 B).

@@ -3,6 +3,7 @@
 #include "mbs/version.hpp"
 #include "solvers/hdf5_file.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -27,7 +28,10 @@ public:
         : d_(diagram),
           file_(Hdf5File::create(path)),
           points_(diagram.points.size()),
-          branches_(diagram.branches.size()) {}
+          branches_(diagram.branches.size()) {
+        for (const CampbellPoint& point : d_.points)
+            if (point.periodic) harmonics_ = std::max(harmonics_, point.periodic->harmonics());
+    }
 
     void write() {
         header();
@@ -37,6 +41,7 @@ public:
         crossings();
         coordinates();
         if (!d_.motions.empty()) shapes();
+        if (harmonics_ > 0) floquet();
         file_.finish();
     }
 
@@ -69,6 +74,15 @@ private:
         const std::vector<double> speed = d_.rotor_speeds();
         file_.write("rotor_speed", speed, {points_}, {"rad s-1", "rotor speed"});
         file_.make_dimension("rotor_speed");
+        std::vector<double> margin;
+        for (const CampbellPoint& point : d_.points) margin.push_back(point.stability_margin);
+        file_.write("stability_margin", margin, {points_},
+                    {"s-1", "how far the fastest growing motion is from growing; negative: unstable"});
+        file_.attach("stability_margin", 0, "rotor_speed");
+        if (!d_.parameters.empty()) {
+            file_.write("parameter", d_.parameters, {points_}, {"1", d_.parameter});
+            file_.attach("parameter", 0, "rotor_speed");
+        }
         scale("branch", branches_, "index of the branch (a mode followed over rotor speed); names in branches/name");
         scale("component", d_.components.size(), "index of the component mode; names in components/name");
         scale("row", d_.rows.size(), "index of the row of the linear system; names in rows/name");
@@ -112,19 +126,27 @@ private:
                            [](std::size_t i, const Branch& x) { return x.mac[i]; });
         over_speed<int>("branches/doubtful", {"1", "1 where name or tracking is doubtful"},
                         [](std::size_t i, const Branch& x) { return x.doubtful[i] ? 1 : 0; });
-        std::vector<std::string> mostly;
-        for (std::size_t i = 0; i < points_; ++i)
-            for (const Branch& branch : d_.branches) mostly.push_back(branch.mostly[i]);
-        file_.write("branches/mostly", mostly, {points_, branches_}, "name that holds most of the elastic energy");
-        file_.attach("branches/mostly", 0, "rotor_speed");
-        file_.attach("branches/mostly", 1, "branch");
+        texts("branches/mostly", "name that holds most of the elastic energy",
+              [](std::size_t i, const Branch& x) { return x.mostly[i]; });
+        texts("branches/kind", "kind of the motion, empty without a mode", [&](std::size_t i, const Branch& x) {
+            const CampbellMode* mode = mode_of(i, x);
+            return mode ? mode->kind_name() : std::string();
+        });
         shares();
     }
 
-    const CampbellMode* mode_of(std::size_t point, const Branch& branch) const {
-        const int index = branch.mode[point];
-        return index < 0 ? nullptr : &d_.points[point].modes[static_cast<std::size_t>(index)];
+    // value(point, branch), rotor speed by branch
+    template <class F>
+    void texts(const std::string& name, const std::string& long_name, F value) {
+        std::vector<std::string> values;
+        for (std::size_t i = 0; i < points_; ++i)
+            for (const Branch& branch : d_.branches) values.push_back(value(i, branch));
+        file_.write(name, values, {points_, branches_}, long_name);
+        file_.attach(name, 0, "rotor_speed");
+        file_.attach(name, 1, "branch");
     }
+
+    const CampbellMode* mode_of(std::size_t point, const Branch& branch) const { return d_.mode(branch, point); }
 
     // value(mode, k) for k < count, NaN without a mode: rotor speed by branch by axis
     template <class F>
@@ -225,6 +247,49 @@ private:
         lines();
     }
 
+    // Harmonics of the modes and of the steady state, and how exact the exponents are.
+    void floquet() {
+        constexpr int shown = 8;
+        std::vector<int> harmonic(2 * shown + 1);
+        std::iota(harmonic.begin(), harmonic.end(), -shown);
+        file_.write("harmonic", harmonic, {harmonic.size()},
+                    {"1", "multiple of the rotor speed beside the principal frequency of a mode"});
+        file_.make_dimension("harmonic");
+        over_axis("branches/participation", "harmonic", harmonic.size(), "share of the harmonic in the energy",
+                  [](const CampbellMode& mode, std::size_t k) {
+                      const int j = static_cast<int>(k) - shown;
+                      return mode.floquet ? mode.floquet->share(j) : (j == 0 ? 1.0 : 0.0);
+                  });
+        over_speed<double>("branches/eigenvalue_error", {"s-1", "estimated error of the eigenvalue"},
+                           [&](std::size_t i, const Branch& x) { return floquet_of(i, x, &FloquetMode::error); });
+        over_speed<double>("branches/condition", {"1", "condition number of the eigenvalue"},
+                           [&](std::size_t i, const Branch& x) { return floquet_of(i, x, &FloquetMode::condition); });
+        const auto n = static_cast<std::size_t>(d_.coordinates.size()),
+                   width = 2 * static_cast<std::size_t>(harmonics_) + 1;
+        std::vector<double> series;
+        for (const CampbellPoint& point : d_.points)
+            for (std::size_t l = 0; l < width; ++l)
+                for (std::size_t i = 0; i < n; ++i) series.push_back(coefficient(point, l, i));
+        file_.write("steady_state/series", series, {points_, width, n},
+                    {"rad or m",
+                     "periodic steady state: mean, then cosine and sine coefficients of the multiples 1, 2, ... of the "
+                     "azimuth"});
+        file_.attach("steady_state/series", 0, "rotor_speed");
+        file_.attach("steady_state/series", 2, "coordinate");
+    }
+
+    double floquet_of(std::size_t point, const Branch& branch, double FloquetMode::*value) const {
+        const CampbellMode* mode = mode_of(point, branch);
+        return mode && mode->floquet ? (*mode->floquet).*value : nan;
+    }
+
+    // At standstill the state is constant.
+    static double coefficient(const CampbellPoint& point, std::size_t column, std::size_t coordinate) {
+        const auto i = static_cast<Eigen::Index>(coordinate), l = static_cast<Eigen::Index>(column);
+        if (!point.periodic) return column == 0 ? point.at.q(i) : 0.0;
+        return l < point.periodic->coefficients.cols() ? point.periodic->coefficients(i, l) : 0.0;
+    }
+
     void lines() {
         std::vector<int> line, frame;
         for (std::size_t l = 0; l < d_.lines.size(); ++l)
@@ -242,6 +307,7 @@ private:
     const Campbell& d_;
     Hdf5File file_;
     std::size_t points_, branches_;
+    int harmonics_ = 0;  // of the periodic steady states; 0: they are constant
 };
 
 }  // namespace

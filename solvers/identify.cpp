@@ -90,8 +90,9 @@ double WhirlShare::of(RotorPattern pattern) const {
 }
 
 double Share::of(RotorPattern pattern, int harmonic) const {
-    if (pattern == RotorPattern::none || pattern == RotorPattern::collective) return collective;
-    if (pattern == RotorPattern::differential) return differential;
+    if (pattern == RotorPattern::none || pattern == RotorPattern::collective || pattern == RotorPattern::symmetric)
+        return collective;
+    if (pattern == RotorPattern::differential || pattern == RotorPattern::antisymmetric) return differential;
     if (harmonic == 1) return WhirlShare{cosine, sine, whirl}.of(pattern);
     const auto at = static_cast<std::size_t>(harmonic - 2);
     return at < higher.size() ? higher[at].of(pattern) : 0;
@@ -104,7 +105,8 @@ double Share::total() const {
 }
 
 Identification::Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
-                               const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows) {
+                               const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
+    : two_blades_(rotor.blades.size() == 2) {
     for (const PartAxes& part : rotor.parts) {
         Block block{};
         const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {
@@ -202,8 +204,12 @@ void Identification::shares(const Mode& mode, std::vector<Share>& out) const {
             own = share(block, i, mode, std::move(own.higher));
             total += own.total();
         }
+    divide_by(total, out);
+}
+
+void Identification::divide_by(double total, std::vector<Share>& shares) {
     const double scale = total > 0 ? 1 / total : 0.0;
-    for (Share& own : out) {
+    for (Share& own : shares) {
         for (double* part : {&own.collective, &own.cosine, &own.sine, &own.differential}) *part *= scale;
         for (WhirlShare& pair : own.higher) pair.cosine *= scale, pair.sine *= scale;
     }
@@ -212,6 +218,40 @@ void Identification::shares(const Mode& mode, std::vector<Share>& out) const {
 std::vector<Share> Identification::shares(const Mode& mode) const {
     std::vector<Share> all;
     shares(mode, all);
+    return all;
+}
+
+namespace {
+
+// What turns the other way at a negative frequency whirls the other way. The whirl of a sum is the mean by energy.
+WhirlShare sum_of(const WhirlShare& a, WhirlShare b, bool reversed) {
+    if (reversed) b.whirl = -b.whirl;
+    const double size_a = a.cosine + a.sine, size_b = b.cosine + b.sine, size = size_a + size_b;
+    return {a.cosine + b.cosine, a.sine + b.sine, size > 0 ? (size_a * a.whirl + size_b * b.whirl) / size : 0.0};
+}
+
+void add(Share& sum, const Share& one, bool reversed) {
+    sum.collective += one.collective;
+    sum.differential += one.differential;
+    const WhirlShare first = sum_of({sum.cosine, sum.sine, sum.whirl}, {one.cosine, one.sine, one.whirl}, reversed);
+    sum.cosine = first.cosine, sum.sine = first.sine, sum.whirl = first.whirl;
+    sum.higher.resize(one.higher.size());
+    for (std::size_t n = 0; n < one.higher.size(); ++n) sum.higher[n] = sum_of(sum.higher[n], one.higher[n], reversed);
+}
+
+}  // namespace
+
+std::vector<Share> Identification::shares(std::span<const Mode> harmonics) const {
+    std::vector<Share> all(components_.size());
+    double total = 0;
+    for (const Block& block : blocks_)
+        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
+            Share& own = all[static_cast<std::size_t>(block.first_component + i)];
+            own.component = static_cast<int>(block.first_component + i);
+            for (const Mode& one : harmonics) add(own, share(block, i, one, {}), one.eigenvalue.imag() < 0);
+            total += own.total();
+        }
+    divide_by(total, all);
     return all;
 }
 
@@ -246,6 +286,10 @@ const char* pattern_name(RotorPattern pattern) {
             return "sine";
         case RotorPattern::differential:
             return "differential";
+        case RotorPattern::symmetric:
+            return "symmetric";
+        case RotorPattern::antisymmetric:
+            return "antisymmetric";
     }
     return "";
 }

@@ -5,14 +5,27 @@
 #include "solvers/coleman.hpp"
 #include "solvers/modes.hpp"
 
+#include <span>
 #include <string>
 
 namespace cardan::solvers {
 
 /// How the blades take part: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
-/// whirls and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Other
-/// parts have no pattern.
-enum class RotorPattern : std::uint8_t { none, collective, backward, forward, cosine, sine, differential };
+/// whirls and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Two
+/// blades deflect alike, each seen from its own root (symmetric), or against each other (antisymmetric); so both flap
+/// out of the plane in the same direction in a symmetric mode, and both lag behind the rotor.      [Lee et al. 2002,
+/// results] Other parts have no pattern.
+enum class RotorPattern : std::uint8_t {
+    none,
+    collective,
+    backward,
+    forward,
+    cosine,
+    sine,
+    differential,
+    symmetric,
+    antisymmetric
+};
 
 /// "none", "collective", "backward" ...
 const char* pattern_name(RotorPattern pattern);
@@ -58,10 +71,15 @@ public:
     /// as many of this identification before
     void shares(const Mode& mode, std::vector<Share>& out) const;
     std::vector<Share> shares(const Mode& mode) const;
+    /// Of a motion of several harmonics, each with its own shape and eigenvalue (of either sign of the frequency):
+    /// their energies are added up.
+    std::vector<Share> shares(std::span<const Mode> harmonics) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
     std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
     /// Largest harmonic of the azimuth: 1 for three and four blades, 2 for five and six.
     int harmonics() const { return harmonics_; }
+    /// Patterns are symmetric and antisymmetric.
+    bool two_blades() const { return two_blades_; }
 
 private:
     // The rows of one part, by pattern (blades) or all together.
@@ -77,7 +95,10 @@ private:
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);
 
+    static void divide_by(double total, std::vector<Share>& shares);
+
     int harmonics_ = 1;
+    bool two_blades_ = false;
     std::vector<Component> components_;
     std::vector<Block> blocks_;
 };

@@ -90,11 +90,21 @@ private:
     std::vector<std::vector<int>> sets_;
 };
 
+// Of two blades the mean over the azimuth is no model.
+const RotorMap& with_three_blades(const RotorMap& rotor) {
+    if (rotor.blades.size() < 3)
+        throw InputError(rotor.machine, "number of blades", rotor.blades.size(),
+                         "at least 3 for a constant model (two blades need Floquet's theory)");
+    return rotor;
+}
+
 // V, V^-1 and dV/dt.
 class States {
 public:
     States(const LinearModel& model, const RotorMap& rotor)
-        : coleman_(rotor, model.coordinates), rotor_speed_(model.rotor_speed), scale_(scales(rotor)) {}
+        : coleman_(with_three_blades(rotor), model.coordinates),
+          rotor_speed_(model.rotor_speed),
+          scale_(scales(rotor)) {}
 
     Matrix matrix(double psi) const { return block(psi, 0); }
     // Change with time.

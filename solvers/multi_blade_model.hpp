@@ -26,8 +26,9 @@ struct MultiBladeModel : ConstantModel {
 /// pitch motion is transformed one by one: cosine and sine of the rates are not the derivatives of those of the angles.
 ///                                                              [Bir, AIAA 2008-1300; states there are the same]
 /// @param rotor  of the model
-/// @throws InputError as ColemanTransform; if the model has another number of blades; if the rotor
-/// turns and the azimuths, seen modulo 1/B of a revolution, are fewer than three: the remainder would not show
+/// @throws InputError as ColemanTransform; if there are fewer than three blades; if the model has another number of
+/// blades; if the rotor turns and the azimuths, seen modulo 1/B of a revolution, are fewer than three: the remainder
+/// would not show
 MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor);
 
 /// x = V z at an azimuth, for the states of multi_blade(): initial values for simulations.

@@ -16,6 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 int dash(RotorPattern pattern) {
     switch (pattern) {
         case RotorPattern::backward:
+        case RotorPattern::antisymmetric:
             return 2;
         case RotorPattern::forward:
             return 4;
@@ -24,6 +25,20 @@ int dash(RotorPattern pattern) {
         default:
             return 1;
     }
+}
+
+// Only of what vibrates or is locked: motions that just die away would set the scale.
+double damping(const Campbell& diagram, const Branch& branch, std::size_t point) {
+    const CampbellMode* mode = diagram.mode(branch, point);
+    return mode && mode->kind() != FloquetKind::aperiodic ? diagram.damping_ratio(branch, point) : nan;
+}
+
+// Rotor speeds in rpm, or the values of another parameter.
+std::vector<double> abscissae(const Campbell& diagram) {
+    if (!diagram.parameters.empty()) return diagram.parameters;
+    std::vector<double> rpm;
+    for (const CampbellPoint& p : diagram.points) rpm.push_back(p.rotor_speed * to_rpm);
+    return rpm;
 }
 
 // Colours by family in order of appearance in the whole diagram, so that all panels agree.
@@ -43,10 +58,10 @@ public:
         : d_(diagram), options_(options), prefix_(prefix) {
         for (const Branch& branch : diagram.branches)
             if (shows(diagram, branch)) branches_.push_back(&branch);
-        for (const CampbellPoint& p : diagram.points) rpm_.push_back(p.rotor_speed * to_rpm);
+        rpm_ = abscissae(diagram);
         for (const Branch* branch : branches_)
             for (std::size_t i = 0; i < rpm_.size(); ++i) {
-                const double f = diagram.damped_hz(*branch, i), zeta = diagram.damping_ratio(*branch, i);
+                const double f = diagram.damped_hz(*branch, i), zeta = damping(diagram, *branch, i);
                 if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
                 if (std::isfinite(zeta)) {
                     zeta_min_ = std::min(zeta_min_, 100 * zeta);
@@ -61,22 +76,22 @@ public:
         for (std::size_t b = 0; b < branches_.size(); ++b) script += branch_data(d_, *branches_[b], name(b), rpm_);
         if (const Campbell* blade = options_.isolated_blade)
             for (std::size_t b = 0; b < blade->branches.size(); ++b) {
-                std::vector<double> rpm;
-                for (const CampbellPoint& p : blade->points) rpm.push_back(p.rotor_speed * to_rpm);
-                script += branch_data(*blade, blade->branches[b], blade_name(b), rpm);
+                script += branch_data(*blade, blade->branches[b], blade_name(b), abscissae(*blade));
             }
         return script;
     }
 
     std::string frequency_panel(bool legend, bool x_label) const {
-        std::string s =
-            text("set title ", gnuplot_text(title()), "\n", x_range(), "set yrange [0:", f_max_, "]\n",
-                 "set format y '%g'\nset ylabel 'damped frequency, Hz'\n", x_label_command(x_label), multiples_labels(),
-                 legend ? "set key at screen 0.71,0.945 left top Left reverse\n"
-                        : "set key at graph 0.5,-0.22 center top Left reverse font ',9'\n");
+        std::string s = text(
+            "set title ", gnuplot_text(title()), title().size() > 75 ? " font ',10'\n" : "\n", x_range(),
+            "set yrange [0:", f_max_, "]\n", "set format y '%g'\nset ylabel 'damped frequency, Hz'\n",
+            x_label_command(x_label), multiples_labels(),
+            legend ? text("set key at screen 0.71,0.945 left top Left reverse", long_names() ? " font ',9'\n" : "\n")
+                   : "set key at graph 0.5,-0.22 center top Left reverse font ',9'\n");
         std::string plots;
         for (int n : rotor_multiples(d_.blades))
-            plots += text(plots.empty() ? "" : ", ", n, "*x/60.0 with lines lc rgb '#999999' dt 3 lw 1 notitle");
+            plots +=
+                text(plots.empty() ? "" : ", ", n, "*", per_rev(), " with lines lc rgb '#999999' dt 3 lw 1 notitle");
         for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 2, 4, true);
         if (const Campbell* blade = options_.isolated_blade)
             for (std::size_t b = 0; b < blade->branches.size(); ++b) {
@@ -106,7 +121,8 @@ private:
         if (!families.empty() && std::find(families.begin(), families.end(), branch.family) == families.end())
             return false;
         if (options_.ordinal > 0 &&
-            d.components[static_cast<std::size_t>(branch.component)].ordinal != options_.ordinal)
+            (branch.component < 0 ||
+             d.components[static_cast<std::size_t>(branch.component)].ordinal != options_.ordinal))
             return false;
         double lowest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < d.points.size(); ++i) {
@@ -117,7 +133,11 @@ private:
     }
     std::string title() const {
         const std::string given = options_.title.empty() ? d_.machine : options_.title;
-        return options_.families.empty() && !d_.warning.empty() ? text(given, ": ", d_.method, ", see warning") : given;
+        const std::string method = d_.method.substr(0, d_.method.find(" ("));
+        return options_.families.empty() && !d_.warning.empty() ? text(given, ": ", method, ", see warning") : given;
+    }
+    bool long_names() const {
+        return std::any_of(branches_.begin(), branches_.end(), [](const Branch* b) { return b->name.size() > 30; });
     }
 
     // Columns: rpm, frequency, damping in %, and both again where doubtful only.
@@ -126,7 +146,7 @@ private:
         std::vector<double> f, zeta, f_doubtful, zeta_doubtful;
         for (std::size_t i = 0; i < rpm.size(); ++i) {
             f.push_back(d.damped_hz(branch, i));
-            zeta.push_back(100 * d.damping_ratio(branch, i));
+            zeta.push_back(100 * damping(d, branch, i));
             f_doubtful.push_back(branch.doubtful[i] ? f.back() : nan);
             zeta_doubtful.push_back(branch.doubtful[i] ? zeta.back() : nan);
         }
@@ -146,16 +166,29 @@ private:
 
     std::string x_range() const {
         const double low = rpm_.front(), high = rpm_.back() > low ? rpm_.back() : low + 1;
-        return text("set xrange [", low, ":", high, "]\n");
+        // Over decades in decades.
+        const bool decades = !d_.parameters.empty() && low > 0 && high > 50 * low;
+        return text(decades ? "set logscale x\n" : "", "set xrange [", low, ":", high, "]\n");
     }
-    static std::string x_label_command(bool shown) {
-        return shown ? "set xlabel 'rotor speed, rev/min'\nset format x '%g'\n" : "unset xlabel\nset format x ''\n";
+    std::string x_label_command(bool shown) const {
+        if (!shown) return "unset xlabel\nset format x ''\n";
+        const std::string label = d_.parameter.empty() ? "rotor speed, rev/min" : d_.parameter;
+        return text("set xlabel ", gnuplot_text(label), "\nset format x '%g'\n");
     }
+    // The rotor frequency in Hz as an expression in x; over another parameter that of the first point.
+    std::string per_rev() const { return d_.parameters.empty() ? "x/60.0" : text(d_.points[0].rotor_speed / (2 * pi)); }
 
     std::string multiples_labels() const {
         std::string labels;
         const double x_max = rpm_.back() > rpm_.front() ? rpm_.back() : rpm_.front() + 1;
         for (int n : rotor_multiples(d_.blades)) {
+            if (!d_.parameters.empty()) {
+                const double f = n * d_.points[0].rotor_speed / (2 * pi);
+                if (f <= f_max_)
+                    labels += text("set label '", n, "P' at ", x_max, ",", f,
+                                   " left offset 0.3,0 font ',9' tc rgb '#666666'\n");
+                continue;
+            }
             const bool leaves_on_top = n * x_max / 60 > f_max_;
             const double x = leaves_on_top ? f_max_ * 60 / n : x_max, y = leaves_on_top ? f_max_ : n * x_max / 60;
             if (x <= rpm_.front()) continue;

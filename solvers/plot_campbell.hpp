@@ -29,9 +29,14 @@ void plot(const Campbell& diagram, const std::filesystem::path& path, const Camp
 void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
                  const std::vector<CampbellPlotOptions>& panels);
 
+/// Differences of two diagrams (see differences()) over rotor speed, frequency over damping; modes with less than a
+/// hundredth of the largest difference of frequency are left out.
+/// @throws FileError, Error (gnuplot's message); InputError without any common mode and as differences()
+void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path);
+
 /// A mode of a branch at one point: side view (x, z), front view seen from downwind (y, z) and top view (x, y);
 /// undeformed grey, deformed in colour at the instant of largest motion and a quarter period later (a whirl is seen by
-/// both).
+/// both). By Floquet's theory the periodic shape at azimuth 0, blade 1 up.
 void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point, const std::filesystem::path& path);
 
 }  // namespace cardan::solvers

@@ -74,12 +74,14 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
     std::string script = lines_data(diagram, "rest", motion, 0, 0) +
                          lines_data(diagram, "now", motion, scale, largest.phase) +
                          lines_data(diagram, "quarter", motion, scale, largest.phase + pi / 2);
-    const double rpm = diagram.points[point].rotor_speed * 30 / pi;
+    const double rpm = std::round(3e3 * diagram.points[point].rotor_speed / pi) / 100;
+    const char* about = diagram.mode(branch, point)->floquet ? " rpm, shape at azimuth 0 (displacements enlarged)"
+                                                             : " rpm (displacements enlarged)";
     const std::string doubt =
         branch.doubtful[point] ? text("; the name is doubtful here: mostly ", branch.mostly[point]) : std::string();
     script += text("set multiplot layout 1,3 title ",
                    gnuplot_text(text(branch.name, ", ", std::round(1e4 * diagram.damped_hz(branch, point)) / 1e4,
-                                     " Hz at ", rpm, " rpm (displacements enlarged)", doubt)),
+                                     " Hz at ", rpm, about, doubt)),
                    "\nset size ratio -1\nset bmargin 7\nset xtics 10\nset ytics 10\nset key at screen 0.5,0.07 center "
                    "center horizontal maxrows 1 font ',11'\n");
     struct View {

@@ -198,8 +198,10 @@ private:
         return top;
     }
 
-    FrameId sprung_joint(FrameId carrier, Axis axis, const std::string& name, const Spring& spring) {
-        const JointedFrame joint = add_joint(tree, carrier, JointKind::revolute, axis, name, {name});
+    FrameId sprung_joint(FrameId carrier, Axis axis, const std::string& name, const Spring& spring,
+                         CoordinateRole role = CoordinateRole::free) {
+        const JointedFrame joint =
+            add_joint(tree, carrier, JointKind::revolute, axis, name, {name}, Vec3::Zero(), role);
         forces.add_spring(name, joint.body, spring.stiffness, options_.joint_damping ? spring.damping : 0.0);
         return joint.frame;
     }
@@ -235,8 +237,9 @@ private:
 
     FrameId add_teeter(FrameId centre) {
         const FrameId axis = tree.add_frame(centre, Placement::rotation(rot_z(-d_.hub.delta3)), "teeter axis");
-        const FrameId turned = sprung_joint(axis, Axis::y, "teeter", d_.hub.teeter);
-        odd.push_back(tree.body("teeter"));
+        const FrameId turned = sprung_joint(axis, Axis::y, "teeter", d_.hub.teeter,
+                                            options_.teeter_locked ? CoordinateRole::driven : CoordinateRole::free);
+        if (!options_.teeter_locked) odd.push_back(tree.body("teeter"));
         const FrameId hub = tree.add_frame(turned, Placement::rotation(rot_z(d_.hub.delta3)), "hub");
         tree.weld(hub, d_.hub.inertia, "hub");
         parts.push_back({"teeter", centre, {}, {"", "teeter", ""}});
@@ -305,7 +308,8 @@ std::string beam_settings(const CardanBeamOptions& o) {
 std::string settings(const TeeteredOptions& o) {
     return text("tower ", o.rigid_tower ? std::string("rigid") : beam_settings(o.tower), ", blades ",
                 beam_settings(o.blade), ", gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
-                ") m/s^2, joint damping ", o.joint_damping ? "on" : "off", ", rotor speed ",
+                ") m/s^2, joint damping ", o.joint_damping ? "on" : "off", ", teeter ",
+                o.teeter_locked ? "locked" : "free", ", rotor speed ",
                 o.spin == CoordinateRole::driven ? "prescribed" : "free");
 }
 

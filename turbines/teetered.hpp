@@ -68,6 +68,7 @@ struct TeeteredOptions {
     bool rigid_tower = false;     ///< no tower coordinates: the yaw joint sits on the ground at the tower's height
     Vec3 gravity = Vec3::Zero();  ///< ground axes, m/s^2
     bool joint_damping = true;    ///< of yaw and teeter
+    bool teeter_locked = false;   ///< the teeter coordinate is prescribed, and zero
     CoordinateRole spin = CoordinateRole::driven;  ///< driven: rotor speed prescribed, as in the paper
 
     static CardanBeamOptions beam(int elements) {
@@ -92,7 +93,8 @@ public:
     const std::string& source() const { return source_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
     /// Coordinates that change sign in the symmetry of half a revolution: teeter. The equations of motion do not change
-    /// if the azimuth grows by pi, the blades exchange their coordinates and these coordinates change sign.
+    /// if the azimuth grows by pi, the blades exchange their coordinates and these coordinates change sign. Empty if
+    /// it is locked.
     const std::vector<int>& half_turn_odd() const { return half_turn_odd_; }
     /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.
     std::string summary() const;

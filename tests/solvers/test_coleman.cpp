@@ -241,10 +241,20 @@ TEST_CASE("coleman: isotropic shaft bending becomes a mass on fixed springs with
         }
 }
 
-TEST_CASE("coleman: two blades and unequal blades are refused", "[property]") {
-    for (const int blades : {0, 1, 2})
+TEST_CASE("coleman: of two blades the sum and the difference, whatever the azimuth", "[analytic]") {
+    const ColemanTransform T(imagined(2, 1), first(4));
+    CHECK(T.rows()[2].kind == MultiBlade::collective);
+    CHECK(T.rows()[3].kind == MultiBlade::differential);
+    Matrix expected = Matrix::Identity(4, 4);
+    expected.bottomRightCorner(2, 2) << std::sqrt(0.5), std::sqrt(0.5), std::sqrt(0.5), -std::sqrt(0.5);
+    for (const double psi : {0.0, 1.3}) CHECK((T.matrix(psi) - expected).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK(T.matrix(0.4, 1).isZero(0));
+}
+
+TEST_CASE("coleman: less than two blades and unequal blades are refused", "[property]") {
+    for (const int blades : {0, 1})
         check_refused([&] { ColemanTransform(imagined(blades, 1), first(2 + blades)); },
-                      {"imagined rotor", text("number of blades = ", blades), "Floquet"});
+                      {"imagined rotor", text("number of blades = ", blades), "at least 2"});
     RotorMap unequal = imagined(3, 2);
     unequal.blades[1].pop_back();
     check_refused([&] { ColemanTransform(unequal, first(8)); }, {"coordinates of a blade = 1", "2, as blade 1 has"});

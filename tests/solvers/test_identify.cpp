@@ -173,10 +173,37 @@ TEST_CASE("identify: the phase between cosine and sine tells the whirl of a roto
     }
 }
 
+TEST_CASE("identify: two blades deflect alike or against each other", "[analytic]") {
+    const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000}, .offset = 0});
+    const Identification identification = identification_of(rotor);
+    CHECK(identification.two_blades());
+    CHECK(identification.name(0, RotorPattern::antisymmetric) == "blade flap (antisymmetric)");
+    const Share share = identification.shares({Complex(0, 1), (ComplexVector(2) << 3, Complex(0, 1)).finished()})[0];
+    CHECK(share.of(RotorPattern::symmetric) == Approx(0.9).epsilon(1e-13));
+    CHECK(share.of(RotorPattern::antisymmetric) == Approx(0.1).epsilon(1e-12));
+}
+
+TEST_CASE("identify: shares of several harmonics are added up, and at a negative frequency the whirl is reversed",
+          "[analytic]") {
+    const SmallRotor rotor = small_rotor({.offset = 0});
+    const Identification identification = identification_of(rotor);
+    const Complex i(0, 1);
+    const Mode forward{Complex(0, 2), (ComplexVector(3) << 0, 1, -i).finished()},
+        collective{Complex(0, 5), (ComplexVector(3) << 1, 0, 0).finished()},
+        reversed{Complex(0, -1), (ComplexVector(3) << 0, 1, -i).finished()};
+    CHECK(identification.shares(std::vector<Mode>{reversed})[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-13));
+    const Share sum = identification.shares(std::vector<Mode>{forward, collective, reversed, reversed})[0];
+    CHECK(sum.total() == Approx(1).epsilon(1e-13));
+    CHECK(sum.of(RotorPattern::collective) == Approx(1.0 / 7).epsilon(1e-13));
+    CHECK(sum.of(RotorPattern::forward) == Approx(2.0 / 7).epsilon(1e-13));
+    CHECK(sum.of(RotorPattern::backward) == Approx(4.0 / 7).epsilon(1e-13));
+}
+
 TEST_CASE("identify: every rotor pattern has its name", "[property]") {
-    const RotorPattern all[] = {RotorPattern::none,        RotorPattern::collective, RotorPattern::backward,
-                                RotorPattern::forward,     RotorPattern::cosine,     RotorPattern::sine,
-                                RotorPattern::differential};
-    const std::string names[] = {"none", "collective", "backward", "forward", "cosine", "sine", "differential"};
-    for (std::size_t i = 0; i < 7; ++i) CHECK(pattern_name(all[i]) == names[i]);
+    const RotorPattern all[] = {RotorPattern::none,         RotorPattern::collective, RotorPattern::backward,
+                                RotorPattern::forward,      RotorPattern::cosine,     RotorPattern::sine,
+                                RotorPattern::differential, RotorPattern::symmetric,  RotorPattern::antisymmetric};
+    const std::string names[] = {"none", "collective",   "backward",  "forward",      "cosine",
+                                 "sine", "differential", "symmetric", "antisymmetric"};
+    for (std::size_t i = 0; i < 9; ++i) CHECK(pattern_name(all[i]) == names[i]);
 }

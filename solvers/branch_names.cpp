@@ -1,0 +1,233 @@
+#include "mbs/error.hpp"
+#include "solvers/assignment.hpp"
+#include "solvers/tracking.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr double sure_mac = 0.6;  // below: the link is doubtful
+
+// What a branch may be named after: a component mode with a pattern, or a coordinate (several branches may be).
+struct Label {
+    int component = -1;
+    RotorPattern pattern = RotorPattern::none;
+    int harmonic = 1;
+    int row = -1;
+};
+
+std::vector<Label> component_labels(const Identification& identification, bool whirl) {
+    std::vector<Label> labels;
+    const auto& components = identification.components();
+    const RotorPattern first = whirl ? RotorPattern::backward : RotorPattern::cosine,
+                       second = whirl ? RotorPattern::forward : RotorPattern::sine;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const int c = static_cast<int>(i);
+        if (!components[i].of_blades) {
+            labels.push_back({c, RotorPattern::none});
+            continue;
+        }
+        if (identification.two_blades()) {
+            for (const RotorPattern pattern : {RotorPattern::symmetric, RotorPattern::antisymmetric})
+                labels.push_back({c, pattern});
+            continue;
+        }
+        labels.push_back({c, RotorPattern::collective});
+        for (int n = 1; n <= identification.harmonics(); ++n) {
+            labels.push_back({c, first, n});
+            labels.push_back({c, second, n});
+        }
+        labels.push_back({c, RotorPattern::differential});
+    }
+    return labels;
+}
+
+// Part of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward share evenly.
+double part(const CampbellMode& mode, const Label& label) {
+    if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
+    return mode.shares[static_cast<std::size_t>(label.component)].of(label.pattern, label.harmonic);
+}
+
+// Nothing whirls at standstill: a name there holds the energy of its pair.
+double held(const CampbellPoint& point, const CampbellMode& mode, const Label& label) {
+    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
+    if (!whirls || point.rotor_speed != 0) return part(mode, label);
+    return part(mode, {label.component, RotorPattern::backward, label.harmonic}) +
+           part(mode, {label.component, RotorPattern::forward, label.harmonic});
+}
+
+bool is_real(FloquetKind kind) {
+    return kind == FloquetKind::aperiodic || kind == FloquetKind::synchronous || kind == FloquetKind::subharmonic;
+}
+
+// "yaw (rigid)", "teeter (locked at 1 per rev and growing)", "teeter"
+std::string motion_name(const std::string& row, const std::string& kind, const std::string& number,
+                        const std::string& tendency) {
+    if (kind == "oscillation") return number.empty() ? row : text(row, " (", number, ")");
+    return text(row, " (", number, number.empty() ? "" : " ", kind, tendency.empty() ? "" : " and ", tendency, ")");
+}
+
+class Naming {
+public:
+    Naming(const std::vector<CampbellPoint>& points, const Identification& identification,
+           const std::vector<std::string>& rows, bool whirl)
+        : points_(points),
+          identification_(identification),
+          rows_(rows),
+          labels_(component_labels(identification, whirl)) {}
+
+    std::vector<Branch> name(std::vector<Branch> branches) {
+        for (const Branch& branch : branches)
+            if (const int row = usual_row(branch); row >= 0) labels_.push_back({.row = row});
+        std::vector<Branch> named;
+        const std::vector<int> label_of = assign(scores(branches));
+        for (std::size_t b = 0; b < branches.size(); ++b)
+            if (label_of[b] >= 0) {
+                set(branches[b], labels_[static_cast<std::size_t>(label_of[b])]);
+                named.push_back(std::move(branches[b]));
+            }
+        name_motions(named);
+        return named;
+    }
+
+private:
+    const CampbellMode* mode(const Branch& branch, std::size_t point) const {
+        const int index = branch.mode[point];
+        return index < 0 ? nullptr : &points_[point].modes[static_cast<std::size_t>(index)];
+    }
+    int usual_row(const Branch& branch) const;
+    std::string usual_kind(const Branch& branch) const;
+    Matrix scores(const std::vector<Branch>& branches) const;
+    Label strongest(std::size_t point, const CampbellMode& mode, const Label& own) const;
+    std::string label_name(const Label& label, const CampbellMode& mode) const;
+    void set(Branch& branch, const Label& label) const;
+    const char* tendency(const Branch& branch) const;
+    void name_motions(std::vector<Branch>& branches) const;
+
+    const std::vector<CampbellPoint>& points_;
+    const Identification& identification_;
+    const std::vector<std::string>& rows_;
+    std::vector<Label> labels_;
+};
+
+// The one that most of its points are named after; -1: elastic energy.
+int Naming::usual_row(const Branch& branch) const {
+    std::map<int, int> count;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        if (const CampbellMode* m = mode(branch, i)) ++count[m->row];
+    int usual = -1;
+    for (const auto& [row, times] : count)
+        if (row >= 0 && (usual < 0 || times > count[usual])) usual = row;
+    return usual;
+}
+
+std::string Naming::usual_kind(const Branch& branch) const {
+    std::map<std::string, int> count;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        if (const CampbellMode* m = mode(branch, i)) ++count[m->kind_name()];
+    return std::max_element(count.begin(), count.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+Matrix Naming::scores(const std::vector<Branch>& branches) const {
+    Matrix score = Matrix::Zero(static_cast<Eigen::Index>(branches.size()), static_cast<Eigen::Index>(labels_.size()));
+    for (std::size_t b = 0; b < branches.size(); ++b)
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const CampbellMode* m = mode(branches[b], i);
+            if (!m) continue;
+            for (std::size_t l = 0; l < labels_.size(); ++l)
+                score(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(l)) += part(*m, labels_[l]);
+        }
+    return score;
+}
+
+// The label that holds most; `own` where none holds more.
+Label Naming::strongest(std::size_t point, const CampbellMode& mode, const Label& own) const {
+    Label best = own;
+    for (const Label& label : labels_)
+        if (held(points_[point], mode, label) > held(points_[point], mode, best)) best = label;
+    return best;
+}
+
+std::string Naming::label_name(const Label& label, const CampbellMode& mode) const {
+    if (label.row < 0) return identification_.name(label.component, label.pattern, label.harmonic);
+    return motion_name(rows_[static_cast<std::size_t>(label.row)], mode.kind_name(), "", "");
+}
+
+void Naming::set(Branch& branch, const Label& label) const {
+    branch.component = label.component;
+    branch.pattern = label.pattern;
+    branch.harmonic = label.harmonic;
+    branch.row = label.row;
+    if (label.row < 0) {
+        branch.name = identification_.name(label.component, label.pattern, label.harmonic);
+        branch.family = identification_.components()[static_cast<std::size_t>(label.component)].family;
+    } else {
+        branch.family = rows_[static_cast<std::size_t>(label.row)];
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        branch.doubtful.push_back(false);
+        branch.mostly.emplace_back();
+        const CampbellMode* m = mode(branch, i);
+        if (!m) continue;
+        const Label best = strongest(i, *m, label);
+        branch.doubtful.back() =
+            branch.mac[i] < sure_mac || held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best);
+        branch.mostly.back() = label_name(best, *m);
+    }
+}
+
+// By the mean over the points.
+const char* Naming::tendency(const Branch& branch) const {
+    double growth = 0;
+    bool real = false;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        if (const CampbellMode* m = mode(branch, i)) {
+            growth += m->mode.eigenvalue.real();
+            real = real || is_real(m->kind());
+        }
+    return !real ? "" : growth > 0 ? "growing" : "decaying";
+}
+
+// Names of those without elastic energy; of several alike the later ones are numbered.
+void Naming::name_motions(std::vector<Branch>& branches) const {
+    constexpr std::array numbers{"", "2nd", "3rd"};
+    std::map<std::string, std::size_t> count;
+    for (Branch& branch : branches) {
+        if (branch.row < 0) continue;
+        const std::string kind = usual_kind(branch);
+        const char* how = kind == "rigid" || kind == "oscillation" ? "" : tendency(branch);
+        const std::size_t before = count[motion_name(branch.family, kind, "", how)]++;
+        const std::string number = before < numbers.size() ? numbers[before] : text(before + 1, "th");
+        branch.name = motion_name(branch.family, kind, number, how);
+    }
+}
+
+}  // namespace
+
+std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const Identification& identification,
+                                      const std::vector<std::string>& rows, bool whirl) const {
+    std::vector<Branch> tracked;
+    for (const Track& track : tracks_) {
+        Branch& branch = tracked.emplace_back();
+        branch.mode = track.mode;
+        branch.mac = track.mac;
+    }
+    std::vector<Branch> branches = Naming(points, identification, rows, whirl).name(std::move(tracked));
+    const auto first_frequency = [&](const Branch& branch) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (branch.mode[i] >= 0) return points[i].modes[static_cast<std::size_t>(branch.mode[i])].mode.natural_hz();
+        return std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(branches.begin(), branches.end(),
+                     [&](const Branch& a, const Branch& b) { return first_frequency(a) < first_frequency(b); });
+    return branches;
+}
+
+}  // namespace cardan::solvers
