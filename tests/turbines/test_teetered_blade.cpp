@@ -121,3 +121,29 @@ TEST_CASE("teetered machine's blade: on the teeter hinge the exact blade, the mi
     const double n12 = mixed(12), n24 = mixed(24);
     CHECK(n24 + (n24 - n12) / 3 == Approx(exact[1]).epsilon(2e-4));  // order 2, one step of extrapolation
 }
+
+TEST_CASE("teetered machine's blade: with the paper's element the second torsion is far above three times the first",
+          "[analytic][published]") {
+    // The element is a box scheme: a rod of n elements has 2 n c/L tan((2k - 1) pi/4n), so that with two of them the
+    // second frequency is 5.8 times the first whatever GJ and inertia are. Table II of the paper has 46.212/15.482
+    // = 2.98.
+    const auto d = turbines::teetered_description();
+    MixedSetting setting;
+    setting.omega = {0, 0, speed};
+    setting.root_position = {1.8, 0, 0};
+    const double c = std::sqrt(1e7 / 5);
+    for (int n : {2, 3, 4}) {
+        const MixedBeam beam(uniform_beam(d.blade.length, d.blade.section, "blade"), n);
+        const auto modes = mixed_modes(beam, setting, mixed_steady_state(beam, setting).x);
+        double box[2] = {0, 0};
+        for (int k : {1, 2}) {
+            const double rod = 2 * n * c / 8.42 * std::tan((2 * k - 1) * pi / (4 * n));
+            box[k - 1] = std::sqrt(rod * rod + 0.99996 * speed * speed);
+            double nearest = 1e300;
+            for (const DescriptorMode& mode : modes)
+                nearest = std::min(nearest, std::abs(mode.eigenvalue.imag() - box[k - 1]));
+            CHECK(nearest < 1e-6 * box[k - 1]);
+        }
+        CHECK(box[1] / box[0] > (n == 2 ? 5.8 : 3.3));
+    }
+}
