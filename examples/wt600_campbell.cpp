@@ -132,6 +132,7 @@ int run(const Arguments& a) {
         draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
     }
     if (a.floquet && diagram.complete) compare(turbine, diagram, options, a.out);
+    // Mode shapes at the first and the last rotor speed (the paper's Figs. 4-7).
     if (a.modes && diagram.complete) program::draw_modes(diagram, a.out + "_modes");
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _tower_yaw_tilt.png, _flap_edge.png"
               << (a.floquet ? ", _averaged.csv, _difference.svg, .png" : "")

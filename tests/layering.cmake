@@ -2,8 +2,9 @@ cmake_minimum_required(VERSION 3.25)
 
 # Fails when a source includes a header it must not see: mbs <- elements <- turbines, mbs <- solvers; SUNDIALS in
 # solvers only, HDF5 in solvers/hdf5* only, libmatio in solvers/matio* only, urdfdom in mbs/urdf* only, oneTBB in
-# mbs/batch* only, Boost in elements/reference_line only, Eigen's unsupported part in solvers/fourier only, Eigen's
-# decompositions through mbs/decompositions.hpp only (and the inverses of small matrices in mbs/dynamics.hpp).
+# mbs/batch* only, yaml-cpp in turbines/windio* and turbines/description_yaml* only, Boost in elements/reference_line
+# only, Eigen's unsupported part in solvers/fourier only, Eigen's decompositions through mbs/decompositions.hpp only
+# (and the inverses of small matrices in mbs/dynamics.hpp).
 set(seen_by_mbs mbs)
 set(seen_by_elements mbs elements)
 set(seen_by_turbines mbs elements turbines)
@@ -32,6 +33,8 @@ foreach(folder IN ITEMS mbs elements turbines solvers)
             elseif(header MATCHES "^(hdf5|H5)" AND NOT name MATCHES "^solvers/hdf5")
                 set(allowed FALSE)
             elseif(header MATCHES "^matio" AND NOT name MATCHES "^solvers/matio")
+                set(allowed FALSE)
+            elseif(header MATCHES "^yaml-cpp/" AND NOT name MATCHES "^turbines/(windio|description_yaml)")
                 set(allowed FALSE)
             elseif(header MATCHES "^boost/" AND NOT name MATCHES "^elements/reference_line")
                 set(allowed FALSE)

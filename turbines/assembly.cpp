@@ -3,6 +3,7 @@
 #include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
 #include "mbs/summary.hpp"
+#include "turbines/assembly_settings.hpp"
 
 namespace cardan::turbines {
 
@@ -18,13 +19,19 @@ struct PartDamping {
     BeamDamping tower, blade;
 };
 
-CardanBeamOptions beam_options(const AssemblyOptions& options, int elements, const BeamDamping& damping) {
+CardanBeamOptions beam_options(const AssemblyOptions& options, int elements,
+                               const std::optional<CardanBeamOptions>& full, const BeamDamping& damping) {
     CardanBeamOptions beam;
     beam.elements = elements;
     beam.delta = options.delta;
     beam.partition = options.partition;
+    if (full) beam = *full;
     beam.damping = damping;
     return beam;
+}
+
+bool is_empty(const BeamDamping& damping) {
+    return !damping.needs_modes() && damping.time_constants == BeamDamping().time_constants;
 }
 
 }  // namespace
@@ -45,6 +52,8 @@ public:
         not_negative("blade damping ratio", d_.blade.first_flap_damping);
         for (int elements : {options.tower_elements, options.blade_elements})
             if (elements > 1000) throw InputError(d_.name, "number of elements", elements, "1 ... 1000");
+        check("tower", options.tower_beam);
+        check("blade", options.blade_beam);
         forces.set_gravity(options.gravity);
         layout.pitch_setting = options.pitch;
     }
@@ -56,8 +65,11 @@ public:
         const FrameId shaft = add_tilt(nacelle);
         const FrameId hub = options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft);
         add_hub(hub);
-        for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, true);
-        parts.insert(parts.begin(), {"tower", foundation_, {}, {"tower side-side", "tower fore-aft", "tower torsion"}});
+        for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, !d_.blade.pitch.is_rigid());
+        parts.insert(parts.begin(), {"tower",
+                                     foundation_,
+                                     {"", "", "tower extension"},
+                                     {"tower side-side", "tower fore-aft", "tower torsion"}});
     }
 
     void one_blade() {
@@ -82,9 +94,21 @@ public:
     MachineLayout layout;
 
 private:
+    void check(const char* part, const std::optional<CardanBeamOptions>& beam) const {
+        if (!beam) return;
+        if (beam->elements > 1000) throw InputError(d_.name, "number of elements", beam->elements, "1 ... 1000");
+        if (!is_empty(beam->damping))
+            throw InputError(d_.name, text("damping among the options of the elements of the ", part), "given",
+                             "none: it belongs into the description");
+    }
     void positive(const char* quantity, double value) const { require_positive(d_.name, quantity, value); }
     void not_negative(const char* quantity, double value) const { require_not_negative(d_.name, quantity, value); }
     Spring spring(const Spring& s) const { return {s.stiffness, options_.joint_damping ? s.damping : 0.0}; }
+    // The frame behind a joint on a spring; a rigid one is none.
+    FrameId past_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name, const PartLabel& label,
+                       const Spring& law) {
+        return law.is_rigid() ? carrier : sprung_joint(carrier, kind, axis, name, label, law).frame;
+    }
     JointedFrame sprung_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
                               const PartLabel& label, const Spring& law, const Vec3& offset = Vec3::Zero()) {
         const JointedFrame joint = add_joint(tree, carrier, kind, axis, name, label, offset);
@@ -109,8 +133,9 @@ private:
     FrameId add_tower() {
         const Mat3 upward = axis_rotation(Axis::y);  // x -> z, y -> x, z -> y
         const FrameId foot = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
-        const CardanBeam beam = add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
-                                                beam_options(options_, options_.tower_elements, damping_.tower));
+        const CardanBeam beam =
+            add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
+                            beam_options(options_, options_.tower_elements, options_.tower_beam, damping_.tower));
         keep(beam);
         lines.push_back({"tower", 0, beam.nodes});
         layout.tower = beam;
@@ -121,11 +146,13 @@ private:
     FrameId add_yaw_and_nacelle(FrameId top) {
         const PartLabel label{"yaw"};
         FrameId at = top;
-        at = sprung_joint(at, JointKind::prismatic, Axis::x, "yaw bearing x", label, d_.yaw.translation).frame;
-        at = sprung_joint(at, JointKind::prismatic, Axis::y, "yaw bearing y", label, d_.yaw.translation).frame;
-        const JointedFrame yaw = sprung_joint(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation);
-        at = yaw.frame;
-        layout.yaw = yaw.body;
+        at = past_joint(at, JointKind::prismatic, Axis::x, "yaw bearing x", label, d_.yaw.translation);
+        at = past_joint(at, JointKind::prismatic, Axis::y, "yaw bearing y", label, d_.yaw.translation);
+        if (!d_.yaw.rotation.is_rigid()) {
+            const JointedFrame yaw = sprung_joint(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation);
+            at = yaw.frame;
+            layout.yaw = yaw.body;
+        }
         tree.weld(at, d_.nacelle.inertia, "nacelle");
         parts.push_back(
             {"yaw", foundation_, {"yaw bearing fore-aft", "yaw bearing side-side", ""}, {"", "", "rotor yaw"}});
@@ -134,6 +161,9 @@ private:
 
     FrameId add_tilt(FrameId nacelle) {
         const Vec3 centre(0, 0, d_.nacelle.shaft_height);
+        if (d_.nacelle.tilt_bearing.is_rigid())
+            return tree.add_frame(nacelle, Placement::translation(centre) * Placement::rotation(rot_y(d_.nacelle.tilt)),
+                                  "shaft");
         const JointedFrame tilt =
             sprung_joint(nacelle, JointKind::revolute, Axis::y, "tilt", {"tilt"}, d_.nacelle.tilt_bearing, centre);
         parts.push_back({"tilt", foundation_, {}, {"", "rotor tilt", ""}});
@@ -146,30 +176,42 @@ private:
         const double squared = t.gear_ratio * t.gear_ratio;
         const PartLabel label{"drive train"};
         const JointedFrame generator = add_joint(tree, shaft, JointKind::revolute, Axis::x, "generator azimuth", label);
-        const JointedFrame gearbox =
-            sprung_joint(generator.frame, JointKind::revolute, Axis::x, "high-speed shaft twist", label,
-                         {t.high_speed_shaft.stiffness * squared, t.high_speed_shaft.damping * squared});
-        tree.add_armature({"generator", t.generator_inertia * squared, {{generator.body, 1.0}}});
-        tree.add_armature({"gearbox", t.gearbox_inertia, {{generator.body, 1.0}, {gearbox.body, 1.0}}});
         spin = generator.body;
         layout.generator = generator.body;
         layout.gear_ratio = t.gear_ratio;
         layout.shaft = shaft;
-        layout.azimuth = {{generator.body, 1.0}, {gearbox.body, 1.0}};
+        layout.azimuth = {{generator.body, 1.0}};
+        FrameId at = generator.frame;
+        if (!t.high_speed_shaft.is_rigid()) {
+            const JointedFrame gearbox =
+                sprung_joint(at, JointKind::revolute, Axis::x, "high-speed shaft twist", label,
+                             {t.high_speed_shaft.stiffness * squared, t.high_speed_shaft.damping * squared});
+            layout.azimuth.emplace_back(gearbox.body, 1.0);
+            at = gearbox.frame;
+        }
+        tree.add_armature({"generator", t.generator_inertia * squared, {{generator.body, 1.0}}});
+        if (t.gearbox_inertia > 0) tree.add_armature({"gearbox", t.gearbox_inertia, layout.azimuth});
         parts.push_back({"drive train", shaft, {}, {"drive-train torsion", "", ""}});
-        return gearbox.frame;
+        return at;
     }
 
     FrameId add_drive_train(FrameId shaft) {
         const FrameId gearbox = add_generator_and_gearbox(shaft);
-        const Vec3 rotor_centre(-d_.nacelle.overhang, 0, 0);
-        const JointedFrame hub = sprung_joint(gearbox, JointKind::revolute, Axis::x, "main shaft twist",
-                                              {"drive train"}, d_.drive_train.main_shaft);
-        layout.azimuth.emplace_back(hub.body, 1.0);
-        return add_hub_frame(shaft, tree.add_frame(hub.frame, Placement::translation(rotor_centre), "rotor centre"));
+        const Placement rotor_centre = Placement::translation({-d_.nacelle.overhang, 0, 0});
+        FrameId at = gearbox;
+        if (!d_.drive_train.main_shaft.is_rigid()) {
+            const JointedFrame hub = sprung_joint(gearbox, JointKind::revolute, Axis::x, "main shaft twist",
+                                                  {"drive train"}, d_.drive_train.main_shaft);
+            layout.azimuth.emplace_back(hub.body, 1.0);
+            at = hub.frame;
+        }
+        return add_hub_frame(shaft, tree.add_frame(at, rotor_centre, "rotor centre"));
     }
 
     FrameId add_drive_train_with_beam(FrameId shaft) {
+        if (d_.drive_train.main_shaft.is_rigid())
+            throw InputError(d_.name, "torsional stiffness of the main shaft as a beam [N m/rad]",
+                             d_.drive_train.main_shaft.stiffness, "finite");
         const FrameId gearbox = add_generator_and_gearbox(shaft);
         EngineeringSection section;
         section.mass = options_.shaft_beam->mass;
@@ -178,7 +220,7 @@ private:
         // The beam runs upwind: x reversed.
         const FrameId start = tree.add_frame(gearbox, Placement::rotation(rot_z(pi)), "shaft start");
         const BeamLine line = uniform_beam(d_.nacelle.overhang, section, "main shaft");
-        CardanBeamOptions beam_option = beam_options(options_, 1, {});
+        const CardanBeamOptions beam_option = beam_options(options_, 1, std::nullopt, {});
         const CardanBeam beam = add_cardan_beam(tree, forces, start, line, "main shaft", {"drive train"}, beam_option);
         const auto& e = beam.elements.front();
         if (options_.joint_damping)
@@ -213,8 +255,9 @@ private:
             root = pitch.frame;
         }
         const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-options_.pitch)), name + " root");
-        const CardanBeam beam = add_cardan_beam(tree, forces, axes, d_.blade.line, name, {"blade", number},
-                                                beam_options(options_, options_.blade_elements, damping_.blade));
+        const CardanBeam beam =
+            add_cardan_beam(tree, forces, axes, d_.blade.line, name, {"blade", number},
+                            beam_options(options_, options_.blade_elements, options_.blade_beam, damping_.blade));
         for (const CardanBeam::Element& element : beam.elements)
             coordinates.insert(coordinates.end(), element.bodies.begin(), element.bodies.end());
         blades.push_back(coordinates);
@@ -227,7 +270,8 @@ private:
         if (number > 1) return;
         const FrameId in_plane = tree.frame(name + " pitch axis");
         if (with_pitch_joint) parts.push_back({"pitch", in_plane, {}, {"blade pitch", "", ""}});
-        parts.push_back({"blade", in_plane, {}, {"blade torsion", "blade flap", "blade edge"}});
+        parts.push_back(
+            {"blade", in_plane, {"blade extension", "", ""}, {"blade torsion", "blade flap", "blade edge"}});
     }
 
     const TurbineDescription& d_;
@@ -257,14 +301,22 @@ double clamped_frequency(const System& system, const std::vector<int>& coordinat
 PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& options) {
     PartDamping times;
     if (!options.structural_damping) return times;
+    if (d.tower.first_mode_damping == 0 && d.blade.first_flap_damping == 0) return {d.tower.damping, d.blade.damping};
     Assembler machine(d, options, times), blade(d, options, times);
     machine.whole_machine();
     blade.one_blade();
     const System whole(machine.tree, machine.forces), single(blade.tree, blade.forces);
-    times.tower = BeamDamping::ratio_at(d.tower.first_mode_damping,
-                                        clamped_frequency(whole, whole.model.coordinates().of_part("tower")));
-    times.blade = BeamDamping::ratio_at(d.blade.first_flap_damping,
-                                        clamped_frequency(single, single.model.coordinates().of_part("blade")));
+    const auto sum = [](BeamDamping given, const BeamDamping& at_first_mode) {
+        for (std::size_t i = 0; i < given.time_constants.size(); ++i)
+            given.time_constants[i] += at_first_mode.time_constants[i];
+        return given;
+    };
+    times.tower = sum(d.tower.damping,
+                      BeamDamping::ratio_at(d.tower.first_mode_damping,
+                                            clamped_frequency(whole, whole.model.coordinates().of_part("tower"))));
+    times.blade = sum(d.blade.damping,
+                      BeamDamping::ratio_at(d.blade.first_flap_damping,
+                                            clamped_frequency(single, single.model.coordinates().of_part("blade"))));
     return times;
 }
 
@@ -314,21 +366,6 @@ void Turbine::finish(const Assembler& assembler, const std::string& name, std::s
     rotor_.description =
         text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_);
 }
-
-namespace {
-
-// The options of an assembly in words.
-std::string settings(const AssemblyOptions& o) {
-    return text(o.tower_elements, " tower elements, ", o.blade_elements, " elements per blade, ",
-                places_hinges(o.partition) ? std::string() : text("delta ", o.delta, ", "), partition_name(o.partition),
-                ", pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
-                ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
-                o.joint_damping ? "on" : "off", ", main shaft ",
-                o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
-                o.platform ? text(", on a platform of ", o.platform->inertia.mass, " kg") : std::string());
-}
-
-}  // namespace
 
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
     const PartDamping damping = part_damping(description, options);

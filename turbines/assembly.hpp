@@ -40,6 +40,9 @@ struct AssemblyOptions {
     bool joint_damping = true;       ///< of yaw, tilt, drive train, pitch
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
     std::optional<PlatformOptions> platform = std::nullopt;  ///< under the whole machine; none: the ground
+    /// Elements of tower and blades in full: extension, torsion, element ends ... They take the place of numbers of
+    /// elements, delta and partition above. Their damping must be empty: the description has it.
+    std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
 };
 
 /// Where things are in the tree of a machine, for loads and channels. What a machine does not have is empty.
@@ -92,13 +95,13 @@ private:
 };
 
 /// The whole machine. Coordinates in order: platform if there is one, tower, yaw x, y, rotation, tilt, generator,
-/// gearbox, hub (or shaft beam), then every blade's pitch and elements. The spin coordinate is the generator's azimuth
-/// relative to the nacelle.
+/// gearbox, hub (or shaft beam), then every blade's pitch and elements; rigid joints are left out. The spin coordinate
+/// is the generator's azimuth relative to the nacelle.
 /// @throws InputError for bad data; the part is named.
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
 
-/// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (no pitch joint, no tilt,
-/// no platform).
+/// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (with its cone; no pitch
+/// joint, no tilt, no platform).
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {});
 
 }  // namespace cardan::turbines

@@ -6,16 +6,23 @@
 
 #include "elements/cardan_beam.hpp"
 
+#include <limits>
+
 namespace cardan::turbines {
 
 struct Spring {
-    double stiffness = 0;  ///< N m/rad or N/m
+    double stiffness = 0;  ///< N m/rad or N/m; infinite: rigid, the machine has no such joint
     double damping = 0;    ///< N m s/rad or N s/m
+
+    bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
 };
+/// In the place of a joint that a machine does not have.
+inline constexpr Spring rigid_joint{std::numeric_limits<double>::infinity(), 0};
 
 struct TowerDescription {
     BeamLine line;                  ///< from the ground up
     double first_mode_damping = 0;  ///< ratio of the first bending mode, stiffness proportional
+    BeamDamping damping = {};       ///< in its place or beside it; bending about z of the beam is fore-aft
 };
 
 struct YawDescription {
@@ -36,7 +43,7 @@ struct NacelleDescription {
 struct DriveTrainDescription {
     double gear_ratio = 1;
     double generator_inertia = 0;  ///< fast side, kg m^2
-    double gearbox_inertia = 0;    ///< slow side, kg m^2
+    double gearbox_inertia = 0;    ///< slow side, kg m^2; where it is zero one of the shafts must be rigid
     Spring high_speed_shaft;       ///< fast side, generator - gearbox
     Spring main_shaft;             ///< slow side, gearbox - hub
 };
@@ -51,6 +58,7 @@ struct BladeDescription {
     Spring pitch;                   ///< pitch mechanism
     double cone = 0;                ///< blade axis out of the rotor plane, tips downwind positive, rad
     double first_flap_damping = 0;  ///< ratio of the first flap mode of the clamped blade, stiffness proportional
+    BeamDamping damping = {};       ///< in its place or beside it
 };
 
 struct TurbineDescription {

@@ -1,0 +1,208 @@
+// Campbell diagram of the land-based NREL 5 MW machine.
+//
+// Problem: at every rotor speed the machine of NREL/TP-500-38060 is brought to its steady state and linearised,
+// M x'' + (C + G) x' + K x = 0; the multi-blade transformation makes the equations constant, their eigenvalues are the
+// natural frequencies and damping ratios in the fixed frame. With --gravity the frequencies at 0, 6 and 12.1 rpm are
+// found also about the periodic steady state under gravity, with the mean of the matrices over the azimuth.
+// Reference: OpenFAST 5.0.0 at these speeds, with ElastoDyn's and with BeamDyn's blades (docs/nrel5mw.md). Expected:
+// tower, first flap and first edge modes within 1 % of BeamDyn's (--variant beamdyn) and 2 % of ElastoDyn's (fast).
+#include "mbs/error.hpp"
+#include "solvers/campbell_csv.hpp"
+#include "solvers/hdf5_campbell.hpp"
+#include "solvers/plot_campbell.hpp"
+#include "turbines/nrel5mw_machine.hpp"
+#include "turbines/scaling.hpp"
+
+#include "examples/campbell_program.hpp"
+#include "examples/nrel5mw_campbell/comparison.hpp"
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+using namespace cardan;
+
+namespace {
+
+constexpr double to_rpm = 30 / pi;
+
+struct Arguments {
+    std::string rpm = "0:12:1,12.1,13,14";
+    std::string out = "nrel5mw_campbell", variant = "report", names = "community", data;
+    int blade_elements = 8, tower_elements = 6;
+    double max_frequency = 4, power = 5, azimuth = 0;
+    bool gravity = false, generator_free = false, modes = false, undamped = false, pitch_actuator = false,
+         shapes = false, summary = false;
+};
+
+constexpr auto speeds_allowed = "numbers and FIRST:LAST:STEP separated by commas, increasing, rev/min";
+
+double number(const std::string& word, const std::string& given) {
+    double value = 0;
+    const char* const end = word.data() + word.size();
+    const auto [next, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || next != end) throw InputError("--rpm", "value", given, speeds_allowed);
+    return value;
+}
+
+std::vector<std::string> split(const std::string& given, char separator) {
+    std::vector<std::string> words;
+    std::istringstream stream(given);
+    for (std::string word; std::getline(stream, word, separator);) words.push_back(word);
+    return words;
+}
+
+// "0:12:1,12.1": ranges and numbers, rad/s. That they are increasing is checked by the solver.
+std::vector<double> rotor_speeds(const std::string& given) {
+    std::vector<double> speeds;
+    for (const std::string& item : split(given, ',')) {
+        std::vector<double> range;
+        for (const std::string& word : split(item, ':')) range.push_back(number(word, given));
+        if (range.size() == 1) range = {range[0], range[0], 1};
+        if (range.size() != 3) throw InputError("--rpm", "value", given, speeds_allowed);
+        for (double speed : solvers::rpm_range(range[0], range[1], range[2])) speeds.push_back(speed);
+    }
+    if (speeds.empty()) throw InputError("--rpm", "value", given, speeds_allowed);
+    return speeds;
+}
+
+int parse(int argc, char** argv, Arguments& a) {
+    CLI::App app(
+        "Campbell diagram of the NREL 5 MW machine (land-based).\n"
+        "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png and PREFIX_families.png, and prints a table; at 0, 6 and "
+        "12.1 rpm beside OpenFAST.");
+    app.add_option("--rpm", a.rpm, "rotor speeds, numbers and FIRST:LAST:STEP separated by commas, rev/min")
+        ->capture_default_str();
+    app.add_option("--variant", a.variant,
+                   "data of the report; of FAST's ElastoDyn (no torsion of tower and blades, no offset of mass "
+                   "centres); of OpenFAST's BeamDyn blade (no mass factor, no offset, GA = EA / 10)")
+        ->check(CLI::IsMember({"report", "fast", "beamdyn"}))
+        ->capture_default_str();
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
+    auto* gravity = app.add_flag(
+        "--gravity", a.gravity, "frequencies under gravity at 0, 6 and 12.1 rpm as well, in the table beside OpenFAST");
+    app.add_flag("--elastodyn-shapes", a.shapes,
+                 "with --gravity: tower limited to ElastoDyn's two shapes per direction, with --variant fast also each "
+                 "blade to its three")
+        ->needs(gravity);
+    app.add_option("--azimuth", a.azimuth, "with --gravity: where blade 1 stands at 0 rpm, deg (0: up)")
+        ->needs(gravity)
+        ->capture_default_str();
+    app.add_flag("--generator-free", a.generator_free, "generator free instead of prescribed")->excludes(gravity);
+    app.add_flag("--pitch-actuator", a.pitch_actuator, "elastic pitch actuators (the report has them for ADAMS)");
+    app.add_option("--power", a.power, "scaled by the rules of similarity to this power, MW")->capture_default_str();
+    app.add_flag("--undamped", a.undamped, "leave out all damping");
+    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    app.add_option("--names", a.names, "of modes: as reports and tools around OpenFAST print them, or Cardan's own")
+        ->check(CLI::IsMember({"community", "descriptive"}))
+        ->capture_default_str();
+    app.add_flag("--modes", a.modes,
+                 "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
+    app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
+    app.add_option("--data", a.data,
+                   "folder with nrel5mw_blade.csv, nrel5mw_tower.csv and nrel5mw_turbine.csv (default: built in)");
+    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+    return program::parse(app, argc, argv);
+}
+
+turbines::Nrel5mwVariant variant_of(const Arguments& a) {
+    using turbines::Nrel5mwVariant;
+    for (const Nrel5mwVariant variant : {Nrel5mwVariant::fast, Nrel5mwVariant::beamdyn})
+        if (a.variant == turbines::variant_name(variant)) return variant;
+    return Nrel5mwVariant::report;
+}
+
+turbines::Turbine machine(const Arguments& a, const Vec3& gravity) {
+    turbines::Nrel5mwOptions data = turbines::nrel5mw_options(variant_of(a));
+    data.pitch_actuator = a.pitch_actuator;
+    turbines::TurbineDescription description = a.data.empty()
+                                                   ? turbines::nrel5mw_description(data)
+                                                   : turbines::nrel5mw_description(std::filesystem::path(a.data), data);
+    turbines::AssemblyOptions options = turbines::nrel5mw_assembly(variant_of(a), a.blade_elements, a.tower_elements);
+    options.gravity = gravity;
+    options.structural_damping = options.joint_damping = !a.undamped;
+    if (a.power != 5) {
+        require_positive("--power", "value [MW]", a.power);
+        const double s = std::sqrt(a.power / 5);
+        description = turbines::scaled(description, s);
+        for (double& end : options.blade_beam->boundaries) end *= s;
+        options.blade_beam->boundaries.back() = description.blade.line.length;
+    }
+    return turbines::assemble(description, options);
+}
+
+void progress(int done, int total) {
+    program::progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
+}
+
+void draw(const solvers::Campbell& diagram, const Arguments& a) {
+    solvers::CampbellPlotOptions picture;
+    picture.max_frequency_hz = a.max_frequency;
+    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, a.out + kind, picture);
+    const auto panel = [](std::vector<std::string> families, const char* title, int ordinal, double f_max) {
+        solvers::CampbellPlotOptions p;
+        p.families = std::move(families);
+        p.title = title;
+        p.ordinal = ordinal;
+        p.max_frequency_hz = f_max;
+        return p;
+    };
+    if (diagram.complete && diagram.points.size() > 1)
+        solvers::plot_panels(diagram, a.out + "_families.png",
+                             {panel({"tower fore-aft", "tower side-side"}, "tower, first modes", 1, 0.8),
+                              panel({"blade flap"}, "first flap", 1, 1.5),
+                              panel({"blade edge", "drive-train torsion"}, "first edge, drive-train torsion", 1, 2.5),
+                              panel({"blade flap"}, "second flap", 2, 3)});
+}
+
+// At the rotor speeds of the references.
+std::vector<nrel5mw_campbell::UnderGravity> with_gravity(const Arguments& a, const solvers::Campbell& diagram) {
+    std::vector<nrel5mw_campbell::UnderGravity> all;
+    if (!a.gravity || !diagram.complete) return all;
+    const turbines::Turbine heavy = machine(a, turbines::nrel5mw_gravity);
+    using nrel5mw_campbell::Limited;
+    const Limited limited = !a.shapes             ? Limited::nothing
+                            : a.variant == "fast" ? Limited::tower_and_blades
+                                                  : Limited::tower;
+    for (const nrel5mw_campbell::OpenFast& reference : nrel5mw_campbell::openfast)
+        if (const auto point = nrel5mw_campbell::point_at(diagram, reference.rpm))
+            all.push_back(nrel5mw_campbell::under_gravity(heavy, diagram, *point, limited, a.azimuth * pi / 180));
+    return all;
+}
+
+int run(const Arguments& a) {
+    const std::vector<double> speeds = rotor_speeds(a.rpm);
+    const turbines::Turbine turbine = machine(a, Vec3::Zero());
+    if (a.summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+
+    solvers::CampbellOptions options;
+    options.spin = a.generator_free ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+    options.max_frequency_hz = a.max_frequency;
+    options.progress = progress;
+    options.cancelled = program::interrupted;
+    program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_families.png"});
+    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    const auto gravity = with_gravity(a, diagram);
+    program::stop_at_once();
+    const auto style = a.names == "community" ? solvers::NameStyle::community : solvers::NameStyle::descriptive;
+    const solvers::Campbell named = solvers::renamed(diagram, style);
+    std::cout << solvers::table(named);
+    if (a.power == 5 && !a.generator_free) nrel5mw_campbell::print_comparison(diagram, gravity, style);
+    if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
+    if (diagram.points.empty()) return 130;
+    solvers::write_hdf5(named, a.out + ".h5");
+    solvers::write_csv(named, a.out + ".csv");
+    draw(named, a);
+    if (a.modes && diagram.complete) program::draw_modes(named, a.out + "_modes");
+    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _families.png"
+              << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";
+    return diagram.complete ? 0 : 130;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return program::run_program("nrel5mw_campbell", argc, argv, parse, run);
+}

@@ -1,0 +1,157 @@
+// Campbell diagram of a machine that exists as an OpenFAST or windIO model, without a line of code.
+//
+// Problem: the files of the model (OpenFAST's .fst or ElastoDyn file, a windIO .yaml, or our own .yaml) become a
+// description of the machine, blades and tower as beams; at every rotor speed it is brought to its steady state and
+// linearised, and the multi-blade transformation makes the equations constant. What the files hold beside the
+// structure, and what is taken otherwise than in the program they were made for, is printed as notes. Frames, signs,
+// and what is read: docs/coming_from_openfast.md.
+#include "mbs/error.hpp"
+#include "solvers/campbell_csv.hpp"
+#include "solvers/hdf5_campbell.hpp"
+#include "solvers/plot_campbell.hpp"
+#include "turbines/assembly.hpp"
+#include "turbines/description_yaml.hpp"
+#include "turbines/openfast.hpp"
+#include "turbines/windio.hpp"
+
+#include "examples/program.hpp"
+#include <charconv>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+using namespace cardan;
+
+namespace {
+
+struct Arguments {
+    std::string model, rpm, out = "openfast_campbell", save;
+    int blade_elements = 6, tower_elements = 4;
+    bool gravity = false, notes = false, undamped = false, summary = false;
+    double max_frequency = 5, generator_inertia = 0;
+};
+
+int parse(int argc, char** argv, Arguments& a) {
+    CLI::App app(
+        "Campbell diagram of an existing model: OpenFAST (.fst, or an ElastoDyn file), windIO (.yaml), our own .yaml.\n"
+        "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, and prints a table.");
+    app.add_option("model", a.model, "FILE.fst, ElastoDyn.dat or FILE.yaml")->required();
+    app.add_option(
+        "--rpm", a.rpm,
+        "rotor speeds FIRST:LAST:STEP (or one), rev/min (default: from 0 to 1.2 times the model's, in 12 steps)");
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
+    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    app.add_option("--generator-inertia", a.generator_inertia,
+                   "inertia of the generator on its own shaft, kg m^2, for models that do not give it");
+    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+    app.add_option("--save", a.save, "also write the machine as our own YAML to this file");
+    app.add_flag("--gravity", a.gravity, "with gravity (standstill only: in rotation the steady state is periodic)");
+    app.add_flag("--undamped", a.undamped, "leave out all damping");
+    app.add_flag("--notes", a.notes, "print all notes; else those on groups of entries are only counted");
+    app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
+    return program::parse(app, argc, argv);
+}
+
+turbines::TurbineFile read(const std::string& model) {
+    const std::filesystem::path path(model);
+    const std::string ending = path.extension().string();
+    if (ending != ".yaml" && ending != ".yml") return turbines::read_openfast(path);
+    std::ifstream in(path, std::ios::binary);
+    const std::string head{std::istreambuf_iterator<char>(in), {}};
+    if (!turbines::is_description(head)) return turbines::read_windio(path);
+    turbines::TurbineFile own;
+    own.description = turbines::read_description(path);
+    return own;
+}
+
+void print(const std::vector<turbines::FileNote>& notes, bool all) {
+    int groups = 0;
+    for (const turbines::FileNote& note : notes) {
+        const bool group = note.line == 0;
+        if (group) ++groups;
+        if (all || !group) std::cout << "note: " << to_text(note) << "\n";
+    }
+    if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
+}
+
+// FIRST:LAST:STEP or one number.
+std::vector<double> rotor_speeds(const std::string& given, double rated) {
+    constexpr auto allowed = "FIRST:LAST:STEP or one number, rev/min";
+    if (given.empty()) {
+        if (!(rated > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", allowed);
+        const double last = 1.2 * rated * 30 / pi;
+        return solvers::rpm_range(0, last, last / 12);
+    }
+    std::vector<double> numbers;
+    for (const char *at = given.data(), *const end = at + given.size();; ++at) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || (next != end && *next != ':')) throw InputError("--rpm", "value", given, allowed);
+        numbers.push_back(value);
+        at = next;
+        if (at == end) break;
+    }
+    if (numbers.size() == 1) return solvers::rpm_range(numbers[0], numbers[0], 1);
+    if (numbers.size() != 3) throw InputError("--rpm", "value", given, allowed);
+    return solvers::rpm_range(numbers[0], numbers[1], numbers[2]);
+}
+
+// Directions in which the sections are rigid have no coordinate.
+CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extension) {
+    CardanBeamOptions options;
+    options.elements = elements;
+    const Mat6 compliance = line.section(line.length / 2).compliance;
+    options.torsion = compliance(3, 3) > 0;
+    options.extension = extension && compliance(0, 0) > 0;
+    return options;
+}
+
+turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::TurbineFile& model) {
+    turbines::AssemblyOptions o;
+    o.pitch = model.pitch;
+    if (a.gravity) o.gravity = {0, 0, -9.80665};
+    if (a.undamped) o.structural_damping = o.joint_damping = false;
+    o.blade_beam = beam_options(model.description.blade.line, a.blade_elements, true);
+    o.tower_beam = beam_options(model.description.tower.line, a.tower_elements, false);
+    return o;
+}
+
+void progress(int done, int total) {
+    program::progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
+}
+
+int run(const Arguments& a) {
+    turbines::TurbineFile model = read(a.model);
+    print(model.notes, a.notes);
+    if (a.generator_inertia != 0) model.description.drive_train.generator_inertia = a.generator_inertia;
+    if (!a.save.empty()) turbines::write_description(model.description, a.save);
+    const std::vector<double> speeds = rotor_speeds(a.rpm, model.rotor_speed);
+    const turbines::Turbine turbine = turbines::assemble(model.description, assembly_options(a, model));
+    if (a.summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+
+    solvers::CampbellOptions options;
+    options.max_frequency_hz = a.max_frequency;
+    options.progress = progress;
+    options.cancelled = program::interrupted;
+    program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
+    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    program::stop_at_once();
+    std::cout << solvers::table(diagram) << std::flush;
+    if (!std::cout) throw FileError("standard output", "the table could not be written");
+    if (diagram.points.empty()) return 130;
+    solvers::write_hdf5(diagram, a.out + ".h5");
+    solvers::write_csv(diagram, a.out + ".csv");
+    solvers::CampbellPlotOptions picture;
+    picture.max_frequency_hz = a.max_frequency;
+    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, a.out + kind, picture);
+    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png" << (a.save.empty() ? "" : ", " + a.save) << "\n";
+    return diagram.complete ? 0 : 130;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return program::run_program("openfast_campbell", argc, argv, parse, run);
+}

@@ -1,0 +1,59 @@
+/// @file
+/// YAML with errors that name file, line, column, place in the document and what was expected. Inside of the readers of
+/// YAML models: not installed.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+#include <yaml-cpp/yaml.h>
+
+namespace cardan::turbines {
+
+/// A node and where it is. Everything that reads throws ParseError if the node is of another kind.
+class YamlNode {
+public:
+    /// The only document of a text. @throws ParseError for what is no YAML
+    static YamlNode parse(const std::string& text, const std::string& file);
+
+    const std::string& file() const { return *file_; }
+    const std::string& path() const { return path_; }  ///< "components.blade"
+    int line() const;
+    bool is_map() const { return node_.IsMap(); }
+    bool is_list() const { return node_.IsSequence(); }
+
+    /// Entry of a map. @throws ParseError with the keys there are
+    YamlNode operator[](std::string_view key) const;
+    std::optional<YamlNode> find(std::string_view key) const;
+    /// By dots: "structure.elastic_properties"; none if one of the steps is not there.
+    std::optional<YamlNode> find_path(std::string_view keys) const;
+    std::vector<std::string> keys() const;
+    std::vector<YamlNode> items() const;
+
+    std::string word() const;
+    bool flag() const;
+    int integer(int least, int most) const;
+    /// Finite, or infinite too (".inf").
+    double number(bool or_infinite = false) const;
+    std::vector<double> numbers(bool or_infinite = false) const;
+    /// As many as `count`.
+    std::vector<double> numbers(std::size_t count) const;
+
+    [[noreturn]] void fail(std::string_view what) const;
+
+private:
+    YamlNode(YAML::Node node, std::string path, std::shared_ptr<const std::string> file);
+    void require_map() const;
+
+    YAML::Node node_;
+    std::string path_;
+    std::shared_ptr<const std::string> file_;
+};
+
+/// The bytes of a file. @throws FileError
+std::string text_file(const std::filesystem::path& path);
+
+}  // namespace cardan::turbines

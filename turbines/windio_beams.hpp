@@ -1,0 +1,51 @@
+/// @file
+/// Blade and tower of a windIO file. Inside of windio: not installed.
+#pragma once
+
+#include "turbines/beam_table.hpp"
+#include "turbines/description_yaml_node.hpp"
+#include "turbines/turbine_file.hpp"
+
+#include <set>
+
+namespace cardan::turbines {
+
+/// A windIO document: finds entries under the names of both versions and knows which ones were looked at.
+class WindioFile {
+public:
+    explicit WindioFile(YamlNode root);
+    int version() const { return version_; }
+    /// Radians per unit of angle.
+    double angle() const { return angle_; }
+    /// The first of several paths ("components.hub.diameter") that is there; none.
+    std::optional<YamlNode> find(std::initializer_list<const char*> paths);
+    /// @throws ParseError naming the first path
+    YamlNode get(std::initializer_list<const char*> paths);
+    /// Entries that nobody looked at beside others that were used, and the other top-level keys as a group.
+    std::vector<FileNote> unused() const;
+    const YamlNode& root() const { return root_; }
+    void note(const YamlNode& node, std::string value, std::string why);
+    std::vector<FileNote> notes;
+
+private:
+    void collect(const YamlNode& node, int levels, std::vector<FileNote>& out) const;
+
+    YamlNode root_;
+    int version_ = 1;
+    double angle_ = 1;
+    std::set<std::string> used_;
+};
+
+/// Values over a grid of fractions.
+struct WindioCurve {
+    std::vector<double> grid, values;
+    double at(double place) const;
+};
+/// @throws ParseError: grid not increasing, another number of values
+WindioCurve windio_curve(const YamlNode& node);
+
+BeamTable windio_blade(WindioFile& file);
+BeamDamping windio_blade_damping(WindioFile& file);
+BeamTable windio_tower(WindioFile& file);
+
+}  // namespace cardan::turbines
