@@ -10,8 +10,8 @@ Vector fourier_basis(double psi, int harmonics, int derivative) {
     for (int j = 1; j <= harmonics; ++j) {
         // Every derivative turns both by a quarter and multiplies by j.
         const double angle = j * psi + derivative * pi / 2, factor = std::pow(j, derivative);
-        basis(2 * j - 1) = factor * std::cos(angle);
-        basis(2 * j) = factor * std::sin(angle);
+        basis(Eigen::Index{2} * j - 1) = factor * std::cos(angle);
+        basis(Eigen::Index{2} * j) = factor * std::sin(angle);
     }
     return basis;
 }

@@ -52,7 +52,7 @@ inline Matrix shapes_left(const turbines::Turbine& machine, const solvers::Azimu
             }
     }
     for (std::size_t i = 0; i < taken.size(); ++i)
-        if (!taken[i]) columns.push_back(Vector::Unit(rows, static_cast<Eigen::Index>(i)));
+        if (!taken[i]) columns.emplace_back(Vector::Unit(rows, static_cast<Eigen::Index>(i)));
     Matrix all(rows, static_cast<Eigen::Index>(columns.size()));
     for (Eigen::Index j = 0; j < all.cols(); ++j) all.col(j) = columns[static_cast<std::size_t>(j)];
     return all;

@@ -119,7 +119,7 @@ TEST_CASE("NREL 5 MW machine with ElastoDyn's tower: OpenFAST with BeamDyn's bla
     const auto factor = order_five();
     CHECK(factor[0] == Approx(1.010).margin(0.001));
     CHECK(factor[1] == Approx(1.005).margin(0.001));
-    CHECK(factor[2] == Approx(1.048).margin(0.002));
+    CHECK(factor[2] == Approx(1.047).margin(0.002));
     auto found = computed(Nrel5mwVariant::beamdyn, Limited::tower, 8, 8);
     CHECK(largest(found, beamdyn, 0, 2) < 0.003);
     CHECK(largest(found, beamdyn, 2, 3) < 0.004);
