@@ -1,13 +1,11 @@
 #include "turbines/csv.hpp"
 
 #include "mbs/error.hpp"
+#include "turbines/text_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <system_error>
 
@@ -96,20 +94,6 @@ private:
     int number_ = 0;
 };
 
-std::string contents(const std::filesystem::path& path) {
-    if (std::error_code code; std::filesystem::is_directory(path, code)) {
-        throw FileError(path.string(), "is a folder, not a file");
-    }
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    std::string all{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || in.bad()) {
-        const std::string reason = errno != 0 ? std::generic_category().message(errno) : "read error";
-        throw FileError(path.string(), text("cannot be read: ", reason));
-    }
-    return all;
-}
-
 double finite_number(const Field& f, std::string_view file, int line) {
     const auto fail = [&](std::string_view what) { throw ParseError(file, line, f.at, text("'", f.text, "' ", what)); };
     std::string_view digits = f.text;
@@ -174,7 +158,7 @@ CsvTable CsvTable::parse(std::string_view text_of_file, std::string_view file) {
 }
 
 CsvTable CsvTable::read(const std::filesystem::path& path) {
-    return parse(contents(path), path.string());
+    return parse(text_file(path), path.string());
 }
 
 std::vector<std::string> CsvTable::names() const {
@@ -239,7 +223,7 @@ CsvQuantities CsvQuantities::parse(std::string_view text_of_file, std::string_vi
 }
 
 CsvQuantities CsvQuantities::read(const std::filesystem::path& path) {
-    return parse(contents(path), path.string());
+    return parse(text_file(path), path.string());
 }
 
 std::vector<std::string> CsvQuantities::names() const {

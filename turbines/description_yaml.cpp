@@ -4,6 +4,7 @@
 #include "mbs/pending_file.hpp"
 #include "turbines/description_yaml_fields.hpp"
 #include "turbines/description_yaml_node.hpp"
+#include "turbines/text_file.hpp"
 
 #include <charconv>
 #include <set>

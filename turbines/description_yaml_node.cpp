@@ -2,10 +2,7 @@
 
 #include "mbs/error.hpp"
 
-#include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <set>
 #include <system_error>
@@ -126,18 +123,6 @@ std::vector<double> YamlNode::numbers(bool or_infinite) const {
 std::vector<double> YamlNode::numbers(std::size_t count) const {
     std::vector<double> all = numbers();
     if (all.size() != count) fail(text(all.size(), " numbers; allowed: ", count));
-    return all;
-}
-
-std::string text_file(const std::filesystem::path& path) {
-    if (std::error_code code; std::filesystem::is_directory(path, code))
-        throw FileError(path.string(), "is a folder, not a file");
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    std::string all{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || in.bad())
-        throw FileError(path.string(), text("cannot be read: ", errno != 0 ? std::generic_category().message(errno)
-                                                                           : std::string("read error")));
     return all;
 }
 

@@ -3,7 +3,6 @@
 /// YAML models: not installed.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,8 +51,5 @@ private:
     std::string path_;
     std::shared_ptr<const std::string> file_;
 };
-
-/// The bytes of a file. @throws FileError
-std::string text_file(const std::filesystem::path& path);
 
 }  // namespace cardan::turbines

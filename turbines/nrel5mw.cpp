@@ -4,9 +4,7 @@
 #include "mbs/error.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
-
-#include <fstream>
-#include <iterator>
+#include "turbines/text_file.hpp"
 
 namespace cardan::turbines {
 
@@ -73,8 +71,7 @@ Nrel5mwBlade nrel5mw_blade(const Nrel5mwBladeOptions& options) {
 Nrel5mwBlade nrel5mw_blade(const std::filesystem::path& folder, const Nrel5mwBladeOptions& options) {
     const std::filesystem::path path = folder / blade_table;
     Nrel5mwBlade blade = read_blade(CsvTable::read(path), options);
-    std::ifstream file(path);
-    blade.source = {std::istreambuf_iterator<char>(file), {}};
+    blade.source = text_file(path);
     return blade;
 }
 

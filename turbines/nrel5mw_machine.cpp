@@ -3,9 +3,7 @@
 #include "mbs/error.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
-
-#include <fstream>
-#include <iterator>
+#include "turbines/text_file.hpp"
 
 namespace cardan::turbines {
 
@@ -96,11 +94,6 @@ TurbineDescription describe(const Nrel5mwBlade& blade, const CsvTable& tower, co
     return d;
 }
 
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 std::string_view variant_name(Nrel5mwVariant variant) {
@@ -137,7 +130,7 @@ TurbineDescription nrel5mw_description(const std::filesystem::path& folder, cons
     const auto tower = folder / tower_table, turbine = folder / turbine_table;
     const Nrel5mwBlade blade = nrel5mw_blade(folder, options.blade);
     TurbineDescription d = describe(blade, CsvTable::read(tower), CsvQuantities::read(turbine), options);
-    d.source = text(contents(turbine), "\n", contents(tower), "\n", blade.source);
+    d.source = text(text_file(turbine), "\n", text_file(tower), "\n", blade.source);
     return d;
 }
 

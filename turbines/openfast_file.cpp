@@ -1,12 +1,10 @@
 #include "turbines/openfast_file.hpp"
 
 #include "mbs/error.hpp"
+#include "turbines/text_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace cardan::turbines {
@@ -73,19 +71,6 @@ std::string utf8(std::string_view text) {
         out += static_cast<char>(0x80 | (byte & 0x3F));
     }
     return out;
-}
-
-std::string contents(const std::filesystem::path& path) {
-    if (std::error_code code; std::filesystem::is_directory(path, code))
-        throw FileError(path.string(), "is a folder, not a file");
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    std::string all{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || in.bad())
-        throw FileError(path.string(),
-                        cardan::text("cannot be read: ",
-                                     errno != 0 ? std::generic_category().message(errno) : std::string("read error")));
-    return all;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -197,7 +182,7 @@ OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
 }
 
 OpenFastFile OpenFastFile::read(const std::filesystem::path& path) {
-    return parse(contents(path), path.string());
+    return parse(text_file(path), path.string());
 }
 
 const OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) const {

@@ -4,9 +4,8 @@
 #include "mbs/summary.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
+#include "turbines/text_file.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace cardan::turbines {
@@ -89,8 +88,7 @@ TeeteredDescription teetered_description() {
 TeeteredDescription teetered_description(const std::filesystem::path& folder) {
     const std::filesystem::path path = folder / table;
     TeeteredDescription d = describe(CsvQuantities::read(path));
-    std::ifstream file(path);
-    d.source = {std::istreambuf_iterator<char>(file), {}};
+    d.source = text_file(path);
     return d;
 }
 

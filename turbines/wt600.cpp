@@ -3,9 +3,7 @@
 #include "mbs/error.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
-
-#include <fstream>
-#include <iterator>
+#include "turbines/text_file.hpp"
 
 namespace cardan::turbines {
 
@@ -108,11 +106,6 @@ TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     return d;
 }
 
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 TurbineDescription wt600_description() {
@@ -126,7 +119,7 @@ TurbineDescription wt600_description() {
 TurbineDescription wt600_description(const std::filesystem::path& folder) {
     const auto blade = folder / "wt600_blade.csv", turbine = folder / "wt600_turbine.csv";
     TurbineDescription d = describe(CsvTable::read(blade), CsvQuantities::read(turbine));
-    d.source = text(contents(turbine), "\n", contents(blade));
+    d.source = text(text_file(turbine), "\n", text_file(blade));
     return d;
 }
 
