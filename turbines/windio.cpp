@@ -1,6 +1,7 @@
 #include "turbines/windio.hpp"
 
 #include "mbs/error.hpp"
+#include "turbines/text_file.hpp"
 #include "turbines/windio_beams.hpp"
 
 #include <algorithm>
@@ -128,7 +129,9 @@ public:
         read_hub();
         read_nacelle();
         read_drive_train();
-        if (const auto speed = file_.find({"control.torque.VS_maxspd"})) out_.rotor_speed = not_negative(*speed);
+        if (const auto speed =  // of versions 1 and 2.0; of 2.1
+            file_.find({"control.torque.VS_maxspd", "control.rated_rotor_speed", "control.max_rotor_speed"}))
+            out_.rotor_speed = not_negative(*speed) * file_.rotor_speed();
         for (FileNote& note : file_.notes) out_.notes.push_back(std::move(note));
         for (FileNote& note : file_.unused()) out_.notes.push_back(std::move(note));
         return std::move(out_);

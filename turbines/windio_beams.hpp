@@ -17,6 +17,8 @@ public:
     int version() const { return version_; }
     /// Radians per unit of angle.
     double angle() const { return angle_; }
+    /// rad/s per unit of rotor speed: version 1 counts in rad/s, version 2 in rev/min.
+    double rotor_speed() const { return version_ == 2 ? pi / 30 : 1; }
     /// The first of several paths ("components.hub.diameter") that is there; none.
     std::optional<YamlNode> find(std::initializer_list<const char*> paths);
     /// @throws ParseError naming the first path

@@ -69,6 +69,17 @@ TEST_CASE("windio: figures in the frames and units of the library", "[analytic]"
     CHECK(d.nacelle.inertia.com.isApprox(Vec3(0.2, 0.05, 0.6) * 4500 / 4650, 1e-14));
 }
 
+// As windIO's own converters between its versions have it: rad/s in 1, rev/min from 2.0 on, other names from 2.1 on.
+TEST_CASE("windio: the rotor speed is that of its version, in rad/s", "[analytic]") {
+    for (const char* control : {"{torque: {VS_maxspd: 45.0}}", "{max_rotor_speed: 45.0}",
+                                "{max_rotor_speed: 50.0, rated_rotor_speed: 45.0}"}) {
+        CAPTURE(control);
+        const test::ModelFolder model("windio");
+        model.replace("small_v2.yaml", "materials:", text("control: ", control, "\nmaterials:"));
+        CHECK(read_windio(model / "small_v2.yaml").rotor_speed == Approx(1.5 * pi).epsilon(1e-14));
+    }
+}
+
 TEST_CASE("windio: the tower is a tube of the given wall", "[crosscheck]") {
     const BeamLine line = read_windio(test::data_file("windio/small_v1.yaml")).description.tower.line;
     TubeSpec spec;
