@@ -22,6 +22,12 @@ std::vector<int> CoordinateTable::free() const {
     return indices;
 }
 
+std::vector<int> CoordinateTable::free_without(int index) const {
+    std::vector<int> indices = free();
+    std::erase(indices, index);
+    return indices;
+}
+
 std::vector<bool> CoordinateTable::driven() const {
     std::vector<bool> flags;
     for (const CoordinateInfo& row : rows_) flags.push_back(row.role == CoordinateRole::driven);

@@ -36,6 +36,8 @@ public:
     int index(std::string_view name) const;
     /// Indices of the coordinates with role free.
     std::vector<int> free() const;
+    /// The same without one of them: the unknowns of a steady rotation, whose spin is prescribed; -1: all.
+    std::vector<int> free_without(int index) const;
     /// One flag per coordinate: true where the role is driven.
     std::vector<bool> driven() const;
     /// Names of parts in order of first appearance.

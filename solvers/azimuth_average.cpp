@@ -1,20 +1,13 @@
 #include "solvers/azimuth_average.hpp"
 
 #include "mbs/error.hpp"
-#include "solvers/periodic.hpp"
+#include "solvers/periodic_system.hpp"
 
 #include <algorithm>
 
 namespace cardan::solvers {
 
 namespace {
-
-std::vector<int> free_without_spin(const System& system, int spin) {
-    std::vector<int> unknowns;
-    for (int i : system.model.coordinates().free())
-        if (i != spin) unknowns.push_back(i);
-    return unknowns;
-}
 
 PeriodicSteadyState periodic_state(const System& system, int spin, const AzimuthAverageOptions& options) {
     PeriodicOptions periodic;
@@ -36,40 +29,28 @@ OperatingPoint standstill(const System& system, int spin, double azimuth) {
 }  // namespace
 
 AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, const AzimuthAverageOptions& options) {
-    const bool turns = options.rotor_speed != 0;
-    if (turns && options.azimuths < 3)
+    const double speed = options.rotor_speed;
+    if (speed != 0 && options.azimuths < 3)
         throw InputError("mean over the azimuth", "number of azimuths", options.azimuths, ">= 3");
-    const std::vector<int> unknowns = free_without_spin(system, rotor.spin);
+    const std::vector<int> unknowns = system.model.coordinates().free_without(rotor.spin);
     const ColemanTransform coleman(rotor, unknowns);
-    Lineariser lineariser(system);
-    Linearisation lin;
-    const auto at = [&](const OperatingPoint& point, double psi) {
-        lineariser.linearise(point, lin);
-        SecondOrderSystem own = restrict_to(lin, unknowns, rotor.spin);
-        coleman.transform_in_place(own, psi, options.rotor_speed);
-        return own;
-    };
     AzimuthAverage mean;
     mean.rows = coleman.rows();
-    if (!turns) {
-        mean.system = at(standstill(system, rotor.spin, options.standstill), options.standstill);
+    if (speed == 0) {
+        const Linearisation lin = linearise(system, standstill(system, rotor.spin, options.standstill));
+        mean.system = coleman.transform(restrict_to(lin, unknowns, rotor.spin), options.standstill, 0);
         return mean;
     }
     const PeriodicSteadyState state = periodic_state(system, rotor.spin, options);
+    const PeriodicSystem periodic = in_multi_blade_rows(linearised(system, state, unknowns), coleman, speed);
     mean.steady_remainder = state.remainder;
-    std::vector<SecondOrderSystem> all;
+    mean.system = mean_over_period(periodic, options.azimuths);
+    const SecondOrderSystem& m = mean.system;
+    SecondOrderSystem at;
     for (int i = 0; i < options.azimuths; ++i) {
-        const double psi = 2 * pi * i / options.azimuths;
-        all.push_back(at(state.at(psi), psi));
+        periodic.at(periodic.period() * i / options.azimuths, at);
+        mean.remainder = std::max({mean.remainder, (at.K - m.K).norm() / m.K.norm(), (at.M - m.M).norm() / m.M.norm()});
     }
-    SecondOrderSystem& sum = mean.system = all.front();
-    for (std::size_t i = 1; i < all.size(); ++i)
-        sum.M += all[i].M, sum.C += all[i].C, sum.K += all[i].K, sum.K_elastic += all[i].K_elastic;
-    const double share = 1.0 / options.azimuths;
-    sum.M *= share, sum.C *= share, sum.K *= share, sum.K_elastic *= share;
-    for (const SecondOrderSystem& own : all)
-        mean.remainder =
-            std::max({mean.remainder, (own.K - sum.K).norm() / sum.K.norm(), (own.M - sum.M).norm() / sum.M.norm()});
     return mean;
 }
 

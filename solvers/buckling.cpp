@@ -38,10 +38,8 @@ void check(const LoadStabilityOptions& options) {
 // The least stable mode about the equilibrium at a load factor.
 class Scan {
 public:
-    Scan(const System& system, const LoadStabilityOptions& options) : system_(system), options_(options) {
-        for (int i : system.model.coordinates().free())
-            if (i != options.spin) unknowns_.push_back(i);
-    }
+    Scan(const System& system, const LoadStabilityOptions& options)
+        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
 
     // None if there is no equilibrium; then `message` says why. `q` is the start and becomes the equilibrium.
     std::optional<LoadStabilityPoint> at(double factor, Vector& q) {

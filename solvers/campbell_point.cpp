@@ -15,10 +15,8 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
     if (blades == 2 && options.method != CampbellMethod::floquet)
         throw InputError(rotor.machine, "number of blades", blades,
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
-    std::vector<int> unknowns;
-    for (int i : system.model.coordinates().free())
-        if (i != rotor.spin || (options.spin == RotorSpin::free && blades > 1)) unknowns.push_back(i);
-    return unknowns;
+    const bool spin_is_unknown = options.spin == RotorSpin::free && blades > 1;
+    return system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
 }
 
 }  // namespace

@@ -121,22 +121,18 @@ std::string kind_name(const FloquetMode& mode) {
 }
 
 EnergyWeights::EnergyWeights(const PeriodicSystem& system, int samples, const Matrix& weight) {
-    const Index n = system.rows();
-    M.setZero(n, n);
-    K.setZero(n, n);
-    if (!system.is_second_order()) {
-        if (weight.size() > 0 && (weight.rows() != n || weight.cols() != n))
-            throw InputError("Floquet theory", "size of the weight", text(weight.rows(), " x ", weight.cols()),
-                             text(n, " x ", n, ", or empty"));
-        K = weight.size() > 0 ? weight : Matrix(Matrix::Identity(n, n));
+    if (system.is_second_order()) {
+        SecondOrderSystem mean = mean_over_period(system, samples);
+        M = std::move(mean.M);
+        K = std::move(mean.K_elastic);
         return;
     }
-    SecondOrderSystem at;
-    for (int s = 0; s < samples; ++s) {
-        system.at(system.period() * s / samples, at);
-        M += at.M / samples;
-        K += at.K_elastic / samples;
-    }
+    const Index n = system.rows();
+    M.setZero(n, n);
+    if (weight.size() > 0 && (weight.rows() != n || weight.cols() != n))
+        throw InputError("Floquet theory", "size of the weight", text(weight.rows(), " x ", weight.cols()),
+                         text(n, " x ", n, ", or empty"));
+    K = weight.size() > 0 ? weight : Matrix(Matrix::Identity(n, n));
 }
 
 FloquetMode make_mode(const FloquetSolution& solution, const EnergyWeights& weights, double period) {

@@ -43,10 +43,8 @@ struct Attempt {
 
 class Path {
 public:
-    Path(const System& system, const LoadPathOptions& options) : system_(system), options_(options) {
-        for (int i : system.model.coordinates().free())
-            if (i != options.spin) unknowns_.push_back(i);
-    }
+    Path(const System& system, const LoadPathOptions& options)
+        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
 
     Attempt solve(double factor, const Vector& start) const {
         const System loaded = under_load(system_, factor, options_.gravity);

@@ -20,12 +20,6 @@ void check(const char* name, double time, const Matrix& A, Index rows) {
     if (!A.allFinite()) throw NumericalError(text("periodic system: ", name, " at ", time, " s is not finite"));
 }
 
-std::vector<int> free_but_spin(const System& system, int spin) {
-    std::vector<int> list = system.model.coordinates().free();
-    list.erase(std::remove(list.begin(), list.end(), spin), list.end());
-    return list;
-}
-
 // The matrices at a time, that of the highest derivative last.
 struct Coefficients {
     Coefficients(const PeriodicSystem& system, double time) {
@@ -125,7 +119,30 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
 }
 
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about) {
-    return linearised(system, about, free_but_spin(system, about.spin));
+    return linearised(system, about, system.model.coordinates().free_without(about.spin));
+}
+
+PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed) {
+    const double period = system.period();
+    const Index rows = system.rows();
+    return PeriodicSystem::second_order(
+        period, rows,
+        [raw = std::move(system), T = std::move(transform), rotor_speed](double t, SecondOrderSystem& out) {
+            raw.at(t, out);
+            T.transform_in_place(out, rotor_speed * t, rotor_speed);
+        });
+}
+
+SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples) {
+    if (samples < 1) throw InputError("mean over a period", "number of samples", samples, ">= 1");
+    SecondOrderSystem mean, at;
+    system.at(0, mean);
+    for (int s = 1; s < samples; ++s) {
+        system.at(system.period() * s / samples, at);
+        mean.M += at.M, mean.C += at.C, mean.K += at.K, mean.K_elastic += at.K_elastic;
+    }
+    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
+    return mean;
 }
 
 namespace {

@@ -2,8 +2,7 @@
 /// Linear systems with periodic coefficients.
 #pragma once
 
-#include "mbs/rotor_map.hpp"
-#include "solvers/linearise.hpp"
+#include "solvers/coleman.hpp"
 #include "solvers/periodic.hpp"
 
 #include <functional>
@@ -54,6 +53,13 @@ private:
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns);
 /// Over all free coordinates but the spin.
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about);
+
+/// The system in multi-blade rows, turning with psi = rotor_speed * t from psi = 0.
+PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed);
+
+/// Mean of the matrices over a period, by as many equal steps: exact for harmonics below their number.
+/// @throws InputError for a system of first order or fewer than one sample
+SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples);
 
 /// Q identical parts that take each other's places after a Q-th of the period: if x(t) is a solution, P x(t + T/Q) is
 /// one. P is orthogonal, P^Q = 1, and acts on positions and on rates (on states in a system of first order).

@@ -37,8 +37,7 @@ RotorEquations::RotorEquations(const System& system, int spin, const PeriodicOpt
     const int n = system.model.size();
     given_ = options.start.size() > 0 ? options.start : Matrix(Matrix::Zero(n, 1));
     given_.row(spin).setZero();
-    for (int i : system.model.coordinates().free())
-        if (i != spin) unknowns_.push_back(i);
+    unknowns_ = system.model.coordinates().free_without(spin);
     at_ = {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
     tau_.setZero(n);
     Q_.setZero(n);

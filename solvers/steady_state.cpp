@@ -24,10 +24,12 @@ void free_kinsol(void* memory) {
 // Residual and Jacobian on the unknowns (free coordinates without the spin).
 class Residual {
 public:
-    Residual(const System& system, int spin) : system_(system), spin_(spin), workspace_(system.model) {
+    Residual(const System& system, int spin)
+        : unknowns(system.model.coordinates().free_without(spin)),
+          system_(system),
+          spin_(spin),
+          workspace_(system.model) {
         const int n = system.model.size();
-        for (int i : system.model.coordinates().free())
-            if (i != spin) unknowns.push_back(i);
         for (Vector* v : {&at.q, &at.qd, &at.qdd, &tau_, &Q_}) v->setZero(n);
         by_q_.setZero(n, n);
         by_qd_.setZero(n, n);

@@ -202,6 +202,9 @@ TEST_CASE("coordinates: the table names, measures and sorts them", "[analytic]")
     CHECK(table[1].name == "b");
     CHECK(table.index("pitch") == 2);
     CHECK(table.free() == std::vector<int>{1, 2});
+    CHECK(table.free_without(1) == std::vector<int>{2});
+    CHECK(table.free_without(0) == std::vector<int>{1, 2});
+    CHECK(table.free_without(-1) == std::vector<int>{1, 2});
     CHECK(table.parts() == std::vector<std::string>{"shaft", "blade"});
     CHECK(table.of_part("blade") == std::vector<int>{1, 2});
     CHECK(table.of_part("blade", 2) == std::vector<int>{2});

@@ -351,3 +351,18 @@ TEST_CASE("Floquet: bad options are refused with the value and the limit", "[pro
     check_refused([&] { (void)hill(system, {.harmonics = 0}); }, {"number of harmonics", "0"});
     check_refused([&] { (void)hill(system, {.harmonics = 5, .samples = 20}); }, {"number of samples", "20", "21"});
 }
+
+TEST_CASE("periodic system: its mean over a period is the constant part of its Fourier series", "[analytic]") {
+    const PeriodicSystem one = mathieu(3, 0.7, 0.2);
+    for (int samples : {3, 8, 24}) {  // the one harmonic there is
+        const SecondOrderSystem mean = mean_over_period(one, samples);
+        CHECK(std::abs(mean.M(0, 0) - 1) < 1e-15);
+        CHECK(std::abs(mean.C(0, 0) - 0.2) < 1e-15);
+        CHECK(std::abs(mean.K(0, 0) - 3) < 1e-14);
+        CHECK(std::abs(mean.K_elastic(0, 0) - 3) < 1e-14);
+    }
+    // One sample is no mean: the value at the start.
+    CHECK(mean_over_period(one, 1).K(0, 0) == Approx(3 - 2 * 0.7).epsilon(1e-15));
+    check_refused([&] { (void)mean_over_period(one, 0); }, {"mean over a period", "number of samples = 0", ">= 1"});
+    check_refused([] { (void)mean_over_period(scalar(1, 1), 4); }, {"order = 1", "2 for M, C and K"});
+}
