@@ -2,6 +2,8 @@
 /// What the programs that compute Campbell diagrams have in common.
 #pragma once
 
+#include "solvers/campbell_csv.hpp"
+#include "solvers/hdf5_campbell.hpp"
 #include "solvers/plot_campbell.hpp"
 
 #include "examples/program.hpp"
@@ -11,28 +13,61 @@
 
 namespace cardan::program {
 
-/// The option --rpm: FIRST:LAST:STEP or one number, rev/min.
+inline constexpr auto rpm_format = "numbers and FIRST:LAST:STEP separated by commas, rev/min";
+
+/// The option --rpm: "0:12:1,12.1". That the speeds increase is checked by the solver.
 /// @return rad/s;  @throws InputError
 inline std::vector<double> rotor_speeds(const std::string& given) {
-    std::vector<double> numbers;
-    const char* at = given.data();
-    const char* const end = at + given.size();
-    while (true) {
+    const auto refuse = [&] { throw InputError("--rpm", "value", given, rpm_format); };
+    std::vector<double> speeds, range;
+    const char* const end = given.data() + given.size();
+    for (const char* at = given.data();; ++at) {
         double value = 0;
         const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || (next != end && *next != ':'))
-            throw InputError("--rpm", "value", given, "FIRST:LAST:STEP or one number, rev/min");
-        numbers.push_back(value);
-        if (next == end) break;
-        at = next + 1;
+        if (error != std::errc() || (next != end && *next != ':' && *next != ',')) refuse();
+        range.push_back(value);
+        at = next;
+        if (at != end && *at == ':') continue;
+        if (range.size() == 1) range = {value, value, 1};
+        if (range.size() != 3) refuse();
+        for (double speed : solvers::rpm_range(range[0], range[1], range[2])) speeds.push_back(speed);
+        range.clear();
+        if (at == end) return speeds;
     }
-    if (numbers.size() == 1) return solvers::rpm_range(numbers[0], numbers[0], 1);
-    if (numbers.size() != 3) throw InputError("--rpm", "value", given, "FIRST:LAST:STEP or one number, rev/min");
-    return solvers::rpm_range(numbers[0], numbers[1], numbers[2]);
 }
 
 inline void speed_progress(int done, int total) {
     progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
+}
+
+/// What the assembly has to say, before the work.
+template <class Turbine>
+void introduce(const Turbine& turbine, bool summary) {
+    if (summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+}
+
+/// With progress, and to be stopped by Ctrl-C.
+inline solvers::CampbellOptions campbell_options(double max_frequency_hz) {
+    solvers::CampbellOptions options;
+    options.max_frequency_hz = max_frequency_hz;
+    options.progress = speed_progress;
+    options.cancelled = interrupted;
+    return options;
+}
+
+/// To standard output.  @throws FileError
+inline void print_table(const solvers::Campbell& diagram) {
+    if (!(std::cout << solvers::table(diagram) << std::flush))
+        throw FileError("standard output", "the table could not be written");
+}
+
+/// PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png.  @throws FileError
+inline void write_files(const solvers::Campbell& diagram, const std::string& prefix,
+                        const solvers::CampbellPlotOptions& picture = {}) {
+    solvers::write_hdf5(diagram, prefix + ".h5");
+    solvers::write_csv(diagram, prefix + ".csv");
+    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, prefix + kind, picture);
 }
 
 /// "1st blade flap (symmetric)" -> "1st_blade_flap_symmetric"

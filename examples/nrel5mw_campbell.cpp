@@ -7,24 +7,18 @@
 // Reference: OpenFAST 5.0.0 at these speeds, with ElastoDyn's and with BeamDyn's blades (docs/nrel5mw.md). Expected:
 // tower, first flap and first edge modes within 1 % of BeamDyn's (--variant beamdyn) and 2 % of ElastoDyn's (fast).
 #include "mbs/error.hpp"
-#include "solvers/campbell_csv.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "solvers/plot_campbell.hpp"
 #include "turbines/nrel5mw_machine.hpp"
 #include "turbines/scaling.hpp"
 
 #include "examples/campbell_program.hpp"
 #include "examples/nrel5mw_campbell/comparison.hpp"
-#include <charconv>
+#include <array>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 
 using namespace cardan;
 
 namespace {
-
-constexpr double to_rpm = 30 / pi;
 
 struct Arguments {
     std::string rpm = "0:12:1,12.1,13,14";
@@ -32,47 +26,15 @@ struct Arguments {
     int blade_elements = 8, tower_elements = 6;
     double max_frequency = 4, power = 5, azimuth = 0;
     bool gravity = false, generator_free = false, modes = false, undamped = false, pitch_actuator = false,
-         shapes = false, summary = false;
+         shapes = false, summary = false, tower = false;
 };
-
-constexpr auto speeds_allowed = "numbers and FIRST:LAST:STEP separated by commas, increasing, rev/min";
-
-double number(const std::string& word, const std::string& given) {
-    double value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [next, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || next != end) throw InputError("--rpm", "value", given, speeds_allowed);
-    return value;
-}
-
-std::vector<std::string> split(const std::string& given, char separator) {
-    std::vector<std::string> words;
-    std::istringstream stream(given);
-    for (std::string word; std::getline(stream, word, separator);) words.push_back(word);
-    return words;
-}
-
-// "0:12:1,12.1": ranges and numbers, rad/s. That they are increasing is checked by the solver.
-std::vector<double> rotor_speeds(const std::string& given) {
-    std::vector<double> speeds;
-    for (const std::string& item : split(given, ',')) {
-        std::vector<double> range;
-        for (const std::string& word : split(item, ':')) range.push_back(number(word, given));
-        if (range.size() == 1) range = {range[0], range[0], 1};
-        if (range.size() != 3) throw InputError("--rpm", "value", given, speeds_allowed);
-        for (double speed : solvers::rpm_range(range[0], range[1], range[2])) speeds.push_back(speed);
-    }
-    if (speeds.empty()) throw InputError("--rpm", "value", given, speeds_allowed);
-    return speeds;
-}
 
 int parse(int argc, char** argv, Arguments& a) {
     CLI::App app(
         "Campbell diagram of the NREL 5 MW machine (land-based).\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png and PREFIX_families.png, and prints a table; at 0, 6 and "
         "12.1 rpm beside OpenFAST.");
-    app.add_option("--rpm", a.rpm, "rotor speeds, numbers and FIRST:LAST:STEP separated by commas, rev/min")
-        ->capture_default_str();
+    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format))->capture_default_str();
     app.add_option("--variant", a.variant,
                    "data of the report; of FAST's ElastoDyn (no torsion of tower and blades, no offset of mass "
                    "centres); of OpenFAST's BeamDyn blade (no mass factor, no offset, GA = EA / 10)")
@@ -99,6 +61,9 @@ int parse(int argc, char** argv, Arguments& a) {
         ->capture_default_str();
     app.add_flag("--modes", a.modes,
                  "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
+    app.add_flag("--tower", a.tower,
+                 "only print the frequencies of the tower: alone, and with the rest as one rigid body on its top")
+        ->excludes(gravity);
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     app.add_option("--data", a.data,
                    "folder with nrel5mw_blade.csv, nrel5mw_tower.csv and nrel5mw_turbine.csv (default: built in)");
@@ -113,33 +78,62 @@ turbines::Nrel5mwVariant variant_of(const Arguments& a) {
     return Nrel5mwVariant::report;
 }
 
-turbines::Turbine machine(const Arguments& a, const Vec3& gravity) {
+solvers::NameStyle style_of(const Arguments& a) {
+    return a.names == "community" ? solvers::NameStyle::community : solvers::NameStyle::descriptive;
+}
+
+struct Machine {
+    turbines::TurbineDescription description;
+    turbines::AssemblyOptions options;
+};
+
+Machine data_of(const Arguments& a) {
     turbines::Nrel5mwOptions data = turbines::nrel5mw_options(variant_of(a));
     data.pitch_actuator = a.pitch_actuator;
-    turbines::TurbineDescription description = a.data.empty()
-                                                   ? turbines::nrel5mw_description(data)
-                                                   : turbines::nrel5mw_description(std::filesystem::path(a.data), data);
-    turbines::AssemblyOptions options = turbines::nrel5mw_assembly(variant_of(a), a.blade_elements, a.tower_elements);
-    options.gravity = gravity;
-    options.structural_damping = options.joint_damping = !a.undamped;
+    Machine m{a.data.empty() ? turbines::nrel5mw_description(data)
+                             : turbines::nrel5mw_description(std::filesystem::path(a.data), data),
+              turbines::nrel5mw_assembly(variant_of(a), a.blade_elements, a.tower_elements)};
+    m.options.structural_damping = m.options.joint_damping = !a.undamped;
     if (a.power != 5) {
         require_positive("--power", "value [MW]", a.power);
         const double s = std::sqrt(a.power / 5);
-        description = turbines::scaled(description, s);
-        for (double& end : options.blade_beam->boundaries) end *= s;
-        options.blade_beam->boundaries.back() = description.blade.line.length;
+        m.description = turbines::scaled(m.description, s);
+        for (double& end : m.options.blade_beam->boundaries) end *= s;
+        m.options.blade_beam->boundaries.back() = m.description.blade.line.length;
     }
-    return turbines::assemble(description, options);
+    return m;
 }
 
-void progress(int done, int total) {
-    program::progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
+turbines::Turbine machine(const Arguments& a, const Vec3& gravity) {
+    Machine m = data_of(a);
+    m.options.gravity = gravity;
+    return turbines::assemble(m.description, m.options);
 }
 
-void draw(const solvers::Campbell& diagram, const Arguments& a) {
+// Without and with what stands on it, at rest, without and with gravity.
+int print_tower(const Arguments& a) {
+    Machine m = data_of(a);
+    const solvers::NameStyle style = style_of(a);
+    for (const bool with_top : {false, true})
+        for (const Vec3& gravity : {Vec3(0, 0, 0), turbines::nrel5mw_gravity}) {
+            m.options.gravity = gravity;
+            const turbines::Turbine tower = turbines::isolated_tower(m.description, m.options, with_top);
+            const std::array standstill{0.0};
+            const solvers::Campbell diagram =
+                solvers::renamed(solvers::campbell(tower.system(), tower.rotor(), standstill,
+                                                   program::campbell_options(a.max_frequency)),
+                                 style);
+            std::cout << (gravity.isZero() ? "without gravity\n" : "under gravity\n");
+            program::print_table(diagram);
+            std::cout << "\n";
+        }
+    return std::cout.flush() ? 0 : 1;
+}
+
+void write(const solvers::Campbell& diagram, const Arguments& a) {
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = a.max_frequency;
-    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, a.out + kind, picture);
+    program::write_files(diagram, a.out, picture);
     const auto panel = [](std::vector<std::string> families, const char* title, int ordinal, double f_max) {
         solvers::CampbellPlotOptions p;
         p.families = std::move(families);
@@ -172,29 +166,24 @@ std::vector<nrel5mw_campbell::UnderGravity> with_gravity(const Arguments& a, con
 }
 
 int run(const Arguments& a) {
-    const std::vector<double> speeds = rotor_speeds(a.rpm);
+    if (a.tower) return print_tower(a);
+    const std::vector<double> speeds = program::rotor_speeds(a.rpm);
     const turbines::Turbine turbine = machine(a, Vec3::Zero());
-    if (a.summary) std::cout << turbine.summary() << "\n";
-    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+    program::introduce(turbine, a.summary);
 
-    solvers::CampbellOptions options;
+    solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.spin = a.generator_free ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
-    options.max_frequency_hz = a.max_frequency;
-    options.progress = progress;
-    options.cancelled = program::interrupted;
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_families.png"});
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     const auto gravity = with_gravity(a, diagram);
     program::stop_at_once();
-    const auto style = a.names == "community" ? solvers::NameStyle::community : solvers::NameStyle::descriptive;
+    const solvers::NameStyle style = style_of(a);
     const solvers::Campbell named = solvers::renamed(diagram, style);
-    std::cout << solvers::table(named);
+    program::print_table(named);
     if (a.power == 5 && !a.generator_free) nrel5mw_campbell::print_comparison(diagram, gravity, style);
     if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
     if (diagram.points.empty()) return 130;
-    solvers::write_hdf5(named, a.out + ".h5");
-    solvers::write_csv(named, a.out + ".csv");
-    draw(named, a);
+    write(named, a);
     if (a.modes && diagram.complete) program::draw_modes(named, a.out + "_modes");
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _families.png"
               << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";

@@ -6,19 +6,14 @@
 // structure, and what is taken otherwise than in the program they were made for, is printed as notes. Frames, signs,
 // and what is read: docs/coming_from_openfast.md.
 #include "mbs/error.hpp"
-#include "solvers/campbell_csv.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "solvers/plot_campbell.hpp"
 #include "turbines/assembly.hpp"
 #include "turbines/description_yaml.hpp"
 #include "turbines/openfast.hpp"
+#include "turbines/text_file.hpp"
 #include "turbines/windio.hpp"
 
-#include "examples/program.hpp"
-#include <charconv>
-#include <fstream>
+#include "examples/campbell_program.hpp"
 #include <iostream>
-#include <iterator>
 
 using namespace cardan;
 
@@ -36,9 +31,9 @@ int parse(int argc, char** argv, Arguments& a) {
         "Campbell diagram of an existing model: OpenFAST (.fst, or an ElastoDyn file), windIO (.yaml), our own .yaml.\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, and prints a table.");
     app.add_option("model", a.model, "FILE.fst, ElastoDyn.dat or FILE.yaml")->required();
-    app.add_option(
-        "--rpm", a.rpm,
-        "rotor speeds FIRST:LAST:STEP (or one), rev/min (default: from 0 to 1.2 times the model's, in 12 steps)");
+    app.add_option("--rpm", a.rpm,
+                   "rotor speeds, numbers and FIRST:LAST:STEP separated by commas, rev/min (default: from 0 to 1.2 "
+                   "times the model's, in 12 steps)");
     app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
     app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
@@ -57,9 +52,7 @@ turbines::TurbineFile read(const std::string& model) {
     const std::filesystem::path path(model);
     const std::string ending = path.extension().string();
     if (ending != ".yaml" && ending != ".yml") return turbines::read_openfast(path);
-    std::ifstream in(path, std::ios::binary);
-    const std::string head{std::istreambuf_iterator<char>(in), {}};
-    if (!turbines::is_description(head)) return turbines::read_windio(path);
+    if (!turbines::is_description(turbines::text_file(path))) return turbines::read_windio(path);
     turbines::TurbineFile own;
     own.description = turbines::read_description(path);
     return own;
@@ -75,26 +68,12 @@ void print(const std::vector<turbines::FileNote>& notes, bool all) {
     if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
 }
 
-// FIRST:LAST:STEP or one number.
 std::vector<double> rotor_speeds(const std::string& given, double rated) {
-    constexpr auto allowed = "FIRST:LAST:STEP or one number, rev/min";
-    if (given.empty()) {
-        if (!(rated > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", allowed);
-        const double last = 1.2 * rated * 30 / pi;
-        return solvers::rpm_range(0, last, last / 12);
-    }
-    std::vector<double> numbers;
-    for (const char *at = given.data(), *const end = at + given.size();; ++at) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || (next != end && *next != ':')) throw InputError("--rpm", "value", given, allowed);
-        numbers.push_back(value);
-        at = next;
-        if (at == end) break;
-    }
-    if (numbers.size() == 1) return solvers::rpm_range(numbers[0], numbers[0], 1);
-    if (numbers.size() != 3) throw InputError("--rpm", "value", given, allowed);
-    return solvers::rpm_range(numbers[0], numbers[1], numbers[2]);
+    if (!given.empty()) return program::rotor_speeds(given);
+    if (!(rated > 0))
+        throw InputError("--rpm", "value", "none, and the model names no rotor speed", program::rpm_format);
+    const double last = 1.2 * rated * 30 / pi;
+    return solvers::rpm_range(0, last, last / 12);
 }
 
 // Directions in which the sections are rigid have no coordinate.
@@ -117,10 +96,6 @@ turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::T
     return o;
 }
 
-void progress(int done, int total) {
-    program::progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
-}
-
 int run(const Arguments& a) {
     turbines::TurbineFile model = read(a.model);
     print(model.notes, a.notes);
@@ -128,24 +103,17 @@ int run(const Arguments& a) {
     if (!a.save.empty()) turbines::write_description(model.description, a.save);
     const std::vector<double> speeds = rotor_speeds(a.rpm, model.rotor_speed);
     const turbines::Turbine turbine = turbines::assemble(model.description, assembly_options(a, model));
-    if (a.summary) std::cout << turbine.summary() << "\n";
-    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+    program::introduce(turbine, a.summary);
 
-    solvers::CampbellOptions options;
-    options.max_frequency_hz = a.max_frequency;
-    options.progress = progress;
-    options.cancelled = program::interrupted;
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
-    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    const solvers::Campbell diagram =
+        solvers::campbell(turbine.system(), turbine.rotor(), speeds, program::campbell_options(a.max_frequency));
     program::stop_at_once();
-    std::cout << solvers::table(diagram) << std::flush;
-    if (!std::cout) throw FileError("standard output", "the table could not be written");
+    program::print_table(diagram);
     if (diagram.points.empty()) return 130;
-    solvers::write_hdf5(diagram, a.out + ".h5");
-    solvers::write_csv(diagram, a.out + ".csv");
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = a.max_frequency;
-    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, a.out + kind, picture);
+    program::write_files(diagram, a.out, picture);
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png" << (a.save.empty() ? "" : ", " + a.save) << "\n";
     return diagram.complete ? 0 : 130;
 }

@@ -8,12 +8,9 @@
 // tower: 0.3 % for every first mode, 1 % for every second one. The paper's Tables II and III stand beside them; they do
 // not follow from its Table I (docs/teetered.md).
 #include "mbs/error.hpp"
-#include "solvers/campbell_csv.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "turbines/teetered.hpp"
 
-#include "examples/campbell_program.hpp"
 #include "examples/teetered_floquet/pictures.hpp"
+#include "examples/teetered_program.hpp"
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -28,13 +25,13 @@ namespace {
 
 constexpr double nominal_speed = 6.02;
 constexpr double first_goal = 0.3, second_goal = 1;  // %
-constexpr int elements_for_goals = 6;
+constexpr int elements_for_goals = 6;                // and the default
 constexpr int name_width = 45;
 
 struct Arguments {
-    double speed = nominal_speed, ratio = 100, max_per_rev = 140;
-    int blade_elements = elements_for_goals, tower_elements = elements_for_goals, harmonics = 8;
-    bool rigid_tower = false, no_teeter = false, gravity = false, modes = false, no_pictures = false, summary = false;
+    double speed = nominal_speed, max_per_rev = 140;
+    program::TeeteredArguments machine;
+    bool modes = false, no_pictures = false;
     std::string out = "teetered_floquet";
 };
 
@@ -47,41 +44,18 @@ int parse(int argc, char** argv, Arguments& a) {
         "Exit code: 0; 1 error; 2 wrong usage; 3 a goal (0.3 % for first, 1 % for second modes, with six elements and "
         "more and the paper's data) is missed.");
     app.add_option("--speed", a.speed, "rotor speed, rad/s")->capture_default_str();
-    auto* ratio = app.add_option("--tower-ratio", a.ratio, "rigidity of the tower over that of the blades")
-                      ->capture_default_str();
-    app.add_flag("--rigid-tower", a.rigid_tower, "no tower coordinates")->excludes(ratio);
-    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
-    app.add_flag("--no-teeter", a.no_teeter, "hub fixed to the shaft");
-    app.add_flag("--gravity", a.gravity, "with gravity: about a steady state that changes with the azimuth");
-    app.add_option("--harmonics", a.harmonics, "of the revolution in that steady state")->capture_default_str();
+    program::add_options(app, a.machine);
     app.add_option("--max", a.max_per_rev, "modes up to this frequency, per revolution")->capture_default_str();
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
     app.add_flag("--modes", a.modes, "also draw every mode shape (PREFIX_modes/*.svg, *.png)");
     app.add_flag("--no-pictures", a.no_pictures, "tables and files only")->excludes("--modes");
-    app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     return program::parse(app, argc, argv);
 }
 
-turbines::TeeteredTurbine machine_of(const Arguments& a) {
-    turbines::TeeteredOptions options;
-    options.blade = turbines::TeeteredOptions::beam(a.blade_elements);
-    options.tower = turbines::TeeteredOptions::beam(a.tower_elements);
-    options.blade.torsion_armature = options.tower.torsion_armature = -1. / 12;  // torsion of fourth order
-    options.rigid_tower = a.rigid_tower;
-    options.teeter_locked = a.no_teeter;
-    if (a.gravity) options.gravity = {0, 0, -9.80665};
-    return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), a.ratio), options);
-}
-
 solvers::Campbell modes_of(const Arguments& a, const turbines::TeeteredTurbine& machine) {
-    solvers::CampbellOptions options;
-    options.method = solvers::CampbellMethod::floquet;
-    options.spin = solvers::RotorSpin::prescribed;
-    options.max_frequency_hz = a.max_per_rev * a.speed / (2 * pi);
-    options.floquet.harmonics = a.harmonics;
-    options.floquet.odd = machine.half_turn_odd();
-    if (a.gravity) options.floquet.held = {machine.system().model.index("yaw")};  // nothing holds it
+    solvers::CampbellOptions options =
+        program::campbell_options(a.machine, machine, a.max_per_rev * a.speed / (2 * pi));
+    options.progress = {};
     const std::array speeds{a.speed};
     return solvers::campbell(machine.system(), machine.rotor(), speeds, options);
 }
@@ -173,7 +147,7 @@ void write_harmonics(const solvers::Campbell& diagram, const std::string& path) 
         if (!mode || !mode->floquet) continue;
         const solvers::FloquetMode& f = *mode->floquet;
         for (Eigen::Index i = 0; i < f.participation.size(); ++i)
-            out << '"' << branch.name << "\"," << f.exponent.imag() / speed << "," << f.growth() / speed << ","
+            out << solvers::csv_field(branch.name) << "," << f.exponent.imag() / speed << "," << f.growth() / speed << ","
                 << f.first_harmonic + static_cast<int>(i) << "," << f.participation(i) << "\n";
     }
     write_file(path, out.str());
@@ -200,17 +174,18 @@ int run(const Arguments& a) {
     if (!(a.max_per_rev > 0)) throw InputError("--max", "frequency per revolution", a.max_per_rev, "> 0");
     program::check_outputs(a.out, {".h5", ".csv", "_harmonics.csv", ".svg", ".png"});
     program::stop_at_once();
-    const turbines::TeeteredTurbine machine = machine_of(a);
-    if (a.summary) std::cout << machine.summary() << "\n";
-    for (const std::string& warning : machine.warnings()) std::cerr << "warning: " << warning << "\n";
+    const turbines::TeeteredTurbine machine = program::machine(a.machine);
+    program::introduce(machine, a.machine.summary);
 
     const solvers::Campbell diagram = modes_of(a, machine);
-    const bool published = a.speed == nominal_speed && !a.no_teeter && !a.gravity;
+    const bool published =
+        a.speed == nominal_speed && !a.machine.no_teeter && !a.machine.gravity && a.machine.data.empty();
     const std::vector<teetered::KnownMode> known =
-        teetered::known_modes(a.rigid_tower ? std::numeric_limits<double>::infinity() : a.ratio);
+        teetered::known_modes(a.machine.rigid_tower ? std::numeric_limits<double>::infinity() : a.machine.tower_ratio);
     Table table(diagram, known, published);
     table.print(std::cout);
-    const bool goals = table.compared() && std::min(a.blade_elements, a.tower_elements) >= elements_for_goals;
+    const bool goals =
+        table.compared() && std::min(a.machine.blade_elements, a.machine.tower_elements) >= elements_for_goals;
     const bool reached = table.worst_first <= first_goal && table.worst_second <= second_goal;
     if (goals)
         std::cout << std::setprecision(3) << "largest error of first modes " << table.worst_first << " % (goal "

@@ -5,10 +5,7 @@
 // constant, their eigenvalues are the natural frequencies and damping ratios in the fixed frame.
 // Reference: the values with 3 elements per blade and tower in docs/wt600.md.
 #include "mbs/error.hpp"
-#include "solvers/campbell_csv.hpp"
 #include "solvers/campbell_difference.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "solvers/plot_campbell.hpp"
 #include "turbines/wt600.hpp"
 
 #include "examples/campbell_program.hpp"
@@ -35,7 +32,7 @@ int parse(int argc, char** argv, Arguments& a) {
         "Campbell diagram of the 600 kW three-blade machine (Zhao, Maisser, Wu 2007).\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, PREFIX_tower_yaw_tilt.png and "
         "PREFIX_flap_edge.png, and prints a table.");
-    app.add_option("--rpm", a.rpm, "rotor speeds FIRST:LAST:STEP (or one), rev/min")->capture_default_str();
+    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format))->capture_default_str();
     app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
@@ -102,29 +99,22 @@ int run(const Arguments& a) {
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
     const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
-    if (a.summary) std::cout << turbine.summary() << "\n";
-    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+    program::introduce(turbine, a.summary);
 
-    solvers::CampbellOptions options;
+    solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.method = a.frozen    ? solvers::CampbellMethod::frozen_azimuth
                      : a.floquet ? solvers::CampbellMethod::floquet
                                  : solvers::CampbellMethod::coleman;
     options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
-    options.max_frequency_hz = a.max_frequency;
-    options.progress = program::speed_progress;
-    options.cancelled = program::interrupted;
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"});
     if (a.floquet) program::check_outputs(a.out, {"_averaged.csv", "_difference.svg", "_difference.png"});
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     program::stop_at_once();
-    std::cout << solvers::table(diagram) << std::flush;
-    if (!std::cout) throw FileError("standard output", "the table could not be written");
+    program::print_table(diagram);
     if (diagram.points.empty()) return 130;
-    solvers::write_hdf5(diagram, a.out + ".h5");
-    solvers::write_csv(diagram, a.out + ".csv");
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = std::min(a.max_frequency, 10.0);  // the panels show the rest
-    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, a.out + kind, picture);
+    program::write_files(diagram, a.out, picture);
     if (diagram.complete && speeds.size() > 1) {
         solvers::CampbellOptions blade_options = options;
         blade_options.progress = {};

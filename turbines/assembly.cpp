@@ -58,6 +58,12 @@ public:
         layout.pitch_setting = options.pitch;
     }
 
+    void tower_alone(const RigidInertia& head) {
+        const FrameId top = add_tower();
+        if (!head.is_massless()) tree.weld(top, head, "tower top");
+        add_tower_axes();
+    }
+
     void whole_machine() {
         add_platform();
         const FrameId top = add_tower();
@@ -66,17 +72,14 @@ public:
         const FrameId hub = options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft);
         add_hub(hub);
         for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, !d_.blade.pitch.is_rigid());
-        parts.insert(parts.begin(), {"tower",
-                                     foundation_,
-                                     {"", "", "tower extension"},
-                                     {"tower side-side", "tower fore-aft", "tower torsion"}});
+        add_tower_axes();
     }
 
     void one_blade() {
         const FrameId shaft = Tree::base();
         const JointedFrame spinner = add_joint(tree, shaft, JointKind::revolute, Axis::x, "spin", {"rotor"});
         spin = spinner.body;
-        layout.azimuth = {{spin, 1.0}};
+        layout.azimuth = {{spinner.body, 1.0}};
         layout.shaft = shaft;
         layout.hub = hub_frame = tree.add_frame(spinner.frame, Placement::rotation(hub_axes()), "hub");
         add_blade(hub_frame, 1, false);
@@ -84,7 +87,7 @@ public:
 
     Tree tree;
     ForceSet forces;
-    BodyId spin;
+    std::optional<BodyId> spin;  ///< none: no rotor
     FrameId hub_frame;
     std::vector<std::vector<BodyId>> blades;
     std::vector<std::array<BodyId, 2>> rotating_pairs;
@@ -141,6 +144,13 @@ private:
         layout.tower = beam;
         layout.tower_foot = foot;
         return layout.tower_top = tree.add_frame(beam.tip(), Placement::rotation(upward.transpose()), "tower top");
+    }
+
+    void add_tower_axes() {
+        parts.insert(parts.begin(), {"tower",
+                                     foundation_,
+                                     {"", "", "tower extension"},
+                                     {"tower side-side", "tower fore-aft", "tower torsion"}});
     }
 
     FrameId add_yaw_and_nacelle(FrameId top) {
@@ -340,7 +350,7 @@ namespace {
 RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& name) {
     RotorMap map;
     map.machine = name;
-    map.spin = model.index(a.spin);
+    map.spin = a.spin ? model.index(*a.spin) : -1;
     map.hub = a.hub_frame;
     for (const std::vector<BodyId>& blade : a.blades) {
         map.blades.emplace_back();
@@ -382,6 +392,40 @@ Turbine isolated_blade(const TurbineDescription& description, const AssemblyOpti
     assembler.one_blade();
     Turbine turbine;
     turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(options));
+    return turbine;
+}
+
+namespace {
+
+// Of everything above the tower, in axes of the tower top.
+RigidInertia tower_top_inertia(const Turbine& machine) {
+    const Model& model = machine.system().model;
+    const Vector zero = Vector::Zero(model.size());
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, zero, workspace);
+    const auto placement = [&](FrameId frame) {
+        const Pose<double> at = pose(kin, frame);
+        return Placement{at.R, at.p};
+    };
+    const Placement to_top = placement(machine.layout().tower_top).inverse();
+    RigidInertia sum;
+    for (const Tree::Piece& piece : machine.tree().pieces())
+        if (piece.part != "tower")
+            sum = sum + piece.inertia.in(to_top * placement(machine.tree().frame_of(BodyId{piece.body})));
+    return sum;
+}
+
+}  // namespace
+
+Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options, bool with_top) {
+    const PartDamping damping = part_damping(description, options);
+    AssemblyOptions own = options;
+    own.platform.reset();
+    Assembler assembler(description, own, damping);
+    assembler.tower_alone(with_top ? tower_top_inertia(assemble(description, own)) : RigidInertia{});
+    Turbine turbine;
+    turbine.finish(assembler, description.name + (with_top ? ", tower with a rigid top" : ", tower alone"),
+                   description.source, settings(own));
     return turbine;
 }
 

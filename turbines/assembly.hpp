@@ -81,6 +81,7 @@ public:
 private:
     friend Turbine assemble(const TurbineDescription&, const AssemblyOptions&);
     friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&);
+    friend Turbine isolated_tower(const TurbineDescription&, const AssemblyOptions&, bool);
     Turbine() = default;
     void finish(const class Assembler& assembler, const std::string& name, std::string source,
                 const std::string& settings);
@@ -103,5 +104,10 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
 /// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (with its cone; no pitch
 /// joint, no tilt, no platform).
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {});
+
+/// The tower clamped at its foot, alone or with everything above it as one rigid body: blades undeformed, blade 1 up,
+/// at their pitch setting. It has no rotor: only standstill can be asked for.
+Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options = {},
+                       bool with_top = false);
 
 }  // namespace cardan::turbines

@@ -2,7 +2,6 @@
 #include "tests/turbines/test_nrel5mw_machine.hpp"
 
 #include "mbs/error.hpp"
-#include "tests/oracles/column_with_head.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/refusal.hpp"
@@ -18,21 +17,6 @@ using turbines::Nrel5mwVariant;
 
 namespace {
 
-const turbines::CsvTable& table(const char* name) {
-    static const auto tower = turbines::CsvTable::parse(turbines::embedded_data("nrel5mw_tower.csv"), "tower"),
-                      blade = turbines::CsvTable::parse(turbines::embedded_data("nrel5mw_blade.csv"), "blade");
-    return std::string_view(name) == "tower" ? tower : blade;
-}
-
-// Piecewise linear over the stations of a table.
-std::function<double(double)> linear(std::span<const double> x, std::span<const double> y) {
-    return [x, y](double at) {
-        std::size_t i = 1;
-        while (i + 1 < x.size() && at > x[i]) ++i;
-        return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
-    };
-}
-
 // int mu r^n dr of the blade's table, exact for a piecewise linear mass: Gauss-Legendre with 3 points.
 double blade_moment(int n) {
     const auto r = table("blade").column("radius_from_rotor_apex", "m"), mu = table("blade").column("mass_per_length");
@@ -45,36 +29,6 @@ double blade_moment(int n) {
                    std::pow(r[i - 1] + t * (r[i] - r[i - 1]), n);
         }
     return 1.04536 * sum;
-}
-
-// A tower alone, as a line of mass, with a rigid body on its top.
-solvers::SecondOrderSystem tower_with_head(const RigidInertia& head, double gravity, int elements) {
-    turbines::TurbineDescription d = turbines::nrel5mw_description();
-    d.tower.line.section = [own = d.tower.line.section](double x) {
-        BeamSection s = own(x);
-        s.J.setZero();
-        return s;
-    };
-    Tree tree;
-    ForceSet forces;
-    forces.set_gravity({0, 0, -gravity});
-    const FrameId foot = tree.add_frame(Tree::base(), Placement::rotation(axis_rotation(Axis::y)), "foot");
-    CardanBeamOptions options;
-    options.elements = elements;
-    options.torsion = false;
-    const CardanBeam beam = add_cardan_beam(tree, forces, foot, d.tower.line, "tower", {"tower"}, options);
-    if (!head.is_massless()) tree.weld(beam.tip(), head, "head");
-    const System system(tree, forces);
-    const Vector zero = Vector::Zero(system.model.size());
-    return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
-}
-
-// First, third ... frequency: those of one plane (both are the same).
-std::vector<double> of_one_plane(const solvers::SecondOrderSystem& system) {
-    std::vector<double> f;
-    const auto all = solvers::modes(system);
-    for (std::size_t i = 0; i < all.size(); i += 2) f.push_back(all[i].natural_hz());
-    return f;
 }
 
 }  // namespace
@@ -191,34 +145,6 @@ TEST_CASE("NREL 5 MW machine: inertia of the rotor about its shaft, torsion of t
     const solvers::Campbell free = diagram(machine, {0}, solvers::RotorSpin::free);
     const double found = std::max(hz(free, "drive-train torsion"), hz(free, "rotor yaw"));
     CHECK(found == Approx(expected).epsilon(1e-4));
-}
-
-TEST_CASE("NREL 5 MW tower: alone and with a body on its top, with and without its weight", "[analytic]") {
-    const auto h = table("tower").column("height_above_ground", "m");
-    oracles::ColumnWithHead column{.breaks = {h.begin(), h.end()},
-                                   .bending_stiffness = linear(h, table("tower").column("fore_aft_stiffness")),
-                                   .mass_per_length = linear(h, table("tower").column("mass_per_length"))};
-    const auto compare = [&](const RigidInertia& head, double gravity, int elements, double first, double second) {
-        column.head_mass = head.mass, column.head_height = head.com.x(), column.head_inertia = head.J(1, 1);
-        column.gravity = gravity;
-        const auto exact = column.frequencies(2, 0.5, 20);
-        const auto found = of_one_plane(tower_with_head(head, gravity, elements));
-        CHECK(found[0] == Approx(exact[0] / (2 * pi)).epsilon(first));
-        CHECK(found[1] == Approx(exact[1] / (2 * pi)).epsilon(second));
-        return found[0];
-    };
-    // Everything above the tower as one body: 349.6 t, mass centre 1.8 m above the top (beam axes: x upward).
-    RigidInertia head;
-    head.mass = 349600;
-    head.com = {1.8, 0, 0};
-    head.J = Vec3(2e7, 2.4e7, 2.4e7).asDiagonal();
-    const double bare = compare({}, 0, 6, 2e-4, 2e-3);
-    const double loaded = compare(head, 0, 6, 2e-4, 2e-3);
-    const double heavy = compare(head, 9.80665, 6, 5e-4, 2e-3);
-    CHECK(loaded < bare / 2.5);
-    CHECK(heavy < 0.995 * loaded);
-    // Fourth order without weight; 12 elements are sixteen times closer.
-    compare(head, 0, 12, 2e-5, 2e-4);
 }
 
 TEST_CASE("NREL 5 MW machine: damping ratios of the clamped blade and the bare tower are those of the report",

@@ -3,11 +3,20 @@
 #pragma once
 
 #include "solvers/campbell.hpp"
+#include "turbines/csv.hpp"
+#include "turbines/embedded_data.hpp"
 #include "turbines/nrel5mw_machine.hpp"
 
 namespace cardan::testing {
 
 inline constexpr double rpm = pi / 30;  ///< rad/s
+
+/// "tower" or "blade".
+inline const turbines::CsvTable& table(const char* name) {
+    static const auto tower = turbines::CsvTable::parse(turbines::embedded_data("nrel5mw_tower.csv"), "tower"),
+                      blade = turbines::CsvTable::parse(turbines::embedded_data("nrel5mw_blade.csv"), "blade");
+    return std::string_view(name) == "tower" ? tower : blade;
+}
 
 /// Elements of a variant without any damping.
 inline turbines::AssemblyOptions undamped(turbines::Nrel5mwVariant variant, int blade_elements, int tower_elements) {
