@@ -57,6 +57,16 @@ inline void append_rows(solvers::HistoryWriter& writer, std::size_t from, std::s
     for (std::size_t row = from; row < to; ++row) writer.append(time_of(row), values_of(writer.channels().size(), row));
 }
 
+inline const solvers::HistoryAbout about{"gust", "BDF", "line 1\nline 2 \xC2\xB5", "test"};
+
+/// A finished file of some_channels().
+inline void write_rows(const std::string& path, std::size_t rows,
+                       const solvers::HistoryStorage& storage = {.chunk = 16}) {
+    solvers::HistoryWriter writer = solvers::HistoryWriter::create(path, some_channels(), about, storage);
+    append_rows(writer, 0, rows);
+    writer.finish();
+}
+
 inline bool same(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
