@@ -1,6 +1,7 @@
-// The Campbell sweep of the 600 kW machine against its dense eigenvalue solutions alone: the ratio of the two times is
-// what the linearisation, the steady states, the identification and the tracking cost on top.
+// Campbell sweeps of the 600 kW and the NREL 5 MW machine against their dense eigenvalue solutions alone: the ratio of
+// the two times is what the linearisation, the steady states, the identification and the tracking cost on top.
 #include "solvers/campbell_point.hpp"
+#include "turbines/nrel5mw_machine.hpp"
 #include "turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
@@ -16,34 +17,36 @@ const turbines::Turbine& machine() {
     return turbine;
 }
 
-solvers::SecondOrderSystem fixed_frame_system(double rotor_speed) {
-    const System& system = machine().system();
+// 8 elements per blade and tower.
+const turbines::Turbine& large_machine() {
+    static const turbines::Turbine turbine = turbines::assemble(
+        turbines::nrel5mw_description(), turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, 8, 8));
+    return turbine;
+}
+
+using Machine = const turbines::Turbine& (*)();
+
+solvers::SecondOrderSystem fixed_frame_system(const turbines::Turbine& turbine, double rotor_speed) {
+    const System& system = turbine.system();
+    const int spin = turbine.rotor().spin;
     solvers::SteadyOptions options;
     options.rotor_speed = rotor_speed;
-    const solvers::SteadyState steady = solvers::steady_state(system, machine().rotor().spin, options);
+    const solvers::SteadyState steady = solvers::steady_state(system, spin, options);
     const auto free = system.model.coordinates().free();
-    const auto own = solvers::restrict_to(solvers::linearise(system, steady.at), free, machine().rotor().spin);
-    return solvers::ColemanTransform(machine().rotor(), free).transform(own, 0, rotor_speed);
+    const auto own = solvers::restrict_to(solvers::linearise(system, steady.at), free, spin);
+    return solvers::ColemanTransform(turbine.rotor(), free).transform(own, 0, rotor_speed);
 }
 
-void eigenvalue_solutions_of_41_speeds(benchmark::State& state) {
-    std::vector<solvers::SecondOrderSystem> systems;
-    for (double speed : solvers::rpm_range(0, 40, 1)) systems.push_back(fixed_frame_system(speed));
-    for (auto _ : state)
-        for (const auto& system : systems) benchmark::DoNotOptimize(solvers::modes(system));
-}
-BENCHMARK(eigenvalue_solutions_of_41_speeds)->Unit(benchmark::kMillisecond);
-
-// Both in turn, so that the ratio holds when the machine's speed drifts.
-void campbell_sweep_of_41_speeds(benchmark::State& state) {
+// Sweep and eigenvalue solutions in turn, so that the ratio holds when the machine's speed drifts.
+void campbell_sweep(benchmark::State& state, Machine machine, const std::vector<double>& speeds) {
     using Clock = std::chrono::steady_clock;
-    const std::vector<double> speeds = solvers::rpm_range(0, 40, 1);
+    const turbines::Turbine& turbine = machine();
     std::vector<solvers::SecondOrderSystem> systems;
-    for (double speed : speeds) systems.push_back(fixed_frame_system(speed));
+    for (double speed : speeds) systems.push_back(fixed_frame_system(turbine, speed));
     Clock::duration sweep{}, eigenvalues{};
     for (auto _ : state) {
         const auto start = Clock::now();
-        benchmark::DoNotOptimize(solvers::campbell(machine().system(), machine().rotor(), speeds));
+        benchmark::DoNotOptimize(solvers::campbell(turbine.system(), turbine.rotor(), speeds));
         sweep += Clock::now() - start;
         state.PauseTiming();
         const auto alone = Clock::now();
@@ -51,10 +54,14 @@ void campbell_sweep_of_41_speeds(benchmark::State& state) {
         eigenvalues += Clock::now() - alone;
         state.ResumeTiming();
     }
+    state.counters["unknowns"] = static_cast<double>(systems.front().M.rows());
     state.counters["sweep / eigenvalues"] =
         static_cast<double>(sweep.count()) / static_cast<double>(eigenvalues.count());
 }
-BENCHMARK(campbell_sweep_of_41_speeds)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(campbell_sweep, wt600_41_speeds, machine, solvers::rpm_range(0, 40, 1))
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(campbell_sweep, nrel5mw_10_speeds, large_machine, solvers::rpm_range(0, 13.5, 1.5))
+    ->Unit(benchmark::kMillisecond);
 
 // One point by stage, at 20 rpm, in memory that exists.
 struct Stages {

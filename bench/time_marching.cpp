@@ -1,9 +1,11 @@
-// Time marching of the 600 kW machine with gravity at its rated speed, 27.1 rpm, beside one evaluation of forward
-// dynamics of the same model in the same run. "x real time" depends on the machine; "step / forward dynamics" and
-// "second / forward dynamics" (per second of simulated time) are the figures to keep.
+// Time marching with gravity at rated speed, of the 600 kW machine (27.1 rpm; 3 and 12 elements per blade and tower)
+// and of the NREL 5 MW machine (12.1 rpm; 8 elements), beside one evaluation of forward dynamics of the same model in
+// the same run. "x real time" depends on the machine; "step / forward dynamics" and "second / forward dynamics" (per
+// second of simulated time) are the figures to keep.
 #include "mbs/error.hpp"
 #include "solvers/integrate.hpp"
 #include "solvers/steady_state.hpp"
+#include "turbines/nrel5mw_machine.hpp"
 #include "turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
@@ -22,10 +24,10 @@ double seconds(Clock::duration d) {
 
 // From the steady state at standstill, with the rotor set in motion; the transients have gone after 5 s.
 struct Run {
-    explicit Run(int elements, solvers::Method method) : turbine(turbines::wt600(options(elements))) {
+    Run(turbines::Turbine machine, double rpm, solvers::Method method) : turbine(std::move(machine)) {
         const System& system = turbine.system();
         const int spin = turbine.rotor().spin;
-        const double speed = 27.1 * pi / 30;
+        const double speed = rpm * pi / 30;
         Vector q = solvers::steady_state(system, spin).at.q, qd = Vector::Zero(system.model.size());
         qd(spin) = speed;
         solvers::IntegrationOptions how;
@@ -35,16 +37,25 @@ struct Run {
                            0, q, qd, how);
         if (!integrator->advance(5).reached()) throw NumericalError("the benchmark's run failed");
     }
-    static turbines::AssemblyOptions options(int elements) {
-        turbines::AssemblyOptions o;
-        o.tower_elements = o.blade_elements = elements;
-        o.gravity = {0, 0, -9.80665};
-        return o;
-    }
-
     turbines::Turbine turbine;
     std::optional<solvers::Integrator> integrator;
 };
+
+const Vec3 gravity{0, 0, -9.80665};
+
+turbines::Turbine wt600(int elements) {
+    turbines::AssemblyOptions options;
+    options.tower_elements = options.blade_elements = elements;
+    options.gravity = gravity;
+    return turbines::wt600(options);
+}
+
+turbines::Turbine nrel5mw(int elements) {
+    turbines::AssemblyOptions options =
+        turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, elements, elements);
+    options.gravity = gravity;
+    return turbines::assemble(turbines::nrel5mw_description(), options);
+}
 
 // One evaluation of kinematics, forces and forward dynamics, s.
 double forward_dynamics_time(const System& system, const solvers::DynamicState& at) {
@@ -62,8 +73,8 @@ double forward_dynamics_time(const System& system, const solvers::DynamicState& 
     return seconds(Clock::now() - start) / times;
 }
 
-void time_marching(benchmark::State& state, solvers::Method method) {
-    Run run(static_cast<int>(state.range(0)), method);
+void march(benchmark::State& state, turbines::Turbine turbine, double rpm, solvers::Method method) {
+    Run run(std::move(turbine), rpm, method);
     solvers::Integrator& integrator = *run.integrator;
     const solvers::IntegrationStatistics before = integrator.statistics();
     const double from = integrator.time();
@@ -87,11 +98,26 @@ void time_marching(benchmark::State& state, solvers::Method method) {
     state.counters["step / forward dynamics"] = seconds(marching) / steps / evaluation;
     state.counters["second / forward dynamics"] = seconds(marching) / simulated / evaluation;
 }
-BENCHMARK_CAPTURE(time_marching, dirk, solvers::Method::dirk)->Arg(3)->Arg(12)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(time_marching, bdf, solvers::Method::bdf)->Arg(3)->Arg(12)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(time_marching, generalised_alpha, solvers::Method::generalised_alpha)
-    ->Arg(3)
-    ->Arg(12)
-    ->Unit(benchmark::kMillisecond);
+
+void time_marching_wt600(benchmark::State& state, solvers::Method method) {
+    march(state, wt600(static_cast<int>(state.range(0))), 27.1, method);
+}
+void time_marching_nrel5mw(benchmark::State& state, solvers::Method method) {
+    march(state, nrel5mw(static_cast<int>(state.range(0))), 12.1, method);
+}
+
+void few_and_many(benchmark::internal::Benchmark* b) {
+    b->Arg(3)->Arg(12)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(time_marching_wt600, dirk, solvers::Method::dirk)->Apply(few_and_many);
+BENCHMARK_CAPTURE(time_marching_wt600, bdf, solvers::Method::bdf)->Apply(few_and_many);
+BENCHMARK_CAPTURE(time_marching_wt600, generalised_alpha, solvers::Method::generalised_alpha)->Apply(few_and_many);
+
+void eight(benchmark::internal::Benchmark* b) {
+    b->Arg(8)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(time_marching_nrel5mw, dirk, solvers::Method::dirk)->Apply(eight);
+BENCHMARK_CAPTURE(time_marching_nrel5mw, bdf, solvers::Method::bdf)->Apply(eight);
+BENCHMARK_CAPTURE(time_marching_nrel5mw, generalised_alpha, solvers::Method::generalised_alpha)->Apply(eight);
 
 }  // namespace
