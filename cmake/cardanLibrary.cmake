@@ -1,3 +1,26 @@
+# cardan_precompile(<target> [<headers>]): headers compiled once for all sources of a target. Sources do not rely on it:
+# the clang build is made without.
+function(cardan_precompile target)
+    if(CARDAN_PRECOMPILE_HEADERS)
+        target_precompile_headers(
+            ${target}
+            PRIVATE
+            <algorithm>
+            <array>
+            <cmath>
+            <functional>
+            <iostream>
+            <limits>
+            <optional>
+            <span>
+            <string>
+            <vector>
+            ${PROJECT_SOURCE_DIR}/mbs/decompositions.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/system.hpp
+            ${ARGN})
+    endif()
+endfunction()
+
 # cardan_add_library(<name> SOURCES <files> [PUBLIC <targets>] [PRIVATE <targets>])
 #
 # Makes the target cardan_<name>, alias and export name cardan::<name>. Without sources it is an INTERFACE library.
@@ -9,6 +32,10 @@ function(cardan_add_library name)
         add_library(${target} ${arg_SOURCES})
         set(public PUBLIC)
         target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:cardan_warnings>)
+        list(LENGTH arg_SOURCES count)
+        if(count GREATER 5)
+            cardan_precompile(${target})
+        endif()
     else()
         add_library(${target} INTERFACE)
         set(public INTERFACE)

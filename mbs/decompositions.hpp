@@ -1,6 +1,6 @@
 /// @file
-/// Eigen's dense decompositions, with those of matrices of any size compiled once: they are what takes a compiler
-/// longest. Included in place of Eigen's own headers.
+/// Eigen's dense decompositions, compiled once: they are what takes a compiler longest. Included in place of Eigen's
+/// own headers.
 #pragma once
 
 #include "mbs/types.hpp"

@@ -151,7 +151,7 @@ BalancedModel balanced_truncation(const ConstantModel& model, const BalancedOpti
     if (n > 0) {
         const Matrix Lc = root(lyapunov(stable.A, stable.B * stable.B.transpose(), schur.sigma())),
                      Lo = root(lyapunov(stable.A.transpose(), stable.C.transpose() * stable.C, schur.sigma()));
-        const Eigen::BDCSVD<Matrix> svd(Lo.transpose() * Lc, Eigen::ComputeThinU | Eigen::ComputeThinV);
+        const Eigen::JacobiSVD<Matrix> svd(Lo.transpose() * Lc, Eigen::ComputeThinU | Eigen::ComputeThinV);
         result.hankel = svd.singularValues();
         const double largest = result.hankel(0);
         // What is rounding beside the largest cannot be balanced; it is left out in any case.

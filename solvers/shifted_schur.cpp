@@ -53,7 +53,7 @@ ShiftedSchur::ShiftedSchur(const Matrix& A, double sigma) : sigma_(sigma) {
     inverse_ = shifted.partialPivLu().inverse();
     if (!inverse_.allFinite())
         throw NumericalError(text("state matrix: the shift ", sigma_, " 1/s is one of its eigenvalues"));
-    const Eigen::ComplexSchur<Matrix> schur(inverse_);
+    const Eigen::ComplexSchur<ComplexMatrix> schur(inverse_.cast<Complex>());
     if (schur.info() != Eigen::Success) throw NumericalError("state matrix: Schur's iteration fails");
     T_ = schur.matrixT();
     U_ = schur.matrixU();

@@ -143,7 +143,7 @@ double Shooting::miss() const {
 // Newton's step on x(2 pi) - x(0) = 0; the shortest one where a multiplier is 1, as far as the integration can tell.
 Vector Shooting::newton_step() {
     const Matrix J = transition_ - Matrix::Identity(start_.size(), start_.size());
-    const Eigen::BDCSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
     const double least = 1e-9 * std::max(1.0, transition_.cwiseAbs().maxCoeff());
     const Vector& sizes = svd.singularValues();
     const Index rank = (sizes.array() > least).count(), missing = sizes.size() - rank;
