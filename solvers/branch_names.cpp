@@ -11,7 +11,8 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double sure_mac = 0.6;  // below: the link is doubtful
+constexpr double sure_mac = 0.6;      // below: the link is doubtful
+constexpr double least_share = 0.05;  // of the energy on average: below it a branch is not named so
 
 // What a branch may be named after: a component mode with a pattern, or a coordinate (several branches may be).
 struct Label {
@@ -84,21 +85,36 @@ public:
     std::vector<Branch> name(std::vector<Branch> branches) {
         for (const Branch& branch : branches)
             if (const int row = usual_row(branch); row >= 0) labels_.push_back({.row = row});
-        std::vector<Branch> named;
-        const std::vector<int> label_of = assign(scores(branches));
-        for (std::size_t b = 0; b < branches.size(); ++b)
-            if (label_of[b] >= 0) {
+        if (labels_.empty()) return {};
+        const Matrix score = scores(branches);
+        const std::vector<int> label_of = assign(score);
+        std::vector<std::size_t> others;
+        for (std::size_t b = 0; b < branches.size(); ++b) {
+            const auto row = static_cast<Eigen::Index>(b);
+            if (label_of[b] >= 0 && score(row, label_of[b]) >= least_share * length(branches[b]))
                 set(branches[b], labels_[static_cast<std::size_t>(label_of[b])]);
-                named.push_back(std::move(branches[b]));
-            }
-        name_motions(named);
-        return named;
+            else
+                others.push_back(b);
+        }
+        for (std::size_t b : others) {
+            Eigen::Index most = 0;
+            score.row(static_cast<Eigen::Index>(b)).maxCoeff(&most);
+            set(branches[b], labels_[static_cast<std::size_t>(most)]);
+        }
+        name_others(branches, others);
+        name_motions(branches);
+        return branches;
     }
 
 private:
     const CampbellMode* mode(const Branch& branch, std::size_t point) const {
         const int index = branch.mode[point];
         return index < 0 ? nullptr : &points_[point].modes[static_cast<std::size_t>(index)];
+    }
+    // Number of points.
+    static double length(const Branch& branch) {
+        return static_cast<double>(
+            std::count_if(branch.mode.begin(), branch.mode.end(), [](int mode) { return mode >= 0; }));
     }
     int usual_row(const Branch& branch) const;
     std::string usual_kind(const Branch& branch) const;
@@ -107,6 +123,7 @@ private:
     std::string label_name(const Label& label, const CampbellMode& mode) const;
     void set(Branch& branch, const Label& label) const;
     const char* tendency(const Branch& branch) const;
+    static void name_others(std::vector<Branch>& branches, const std::vector<std::size_t>& others);
     void name_motions(std::vector<Branch>& branches) const;
 
     const std::vector<CampbellPoint>& points_;
@@ -193,6 +210,22 @@ const char* Naming::tendency(const Branch& branch) const {
             real = real || is_real(m->kind());
         }
     return !real ? "" : growth > 0 ? "growing" : "decaying";
+}
+
+// Branches of the same kind as one that has the name already: the two motions of a locked mode, parts of the machine
+// that have no component modes. "1st tower fore-aft (another)", "blade flap (backward, another 2)"
+void Naming::name_others(std::vector<Branch>& branches, const std::vector<std::size_t>& others) {
+    std::map<std::string, int> count;
+    for (std::size_t b : others) {
+        std::string& name = branches[b].name;
+        if (name.empty()) continue;  // a motion of a coordinate
+        const int number = ++count[name];
+        const std::string which = number == 1 ? "another" : text("another ", number);
+        if (name.back() == ')')
+            name.insert(name.size() - 1, ", " + which);
+        else
+            name += " (" + which + ")";
+    }
 }
 
 // Names of those without elastic energy; of several alike the later ones are numbered.

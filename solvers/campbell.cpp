@@ -143,18 +143,18 @@ void check_speeds(std::span<const double> rotor_speed) {
 // A growing motion is no vibration to design for; it must not hide behind the oscillating branches.
 void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (!warning.empty()) return;
+    Complex fastest = 0;
     for (const CampbellMode& m : point.modes) {
         const Complex lambda = m.mode.eigenvalue;
-        if (m.kind() == FloquetKind::rigid) continue;
-        if (lambda.real() > 1e-6 * std::max(1.0, std::abs(lambda))) {
-            std::ostringstream out;
-            out.precision(4);
-            out << "unstable at " << point.rotor_speed * 30 / pi << " rpm: a motion at " << lambda.imag() / (2 * pi)
-                << " Hz grows with " << lambda.real() << " 1/s";
-            warning = out.str();
-            return;
-        }
+        const bool grows = m.kind() != FloquetKind::rigid && lambda.real() > 1e-6 * std::max(1.0, std::abs(lambda));
+        if (grows && lambda.real() > fastest.real()) fastest = lambda;
     }
+    if (fastest.real() == 0) return;
+    std::ostringstream out;
+    out.precision(4);
+    out << "unstable at " << point.rotor_speed * 30 / pi << " rpm: a motion at " << fastest.imag() / (2 * pi)
+        << " Hz grows with " << fastest.real() << " 1/s";
+    warning = out.str();
 }
 
 void append(std::string& warning, const std::string& more) {

@@ -33,7 +33,9 @@ enum class CampbellMethod : std::uint8_t {
 
 /// For CampbellMethod::floquet (and, but for the accuracy, averaged).
 struct CampbellFloquetOptions {
-    int harmonics = 8;  ///< of the revolution in the periodic steady state
+    /// Of the revolution in the periodic steady state; half as many more are taken, at last 4 times as many, while the
+    /// harmonics left out have a residual over stiffness above 1e-5.
+    int harmonics = 8;
     /// Model indices of coordinates that change sign when two blades have changed places (teeter): then half a
     /// revolution is integrated. Those that are no unknowns do not count; where the machine is not symmetric in this
     /// way the whole revolution is integrated.
@@ -154,8 +156,8 @@ struct Campbell {
 /// in its rotating frame.
 ///
 /// By Floquet's theory the steady state is periodic and begun from that of the speed before; modes are named after the
-/// elastic energy of all harmonics, and the MAC is that of all harmonics, which may have moved by up to two multiples
-/// of the rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the machine is
+/// elastic energy of all harmonics, and the MAC is that of all harmonics, which may have moved by multiples of the
+/// rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the machine is
 /// linearised at azimuth 0.
 /// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, two blades
 /// unless the method is `floquet`, no rotor for `floquet` and `averaged`, and options out of range; NumericalError

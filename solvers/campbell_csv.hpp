@@ -16,4 +16,8 @@ namespace cardan::solvers {
 /// @throws FileError if the path cannot be written or the disk is full
 void write_csv(const Campbell& diagram, const std::filesystem::path& path);
 
+/// Words as a field: in quotation marks, which are doubled inside, where they hold commas, quotation marks or line
+/// ends. [RFC 4180, section 2]
+std::string csv_field(std::string_view words);
+
 }  // namespace cardan::solvers

@@ -3,6 +3,7 @@
 #include "mbs/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,8 @@ constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
 constexpr double rigid_limit = 1e-4;
+// Residual over stiffness of the harmonics that a steady state leaves out.
+constexpr double small_remainder = 1e-5;
 // Harmonics at the ends that hold less are left out.
 constexpr double negligible = 1e-12;
 
@@ -111,10 +114,17 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
         speeds.insert(speeds.begin(), state_->rotor_speed);
     }
     PeriodicSteadyState found = periodic_sweep(system_, rotor_.spin, speeds, options).back();
+    const int most = 4 * options.harmonics;
+    while (found.converged && found.remainder > small_remainder && options.harmonics < most) {
+        options.harmonics = std::min(most, options.harmonics + (options.harmonics + 1) / 2);
+        options.start = found.coefficients;
+        const std::array same_speed{rotor_speed};
+        found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
+    }
     if (!found.converged)
         throw NumericalError(text(rotor_.machine, " at ", rotor_speed * 30 / pi, " rpm: ", found.message));
     if (!found.note.empty()) warn(text("at ", rotor_speed * 30 / pi, " rpm ", found.note));
-    if (found.remainder > 1e-5)
+    if (found.remainder > small_remainder)
         warn(text("at ", rotor_speed * 30 / pi, " rpm ", found.harmonics(),
                   " harmonics leave a residual over stiffness of ", found.remainder,
                   " in the periodic steady state: take more"));
@@ -122,24 +132,14 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
 }
 
 PeriodicSystem PeriodicPointSolver::multi_blade_system() const {
-    const PeriodicSystem raw = linearised(system_, *state_, unknowns());
-    if (!standstill_.coleman()) return raw;
-    const double speed = state_->rotor_speed;
-    return PeriodicSystem::second_order(raw.period(), raw.rows(),
-                                        [raw, speed, T = *standstill_.coleman()](double time, SecondOrderSystem& out) {
-                                            raw.at(time, out);
-                                            T.transform_in_place(out, speed * time, speed);
-                                        });
+    PeriodicSystem raw = linearised(system_, *state_, unknowns());
+    const ColemanTransform* T = standstill_.coleman();
+    return T ? in_multi_blade_rows(std::move(raw), *T, state_->rotor_speed) : raw;
 }
 
 void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
     const int samples = std::max({24, 2 * static_cast<int>(rotor_.blades.size()) + 1, 4 * (state_->harmonics() + 1)});
-    SecondOrderSystem at;
-    for (int s = 0; s < samples; ++s) {
-        periodic.at(periodic.period() * s / samples, s == 0 ? mean_ : at);
-        if (s > 0) mean_.M += at.M, mean_.C += at.C, mean_.K += at.K, mean_.K_elastic += at.K_elastic;
-    }
-    for (Matrix* m : {&mean_.M, &mean_.C, &mean_.K, &mean_.K_elastic}) *m /= samples;
+    mean_ = mean_over_period(periodic, samples);
 }
 
 // x(t + T/Q) in multi-blade rows: there equal blades look alike, but for signs. None if the blades differ.

@@ -8,6 +8,9 @@ namespace {
 
 using Index = Eigen::Index;
 
+// Multiples of the rotor speed by which the principal frequency of a mode may leap where it is locked.
+constexpr int most_shift = 8;
+
 // A motion: shapes of its harmonics by column and what the matrices make of them.
 struct Motion {
     Motion(const CampbellMode& mode, const SecondOrderSystem& weights)
@@ -69,9 +72,12 @@ Likeness likeness(const Motion& x, const Motion& y) {
     const double in_place = std::norm(product(x, y, 0, by_shape)) / size,
                  principal = std::norm(product(x, y, 0, by_shape, -x.first, 1)) / size;
     double shifted = 0;
-    for (const int shift : {-2, -1, 1, 2})
-        shifted = std::max(shifted, std::norm(product(x, y, shift, by_shape)) / size);
-    return {std::min(1.0, std::max(in_place, shifted)), std::min(1.0, std::max({in_place, principal, shifted / 4}))};
+    for (int shift = 1; shift <= most_shift; ++shift)
+        for (const int s : {-shift, shift}) shifted = std::max(shifted, std::norm(product(x, y, s, by_shape)) / size);
+    const Likeness found{std::min(1.0, std::max(in_place, shifted)),
+                         std::min(1.0, std::max({in_place, principal, shifted / 4}))};
+    // A vibration may turn into a motion of a coordinate, but is not linked to one that is merely left over.
+    return x.elastic != y.elastic && found.score < 0.5 ? Likeness{} : found;
 }
 
 Likeness best(const Likeness& a, const Likeness& b) {

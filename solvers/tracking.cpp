@@ -12,7 +12,15 @@ namespace {
 constexpr double least_score = 0.1;  // below: not the same mode at all
 
 bool begins(const CampbellMode& mode) {
-    return mode.row >= 0 || (mode.mode.oscillates() && mode.kind() == FloquetKind::oscillation);
+    if (mode.row >= 0) return true;
+    switch (mode.kind()) {
+        case FloquetKind::oscillation:
+            return mode.mode.oscillates();
+        case FloquetKind::rigid:
+            return false;
+        default:  // one of the two real motions of a locked vibration
+            return mode.floquet.has_value();
+    }
 }
 
 }  // namespace
