@@ -147,8 +147,8 @@ void write_harmonics(const solvers::Campbell& diagram, const std::string& path) 
         if (!mode || !mode->floquet) continue;
         const solvers::FloquetMode& f = *mode->floquet;
         for (Eigen::Index i = 0; i < f.participation.size(); ++i)
-            out << solvers::csv_field(branch.name) << "," << f.exponent.imag() / speed << "," << f.growth() / speed << ","
-                << f.first_harmonic + static_cast<int>(i) << "," << f.participation(i) << "\n";
+            out << solvers::csv_field(branch.name) << "," << f.exponent.imag() / speed << "," << f.growth() / speed
+                << "," << f.first_harmonic + static_cast<int>(i) << "," << f.participation(i) << "\n";
     }
     write_file(path, out.str());
 }
