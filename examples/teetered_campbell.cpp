@@ -39,12 +39,17 @@ int parse(int argc, char** argv, Arguments& a) {
     return program::parse(app, argc, argv);
 }
 
+// In rotation.
+double first_speed(const std::vector<double>& speeds) {
+    return speeds.front() > 0 || speeds.size() == 1 ? speeds.front() : speeds[1];
+}
+
 int run(const Arguments& a) {
     const std::vector<double> speeds = program::rotor_speeds(a.rpm);
     const turbines::TeeteredTurbine turbine = program::machine(a.machine);
     program::introduce(turbine, a.machine.summary);
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
-    const double max_frequency = a.max_per_rev ? *a.max_per_rev * speeds.front() / (2 * pi) : a.max_frequency;
+    const double max_frequency = a.max_per_rev ? *a.max_per_rev * first_speed(speeds) / (2 * pi) : a.max_frequency;
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds,
                                                         program::campbell_options(a.machine, turbine, max_frequency));
     program::stop_at_once();

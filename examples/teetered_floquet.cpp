@@ -84,7 +84,7 @@ public:
         out << d_.machine << "\n"
             << d_.method << ", " << d_.points[0].rotor_speed << " rad/s\n\n"
             << std::left << std::setw(name_width) << "mode" << std::right << std::setw(10) << "per rev" << std::setw(11)
-            << "Hz" << std::setw(12) << "growth/rev";
+            << "Hz" << std::setw(13) << "growth/Omega";
         if (as_published_) out << std::setw(11) << "reference" << std::setw(9) << "error" << std::setw(9) << "paper";
         out << "   harmonics: energy\n";
         for (const solvers::Branch& branch : d_.branches)
@@ -103,7 +103,7 @@ private:
                      growth = mode.mode.eigenvalue.real() / speed;
         out << std::left << std::setw(name_width) << branch.name + (branch.doubtful[0] ? " ?" : "") << std::right
             << std::fixed << std::setprecision(4) << std::setw(10) << f << std::setw(11) << mode.mode.damped_hz()
-            << std::setw(12) << std::setprecision(5) << (std::abs(growth) < 5e-6 ? 0 : growth);
+            << std::setw(13) << std::setprecision(5) << (std::abs(growth) < 5e-6 ? 0 : growth);
         if (as_published_) compare(out, branch.name, f);
         if (mode.floquet && mode.kind() != solvers::FloquetKind::rigid) out << "   " << harmonics(*mode.floquet);
         out << "\n";
@@ -180,8 +180,8 @@ int run(const Arguments& a) {
     const solvers::Campbell diagram = modes_of(a, machine);
     const bool published =
         a.speed == nominal_speed && !a.machine.no_teeter && !a.machine.gravity && a.machine.data.empty();
-    const std::vector<teetered::KnownMode> known =
-        teetered::known_modes(a.machine.rigid_tower ? std::numeric_limits<double>::infinity() : a.machine.tower_ratio);
+    const std::vector<teetered::KnownMode> known = teetered::known_modes(
+        a.machine.rigid_tower ? std::numeric_limits<double>::infinity() : a.machine.tower_ratio.value_or(100));
     Table table(diagram, known, published);
     table.print(std::cout);
     const bool goals =

@@ -5,19 +5,20 @@
 #include "turbines/teetered.hpp"
 
 #include "examples/campbell_program.hpp"
+#include <optional>
 
 namespace cardan::program {
 
 struct TeeteredArguments {
-    double tower_ratio = 100;
+    std::optional<double> tower_ratio;
     int tower_elements = 6, blade_elements = 6, harmonics = 8;
     bool rigid_tower = false, no_teeter = false, gravity = false, summary = false;
     std::string data;
 };
 
 inline void add_options(CLI::App& app, TeeteredArguments& a) {
-    auto* ratio = app.add_option("--tower-ratio", a.tower_ratio, "rigidity of the tower over that of the blades")
-                      ->capture_default_str();
+    auto* ratio = app.add_option("--tower-ratio", a.tower_ratio,
+                                 "rigidity of the tower over that of the blades (default: 100, or as --data says)");
     app.add_flag("--rigid-tower", a.rigid_tower, "no tower coordinates")->excludes(ratio);
     app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
@@ -32,7 +33,7 @@ inline turbines::TeeteredTurbine machine(const TeeteredArguments& a) {
     turbines::TeeteredDescription description = a.data.empty()
                                                     ? turbines::teetered_description()
                                                     : turbines::teetered_description(std::filesystem::path(a.data));
-    if (!a.rigid_tower) description = turbines::with_tower_rigidity(description, a.tower_ratio);
+    if (a.tower_ratio) description = turbines::with_tower_rigidity(description, *a.tower_ratio);
     turbines::TeeteredOptions options;
     options.blade = turbines::TeeteredOptions::beam(a.blade_elements);
     options.tower = turbines::TeeteredOptions::beam(a.tower_elements);

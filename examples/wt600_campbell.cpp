@@ -82,8 +82,9 @@ void draw_panels(const solvers::Campbell& machine, const solvers::Campbell& blad
 }
 
 // The mean of the multi-blade system over the azimuth about the same steady states.
-void compare(const turbines::Turbine& turbine, const solvers::Campbell& diagram, solvers::CampbellOptions options,
-             const std::string& out) {
+// @return what was written
+std::string compare(const turbines::Turbine& turbine, const solvers::Campbell& diagram,
+                    solvers::CampbellOptions options, const std::string& out) {
     options.method = solvers::CampbellMethod::averaged;
     options.progress = {};
     options.keep_shapes = false;
@@ -91,11 +92,17 @@ void compare(const turbines::Turbine& turbine, const solvers::Campbell& diagram,
         solvers::campbell(turbine.system(), turbine.rotor(), diagram.rotor_speeds(), options);
     std::cout << "\n" << solvers::difference_table(diagram, averaged) << std::flush;
     solvers::write_csv(averaged, out + "_averaged.csv");
+    if (solvers::differences(diagram, averaged).empty()) return ", _averaged.csv";
     for (const char* kind : {".svg", ".png"}) solvers::plot_differences(diagram, averaged, out + "_difference" + kind);
+    return ", _averaged.csv, _difference.svg, .png";
 }
 
 int run(const Arguments& a) {
     const std::vector<double> speeds = program::rotor_speeds(a.rpm);
+    if (a.gravity && !a.floquet && speeds.back() > 0)
+        throw InputError("--gravity", "rotor speed [rev/min]", speeds.back() * 30 / pi,
+                         "0, or --floquet: in rotation there is a periodic steady state only");
+    std::string files = text(a.out, ".h5, .csv, .svg, .png");
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
     const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
@@ -120,13 +127,15 @@ int run(const Arguments& a) {
         blade_options.progress = {};
         const turbines::Turbine blade = turbines::isolated_blade(description, a.assembly);
         draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
+        files += ", _tower_yaw_tilt.png, _flap_edge.png";
     }
-    if (a.floquet && diagram.complete) compare(turbine, diagram, options, a.out);
+    if (a.floquet && diagram.complete) files += compare(turbine, diagram, options, a.out);
     // Mode shapes at the first and the last rotor speed (the paper's Figs. 4-7).
-    if (a.modes && diagram.complete) program::draw_modes(diagram, a.out + "_modes");
-    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _tower_yaw_tilt.png, _flap_edge.png"
-              << (a.floquet ? ", _averaged.csv, _difference.svg, .png" : "")
-              << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";
+    if (a.modes && diagram.complete) {
+        program::draw_modes(diagram, a.out + "_modes");
+        files += text("; mode shapes in ", a.out, "_modes/");
+    }
+    std::cout << "\nfiles: " << files << "\n";
     return diagram.complete ? 0 : 130;
 }
 

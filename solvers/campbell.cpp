@@ -140,6 +140,19 @@ void check_speeds(std::span<const double> rotor_speed) {
                              "finite, >= 0 and increasing");
 }
 
+void check_cases(std::span<const CampbellCase> cases, const std::string& parameter) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const CampbellCase& one = cases[i];
+        if (!std::isfinite(one.parameter) || (i > 0 && !(one.parameter > cases[i - 1].parameter)))
+            throw InputError("Campbell diagram", parameter, one.parameter, "finite and increasing");
+        if (!(one.rotor_speed >= 0) || std::isinf(one.rotor_speed))
+            throw InputError("Campbell diagram", "rotor speed [rad/s]", one.rotor_speed, "finite and >= 0");
+        if (!one.system || !one.rotor)
+            throw InputError("Campbell diagram", text("system and rotor at ", parameter, " ", one.parameter), "none",
+                             "both");
+    }
+}
+
 // A growing motion is no vibration to design for; it must not hide behind the oscillating branches.
 void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (!warning.empty()) return;
@@ -215,7 +228,9 @@ private:
 void Sweep::set_machine(const System& system, const RotorMap& rotor, const PointMethod& solver) {
     diagram_.machine = rotor.machine;
     diagram_.source = rotor.description;
-    diagram_.spin = options_.spin;
+    const std::vector<int>& unknowns = solver.unknowns();
+    const bool spin_is_unknown = std::find(unknowns.begin(), unknowns.end(), rotor.spin) != unknowns.end();
+    diagram_.spin = spin_is_unknown ? RotorSpin::free : RotorSpin::prescribed;
     diagram_.blades = static_cast<int>(rotor.blades.size());
     diagram_.method = method_name(options_.method, rotor.blades.size());
     diagram_.coordinates = system.model.coordinates();
@@ -340,15 +355,12 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter, const CampbellOptions& options) {
     if (cases.empty()) throw InputError("Campbell diagram", "number of points", 0, "at least one");
     if (parameter.empty()) throw InputError("Campbell diagram", "name of the parameter", "''", "not empty");
+    check_cases(cases, parameter);
     Sweep sweep(options, cases.size(), parameter);
     std::vector<std::unique_ptr<PointMethod>> solvers;
     std::vector<const PointMethod*> used;
     std::vector<double> parameters;
     for (const CampbellCase& one : cases) {
-        if (!std::isfinite(one.parameter) || (!parameters.empty() && !(one.parameter > parameters.back())))
-            throw InputError("Campbell diagram", parameter, one.parameter, "finite and increasing");
-        if (!(one.rotor_speed >= 0) || std::isinf(one.rotor_speed))
-            throw InputError("Campbell diagram", "rotor speed [rad/s]", one.rotor_speed, "finite and >= 0");
         solvers.push_back(point_method(*one.system, *one.rotor, options));
         if (parameters.empty()) sweep.set_machine(*one.system, *one.rotor, *solvers.back());
         if (solvers.back()->row_names() != solvers.front()->row_names())

@@ -36,6 +36,13 @@ std::vector<BranchDifference> differences(const Campbell& diagram, const Campbel
             throw InputError("difference of Campbell diagrams", text("rotor speed number ", i + 1, " [rad/s]"),
                              diagram.points[i].rotor_speed,
                              text(reference.points[i].rotor_speed, ", as the other has"));
+    if (diagram.parameter != reference.parameter)
+        throw InputError("difference of Campbell diagrams", "parameter", text("'", diagram.parameter, "'"),
+                         text("'", reference.parameter, "', as the other has"));
+    for (std::size_t i = 0; i < std::min(diagram.parameters.size(), reference.parameters.size()); ++i)
+        if (diagram.parameters[i] != reference.parameters[i])
+            throw InputError("difference of Campbell diagrams", text(diagram.parameter, ", number ", i + 1),
+                             diagram.parameters[i], text(reference.parameters[i], ", as the other has"));
     std::vector<BranchDifference> list;
     for (const Branch& branch : diagram.branches) {
         const Branch* other = find(reference, branch.name);

@@ -16,7 +16,7 @@ struct BranchDifference {
 };
 
 /// Branches of the same name, `diagram` minus `reference`; as many points as both have.
-/// @throws InputError unless both have the same rotor speeds, as far as they go
+/// @throws InputError unless both have the same rotor speeds and parameters, as far as they go
 std::vector<BranchDifference> differences(const Campbell& diagram, const Campbell& reference);
 
 /// Frequencies at the first, middle and last rotor speed above zero, and by how much those of the reference differ, for

@@ -49,6 +49,13 @@ std::vector<Mode> harmonics_of(const FloquetMode& mode) {
     return all;
 }
 
+// A rigid displacement has no other harmonics, and no energy: what is there is rounding.
+void keep_displacement(FloquetMode& mode) {
+    mode.harmonics = ComplexMatrix(mode.harmonics.col(-mode.first_harmonic));
+    mode.participation = Vector::Ones(1);
+    mode.first_harmonic = 0;
+}
+
 void leave_out_ends(FloquetMode& mode) {
     Index first = 0, last = mode.harmonics.cols() - 1;
     const Index principal = -mode.first_harmonic;
@@ -160,6 +167,9 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
     options.symmetry = symmetry(periodic);
     options.per_period =
         own.per_period > 0 ? own.per_period : options_.max_frequency_hz * 2 * pi / std::abs(state_->rotor_speed);
+    if (options.per_period > 1e4)
+        throw InputError(rotor_.machine, text("frequency per revolution at ", state_->rotor_speed * 30 / pi, " rpm"),
+                         options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
     options.most_steps =
         own.most_steps > 0 ? own.most_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
@@ -187,8 +197,11 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
 CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     CampbellMode out;
     FloquetMode& mode = out.floquet.emplace(std::move(found));
-    leave_out_ends(mode);
     const bool rigid = mode.kind == FloquetKind::rigid;
+    if (rigid)
+        keep_displacement(mode);
+    else
+        leave_out_ends(mode);
     const ComplexVector principal = mode.harmonics.col(-mode.first_harmonic);
     // A rigid displacement has no energy.
     const double energy = rigid ? square(mean_.M, principal) : 2 * mode.share(0),
@@ -197,6 +210,8 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     out.mode = {mode.exponent, factor * principal};
     const std::vector<Mode> harmonics = harmonics_of(mode);
     out.shares = identification()->shares(harmonics);
+    if (rigid)
+        for (Share& share : out.shares) share = Share{};
     Vector elastic = Vector::Zero(mean_.M.rows()), kinetic = elastic;
     for (const Mode& one : harmonics) {
         const ComplexVector force = mean_.K_elastic * one.shape;
@@ -204,7 +219,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
         kinetic += kinetic_by_row(mean_, one.shape, one.eigenvalue);
     }
     const double total = elastic.sum();
-    out.row_shares = total > 0 ? Vector(elastic / total) : Vector::Zero(elastic.size());
+    out.row_shares = total > 0 && !rigid ? Vector(elastic / total) : Vector::Zero(elastic.size());
     if (rigid)
         out.row = largest(kinetic_by_row(mean_, principal, 1));
     else if (total < 2 * elastic_limit)  // of the energy, which is 2 in these units

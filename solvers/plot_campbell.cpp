@@ -69,6 +69,7 @@ public:
                 }
             }
         f_max_ = options.max_frequency_hz > 0 ? options.max_frequency_hz : 1.05 * f_max_;
+        if (f_max_ == 0) f_max_ = 1;  // rigid motions only
     }
 
     std::string data() const {

@@ -34,7 +34,7 @@ void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
 /// @throws FileError, Error (gnuplot's message); InputError without any common mode and as differences()
 void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path);
 
-/// A mode of a branch at one point: side view (x, z), front view seen from downwind (y, z) and top view (x, y);
+/// A mode of a branch at one point: side view (x, z), front view (y, z) seen along the wind and top view (x, y);
 /// undeformed grey, deformed in colour at the instant of largest motion and a quarter period later (a whirl is seen by
 /// both). By Floquet's theory the periodic shape at azimuth 0, blade 1 up.
 void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point, const std::filesystem::path& path);

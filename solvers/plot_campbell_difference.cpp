@@ -15,10 +15,20 @@ struct Curves {
 };
 
 int dash(RotorPattern pattern) {
-    return pattern == RotorPattern::backward ? 2 : pattern == RotorPattern::forward ? 4 : 1;
+    switch (pattern) {
+        case RotorPattern::backward:
+        case RotorPattern::antisymmetric:
+            return 2;
+        case RotorPattern::forward:
+            return 4;
+        case RotorPattern::differential:
+            return 5;
+        default:
+            return 1;
+    }
 }
 
-Curves curves(const std::vector<BranchDifference>& shown, const std::vector<double>& rpm) {
+Curves curves(const std::vector<BranchDifference>& shown, const std::vector<double>& abscissae) {
     Curves all;
     std::vector<std::string> families;
     for (std::size_t b = 0; b < shown.size(); ++b) {
@@ -29,7 +39,7 @@ Curves curves(const std::vector<BranchDifference>& shown, const std::vector<doub
         for (const double f : one.frequency_hz) millihertz.push_back(1e3 * f);
         for (const double zeta : one.damping_ratio) percent.push_back(100 * zeta);
         const std::string name = text("d", b);
-        all.data += gnuplot_data(name, std::vector<std::span<const double>>{rpm, millihertz, percent});
+        all.data += gnuplot_data(name, std::vector<std::span<const double>>{abscissae, millihertz, percent});
         const int symbol = one.name.starts_with("2nd") ? 6 : 7;
         const std::string style = text(" with linespoints pt ", symbol, " ps 0.5 lw 1.8 lc rgb '",
                                        colour(static_cast<std::size_t>(family)).hex, "' dt ", dash(one.pattern));
@@ -48,22 +58,27 @@ void plot_differences(const Campbell& diagram, const Campbell& reference, const 
     std::erase_if(shown, [&](const BranchDifference& one) { return one.largest_hz < largest / 100; });
     if (shown.empty())
         throw InputError(diagram.machine, "modes that both diagrams have", 0, "at least one, at one rotor speed");
-    std::vector<double> rpm;
+    const bool over_speed = diagram.parameters.empty();
+    std::vector<double> x;
     for (std::size_t i = 0; i < shown[0].frequency_hz.size(); ++i)
-        rpm.push_back(diagram.points[i].rotor_speed * 30 / pi);
-    const Curves all = curves(shown, rpm);
-    const double last = rpm.back() > rpm.front() ? rpm.back() : rpm.front() + 1;
-    std::string script = all.data + "set multiplot\nset lmargin at screen 0.08\nset rmargin at screen 0.665\n";
+        x.push_back(over_speed ? diagram.points[i].rotor_speed * 30 / pi : diagram.parameters[i]);
+    const Curves all = curves(shown, x);
+    const double last = x.back() > x.front() ? x.back() : x.front() + 1;
+    std::string script = all.data + "set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.665\n";
     script +=
-        text("set xrange [", rpm.front(), ":", last, "]\nset title ",
-             gnuplot_text(text(diagram.machine, ": Floquet minus mean over the azimuth")),
-             "\nset tmargin at screen 0.94\nset bmargin at screen 0.50\nset ylabel 'difference of frequency, mHz'\n"
-             "set format x ''\nset key at screen 0.69,0.945 left top Left reverse\n"
+        text("set xrange [", x.front(), ":", last, "]\nset title ", gnuplot_text(diagram.machine),
+             " offset 0,0.9\nset label 1 ", gnuplot_text(text(diagram.method, " minus ", reference.method)),
+             " at graph 0.5,1.045 center font ',9'",
+             "\nset tmargin at screen 0.92\nset bmargin at screen 0.50\nset ylabel 'difference of frequency, mHz'\n"
+             "set format x ''\nset key at screen 0.69,0.925 left top Left reverse font ',9' maxrows 40\n"
              "plot 0 with lines lc rgb '#999999' lw 1 notitle",
              all.frequency, "\n");
     script += text(
-        "unset title\nset tmargin at screen 0.46\nset bmargin at screen 0.08\nunset key\nset format x '%g'\n"
-        "set xlabel 'rotor speed, rev/min'\nset ylabel 'difference of damping ratio, %'\n"
+        "unset title\nunset label 1\nset tmargin at screen 0.46\nset bmargin at screen 0.08\nunset key\nset format x "
+        "'%g'\n"
+        "set xlabel ",
+        gnuplot_text(over_speed ? "rotor speed, rev/min" : diagram.parameter),
+        "\nset ylabel 'difference of damping ratio, %'\n"
         "plot 0 with lines lc rgb '#999999' lw 1 notitle",
         all.damping, "\nunset multiplot\n");
     static_cast<void>(Gnuplot().write_picture(path, script, {1200, 860}));

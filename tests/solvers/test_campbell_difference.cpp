@@ -148,6 +148,13 @@ TEST_CASE("campbell difference: as many points as both have; other rotor speeds 
     check_refused([&] { (void)differences(whole, other); },
                   {"difference of Campbell diagrams", "rotor speed number 2 [rad/s] = 1.047", "1.15"});
     check_refused([&] { (void)difference_table(whole, other); }, {"rotor speed number 2"});
+    Campbell soft = whole;
+    soft.parameter = "stiffness [N m]";
+    soft.parameters = {1, 2, 3};
+    check_refused([&] { (void)differences(whole, soft); }, {"parameter = ''", "'stiffness [N m]'"});
+    Campbell stiff = soft;
+    stiff.parameters[1] = 2.5;
+    check_refused([&] { (void)differences(soft, stiff); }, {"stiffness [N m], number 2 = 2", "2.5"});
 }
 
 TEST_CASE("campbell difference: motions named after a coordinate are left out", "[property]") {

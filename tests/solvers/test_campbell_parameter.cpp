@@ -230,6 +230,15 @@ TEST_CASE("campbell over a parameter: what cannot be computed is refused", "[pro
     cases[1] = free_lag.cases()[0];
     cases[1].parameter = 2500;
     refused(cases, {"small rotor", "component modes at point 2 = 1", "2 with the same names"});
+    // All are looked at before the first is computed.
+    int computed = 0;
+    cases = good;
+    cases[2].rotor = nullptr;
+    CampbellOptions counted = options;
+    counted.progress = [&](int, int) { ++computed; };
+    check_refused([&] { (void)campbell(cases, "stiffness", counted); },
+                  {"system and rotor at stiffness 3000 = none", "both"});
+    CHECK(computed == 0);
     // Two blades have no constant multi-blade system.
     check_refused([&] { (void)campbell(good, "stiffness", by(CampbellMethod::coleman)); },
                   {"number of blades = 2", "floquet"});
