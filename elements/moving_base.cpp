@@ -64,7 +64,7 @@ MovingBase add_moving_base(Tree& tree, FrameId carrier, const std::string& name,
         spec.placement = Placement::rotation(R);
         spec.joint = kind;
         spec.coordinate.part = name;
-        spec.coordinate.role = options.role;
+        spec.coordinate.role = options.roles.at(index(which)).value_or(options.role);
         const std::string axes = spec.name + " axes";
         const BodyId body = tree.add_body(std::move(spec));
         base.coordinates.at(index(which)) = body;

@@ -5,6 +5,7 @@
 #include "elements/joints.hpp"
 
 #include <array>
+#include <optional>
 
 namespace cardan {
 
@@ -21,6 +22,8 @@ struct MovingBaseOptions {
     std::array<BaseCoordinate, 3> rotations{BaseCoordinate::yaw, BaseCoordinate::pitch, BaseCoordinate::roll};
     /// Driven: the motion is prescribed, with its velocity and acceleration. Free: it follows from forces on the base.
     CoordinateRole role = CoordinateRole::driven;
+    /// Of single coordinates, surge ... yaw, where theirs is another one.
+    std::array<std::optional<CoordinateRole>, 6> roles = {};
 };
 
 /// What was added to the tree.

@@ -34,10 +34,16 @@ std::string replaced(const std::array<Pair, n>& pairs, std::string_view name) {
     return known ? std::string(known->second) : capitals(name);
 }
 
+// "platform surge": there is one of each kind, and nobody counts them.
+bool is_of_platform(std::string_view name) {
+    return name.starts_with("platform ");
+}
+
 }  // namespace
 
 std::string community_name(std::string_view name) {
     if (name.empty()) return {};
+    if (is_of_platform(name)) return capitals(name);
     std::string ordinal = "1st";
     if (std::isdigit(static_cast<unsigned char>(name[0]))) {
         const std::size_t blank = std::min(name.find(' '), name.size());

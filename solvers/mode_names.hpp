@@ -15,7 +15,8 @@ enum class NameStyle : std::uint8_t { descriptive, community };
 
 /// "1st tower fore-aft" -> "1st Tower FA", "1st blade flap (backward)" -> "1st Blade Flap (Regressive)",
 /// "drive-train torsion" -> "1st Drivetrain Torsion", "rotor yaw" -> "1st Nacelle Yaw". Families without a usual name
-/// keep theirs, with capital letters. A name of a family with a single member gets its "1st".
+/// keep theirs, with capital letters. A name of a family with a single member gets its "1st", but for the platform's:
+/// "platform surge" -> "Platform Surge".
 std::string community_name(std::string_view name);
 std::string community_name(const Branch& branch);
 

@@ -31,8 +31,10 @@ void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
 
 /// Differences of two diagrams (see differences()) over rotor speed, frequency over damping; modes with less than a
 /// hundredth of the largest difference of frequency are left out.
+/// @param what  is less what, for the title; empty: the methods
 /// @throws FileError, Error (gnuplot's message); InputError without any common mode and as differences()
-void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path);
+void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path,
+                      const std::string& what = {});
 
 /// A mode of a branch at one point: side view (x, z), front view (y, z) seen along the wind and top view (x, y);
 /// undeformed grey, deformed in colour at the instant of largest motion and a quarter period later (a whirl is seen by

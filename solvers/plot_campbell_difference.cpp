@@ -51,7 +51,8 @@ Curves curves(const std::vector<BranchDifference>& shown, const std::vector<doub
 
 }  // namespace
 
-void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path) {
+void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path,
+                      const std::string& what) {
     std::vector<BranchDifference> shown = differences(diagram, reference);
     double largest = 0;
     for (const BranchDifference& one : shown) largest = std::max(largest, one.largest_hz);
@@ -67,7 +68,8 @@ void plot_differences(const Campbell& diagram, const Campbell& reference, const 
     std::string script = all.data + "set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.665\n";
     script +=
         text("set xrange [", x.front(), ":", last, "]\nset title ", gnuplot_text(diagram.machine),
-             " offset 0,0.9\nset label 1 ", gnuplot_text(text(diagram.method, " minus ", reference.method)),
+             " offset 0,0.9\nset label 1 ",
+             gnuplot_text(what.empty() ? text(diagram.method, " minus ", reference.method) : what),
              " at graph 0.5,1.045 center font ',9'",
              "\nset tmargin at screen 0.92\nset bmargin at screen 0.50\nset ylabel 'difference of frequency, mHz'\n"
              "set format x ''\nset key at screen 0.69,0.925 left top Left reverse font ',9' maxrows 40\n"

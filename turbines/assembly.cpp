@@ -72,6 +72,7 @@ public:
         const FrameId hub = options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft);
         add_hub(hub);
         for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, !d_.blade.pitch.is_rigid());
+        if (layout.platform) add_water_forces(forces, tree, *layout.platform, *options_.platform, warnings);
         add_tower_axes();
     }
 
@@ -124,9 +125,10 @@ private:
 
     void add_platform() {
         if (!options_.platform) return;
-        layout.platform = add_moving_base(tree, Tree::base(), "platform", options_.platform->coordinates);
-        foundation_ = layout.platform->frame;
-        if (!options_.platform->inertia.is_massless()) tree.weld(foundation_, options_.platform->inertia, "platform");
+        const PlatformFrames platform = turbines::add_platform(tree, *options_.platform);
+        layout.platform = platform.base;
+        foundation_ = platform.tower_foot;
+        if (platform.line.size() > 1) lines.push_back({"platform", 0, platform.line});
         parts.push_back({"platform",
                          Tree::base(),
                          {"platform surge", "platform sway", "platform heave"},
@@ -382,7 +384,9 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
     Assembler assembler(description, options, damping);
     assembler.whole_machine();
     Turbine turbine;
-    turbine.finish(assembler, description.name, description.source, settings(options));
+    const bool told = options.platform && !options.platform->source.empty();
+    turbine.finish(assembler, description.name,
+                   description.source + (told ? "\n" + options.platform->source : std::string()), settings(options));
     return turbine;
 }
 

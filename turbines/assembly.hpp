@@ -3,10 +3,10 @@
 #pragma once
 
 #include "elements/coordinate_force.hpp"
-#include "elements/moving_base.hpp"
 #include "mbs/rotor_map.hpp"
 #include "mbs/system.hpp"
 #include "turbines/description.hpp"
+#include "turbines/platform.hpp"
 
 #include <memory>
 #include <optional>
@@ -20,15 +20,6 @@ struct ShaftBeam {
     double mass = 1;  ///< kg/m; not zero, for nothing else gives the tilt joint an inertia apart from the hub's
 };
 
-/// What the tower stands on if that moves, fixed to the foot of the tower: a floating platform, a shaking table.
-struct PlatformOptions {
-    /// With the default the coordinates are driven; axes, signs and order of rotations are those of OpenFAST.
-    MovingBaseOptions coordinates = {};
-    /// Of the platform itself; axes x downwind, z up, origin at the foot. Tower base loads are without it, the forces
-    /// of the drives with it.
-    RigidInertia inertia = {};
-};
-
 struct AssemblyOptions {
     int tower_elements = 3;
     int blade_elements = 3;
@@ -39,7 +30,8 @@ struct AssemblyOptions {
     bool structural_damping = true;  ///< of tower and blades
     bool joint_damping = true;       ///< of yaw, tilt, drive train, pitch
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
-    std::optional<PlatformOptions> platform = std::nullopt;  ///< under the whole machine; none: the ground
+    /// Under the whole machine, prescribed or free: a floating platform, a shaking table; none: the ground.
+    std::optional<PlatformOptions> platform = std::nullopt;
     /// Elements of tower and blades in full: extension, torsion, element ends ... They take the place of numbers of
     /// elements, delta and partition above. Their damping must be empty: the description has it.
     std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
@@ -47,7 +39,8 @@ struct AssemblyOptions {
 
 /// Where things are in the tree of a machine, for loads and channels. What a machine does not have is empty.
 struct MachineLayout {
-    std::optional<MovingBase> platform;  ///< "platform surge" ... "platform yaw"; its frame is the tower's foot, z up
+    /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
+    std::optional<MovingBase> platform;
     std::optional<CardanBeam> tower;
     FrameId tower_foot, tower_top;         ///< axes of the tower's beam; x downwind, z up at rest
     FrameId shaft;                         ///< carries the drive train, x along the shaft, downwind

@@ -30,11 +30,12 @@ std::string parts_in_words(const AssemblyOptions& o) {
 }  // namespace
 
 std::string settings(const AssemblyOptions& o) {
-    return text(parts_in_words(o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ",
-                o.gravity(2), ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
-                o.joint_damping ? "on" : "off", ", main shaft ",
-                o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
-                o.platform ? text(", on a platform of ", o.platform->inertia.mass, " kg") : std::string());
+    return text(
+        parts_in_words(o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
+        ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
+        o.joint_damping ? "on" : "off", ", main shaft ",
+        o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
+        o.platform ? text(", on a ", o.platform->name, " of ", o.platform->inertia.mass, " kg") : std::string());
 }
 
 }  // namespace cardan::turbines

@@ -112,6 +112,34 @@ ChannelGroup rotor_channels(const Shared& source) {
     return group;
 }
 
+// Displacement and angles from the pose, whatever the coordinates are along and about.
+ChannelGroup platform_channels(const Shared& source) {
+    ChannelGroup group;
+    const auto add = [&](const char* name, const char* units, const char* long_name, const char* alias) {
+        group.channels.push_back({.name = name,
+                                  .units = units,
+                                  .long_name = long_name,
+                                  .frame = "ground",
+                                  .point = "platform reference point",
+                                  .alias = alias});
+    };
+    add("platform surge displacement", "m", "displacement of the platform downwind", "PtfmSurge");
+    add("platform sway displacement", "m", "displacement of the platform to the left", "PtfmSway");
+    add("platform heave displacement", "m", "displacement of the platform upward", "PtfmHeave");
+    add("platform roll angle", "rad", "roll of the platform, positive lowers its right side", "PtfmRoll");
+    add("platform pitch angle", "rad", "pitch of the platform, positive moves the top of the tower downwind",
+        "PtfmPitch");
+    add("platform yaw angle", "rad", "yaw of the platform, positive seen from above counterclockwise", "PtfmYaw");
+    group.sample = [source](const ChannelInput& in, double* values) {
+        const Pose<double> now = pose(in.kinematics, source->layout().platform->frame);
+        write(now.p, values);
+        *values++ = std::atan2(now.R(2, 1), now.R(2, 2));
+        *values++ = std::atan2(-now.R(2, 0), std::hypot(now.R(2, 1), now.R(2, 2)));
+        *values = std::atan2(now.R(1, 0), now.R(0, 0));
+    };
+    return group;
+}
+
 // Axes of the tower's foot: x downwind, z up.
 Mat3 foot_axes(const Mat3& beam_axes) {
     return beam_axes * axis_rotation(Axis::y).transpose();
@@ -262,6 +290,7 @@ std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalW
     }
     const Shared source = std::make_shared<const Source>(Source{turbine, std::move(external)});
     std::vector<ChannelGroup> groups{rotor_channels(source)};
+    if (turbine.layout().platform) groups.push_back(platform_channels(source));
     if (turbine.layout().tower) {
         groups.push_back(tower_motion_channels(source));
         groups.push_back(tower_load_channels(source));

@@ -9,6 +9,8 @@
 ///   blade k coned (c): x along the shaft (downwind, cone apart), y toward the trailing edge at zero pitch, z along the
 ///   pitch axis to the tip, carried by the hub;
 ///   blade k (b): the same turned by the pitch, carried by the root of the blade.
+/// PtfmSurge ... PtfmYaw are the displacement of the platform's reference point in ground axes and the angles of
+/// R_z(yaw) R_y(pitch) R_x(roll); OpenFAST's are the same while they are small.
 /// On a platform that moves the displacements of the tower top are relative to the foot, its accelerations absolute.
 #pragma once
 

@@ -10,12 +10,16 @@ namespace cardan::turbines {
 namespace {
 
 constexpr double degree = pi / 180, percent = 0.01;
-constexpr auto blade_table = "nrel5mw_blade.csv", tower_table = "nrel5mw_tower.csv",
-               turbine_table = "nrel5mw_turbine.csv";
+constexpr auto blade_table = "nrel5mw_blade.csv", turbine_table = "nrel5mw_turbine.csv";
+
+const char* tower_table(const Nrel5mwOptions& options) {
+    return options.tower == Nrel5mwTower::land_based ? "nrel5mw_tower.csv" : "oc3_hywind_tower.csv";
+}
 
 // Beam axes of a tower: x up, y downwind, z lateral. Fore-aft is bending about z.
 BeamLine tower_line(const CsvTable& t) {
-    const auto height = t.column("height_above_ground", "m"), mass = t.column("mass_per_length", "kg/m"),
+    const char* const from = t.has("height_above_ground") ? "height_above_ground" : "height_above_foot";
+    const auto height = t.column(from, "m"), mass = t.column("mass_per_length", "kg/m"),
                fore_aft = t.column("fore_aft_stiffness", "N m^2"), side = t.column("side_side_stiffness", "N m^2"),
                GJ = t.column("torsion_stiffness_GJ", "N m^2"), EA = t.column("axial_stiffness_EA", "N"),
                j_fore_aft = t.column("fore_aft_mass_inertia_per_length", "kg m"),
@@ -64,7 +68,8 @@ DriveTrainDescription drive_train(const CsvQuantities& q) {
 TurbineDescription describe(const Nrel5mwBlade& blade, const CsvTable& tower, const CsvQuantities& q,
                             const Nrel5mwOptions& options) {
     TurbineDescription d;
-    d.name = "NREL 5 MW machine, land-based";
+    d.name = options.tower == Nrel5mwTower::land_based ? "NREL 5 MW machine, land-based"
+                                                       : "NREL 5 MW machine, tower of the OC3-Hywind spar";
     d.blades = static_cast<int>(q.number("number_of_blades", "-"));
     d.tower.line = tower_line(tower);
     const double tower_ratio = q.number("tower_structural_damping_ratio", "%") * percent;
@@ -119,15 +124,15 @@ Nrel5mwOptions nrel5mw_options(Nrel5mwVariant variant) {
 }
 
 TurbineDescription nrel5mw_description(const Nrel5mwOptions& options) {
-    TurbineDescription d =
-        describe(nrel5mw_blade(options.blade), CsvTable::parse(embedded_data(tower_table), tower_table),
-                 CsvQuantities::parse(embedded_data(turbine_table), turbine_table), options);
-    d.source = text(embedded_data(turbine_table), "\n", embedded_data(tower_table), "\n", embedded_data(blade_table));
+    const char* const tower = tower_table(options);
+    TurbineDescription d = describe(nrel5mw_blade(options.blade), CsvTable::parse(embedded_data(tower), tower),
+                                    CsvQuantities::parse(embedded_data(turbine_table), turbine_table), options);
+    d.source = text(embedded_data(turbine_table), "\n", embedded_data(tower), "\n", embedded_data(blade_table));
     return d;
 }
 
 TurbineDescription nrel5mw_description(const std::filesystem::path& folder, const Nrel5mwOptions& options) {
-    const auto tower = folder / tower_table, turbine = folder / turbine_table;
+    const auto tower = folder / tower_table(options), turbine = folder / turbine_table;
     const Nrel5mwBlade blade = nrel5mw_blade(folder, options.blade);
     TurbineDescription d = describe(blade, CsvTable::read(tower), CsvQuantities::read(turbine), options);
     d.source = text(text_file(turbine), "\n", text_file(tower), "\n", blade.source);

@@ -29,11 +29,18 @@ enum class Nrel5mwVariant : std::uint8_t {
 /// "report", "fast", "beamdyn".
 std::string_view variant_name(Nrel5mwVariant variant);
 
+/// Which tower it stands on.
+enum class Nrel5mwTower : std::uint8_t {
+    land_based,  ///< 87.6 m from the ground up
+    oc3_hywind   ///< 77.6 m on the foot of the OC3-Hywind spar, see oc3_hywind.hpp; the same height of the hub
+};
+
 /// How the data are read.
 struct Nrel5mwOptions {
     Nrel5mwBladeOptions blade = {};
     /// Pitch joints on the actuator's spring and damper (the report has them for ADAMS only); else the pitch is rigid.
     bool pitch_actuator = false;
+    Nrel5mwTower tower = Nrel5mwTower::land_based;
 };
 Nrel5mwOptions nrel5mw_options(Nrel5mwVariant variant);
 
@@ -43,7 +50,7 @@ Nrel5mwOptions nrel5mw_options(Nrel5mwVariant variant);
 /// in higher ones as their frequencies rise.
 /// @throws InputError for an option out of range
 TurbineDescription nrel5mw_description(const Nrel5mwOptions& options = {});
-/// The same from a folder with nrel5mw_blade.csv, nrel5mw_tower.csv and nrel5mw_turbine.csv.
+/// The same from a folder with nrel5mw_blade.csv, nrel5mw_tower.csv (or oc3_hywind_tower.csv) and nrel5mw_turbine.csv.
 /// @throws FileError, ParseError, InputError
 TurbineDescription nrel5mw_description(const std::filesystem::path& folder, const Nrel5mwOptions& options = {});
 

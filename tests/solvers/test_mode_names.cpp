@@ -21,6 +21,12 @@ TEST_CASE("mode names: a family with a single member becomes the first of its ki
     CHECK(community_name("blade pitch (collective)") == "1st Blade Pitch (Collective)");
 }
 
+TEST_CASE("mode names: those of a platform are not counted, unless there are several alike", "[property]") {
+    CHECK(community_name("platform surge") == "Platform Surge");
+    CHECK(community_name("platform yaw") == "Platform Yaw");
+    CHECK(community_name("2nd platform pitch") == "2nd Platform Pitch");
+}
+
 TEST_CASE("mode names: families without a usual name keep theirs, higher harmonics their number", "[property]") {
     CHECK(community_name("12th yaw bearing fore-aft") == "12th Yaw Bearing Fore-aft");
     CHECK(community_name("1st blade flap (backward, 2)") == "1st Blade Flap (Regressive, 2)");
