@@ -232,7 +232,7 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     const bool spin_is_unknown = std::find(unknowns.begin(), unknowns.end(), rotor.spin) != unknowns.end();
     diagram_.spin = spin_is_unknown ? RotorSpin::free : RotorSpin::prescribed;
     diagram_.blades = static_cast<int>(rotor.blades.size());
-    diagram_.method = method_name(options_.method, rotor.blades.size());
+    diagram_.method = rotor.spin < 0 ? "at rest" : method_name(options_.method, rotor.blades.size());
     diagram_.coordinates = system.model.coordinates();
     diagram_.unknowns = solver.unknowns();
     diagram_.rows = solver.row_names();

@@ -102,7 +102,10 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
     if (!std::isfinite(diagram.points[0].stability_margin)) return {};
     std::ostringstream out;
     out << "\n" << std::left << std::setw(width) << "stability margin, 1/s" << std::right << std::setprecision(4);
-    for (std::size_t i : shown) out << std::setw(19) << diagram.points[i].stability_margin << "  ";
+    for (std::size_t i : shown) {
+        const double margin = diagram.points[i].stability_margin;
+        out << std::setw(19) << (std::abs(margin) < 1e-9 ? 0 : margin) << "  ";  // rounding of undamped motions
+    }
     out << "\n";
     return out.str();
 }

@@ -56,6 +56,13 @@ Box bounds(const Campbell& d, double margin) {
     return box;
 }
 
+// The largest of 1, 2, 5, 10, 20 ... that leaves at least six steps.
+double tick_step(double length) {
+    if (!(length > 0)) return 1;
+    const double most = length / 6, power = std::pow(10, std::floor(std::log10(most)));
+    return power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
+}
+
 }  // namespace
 
 void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point, const std::filesystem::path& path) {
@@ -82,8 +89,8 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
     script += text("set multiplot layout 1,3 title ",
                    gnuplot_text(text(branch.name, ", ", std::round(1e4 * diagram.damped_hz(branch, point)) / 1e4,
                                      " Hz at ", rpm, about, doubt)),
-                   "\nset size ratio -1\nset bmargin 7\nset xtics 10\nset ytics 10\nset key at screen 0.5,0.07 center "
-                   "center horizontal maxrows 1 font ',11'\n");
+                   "\nset size ratio -1\nset bmargin 7\nset xtics ", tick_step(size), "\nset ytics ", tick_step(size),
+                   "\nset key at screen 0.5,0.07 center center horizontal maxrows 1 font ',11'\n");
     struct View {
         const char* title;
         const char* horizontal;
