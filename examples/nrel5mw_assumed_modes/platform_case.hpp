@@ -1,0 +1,57 @@
+/// @file
+/// Periodic response of the blade to gravity and to a pitching platform, by assumed modes.
+#pragma once
+
+#include "solvers/forced_response.hpp"
+#include "turbines/nrel5mw_assumed_modes.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace cardan::paper2018 {
+
+/// Signals: tip deflections w (downwind) and v (to the leading edge), m; moments of the hub on the blade at its root,
+/// My and Mz, N m.
+inline constexpr std::size_t signals = 4;
+struct Signal {
+    double mean = 0, max = 0, min = 0;
+    std::vector<double> amplitude, phase;  ///< of harmonic k = 1, 2 ...: amplitude cos(2 pi k t / T + phase); rad
+    std::vector<double> samples;           ///< of one period, both ends included
+};
+struct PlatformResponse {
+    std::vector<double> time;  ///< s
+    std::array<Signal, signals> by_signal;
+    double remainder = 0;  ///< of the balance of harmonics, see solvers::ForcedResponse
+};
+
+struct PlatformCase {
+    double pitch = 0;         ///< amplitude of the platform's pitch at half the rotor's frequency, rad
+    double revolutions = 1;   ///< of the rotor in a period
+    double heave_rate = 0;    ///< m/s
+    bool derivatives = true;  ///< false: dA/dt and dB/dt left out, as in Annex A of the paper
+    int harmonics = 8;
+};
+
+/// At 12.1 rpm with damping beta K_elastic, beta = turbines::nrel5mw_platform_damping.
+PlatformResponse platform_response(const AssumedModesBlade& blade, const PlatformCase& of);
+
+/// The blade with its first natural modes at 12.1 rpm for coordinates.
+AssumedModesBlade in_natural_modes(const AssumedModesBlade& blade, int count);
+
+/// Reference of docs/nrel5mw_platform.md, good to 0.05 % or 5e-5 m; in m and N m, phases in deg.
+struct ReferenceHarmonic {
+    std::size_t k;
+    double amplitude, phase;
+};
+struct ReferenceSignal {
+    std::string name;
+    double unit;  ///< of the table: 1 m, 1000 N m
+    double mean, max, min;
+    std::vector<ReferenceHarmonic> harmonics;
+};
+using Reference = std::array<ReferenceSignal, signals>;
+const Reference& reference_at_rest();
+const Reference& reference_pitching();
+
+}  // namespace cardan::paper2018
