@@ -1,7 +1,10 @@
-# cardan_precompile(<target> [<headers>]): headers compiled once for all sources of a target. Sources do not rely on it:
-# the clang build is made without.
+# cardan_precompile(<target> [FROM <owner>] [HEADERS <headers>]): headers that most sources include are compiled once, or
+# taken as another target has compiled them. Sources do not rely on it: the clang build is made without.
 function(cardan_precompile target)
-    if(CARDAN_PRECOMPILE_HEADERS)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "HEADERS")
+    if(CARDAN_PRECOMPILE_HEADERS AND arg_FROM)
+        target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
+    elseif(CARDAN_PRECOMPILE_HEADERS)
         target_precompile_headers(
             ${target}
             PRIVATE
@@ -17,7 +20,7 @@ function(cardan_precompile target)
             <vector>
             ${PROJECT_SOURCE_DIR}/mbs/decompositions.hpp
             ${PROJECT_SOURCE_DIR}/mbs/system.hpp
-            ${ARGN})
+            ${arg_HEADERS})
     endif()
 endfunction()
 
@@ -32,9 +35,10 @@ function(cardan_add_library name)
         add_library(${target} ${arg_SOURCES})
         set(public PUBLIC)
         target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:cardan_warnings>)
-        list(LENGTH arg_SOURCES count)
-        if(count GREATER 5)
-            cardan_precompile(${target})
+        if(name STREQUAL "mbs")
+            cardan_precompile(cardan_mbs)
+        else()
+            cardan_precompile(${target} FROM cardan_mbs)
         endif()
     else()
         add_library(${target} INTERFACE)
