@@ -111,7 +111,7 @@ UserForce linear_load(std::string name, const MovingBase& base, const Mat6& K) {
             for (std::size_t j = 0; j < 6; ++j)
                 Q(x[i]) -= K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * in.q(x[j]);
     };
-    load.jacobian = [at, K](const ForceInput& in, MatrixOut dQ_dq, MatrixOut) {
+    load.jacobian = [at, K](const ForceInput& in, MatrixOut dQ_dq, const MatrixOut& /*dQ_dqd*/) {
         const std::array<int, 6> x = at(in);
         for (std::size_t i = 0; i < 6; ++i)
             for (std::size_t j = 0; j < 6; ++j)
@@ -206,6 +206,7 @@ void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, cons
                              ">= 0, or it capsizes; weights are there only if gravity is set");
         elastic(free, free) = K;
         std::vector<BodyId> bodies;
+        bodies.reserve(free.size());
         for (const Eigen::Index i : free) bodies.push_back(base.coordinates.at(static_cast<std::size_t>(i)));
         forces.add_law({"platform stiffness", bodies, K});
     }
