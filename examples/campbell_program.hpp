@@ -70,6 +70,17 @@ inline void write_files(const solvers::Campbell& diagram, const std::string& pre
     for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, prefix + kind, picture);
 }
 
+/// One of several panels: modes of some families (empty: all) with one ordinal (0: all) up to a frequency (0: all).
+inline solvers::CampbellPlotOptions panel(std::vector<std::string> families, std::string title, int ordinal,
+                                          double max_frequency_hz) {
+    solvers::CampbellPlotOptions p;
+    p.families = std::move(families);
+    p.title = std::move(title);
+    p.ordinal = ordinal;
+    p.max_frequency_hz = max_frequency_hz;
+    return p;
+}
+
 /// "1st blade flap (symmetric)" -> "1st_blade_flap_symmetric"
 inline std::string file_name(const std::string& mode) {
     std::string name;

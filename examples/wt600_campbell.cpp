@@ -62,21 +62,14 @@ int parse(int argc, char** argv, Arguments& a) {
 
 // The arrangement of the paper's Figs. 8 and 9.
 void draw_panels(const solvers::Campbell& machine, const solvers::Campbell& blade, const std::string& out) {
-    const auto panel = [](const char* family, const char* title, int ordinal, double f_max) {
-        solvers::CampbellPlotOptions p;
-        p.families = {family};
-        p.title = title;
-        p.ordinal = ordinal;
-        p.max_frequency_hz = f_max;
-        return p;
-    };
+    using program::panel;
     solvers::plot_panels(machine, out + "_tower_yaw_tilt.png",
-                         {panel("tower side-side", "tower, lateral (side-side)", 0, 6),
-                          panel("tower fore-aft", "tower, longitudinal (fore-aft)", 0, 6),
-                          panel("rotor yaw", "rotor yaw", 0, 2.5), panel("rotor tilt", "rotor tilt", 0, 2.5)});
+                         {panel({"tower side-side"}, "tower, lateral (side-side)", 0, 6),
+                          panel({"tower fore-aft"}, "tower, longitudinal (fore-aft)", 0, 6),
+                          panel({"rotor yaw"}, "rotor yaw", 0, 2.5), panel({"rotor tilt"}, "rotor tilt", 0, 2.5)});
     std::vector<solvers::CampbellPlotOptions> blades{
-        panel("blade flap", "first flap", 1, 4), panel("blade flap", "second flap", 2, 8),
-        panel("blade edge", "first lag (edge)", 1, 10), panel("blade edge", "second lag (edge)", 2, 18)};
+        panel({"blade flap"}, "first flap", 1, 4), panel({"blade flap"}, "second flap", 2, 8),
+        panel({"blade edge"}, "first lag (edge)", 1, 10), panel({"blade edge"}, "second lag (edge)", 2, 18)};
     for (auto& p : blades) p.isolated_blade = &blade;
     solvers::plot_panels(machine, out + "_flap_edge.png", blades);
 }

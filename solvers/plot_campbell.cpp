@@ -1,6 +1,7 @@
 #include "solvers/plot_campbell.hpp"
 
 #include "mbs/error.hpp"
+#include "solvers/plot_campbell_style.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,35 +11,12 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double to_rpm = 30 / pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-int dash(RotorPattern pattern) {
-    switch (pattern) {
-        case RotorPattern::backward:
-        case RotorPattern::antisymmetric:
-            return 2;
-        case RotorPattern::forward:
-            return 4;
-        case RotorPattern::differential:
-            return 3;
-        default:
-            return 1;
-    }
-}
 
 // Only of what vibrates or is locked: motions that just die away would set the scale.
 double damping(const Campbell& diagram, const Branch& branch, std::size_t point) {
     const CampbellMode* mode = diagram.mode(branch, point);
     return mode && mode->kind() != FloquetKind::aperiodic ? diagram.damping_ratio(branch, point) : nan;
-}
-
-// Rotor speeds in rpm, or the values of another parameter.
-std::vector<double> abscissae(const Campbell& diagram) {
-    if (!diagram.parameters.empty()) return diagram.parameters;
-    std::vector<double> rpm;
-    for (const CampbellPoint& p : diagram.points) rpm.push_back(p.rotor_speed * to_rpm);
-    return rpm;
 }
 
 // Colours by family in order of appearance in the whole diagram, so that all panels agree.
@@ -173,8 +151,7 @@ private:
     }
     std::string x_label_command(bool shown) const {
         if (!shown) return "unset xlabel\nset format x ''\n";
-        const std::string label = d_.parameter.empty() ? "rotor speed, rev/min" : d_.parameter;
-        return text("set xlabel ", gnuplot_text(label), "\nset format x '%g'\n");
+        return text("set xlabel ", gnuplot_text(abscissa_label(d_)), "\nset format x '%g'\n");
     }
     // The rotor frequency in Hz as an expression in x; over another parameter that of the first point.
     std::string per_rev() const { return d_.parameters.empty() ? "x/60.0" : text(d_.points[0].rotor_speed / (2 * pi)); }

@@ -1,6 +1,7 @@
 #include "mbs/error.hpp"
 #include "solvers/campbell_difference.hpp"
 #include "solvers/plot_campbell.hpp"
+#include "solvers/plot_campbell_style.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +14,6 @@ namespace {
 struct Curves {
     std::string data, frequency, damping;
 };
-
-int dash(RotorPattern pattern) {
-    switch (pattern) {
-        case RotorPattern::backward:
-        case RotorPattern::antisymmetric:
-            return 2;
-        case RotorPattern::forward:
-            return 4;
-        case RotorPattern::differential:
-            return 5;
-        default:
-            return 1;
-    }
-}
 
 Curves curves(const std::vector<BranchDifference>& shown, const std::vector<double>& abscissae) {
     Curves all;
@@ -59,10 +46,8 @@ void plot_differences(const Campbell& diagram, const Campbell& reference, const 
     std::erase_if(shown, [&](const BranchDifference& one) { return one.largest_hz < largest / 100; });
     if (shown.empty())
         throw InputError(diagram.machine, "modes that both diagrams have", 0, "at least one, at one rotor speed");
-    const bool over_speed = diagram.parameters.empty();
-    std::vector<double> x;
-    for (std::size_t i = 0; i < shown[0].frequency_hz.size(); ++i)
-        x.push_back(over_speed ? diagram.points[i].rotor_speed * 30 / pi : diagram.parameters[i]);
+    std::vector<double> x = abscissae(diagram);
+    x.resize(shown[0].frequency_hz.size());  // the reference may have fewer
     const Curves all = curves(shown, x);
     const double last = x.back() > x.front() ? x.back() : x.front() + 1;
     std::string script = all.data + "set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.665\n";
@@ -79,7 +64,7 @@ void plot_differences(const Campbell& diagram, const Campbell& reference, const 
         "unset title\nunset label 1\nset tmargin at screen 0.46\nset bmargin at screen 0.08\nunset key\nset format x "
         "'%g'\n"
         "set xlabel ",
-        gnuplot_text(over_speed ? "rotor speed, rev/min" : diagram.parameter),
+        gnuplot_text(abscissa_label(diagram)),
         "\nset ylabel 'difference of damping ratio, %'\n"
         "plot 0 with lines lc rgb '#999999' lw 1 notitle",
         all.damping, "\nunset multiplot\n");

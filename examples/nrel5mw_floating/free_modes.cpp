@@ -100,20 +100,12 @@ void print_comparison(const Campbell& free, const Campbell& held, const Campbell
     }
 }
 
-solvers::CampbellPlotOptions panel(std::vector<std::string> families, const char* title, int ordinal, double f_max) {
-    solvers::CampbellPlotOptions p;
-    p.families = std::move(families);
-    p.title = title;
-    p.ordinal = ordinal;
-    p.max_frequency_hz = f_max;
-    return p;
-}
-
 void draw(const Campbell& free, const Campbell& held, const ModesOptions& options, const std::string& prefix) {
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = options.max_frequency;
     for (const char* kind : {".svg", ".png"}) solvers::plot(free, prefix + kind, picture);
     if (free.points.size() < 2 || !free.complete) return;
+    using program::panel;
     solvers::plot_panels(
         free, prefix + "_families.png",
         {panel({"platform surge", "platform sway", "platform heave", "platform roll", "platform pitch", "platform yaw"},

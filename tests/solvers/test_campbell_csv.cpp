@@ -1,5 +1,5 @@
-// The CSV table of a Campbell diagram, read by a reader of its own (RFC 4180): names with commas, kinds of motion,
-// another parameter, missing modes.
+// The CSV table of a Campbell diagram, read by a reader of its own (RFC 4180): names with commas, quotation
+// marks and line ends, kinds of motion, another parameter, missing modes.
 #include "mbs/error.hpp"
 #include "solvers/campbell_csv.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -154,4 +154,25 @@ TEST_CASE("campbell table: over another parameter it is the last column", "[prop
     REQUIRE(table.rows.size() == 1);
     CHECK(table.rows[0].back() == "12.5");
     CHECK(table.rows[0][0] == "9.549296586");
+}
+
+TEST_CASE("campbell table: quotation marks and line ends in names survive", "[property]") {
+    Campbell d = small("the \"first\", so called, of\ntwo lines");
+    d.parameter = "5\" of a \"mast\"";
+    d.parameters = {1};
+    const Table table = table_of(d);
+    REQUIRE(table.rows.size() == 1);
+    REQUIRE(table.rows[0].size() > mostly_column);
+    CHECK(table.rows[0][mode_column] == d.branches[0].name);
+    CHECK(table.rows[0][mostly_column] == d.branches[0].name);
+    CHECK(table.header.back() == d.parameter);
+}
+
+TEST_CASE("campbell table: a machine's name or a warning of two lines stays a comment", "[property]") {
+    Campbell d = small("1st tower fore-aft");
+    d.machine = "two\nlines";
+    d.warning = "also\nthree\nlines";
+    const Table table = table_of(d);
+    CHECK(table.header.front() == "rotor_speed[rpm]");
+    CHECK(table.rows.size() == 1);
 }

@@ -53,6 +53,18 @@ solvers::OperatingPoint at_rest(const Turbine& turbine, const Vector& q = {}) {
     return {q.size() > 0 ? q : zero, zero, zero};
 }
 
+// Small angles, displacements of the platform and rates.
+MachineState random_state(const Turbine& turbine, Random& random) {
+    const Model& model = turbine.system().model;
+    MachineState state(turbine);
+    for (int i = 0; i < model.size(); ++i) {
+        const double q = uniform(random, -1, 1), qd = uniform(random, -1, 1);
+        state.q(i) = (model.body(i).revolute ? 0.05 : 0.5) * q;
+        state.qd(i) = 0.1 * qd;
+    }
+    return state;
+}
+
 // Platform's matrices by hand: rigid machine, water, weights and buoyancy.
 struct ByHand {
     Mat6 M, B, K;
@@ -191,12 +203,7 @@ TEST_CASE(
     const Model& model = free.system().model;
     for (unsigned seed : {1u, 2u, 3u}) {
         Random random(seed);
-        MachineState state(free);
-        for (int i = 0; i < model.size(); ++i) {
-            const double q = uniform(random, -1, 1), qd = uniform(random, -1, 1);
-            state.q(i) = (model.body(i).revolute ? 0.05 : 0.5) * q;
-            state.qd(i) = 0.1 * qd;
-        }
+        MachineState state = random_state(free, random);
         state.qd(free.rotor().spin) = 2.8;
         const auto solve = [&](const Turbine& turbine, const Vector& more, Vector& qdd) {
             Workspace workspace(turbine.system().model);
@@ -233,12 +240,7 @@ TEST_CASE("floating machine: a steady drift changes nothing where no mooring and
     const Turbine turbine = floating(adrift);
     const Model& model = turbine.system().model;
     Random random(5);
-    MachineState state(turbine);
-    for (int i = 0; i < model.size(); ++i) {
-        const double q = uniform(random, -1, 1), qd = uniform(random, -1, 1);
-        state.q(i) = (model.body(i).revolute ? 0.05 : 0.5) * q;
-        state.qd(i) = 0.1 * qd;
-    }
+    MachineState state = random_state(turbine, random);
     const auto accelerations = [&](const Vec3& drift) {
         Vector qd = state.qd, Q(model.size()), qdd = Vector::Zero(model.size()), actuator = qdd;
         const std::vector<int> rows = platform_rows(turbine);
@@ -259,12 +261,7 @@ TEST_CASE("floating machine: total momentum changes by outer forces alone", "[an
     const Turbine turbine = floating(platform);
     const Model& model = turbine.system().model;
     Random random(7);
-    MachineState state(turbine);
-    for (int i = 0; i < model.size(); ++i) {
-        const double q = uniform(random, -1, 1), qd = uniform(random, -1, 1);
-        state.q(i) = (model.body(i).revolute ? 0.05 : 0.5) * q;
-        state.qd(i) = 0.1 * qd;
-    }
+    MachineState state = random_state(turbine, random);
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, state.q, workspace);
     Vector Q(model.size()), actuator = Vector::Zero(model.size());
