@@ -1,0 +1,10 @@
+file(MAKE_DIRECTORY ${test_output_dir}/beam_accuracy)
+add_example_test(example_accuracy beam_accuracy 0 "all checks hold" --case uniform --case timoshenko --case taper --case torsion
+                  --case eta3 --case column --case elastica --case round)
+add_example_test(example_accuracy_all beam_accuracy 0 "all checks hold" --out beam_accuracy)
+set_tests_properties(example_accuracy_all PROPERTIES LABELS slow)
+add_example_test(example_accuracy_list beam_accuracy 0 "elastica: large plane deflections" --list)
+add_example_test(example_accuracy_help beam_accuracy 0 "--case" --help)
+add_example_test(example_accuracy_unknown_option beam_accuracy 2 "--nonsense" --nonsense)
+add_example_test(example_accuracy_unknown_case beam_accuracy 1 "--case: value = nonsense" --case nonsense)
+add_example_test(example_accuracy_no_folder beam_accuracy 1 "the folder 'no/such/folder' does not exist" --out no/such/folder)

@@ -1,0 +1,43 @@
+set(coarse_spar --variant fast --blade-elements 2 --tower-elements 2)
+add_example_test(example_floating_modes nrel5mw_floating 0
+                 "Platform Surge.*equilibrium under gravity.*platform modes.*Platform Yaw.*free spar, spar held.*1st Tower FA.*files: example_floating.h5.*_difference.png"
+                 modes ${coarse_spar} --rpm 0,12.1 --max-frequency 2 --out example_floating)
+add_example_test(example_floating_decay nrel5mw_floating 0
+                 "energy lost.*ok.*Platform Heave +1 m +30.*Platform Yaw +2 deg +8[.0-9]+ +8[.0-9]+ +-?0[.0-9]+ %.*files: example_floating_decay_heave.h5" decay ${coarse_spar} --from heave=1
+                 --from yaw=2 --cycles 3 --out example_floating_decay)
+add_example_test(example_floating_motion nrel5mw_floating 0
+                 "energy lost.*ok.*surge 1 m at 8 s, pitch 2 deg at 8 s.*blade 1 tip out-of-plane deflection.*files: example_floating_motion.csv"
+                 motion ${coarse_spar} --surge amplitude=1,period=8 --pitch amplitude=2,period=8 --settle 8 --periods 2 --out
+                 example_floating_motion)
+# Ctrl-C: exit code 130, and what was computed is there.
+add_test(NAME example_floating_interrupted
+         COMMAND ${CMAKE_COMMAND} -D PROGRAM=timeout
+                 "-DARGUMENTS=--preserve-status;--signal=INT;6;$<TARGET_FILE:nrel5mw_floating>;decay;--variant;fast;--blade-elements;4;--tower-elements;2;--tolerance;1e-9;--from;pitch=3;--cycles;1000;--out;example_floating_interrupted"
+                 -D CODE=130 "-DSAYS=files: example_floating_interrupted_pitch.h5" -P ${CMAKE_CURRENT_SOURCE_DIR}/run_program.cmake
+         WORKING_DIRECTORY ${test_output_dir})
+add_example_test(example_floating_interrupted_history history 0 "decay of platform pitch.*broken off" info
+                 example_floating_interrupted_pitch.h5)
+set_tests_properties(example_floating_interrupted PROPERTIES FIXTURES_SETUP floating_interrupted)
+set_tests_properties(example_floating_interrupted_history PROPERTIES FIXTURES_REQUIRED floating_interrupted)
+add_example_test(example_floating_help nrel5mw_floating 0 "modes.*decay.*motion" --help)
+add_example_test(example_floating_decay_help nrel5mw_floating 0 "--cycles" decay --help)
+add_example_test(example_floating_no_study nrel5mw_floating 2 "subcommand is required" --variant fast)
+add_example_test(example_floating_other_study nrel5mw_floating 2 "subcommand is required|not expected" flutter)
+add_example_test(example_floating_unknown_option nrel5mw_floating 2 "--nonsense" modes --nonsense)
+add_example_test(example_floating_other_option nrel5mw_floating 2 "--surge" modes --surge amplitude=1,period=3)
+add_example_test(example_floating_variant nrel5mw_floating 2 "--variant" modes --variant hawc2)
+add_example_test(example_floating_rpm nrel5mw_floating 1 "--rpm: value = 0,x; allowed: numbers and FIRST:LAST:STEP" modes --rpm 0,x)
+add_example_test(example_floating_coordinate nrel5mw_floating 1 "--from: coordinate = sink; allowed: surge, sway" decay --from sink=1)
+add_example_test(example_floating_value nrel5mw_floating 1 "--from: value = pitch=x; allowed: COORDINATE=VALUE" decay --from pitch=x)
+add_example_test(example_floating_zero nrel5mw_floating 1 "--from: displacement = pitch=0; allowed: not zero" decay --from pitch=0)
+add_example_test(example_floating_cycles nrel5mw_floating 1 "--cycles: value = -1; allowed: finite and > 0" decay --cycles=-1)
+add_example_test(example_floating_step nrel5mw_floating 1 "--step: value = 0; allowed: finite and > 0" motion --step 0)
+add_example_test(example_floating_steady nrel5mw_floating 1 "--surge: motion = velocity=1; allowed: one that oscillates" motion --surge
+                 velocity=1)
+add_example_test(example_floating_key nrel5mw_floating 1 "--pitch: value = wobble=5; allowed: mean=M" motion --pitch wobble=5)
+add_example_test(example_floating_amplitude nrel5mw_floating 1 "--amplitude: value .m or deg. = -1; allowed" motion --amplitude=-1)
+add_example_test(example_floating_elements nrel5mw_floating 1 "number of elements = 0; allowed: 1 ... 1000" decay --blade-elements 0)
+add_example_test(example_floating_unwritable nrel5mw_floating 1 "the folder 'no/such/folder' does not exist" modes ${coarse_spar} --out
+                 no/such/folder/x)
+add_example_test(example_floating_no_data nrel5mw_floating 1 "no_such_folder/oc3_hywind_platform.csv: cannot be read" modes --data
+                 no_such_folder)

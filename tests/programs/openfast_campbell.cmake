@@ -1,0 +1,30 @@
+# Models of other programs.
+set(models ${CMAKE_CURRENT_SOURCE_DIR}/data)
+set(coarse --blade-elements 2 --tower-elements 2)
+add_example_test(example_openfast openfast_campbell 0
+    "note: [^ ]*small_Blade.dat:[0-9]+: FlStTunr.2. = 1.02: tunes.*more notes.*1st tower fore-aft.*files: example_openfast.h5"
+    ${models}/openfast/small.fst --out example_openfast --save example_openfast.yaml)
+add_example_test(example_openfast_own openfast_campbell 0 "1st tower fore-aft.*files" example_openfast.yaml --rpm 45 ${coarse}
+                 --out example_openfast_own)
+set_tests_properties(example_openfast PROPERTIES FIXTURES_SETUP own_yaml)
+set_tests_properties(example_openfast_own PROPERTIES FIXTURES_REQUIRED own_yaml)
+add_example_test(example_elastodyn openfast_campbell 0 "note: [^\n]*YawDOF = True: stiffness.*Echo, Method, DT.*1st blade edge"
+                 ${models}/openfast/small_ElastoDyn.dat --rpm 0 --gravity --notes --max-frequency 12 ${coarse}
+                 --out example_elastodyn)
+add_example_test(example_beamdyn openfast_campbell 0 "PitchJ = 20.*1st blade flap" ${models}/openfast/small_BeamDyn.fst
+                 --rpm 0:40:40 --undamped --max-frequency 12 --summary ${coarse} --out example_beamdyn)
+add_example_test(example_windio openfast_campbell 0 "note: [^\n]*torsional stiffness.*the drive train is rigid.*1st tower"
+                 ${models}/windio/small_v1.yaml --rpm 0 --notes ${coarse} --out example_windio)
+add_example_test(example_windio_rpm openfast_campbell 1 "--rpm: value = none, and the model names no rotor speed"
+                 ${models}/windio/small_v2.yaml)
+add_example_test(example_openfast_help openfast_campbell 0 "--max-frequency" --help)
+add_example_test(example_openfast_no_model openfast_campbell 2 "model is required" --rpm 0)
+add_example_test(example_openfast_no_file openfast_campbell 1 "no/such.fst: cannot be read: No such file" no/such.fst)
+add_example_test(example_openfast_not_one openfast_campbell 1 "[.]cmake:[0-9]+: no line with the keyword EDFile"
+                 ${CMAKE_CURRENT_LIST_FILE})
+add_example_test(example_openfast_bad_rpm openfast_campbell 1 "--rpm: value = 1:x; allowed: numbers and FIRST" ${models}/openfast/small.fst
+                 --rpm 1:x)
+add_example_test(example_openfast_elements openfast_campbell 1 "number of elements = 0; allowed: >= 1"
+                 ${models}/openfast/small.fst --blade-elements 0)
+add_example_test(example_openfast_unwritable openfast_campbell 1 "the folder 'no/such' does not exist"
+                 ${models}/openfast/small.fst --rpm 0 --out no/such/x)

@@ -1,0 +1,21 @@
+add_example_test(example_wt600 wt600_campbell 0 "files: example_wt600.h5" --rpm 0:30:15 --out example_wt600 --modes)
+add_example_test(example_wt600_frozen wt600_campbell 0 "warning: frozen azimuth" --rpm 0:30:15 --frozen-azimuth --undamped
+                 --shaft-beam --generator-prescribed --blade-elements 2 --tower-elements 2 --out example_frozen)
+add_example_test(example_one_speed wt600_campbell 0 "files: example_one_speed.h5, .csv, .svg, .png\n" --rpm 0 --blade-elements 1
+                 --tower-elements 1 --out example_one_speed)
+add_example_test(example_help wt600_campbell 0 "--blade-elements" --help)
+add_example_test(example_unknown_option wt600_campbell 2 "--nonsense" --nonsense)
+add_example_test(example_bad_rpm wt600_campbell 1 "--rpm: value = 0:x:1; allowed: numbers and FIRST:LAST:STEP" --rpm 0:x:1)
+add_example_test(example_nan_rpm wt600_campbell 1 "FIRST:LAST:STEP" --rpm 0:nan:1)
+add_example_test(example_endless_rpm wt600_campbell 1 "at most 100000" --rpm 0:40:1e-320)
+add_example_test(example_negative_rpm wt600_campbell 1 ">= 0 and increasing" --rpm=-10:10:5)
+add_example_test(example_max_frequency wt600_campbell 1 "largest frequency" --rpm 0 --max-frequency 0)
+add_example_test(example_unwritable wt600_campbell 1 "the folder 'no/such/folder' does not exist" --rpm 0 --out no/such/folder/x)
+add_example_test(example_no_file_name wt600_campbell 1 "ends in a file name" --rpm 0 --out ./)
+add_example_test(example_no_data wt600_campbell 1 "no_such_folder/wt600_[a-z]+.csv: cannot be read" --data no_such_folder)
+add_example_test(example_gravity_in_rotation wt600_campbell 1 "--gravity: rotor speed .rev.min. = 10; allowed: 0, or --floquet" --gravity --rpm 10)
+add_example_test(example_elements wt600_campbell 1 "number of elements = 0; allowed: >= 1" --blade-elements 0)
+add_example_test(example_wt600_floquet wt600_campbell 0
+    "stability margin.*Floquet .principal frequencies.*against Coleman.*mean over the azimuth.*1st tower fore-aft.*files: .*example_floquet.*_difference.svg"
+    --floquet --gravity --rpm 0:24:12 --blade-elements 1 --tower-elements 1 --out example_floquet)
+add_example_test(example_wt600_floquet_frozen wt600_campbell 2 "--frozen-azimuth excludes --floquet" --floquet --frozen-azimuth)

@@ -1,0 +1,50 @@
+# The 600 kW machine in time.
+set(coarse --blade-elements 1 --tower-elements 1)
+add_example_test(example_stop wt600_emergency_stop 0
+              "grid loss .*overspeed, pitch to feather.*brake on.*standstill.*tower base moment y.*ok.*ok.*ok.*_spectrum.png"
+              ${coarse} --grid-loss 1 --tolerance 1e-5 --after 3 --out example_stop)
+add_example_test(example_stop_delay wt600_emergency_stop 0 "brake on.*standstill" ${coarse} --grid-loss 0.5 --brake-delay 6
+              --tolerance 1e-4 --after 0 --no-gravity --method dirk --out example_stop_delay)
+add_example_test(example_stop_short wt600_emergency_stop 1 "rotor stands .0: yes.*FAILED" ${coarse} --duration 1
+              --grid-loss 0.5 --out example_stop_short)
+add_example_test(example_stop_excludes wt600_emergency_stop 2 "excludes --brake" --brake-delay 1
+              --brake-speed 5)
+add_example_test(example_stop_overspeed wt600_emergency_stop 1 "--overspeed: value = 1; allowed: > 1" --overspeed 1)
+add_example_test(example_stop_loss wt600_emergency_stop 1 "--grid-loss: value = 0; allowed: finite and > 0" --grid-loss 0)
+add_example_test(example_stop_unwritable wt600_emergency_stop 1 "the folder 'no/such' does not exist" --out no/such/x)
+add_example_test(example_stop_no_data wt600_emergency_stop 1 "no_such_folder/wt600_[a-z]+.csv: cannot be read" --data
+              no_such_folder)
+add_example_test(example_time_fixed wt600_time_history 0
+              "connected at synchronous speed.*3P.*generator torque.*against the balance of torques.*ok" ${coarse}
+              --mode fixed --pitch-rate 6 --duration 40 --tolerance 1e-5 --step 0.05 --out example_time_fixed)
+add_example_test(example_time_variable wt600_time_history 0 "variable speed.*against the balance of torques.*ok"
+              ${coarse} --mode variable --pitch-rate 6 --duration 60 --tolerance 1e-5 --step 0.05 --out
+              example_time_variable)
+add_example_test(example_time_platform wt600_time_history 0
+              "energy lost.*ok.*platform's drives.*ok.*example_time_platform.h5.*, _energy.png, _spectrum.png" ${coarse} --surge
+              amplitude=1,period=8,phase=20 --heave velocity=0.5 --pitch mean=-2,amplitude=1,period=5 --duration 15 --tolerance 1e-5
+              --out example_time_platform)
+add_example_test(example_time_revolutions wt600_time_history 1 "--surge: revolutions of a rotor at = 0 rpm or at changing speed"
+              --surge amplitude=1,revolutions=2)
+add_example_test(example_time_alpha wt600_time_history 0 "fixed speed.*ok.*ok" --method alpha --duration 3
+              --tolerance 1e-6 --out example_time_alpha)
+# Connected within the first stretch: the second one must know.
+set(resumed ${coarse} --mode fixed --pitch-rate 6 --tolerance 1e-5 --step 0.05 --out example_time_resume)
+add_example_test(example_time_begin wt600_time_history 0 "connected at synchronous speed.*ok" ${resumed} --duration 25)
+add_example_test(example_time_resume wt600_time_history 0
+              "connected at synchronous speed.*against the balance of torques.*ok.*files: [^ ]* .801 samples" ${resumed}
+              --duration 40 --resume)
+add_example_test(example_time_resume_other wt600_time_history 1
+              "--resume: options that example_time_resume.h5 was made with = .*; allowed: those of this run: .*wind 9 m/s"
+              ${resumed} --duration 41 --resume --wind 9)
+add_example_test(example_time_resume_none wt600_time_history 1 "no_such_run.h5" --resume --out no_such_run)
+set_tests_properties(example_time_begin PROPERTIES FIXTURES_SETUP begun_run)
+set_tests_properties(example_time_resume PROPERTIES FIXTURES_REQUIRED begun_run FIXTURES_SETUP resumed_run)
+set_tests_properties(example_time_resume_other PROPERTIES FIXTURES_REQUIRED "begun_run;resumed_run")
+add_example_test(example_time_help wt600_time_history 0 "--pitch-rate" --help)
+add_example_test(example_time_mode wt600_time_history 2 "--mode" --mode both)
+add_example_test(example_time_method wt600_time_history 2 "--method" --method euler)
+add_example_test(example_time_duration wt600_time_history 1 "--duration: value = -1" --duration=-1)
+add_example_test(example_time_step wt600_time_history 1 "--step: value = 0" --step 0)
+add_example_test(example_time_order wt600_time_history 1 "highest order = 9; allowed: 0 ... 5" --method bdf --order 9)
+add_example_test(example_time_unwritable wt600_time_history 1 "the folder 'no/such' does not exist" --out no/such/x)
