@@ -121,7 +121,7 @@ public:
         } catch (const InputError& error) {
             file_.root().fail(error.what());
         }
-        d_.tower.damping = {};
+        d_.tower.damping = windio_tower_damping(file_);
         d_.blade.line = beam_line(windio_blade(file_));
         d_.blade.damping = windio_blade_damping(file_);
         d_.blade.pitch = rigid_joint;

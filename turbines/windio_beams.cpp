@@ -92,6 +92,39 @@ MatrixCurve named_inertia(const YamlNode& node) {
     return out;
 }
 
+// Over both grids.
+struct Matrices {
+    std::vector<double> eta;
+    std::vector<SectionMatrices> values;
+};
+
+Matrices read_matrices(const YamlNode& stiffness, const YamlNode& inertia) {
+    const MatrixCurve K = stiffness.find("values") ? triangles(stiffness) : named_stiffness(stiffness);
+    const MatrixCurve M = inertia.find("values") ? triangles(inertia) : named_inertia(inertia);
+    Matrices out;
+    out.eta = united(K.grid, M.grid);
+    for (double at : out.eta) out.values.push_back({K.at(at), M.at(at)});
+    return out;
+}
+
+// The entries of mu in the order of strains (see BeamDamping).
+BeamDamping damping_of(WindioFile& file, const std::optional<YamlNode>& given, const char* part,
+                       const std::array<std::size_t, 6>& order) {
+    BeamDamping damping;
+    if (!given) return damping;
+    const auto list = given->find("mu");
+    if (!list) {
+        file.note(*given, "", text("only damping by mu is read: the ", part, " has none"));
+        return damping;
+    }
+    const std::vector<double> mu = list->numbers(std::size_t{6});
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (mu[i] < 0) list->fail(text(mu[i], "; allowed: >= 0"));
+        damping.time_constants.at(i) = mu[order.at(i)];
+    }
+    return damping;
+}
+
 // Points at the places of the finest of the three grids.
 std::vector<Vec3> axis_points(const YamlNode& node) {
     const WindioCurve x = windio_curve(node["x"]), y = windio_curve(node["y"]), z = windio_curve(node["z"]);
@@ -138,11 +171,9 @@ BeamTable windio_blade(WindioFile& file) {
         file.get({"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
                   "components.blade.elastic_properties_mb.six_x_six", "components.blade.elastic_properties_mb"});
     const std::optional<YamlNode> named = elastic.find("stiffness_matrix");
-    const MatrixCurve K = named ? named_stiffness(*named) : triangles(elastic["stiff_matrix"]);
-    const YamlNode inertia = elastic["inertia_matrix"];
-    const MatrixCurve M = inertia.find("mass") ? named_inertia(inertia) : triangles(inertia);
-    blade.eta = united(K.grid, M.grid);
-    for (double at : blade.eta) blade.matrices.push_back({K.at(at), M.at(at)});
+    Matrices sections = read_matrices(named ? *named : elastic["stiff_matrix"], elastic["inertia_matrix"]);
+    blade.eta = std::move(sections.eta);
+    blade.matrices = std::move(sections.values);
     try {
         BeamTable table = matrix_blade_table("blade", blade);
         static_cast<void>(beam_line(table));
@@ -152,22 +183,12 @@ BeamTable windio_blade(WindioFile& file) {
     }
 }
 
+// Axes of the blade: x downwind, y to the trailing edge, z to the tip; in those of the beam (z, -y, x).
 BeamDamping windio_blade_damping(WindioFile& file) {
-    BeamDamping damping;
     const auto given = file.find({"components.blade.structure.elastic_properties.structural_damping",
                                   "components.blade.elastic_properties.structural_damping",
                                   "components.blade.elastic_properties_mb.six_x_six.structural_damping"});
-    if (!given) return damping;
-    const auto list = given->find("mu");
-    if (!list) {
-        file.note(*given, "", "only damping by mu is read: the blade has none");
-        return damping;
-    }
-    const std::vector<double> mu = list->numbers(std::size_t{6});
-    for (double value : mu)
-        if (value < 0) list->fail(text(value, "; allowed: >= 0"));
-    damping.time_constants = {mu[2], mu[1], mu[0], mu[5], mu[4], mu[3]};
-    return damping;
+    return damping_of(file, given, "blade", {2, 1, 0, 5, 4, 3});
 }
 
 namespace {
@@ -225,14 +246,8 @@ EngineeringSection tube_section(double diameter, const std::vector<Layer>& layer
     return s;
 }
 
-}  // namespace
-
-BeamTable windio_tower(WindioFile& file) {
-    const YamlNode axis =
-        file.get({"components.tower.reference_axis", "components.tower.outer_shape_bem.reference_axis"});
-    const std::vector<Vec3> points = axis_points(axis);
-    for (const Vec3& p : points)
-        if (p(0) != points[0](0) || p(1) != points[0](1)) axis.fail("a tower that leans; allowed: x and y constant");
+// Stations of a tube of layers.
+void add_tube(BeamTable& table, WindioFile& file, double length) {
     const YamlNode shape =
         file.get({"components.tower.outer_shape.outer_diameter", "components.tower.outer_shape_bem.outer_diameter"});
     const WindioCurve diameter = windio_curve(shape);
@@ -248,9 +263,6 @@ BeamTable windio_tower(WindioFile& file) {
         layers.push_back({material(file, layer["material"]), windio_curve(layer["thickness"])});
         grid = united(grid, layers.back().thickness.grid);
     }
-    BeamTable table;
-    table.name = "tower";
-    const double length = points.back()(2) - points.front()(2);
     constexpr int parts = 8;
     for (std::size_t i = 1; i < grid.size(); ++i)
         for (int k = i == 1 ? 0 : 1; k <= parts; ++k) {
@@ -258,7 +270,56 @@ BeamTable windio_tower(WindioFile& file) {
             table.stations.push_back((at - grid.front()) / (grid.back() - grid.front()) * length);
             table.sections.push_back(tube_section(diameter.at(at), layers, at, mass_factor, shape));
         }
+}
+
+// Axes of the tower: x downwind, y to the left, z up; in those of the beam (z, x, y).
+void add_matrices(BeamTable& table, const YamlNode& stiffness, const YamlNode& inertia, double length) {
+    Mat3 R;
+    R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    const Matrices sections = read_matrices(stiffness, inertia);
+    if (sections.eta.front() != 0 || sections.eta.back() < 1 - 1e-9)
+        stiffness.fail(text("places ", sections.eta.front(), " ... ", sections.eta.back(), "; allowed: 0 ... 1"));
+    for (double at : sections.eta) table.stations.push_back(at * length);
+    table.stations.back() = length;
+    for (const SectionMatrices& section : sections.values) table.matrices.push_back(rotated(section, R));
+    table.beta.assign(table.stations.size(), 0.0);
+    try {
+        static_cast<void>(beam_line(table));
+    } catch (const InputError& error) {
+        stiffness.fail(error.what());
+    }
+}
+
+}  // namespace
+
+BeamTable windio_tower(WindioFile& file) {
+    const YamlNode axis =
+        file.get({"components.tower.reference_axis", "components.tower.elastic_properties_mb.six_x_six.reference_axis",
+                  "components.tower.outer_shape_bem.reference_axis"});
+    const std::vector<Vec3> points = axis_points(axis);
+    for (const Vec3& p : points)
+        if (p(0) != points[0](0) || p(1) != points[0](1)) axis.fail("a tower that leans; allowed: x and y constant");
+    const double length = points.back()(2) - points.front()(2);
+    BeamTable table;
+    table.name = "tower";
+    if (const auto stiffness = file.find({"components.tower.structure.elastic_properties.stiffness_matrix",
+                                          "components.tower.elastic_properties.stiffness_matrix",
+                                          "components.tower.elastic_properties_mb.six_x_six.stiff_matrix"}))
+        add_matrices(table, *stiffness,
+                     file.get({"components.tower.structure.elastic_properties.inertia_matrix",
+                               "components.tower.elastic_properties.inertia_matrix",
+                               "components.tower.elastic_properties_mb.six_x_six.inertia_matrix"}),
+                     length);
+    else
+        add_tube(table, file, length);
     return table;
+}
+
+BeamDamping windio_tower_damping(WindioFile& file) {
+    const auto given = file.find({"components.tower.structure.elastic_properties.structural_damping",
+                                  "components.tower.elastic_properties.structural_damping",
+                                  "components.tower.elastic_properties_mb.six_x_six.structural_damping"});
+    return damping_of(file, given, "tower", {2, 0, 1, 5, 3, 4});
 }
 
 }  // namespace cardan::turbines

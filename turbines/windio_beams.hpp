@@ -48,6 +48,8 @@ WindioCurve windio_curve(const YamlNode& node);
 
 BeamTable windio_blade(WindioFile& file);
 BeamDamping windio_blade_damping(WindioFile& file);
+/// Of the matrices of its elastic properties; without them a tube of its layers.
 BeamTable windio_tower(WindioFile& file);
+BeamDamping windio_tower_damping(WindioFile& file);
 
 }  // namespace cardan::turbines

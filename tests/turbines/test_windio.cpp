@@ -107,6 +107,51 @@ TEST_CASE("windio: the tower is a tube of the given wall", "[crosscheck]") {
     }
 }
 
+TEST_CASE("windio: matrices of the tower, where given, are read instead of its layers", "[analytic]") {
+    const std::vector<double> K = {1e9, 1.1e9, 8e9, 3e10, 2.5e10, 2e10}, mu = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
+    std::string
+        two =
+            "      elastic_properties:\n        structural_damping: {mu: [0.01, 0.02, 0.03, 0.04, 0.05, 0.06]}\n"
+            "        stiffness_matrix:\n          grid: [0.0, 1.0]\n",
+        one =
+            "    elastic_properties_mb:\n      six_x_six:\n        stiff_matrix:\n          grid: [0.0, 1.0]\n"
+            "          values:\n";
+    std::string row;
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = i; j < 6; ++j) {
+            const std::string entry = std::to_string(i == j ? K[i] : 0.0);
+            two += text("          K", i + 1, j + 1, ": [", entry, ", ", entry, "]\n");
+            row += (row.empty() ? "" : ", ") + entry;
+        }
+    two +=
+        "        inertia_matrix: {grid: [0.0, 1.0], mass: [2000.0, 1000.0], cm_x: [0.1, 0.1], cm_y: [0.2, 0.2],\n"
+        "          i_edge: [700.0, 700.0], i_flap: [600.0, 600.0], i_plr: [1300.0, 1300.0], i_cp: [0.0, 0.0]}\n";
+    // m, 0, 0, 0, 0, -m y; m, 0, 0, 0, m x; m, m y, -m x, 0; edge, 0, 0; flap, 0; polar
+    const std::string mass =
+                          "[2000, 0, 0, 0, 0, -400, 2000, 0, 0, 0, 200, 2000, 400, -200, 0, 700, 0, 0, 600, 0, 1300]",
+                      half =
+                          "[1000, 0, 0, 0, 0, -200, 1000, 0, 0, 0, 100, 1000, 200, -100, 0, 700, 0, 0, 600, 0, 1300]";
+    one += text("            - [", row, "]\n            - [", row, "]\n        inertia_matrix:\n",
+                "          grid: [0.0, 1.0]\n          values:\n            - ", mass, "\n            - ", half, "\n");
+    const test::ModelFolder model("windio");
+    model.replace("small_v2.yaml", "      outfitting_factor: 1.05\n", two);
+    model.replace("small_v1.yaml", "  tower:\n", "  tower:\n" + one);
+    const TurbineFile a = read_windio(model / "small_v2.yaml"), b = read_windio(model / "small_v1.yaml");
+    CHECK(test::difference(a.description.tower.line, b.description.tower.line) < 1e-13);
+    // Along the tower, downwind, to the left.
+    const BeamSection section = a.description.tower.line.section(12);
+    const Vec6 stiffness = section.compliance.diagonal().cwiseInverse();
+    CHECK(stiffness.isApprox((Vec6() << K[2], K[0], K[1], K[5], K[3], K[4]).finished(), 1e-13));
+    CHECK(section.mass == Approx(1500).epsilon(1e-13));
+    CHECK(section.centre.isApprox(Vec3(0, 0.1, 0.2), 1e-12));
+    CHECK(section.J(1, 1) == Approx(700 - 1500 * 0.04).epsilon(1e-12));
+    CHECK(section.J(2, 2) == Approx(600 - 1500 * 0.01).epsilon(1e-12));
+    CHECK(a.description.tower.damping.time_constants ==
+          std::array<double, 6>{mu[2], mu[0], mu[1], mu[5], mu[3], mu[4]});
+    CHECK(test::has_note(a.notes, "components.tower.structure.layers", "not used"));
+    CHECK(test::has_note(b.notes, "components.tower.internal_structure_2d_fem", "not used"));
+}
+
 TEST_CASE("windio: the blade is that of a BeamDyn file with the same figures", "[crosscheck]") {
     const test::ModelFolder model("openfast");
     const BeamLine windio = read_windio(test::data_file("windio/small_v2.yaml")).description.blade.line;
