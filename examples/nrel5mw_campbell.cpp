@@ -2,8 +2,9 @@
 //
 // Problem: at every rotor speed the machine of NREL/TP-500-38060 is brought to its steady state and linearised,
 // M x'' + (C + G) x' + K x = 0; the multi-blade transformation makes the equations constant, their eigenvalues are the
-// natural frequencies and damping ratios in the fixed frame. With --gravity the frequencies at 0, 6 and 12.1 rpm are
-// found also about the periodic steady state under gravity, with the mean of the matrices over the azimuth.
+// natural frequencies and damping ratios in the fixed frame. With --gravity the steady state is periodic, and the
+// diagram is that of the mean of the multi-blade matrices over the azimuth.
+//
 // Reference: OpenFAST 5.0.0 at these speeds, with ElastoDyn's and with BeamDyn's blades (docs/nrel5mw.md). Expected:
 // tower, first flap and first edge modes within 1 % of BeamDyn's (--variant beamdyn) and 2 % of ElastoDyn's (fast).
 #include "mbs/error.hpp"
@@ -43,12 +44,14 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
     auto* gravity = app.add_flag(
-        "--gravity", a.gravity, "frequencies under gravity at 0, 6 and 12.1 rpm as well, in the table beside OpenFAST");
+        "--gravity", a.gravity,
+        "under gravity: modes of the mean over the azimuth; the table beside OpenFAST has those without as well");
     app.add_flag("--elastodyn-shapes", a.shapes,
-                 "with --gravity: tower limited to ElastoDyn's two shapes per direction, with --variant fast also each "
-                 "blade to its three")
+                 "with --gravity, in the table beside OpenFAST: tower limited to ElastoDyn's two shapes per direction, "
+                 "with --variant fast also each blade to its three")
         ->needs(gravity);
-    app.add_option("--azimuth", a.azimuth, "with --gravity: where blade 1 stands at 0 rpm, deg (0: up)")
+    app.add_option("--azimuth", a.azimuth,
+                   "with --gravity, in the table beside OpenFAST: where blade 1 stands at 0 rpm, deg (0: up)")
         ->needs(gravity)
         ->capture_default_str();
     app.add_flag("--generator-free", a.generator_free, "generator free instead of prescribed")->excludes(gravity);
@@ -127,41 +130,44 @@ int print_tower(const Arguments& a) {
             program::print_table(diagram);
             std::cout << "\n";
         }
-    return std::cout.flush() ? 0 : 1;
+    return 0;
 }
 
-void write(const solvers::Campbell& diagram, const Arguments& a) {
+// @return what was written
+std::string write(const solvers::Campbell& diagram, const Arguments& a) {
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = a.max_frequency;
+    if (a.gravity) picture.title = diagram.machine + ", under gravity";
     program::write_files(diagram, a.out, picture);
-    const auto panel = [](std::vector<std::string> families, const char* title, int ordinal, double f_max) {
-        solvers::CampbellPlotOptions p;
-        p.families = std::move(families);
-        p.title = title;
-        p.ordinal = ordinal;
-        p.max_frequency_hz = f_max;
-        return p;
-    };
-    if (diagram.complete && diagram.points.size() > 1)
+    std::string files = a.out + ".h5, .csv, .svg, .png";
+    if (!diagram.complete) return files;
+    if (diagram.points.size() > 1) {
+        using program::panel;
         solvers::plot_panels(diagram, a.out + "_families.png",
                              {panel({"tower fore-aft", "tower side-side"}, "tower, first modes", 1, 0.8),
                               panel({"blade flap"}, "first flap", 1, 1.5),
                               panel({"blade edge", "drive-train torsion"}, "first edge, drive-train torsion", 1, 2.5),
                               panel({"blade flap"}, "second flap", 2, 3)});
+        files += ", _families.png";
+    }
+    if (a.modes) {
+        program::draw_modes(diagram, a.out + "_modes");
+        files += text("; mode shapes in ", a.out, "_modes/");
+    }
+    return files;
 }
 
-// At the rotor speeds of the references.
-std::vector<nrel5mw_campbell::UnderGravity> with_gravity(const Arguments& a, const solvers::Campbell& diagram) {
-    std::vector<nrel5mw_campbell::UnderGravity> all;
-    if (!a.gravity || !diagram.complete) return all;
-    const turbines::Turbine heavy = machine(a, turbines::nrel5mw_gravity);
+// At the rotor speeds of the references, the modes that come nearest to those without gravity.
+std::vector<nrel5mw_campbell::UnderGravity> beside_references(const Arguments& a, const turbines::Turbine& heavy,
+                                                              const solvers::Campbell& light) {
     using nrel5mw_campbell::Limited;
     const Limited limited = !a.shapes             ? Limited::nothing
                             : a.variant == "fast" ? Limited::tower_and_blades
                                                   : Limited::tower;
+    std::vector<nrel5mw_campbell::UnderGravity> all;
     for (const nrel5mw_campbell::OpenFast& reference : nrel5mw_campbell::openfast)
-        if (const auto point = nrel5mw_campbell::point_at(diagram, reference.rpm))
-            all.push_back(nrel5mw_campbell::under_gravity(heavy, diagram, *point, limited, a.azimuth * pi / 180));
+        if (const auto point = nrel5mw_campbell::point_at(light, reference.rpm))
+            all.push_back(nrel5mw_campbell::under_gravity(heavy, light, *point, limited, a.azimuth * pi / 180));
     return all;
 }
 
@@ -174,19 +180,23 @@ int run(const Arguments& a) {
     solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.spin = a.generator_free ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_families.png"});
-    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
-    const auto gravity = with_gravity(a, diagram);
+    const solvers::Campbell light = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    solvers::Campbell diagram = light;
+    std::vector<nrel5mw_campbell::UnderGravity> gravity;
+    if (a.gravity && light.complete) {
+        const turbines::Turbine heavy = machine(a, turbines::nrel5mw_gravity);
+        options.method = solvers::CampbellMethod::averaged;
+        diagram = solvers::campbell(heavy.system(), heavy.rotor(), speeds, options);
+        gravity = beside_references(a, heavy, light);
+    }
     program::stop_at_once();
     const solvers::NameStyle style = style_of(a);
-    const solvers::Campbell named = solvers::renamed(diagram, style);
-    program::print_table(named);
-    if (a.power == 5 && !a.generator_free) nrel5mw_campbell::print_comparison(diagram, gravity, style);
+    diagram = solvers::renamed(diagram, style);
+    program::print_table(diagram);
+    if (a.power == 5 && !a.generator_free) nrel5mw_campbell::print_comparison(light, gravity, style);
     if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
     if (diagram.points.empty()) return 130;
-    write(named, a);
-    if (a.modes && diagram.complete) program::draw_modes(named, a.out + "_modes");
-    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png, _families.png"
-              << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";
+    std::cout << "\nfiles: " << write(diagram, a) << "\n";
     return diagram.complete ? 0 : 130;
 }
 
