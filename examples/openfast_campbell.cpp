@@ -2,9 +2,10 @@
 //
 // Problem: the files of the model (OpenFAST's .fst or ElastoDyn file, a windIO .yaml, or our own .yaml) become a
 // description of the machine, blades and tower as beams; at every rotor speed it is brought to its steady state and
-// linearised, and the multi-blade transformation makes the equations constant. What the files hold beside the
-// structure, and what is taken otherwise than in the program they were made for, is printed as notes. Frames, signs,
-// and what is read: docs/coming_from_openfast.md.
+// linearised, and the multi-blade transformation makes the equations constant. With gravity or an unbalanced hub the
+// steady state is periodic and the modes are those of the mean over the azimuth, with two blades they are Floquet's.
+// What the files hold beside the structure, and what is taken otherwise than in the program they were made for, is
+// printed as notes. Frames, signs, and what is read: docs/coming_from_openfast.md.
 #include "mbs/error.hpp"
 #include "turbines/assembly.hpp"
 #include "turbines/description_yaml.hpp"
@@ -13,7 +14,10 @@
 #include "turbines/windio.hpp"
 
 #include "examples/campbell_program.hpp"
+#include <algorithm>
+#include <cctype>
 #include <iostream>
+#include <optional>
 
 using namespace cardan;
 
@@ -24,6 +28,7 @@ struct Arguments {
     int blade_elements = 6, tower_elements = 4;
     bool gravity = false, notes = false, undamped = false, summary = false;
     double max_frequency = 5, generator_inertia = 0;
+    std::optional<double> pitch;
 };
 
 int parse(int argc, char** argv, Arguments& a) {
@@ -37,21 +42,27 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
     app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    app.add_option("--pitch", a.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
     app.add_option("--generator-inertia", a.generator_inertia,
                    "inertia of the generator on its own shaft, kg m^2, for models that do not give it");
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    app.add_option("--save", a.save, "also write the machine as our own YAML to this file");
-    app.add_flag("--gravity", a.gravity, "with gravity (standstill only: in rotation the steady state is periodic)");
+    app.add_option("--save", a.save, "also write the machine as our own YAML to this file (.yaml)");
+    app.add_flag("--gravity", a.gravity, "with gravity");
     app.add_flag("--undamped", a.undamped, "leave out all damping");
     app.add_flag("--notes", a.notes, "print all notes; else those on groups of entries are only counted");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     return program::parse(app, argc, argv);
 }
 
+bool is_yaml(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending == ".yaml" || ending == ".yml";
+}
+
 turbines::TurbineFile read(const std::string& model) {
     const std::filesystem::path path(model);
-    const std::string ending = path.extension().string();
-    if (ending != ".yaml" && ending != ".yml") return turbines::read_openfast(path);
+    if (!is_yaml(path)) return turbines::read_openfast(path);
     if (!turbines::is_description(turbines::text_file(path))) return turbines::read_windio(path);
     turbines::TurbineFile own;
     own.description = turbines::read_description(path);
@@ -88,7 +99,7 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
 
 turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::TurbineFile& model) {
     turbines::AssemblyOptions o;
-    o.pitch = model.pitch;
+    o.pitch = a.pitch ? *a.pitch * pi / 180 : model.pitch;
     if (a.gravity) o.gravity = {0, 0, -9.80665};
     if (a.undamped) o.structural_damping = o.joint_damping = false;
     o.blade_beam = beam_options(model.description.blade.line, a.blade_elements, true);
@@ -96,18 +107,39 @@ turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::T
     return o;
 }
 
+// What is not constant in multi-blade coordinates has its own method.
+solvers::CampbellMethod method_for(const Arguments& a, const turbines::TurbineDescription& machine) {
+    const RigidInertia& hub = machine.hub.inertia;
+    const bool balanced = hub.com.head<2>().isZero(0) && hub.J(0, 0) == hub.J(1, 1) && hub.J(0, 1) == 0 &&
+                          hub.J(0, 2) == 0 && hub.J(1, 2) == 0;
+    if (machine.blades == 2) return solvers::CampbellMethod::floquet;
+    return a.gravity || !balanced ? solvers::CampbellMethod::averaged : solvers::CampbellMethod::coleman;
+}
+
+void save(const Arguments& a, const turbines::TurbineFile& model) {
+    std::error_code error;
+    if (!is_yaml(a.save)) throw InputError("--save", "file", a.save, "one that ends in .yaml");
+    if (std::filesystem::equivalent(a.save, a.model, error))
+        throw InputError("--save", "file", a.save, "another one than the model");
+    turbines::write_description(model.description, a.save);
+    if (model.pitch != 0 || model.rotor_speed != 0)
+        std::cout << "note: " << a.save << " holds the machine, not how it runs: --pitch " << model.pitch * 180 / pi
+                  << ", " << model.rotor_speed * 30 / pi << " rpm\n";
+}
+
 int run(const Arguments& a) {
     turbines::TurbineFile model = read(a.model);
     print(model.notes, a.notes);
     if (a.generator_inertia != 0) model.description.drive_train.generator_inertia = a.generator_inertia;
-    if (!a.save.empty()) turbines::write_description(model.description, a.save);
+    if (!a.save.empty()) save(a, model);
     const std::vector<double> speeds = rotor_speeds(a.rpm, model.rotor_speed);
     const turbines::Turbine turbine = turbines::assemble(model.description, assembly_options(a, model));
     program::introduce(turbine, a.summary);
 
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
-    const solvers::Campbell diagram =
-        solvers::campbell(turbine.system(), turbine.rotor(), speeds, program::campbell_options(a.max_frequency));
+    solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
+    options.method = method_for(a, model.description);
+    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     program::stop_at_once();
     program::print_table(diagram);
     if (diagram.points.empty()) return 130;

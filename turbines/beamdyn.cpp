@@ -11,13 +11,19 @@ constexpr double degree = pi / 180;
 
 // Reference line and twist.
 MatrixBlade key_points(OpenFastFile& file) {
-    const int count = file.integer("kp_total", 2, 100000);
+    const int count = file.integer("kp_total", 2, 100000), members = file.integer("member_total", 1, count - 1);
+    file.pass_over("kp_total", static_cast<std::size_t>(members));  // numbers of key points
+    if (members > 1) file.note("member_total", "one smooth line goes through all key points here");
+    if (count < 4) file.note("kp_total", "so few key points are joined by straight pieces here");
     const OpenFastTable t = file.table("kp_xr", static_cast<std::size_t>(count));
     const auto &x = t.column("kp_xr"), &y = t.column("kp_yr"), &z = t.column("kp_zr"),
                &twist = t.column("initial_twist");
     MatrixBlade blade;
     for (std::size_t i = 0; i < t.rows(); ++i) {
         blade.points.emplace_back(x[i], y[i], z[i]);
+        constexpr double largest = 1e5;  // m
+        if (blade.points[i].cwiseAbs().maxCoeff() > largest)
+            t.fail(i, text("key point (", x[i], ", ", y[i], ", ", z[i], "); allowed: up to ", largest, " m"));
         if (i == 0 && !blade.points[0].isZero(0)) t.fail(0, "first key point; allowed: the blade root (0, 0, 0)");
         if (i > 0 && !(z[i] > z[i - 1])) t.fail(i, text("kp_zr = ", z[i], " after ", z[i - 1], "; allowed: larger"));
         if (std::abs(twist[i]) > 180) t.fail(i, text("initial_twist = ", twist[i], "; allowed: -180 ... 180 degrees"));
@@ -73,6 +79,7 @@ void read_stations(OpenFastFile& file, MatrixBlade& out) {
 
 BeamDamping damping(OpenFastFile& file) {
     const int type = file.integer("damp_type", 0, 2);
+    if (type != 1 && file.has("mu2")) file.pass_over("mu2", 2);  // units and numbers
     if (type == 0) return {};
     if (type == 1) {
         const std::vector<OpenFastFile::Row> rows = file.rows_below("mu1");
@@ -98,7 +105,7 @@ const std::vector<KeywordGroup>& groups() {
     static const std::vector<KeywordGroup> all{
         {{"Echo",     "analysis_type", "QuasiStaticInit", "rhoinf",   "quadrature", "refine",    "n_fact",
           "DTBeam",   "load_retries",  "NRMax",           "stop_tol", "tngt_stf_*", "RotStates", "order_elem",
-          "SumPrint", "OutFmt",        "NNodeOuts",       "OutNd",    "OutList",    "BldNd_*",   "member_total"},
+          "SumPrint", "OutFmt",        "NNodeOuts",       "OutNd",    "OutList",    "BldNd_*"},
          "output and numerical settings: without meaning for the machine"},
         {{"PitchJ", "PitchK", "PitchC"}, "of a pitch drive that is off"},
         {{"n_modes", "zeta", "mu2"}, "of a kind of damping that is not chosen"}};

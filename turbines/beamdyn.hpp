@@ -14,9 +14,10 @@ struct BeamDynBlade {
     Spring pitch = rigid_joint;  ///< pitch drive, where UsePitchAct is True
 };
 
-/// The main file and the blade file it names. The reference line is the spline through the key points (straight if all
-/// lie on z), stations count arc length; twist is linear between the key points, where BeamDyn has a spline, the
-/// matrices are linear in the section's own axes. Damping: damp_type 0 none, 1 the six mu, 2 ratios of the modes.
+/// The main file and the blade file it names. The reference line is the spline through the key points (straight pieces
+/// through two or three; straight if all lie on z), stations count arc length; twist is linear between the key points,
+/// where BeamDyn has a spline, the matrices are linear in the section's own axes. Damping: damp_type 0 none, 1 the six
+/// mu, 2 ratios of the modes.
 /// @throws ParseError, FileError; InputError naming the station for matrices that are no section
 BeamDynBlade read_beamdyn(const std::filesystem::path& path);
 

@@ -13,9 +13,12 @@ namespace cardan::turbines {
 
 namespace {
 
-std::string digits(double value, const std::string& where) {
-    if (std::isnan(value)) throw InputError(where, "number", value, "finite, or infinite for a stiffness");
-    if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+constexpr int most = 1000;  // of what is counted
+
+// As the reader takes them.
+std::string digits(double value, const std::string& where, bool or_infinite = false) {
+    if (or_infinite && value == std::numeric_limits<double>::infinity()) return ".inf";
+    if (!std::isfinite(value)) throw InputError(where, "number", value, or_infinite ? "finite, or infinite" : "finite");
     std::array<char, 40> buffer{};
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     return std::string(buffer.data(), end);
@@ -50,10 +53,13 @@ const char* name_of(LineShape shape) {
 class Writer {
 public:
     void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
-    void integer(const char* key, int value) { entry(key, text(value)); }
+    void integer(const char* key, int value) {
+        if (value < 1 || value > most) throw InputError(key, "number", value, text("1 ... ", most));
+        entry(key, text(value));
+    }
     void number(const char* key, double value) { entry(key, digits(value, key)); }
     void spring(const char* key, const Spring& s) {
-        entry(key, text("{stiffness: ", digits(s.stiffness, key), ", damping: ", digits(s.damping, key), "}"));
+        entry(key, text("{stiffness: ", digits(s.stiffness, key, true), ", damping: ", digits(s.damping, key), "}"));
     }
     void inertia(const char* key, const RigidInertia& i) {
         group(key, [&] {
@@ -93,9 +99,9 @@ private:
     std::string indentation() const { return std::string(static_cast<std::size_t>(2 * depth_), ' '); }
     void entry(const char* key, const std::string& value) { out += text(indentation(), key, ": ", value, "\n"); }
     template <class Values>
-    std::string list(const Values& values) const {
+    std::string list(const Values& values, bool or_infinite = false) const {
         std::string all;
-        for (double value : values) all += (all.empty() ? "" : ", ") + digits(value, "list");
+        for (double value : values) all += (all.empty() ? "" : ", ") + digits(value, "list", or_infinite);
         return "[" + all + "]";
     }
     template <class M>
@@ -114,7 +120,7 @@ private:
                 for (const SectionColumn& column : section_columns()) {
                     std::vector<double> values;
                     for (EngineeringSection section : table.sections) values.push_back(column.of(section));
-                    entry(column.name, list(values));
+                    entry(column.name, list(values, column.may_be_infinite));
                 }
             });
         } else {
@@ -236,7 +242,7 @@ public:
             node.fail(text("version ", given, "; allowed: ", description_yaml_version));
     }
     void word(const char* key, std::string& value) { value = at()[key].word(); }
-    void integer(const char* key, int& value) { value = at()[key].integer(1, 1000); }
+    void integer(const char* key, int& value) { value = at()[key].integer(1, most); }
     void number(const char* key, double& value) { value = at()[key].number(); }
     void spring(const char* key, Spring& s) {
         group(key, [&] {
@@ -316,7 +322,11 @@ TurbineDescription read_description(const std::filesystem::path& path) {
 }
 
 bool is_description(const std::string& text) {
-    return text.starts_with("cardan_turbine:") || text.find("\ncardan_turbine:") != std::string::npos;
+    try {
+        return YamlNode::parse(text, "").find("cardan_turbine").has_value();
+    } catch (const ParseError&) {
+        return text.find("cardan_turbine") != std::string::npos;
+    }
 }
 
 }  // namespace cardan::turbines

@@ -9,15 +9,20 @@
 
 namespace cardan::turbines {
 
-YamlNode::YamlNode(YAML::Node node, std::string path, std::shared_ptr<const std::string> file)
-    : node_(std::move(node)), path_(std::move(path)), file_(std::move(file)) {}
+YamlNode::YamlNode(YAML::Node node, std::string path, std::shared_ptr<Document> document)
+    : node_(std::move(node)), path_(std::move(path)), document_(std::move(document)) {}
+
+YamlNode YamlNode::child(const YAML::Node& node, std::string path) const {
+    document_->read.insert(path);
+    return {node, std::move(path), document_};
+}
 
 YamlNode YamlNode::parse(const std::string& text, const std::string& file) {
     try {
         const std::vector<YAML::Node> documents = YAML::LoadAll(text);
         if (documents.size() != 1)
             throw ParseError(file, 1, 0, cardan::text(documents.size(), " YAML documents; allowed: 1"));
-        YamlNode root(documents.front(), "", std::make_shared<const std::string>(file));
+        YamlNode root(documents.front(), "", std::make_shared<Document>(Document{file, {}}));
         if (!root.is_map()) throw ParseError(file, 1, 0, "a YAML map expected");
         return root;
     } catch (const YAML::Exception& error) {
@@ -31,7 +36,7 @@ int YamlNode::line() const {
 }
 
 void YamlNode::fail(std::string_view what) const {
-    throw ParseError(*file_, line(), std::max(node_.Mark().column, 0) + 1,
+    throw ParseError(file(), line(), std::max(node_.Mark().column, 0) + 1,
                      path_.empty() ? std::string(what) : text(path_, ": ", what));
 }
 
@@ -49,7 +54,7 @@ std::optional<YamlNode> YamlNode::find(std::string_view key) const {
     require_map();
     for (const auto& entry : node_)
         if (entry.first.Scalar() == key)
-            return YamlNode(entry.second, path_.empty() ? std::string(key) : text(path_, ".", key), file_);
+            return child(entry.second, path_.empty() ? std::string(key) : text(path_, ".", key));
     return std::nullopt;
 }
 
@@ -74,10 +79,20 @@ std::vector<std::string> YamlNode::keys() const {
     return all;
 }
 
+std::vector<YamlNode> YamlNode::entries() const {
+    require_map();
+    std::vector<YamlNode> all;
+    for (const auto& entry : node_) {
+        const std::string& key = entry.first.Scalar();
+        all.push_back({entry.second, path_.empty() ? key : text(path_, ".", key), document_});
+    }
+    return all;
+}
+
 std::vector<YamlNode> YamlNode::items() const {
     if (!node_.IsSequence()) fail("a list expected");
     std::vector<YamlNode> all;
-    for (std::size_t i = 0; i < node_.size(); ++i) all.push_back({node_[i], text(path_, "[", i, "]"), file_});
+    for (std::size_t i = 0; i < node_.size(); ++i) all.push_back(child(node_[i], text(path_, "[", i, "]")));
     return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,14 @@ public:
     /// The only document of a text. @throws ParseError for what is no YAML
     static YamlNode parse(const std::string& text, const std::string& file);
 
-    const std::string& file() const { return *file_; }
+    const std::string& file() const { return document_->file; }
     const std::string& path() const { return path_; }  ///< "components.blade"
     int line() const;
     bool is_map() const { return node_.IsMap(); }
     bool is_list() const { return node_.IsSequence(); }
+
+    /// Was it asked for, by the key or as an item of a list?
+    bool was_read() const { return document_->read.contains(path_); }
 
     /// Entry of a map. @throws ParseError with the keys there are
     YamlNode operator[](std::string_view key) const;
@@ -30,6 +34,8 @@ public:
     /// By dots: "structure.elastic_properties"; none if one of the steps is not there.
     std::optional<YamlNode> find_path(std::string_view keys) const;
     std::vector<std::string> keys() const;
+    /// All entries of the map; they do not count as read.
+    std::vector<YamlNode> entries() const;
     std::vector<YamlNode> items() const;
 
     std::string word() const;
@@ -44,12 +50,17 @@ public:
     [[noreturn]] void fail(std::string_view what) const;
 
 private:
-    YamlNode(YAML::Node node, std::string path, std::shared_ptr<const std::string> file);
+    struct Document {
+        std::string file;
+        std::set<std::string> read;  // paths
+    };
+    YamlNode(YAML::Node node, std::string path, std::shared_ptr<Document> document);
+    YamlNode child(const YAML::Node& node, std::string path) const;
     void require_map() const;
 
     YAML::Node node_;
     std::string path_;
-    std::shared_ptr<const std::string> file_;
+    std::shared_ptr<Document> document_;
 };
 
 }  // namespace cardan::turbines

@@ -64,9 +64,10 @@ private:
         if (!(value >= 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: >= 0"));
         return value;
     }
-    double angle(std::string_view keyword) {
+    double angle(std::string_view keyword, double limit = 180) {
         const double value = file_.number(keyword);
-        if (std::abs(value) > 180) file_.fail(keyword, text(keyword, " = ", value, "; allowed: -180 ... 180 degrees"));
+        if (std::abs(value) > limit)
+            file_.fail(keyword, text(keyword, " = ", value, "; allowed: ", -limit, " ... ", limit, " degrees"));
         return value * degree;
     }
     void add_source(const std::string& name, const std::string& content) {
@@ -82,7 +83,7 @@ private:
         if (!(top > base)) file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above TowerBsHt = ", base));
         if (base != 0) file_.note("TowerBsHt", "the origin of the ground axes is the foot of the tower here");
         const std::filesystem::path path = file_.path("TwrFile");
-        ElastoDynBeam tower = elastodyn_tower(path, top - base);
+        ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
         d_.tower.line = tower.line;
         d_.tower.damping = tower.damping;
         keep(tower, path.string());
@@ -115,9 +116,9 @@ private:
             file_.note("YawBrMass", "is part of the nacelle here, on the yaw axis at the tower top");
         }
         n.shaft_height = file_.number("Twr2Shft");
-        n.tilt = -angle("ShftTilt");
+        n.tilt = -angle("ShftTilt", 45);
         n.overhang = -file_.number("OverHang");
-        if (d_.blades == 2) n.overhang -= file_.number("UndSling");  // given to the teeter pin
+        if (d_.blades == 2) n.overhang += file_.number("UndSling");  // given to the teeter pin, the apex upwind of it
         if (!(n.overhang > 0)) file_.note("OverHang", "a downwind rotor: assemble() takes upwind ones only");
         n.tilt_bearing = rigid_joint;
     }
@@ -156,7 +157,7 @@ private:
         const double tip = positive("TipRad");
         if (!(tip > d_.hub.radius))
             file_.fail("TipRad", text("TipRad = ", tip, "; allowed: above HubRad = ", d_.hub.radius));
-        d_.blade.cone = angle(numbered(file_, "PreCone", 1));
+        d_.blade.cone = angle(numbered(file_, "PreCone", 1), 45);
         out_.pitch = angle(numbered(file_, "BlPitch", 1));
         d_.blade.pitch = context_.pitch;
         const std::string blade_file = numbered(file_, "BldFile", 1);
@@ -172,7 +173,7 @@ private:
             return;
         }
         const std::filesystem::path path = file_.path(blade_file);
-        ElastoDynBeam blade = elastodyn_blade(path, tip - d_.hub.radius);
+        ElastoDynBeam blade = file_.follow(blade_file, [&] { return elastodyn_blade(path, tip - d_.hub.radius); });
         set_blade(blade, path.string());
     }
 

@@ -19,7 +19,7 @@ const std::vector<KeywordGroup>& groups() {
     return all;
 }
 
-// Damping ratios in percent as they follow in the file, without the zeros at the end.
+// Damping ratios in percent as they follow in the file; none if all are zero.
 std::vector<double> ratios(OpenFastFile& file, std::initializer_list<const char*> keywords) {
     std::vector<double> all;
     for (const char* keyword : keywords) {
@@ -27,7 +27,7 @@ std::vector<double> ratios(OpenFastFile& file, std::initializer_list<const char*
         if (!(percent >= 0)) file.fail(keyword, text(keyword, " = ", percent, "; allowed: >= 0 (percent of critical)"));
         all.push_back(percent / 100);
     }
-    while (!all.empty() && all.back() == 0) all.pop_back();
+    if (std::all_of(all.begin(), all.end(), [](double ratio) { return ratio == 0; })) all.clear();
     return all;
 }
 
@@ -53,14 +53,19 @@ std::vector<double> stations(const OpenFastTable& table, const char* fraction, d
     return x;
 }
 
-// One property of all stations: column times factor, or what stands for a column that is not there.
+// Is the column there, with anything but zeros?
+bool holds(const OpenFastTable& table, std::string_view name) {
+    if (!table.has(name)) return false;
+    const std::vector<double>& values = table.column(name);
+    return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+}
+
+// One property of all stations: column times factor, or what stands for a column that is not there or all zeros.
 class Column {
 public:
     Column(const OpenFastTable& table, std::string_view name, double times, double otherwise)
-        : table_(table), name_(name), times_(times), otherwise_(otherwise) {}
-    double operator[](std::size_t row) const {
-        return table_.has(name_) ? times_ * table_.column(name_)[row] : otherwise_;
-    }
+        : table_(table), name_(name), times_(times), otherwise_(otherwise), given_(holds(table, name)) {}
+    double operator[](std::size_t row) const { return given_ ? times_ * table_.column(name_)[row] : otherwise_; }
     double positive(std::size_t row) const {
         const double value = (*this)[row];
         if (!(value > 0)) table_.fail(row, text(name_, " = ", value, "; allowed: > 0"));
@@ -76,6 +81,7 @@ private:
     const OpenFastTable& table_;
     std::string_view name_;
     double times_, otherwise_;
+    bool given_;
 };
 
 constexpr double rigid = std::numeric_limits<double>::infinity();
@@ -90,12 +96,21 @@ BeamLine line_of(const BeamTable& table, const OpenFastTable& rows) {
 
 // A column that has no part here, where it is there and not zero.
 void note_column(std::vector<FileNote>& notes, const OpenFastTable& table, const char* name, const char* why) {
-    if (!table.has(name)) return;
-    for (double value : table.column(name))
-        if (value != 0) {
-            notes.push_back({table.file, table.line, name, text(value, " ..."), why});
-            return;
-        }
+    if (!holds(table, name)) return;
+    const std::vector<double>& values = table.column(name);
+    const double first = *std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
+    notes.push_back({table.file, table.line, name, text(first, " ..."), why});
+}
+
+// Columns of FAST 7 that ElastoDyn has no longer.
+void note_old_columns(std::vector<FileNote>& notes, const OpenFastTable& table,
+                      std::initializer_list<const char*> columns) {
+    std::string used;
+    for (const char* column : columns)
+        if (holds(table, column)) used += (used.empty() ? "" : ", ") + std::string(column);
+    if (!used.empty())
+        notes.push_back(
+            {table.file, table.line, used, "", "columns of FAST 7: ElastoDyn leaves them out, here they count"});
 }
 
 // Columns that nothing is read from.
@@ -158,6 +173,7 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
     blade.damping = BeamDamping::of_modes(modal);
     for (const char* keyword : {"FlStTunr(1)", "FlStTunr(2)"})
         file.note_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
+    note_old_columns(blade.notes, t, {"GJStff", "EAStff", "FlpIner", "EdgIner", "FlpcgOf", "EdgcgOf"});
     note_column(blade.notes, t, "Alpha", "coupling of flap and twist: not used");
     for (const char* offset : {"FlpEAOf", "EdgEAOf", "PrecrvRef", "PreswpRef"})
         note_column(blade.notes, t, offset, "the reference line is straight and the elastic axis is the pitch axis");
@@ -199,6 +215,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length) 
     tower.damping = BeamDamping::of_modes(modal);
     for (const char* keyword : {"FAStTunr(1)", "FAStTunr(2)", "SSStTunr(1)", "SSStTunr(2)"})
         file.note_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
+    note_old_columns(tower.notes, t, {"TwGJStif", "TwEAStif", "TwFAIner", "TwSSIner"});
     for (const char* offset : {"TwFAcgOf", "TwSScgOf"})
         note_column(tower.notes, t, offset, "the mass centres of the tower lie on its axis here");
     note_other_columns(tower.notes, t,

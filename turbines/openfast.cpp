@@ -36,6 +36,10 @@ Servo read_servodyn(const std::filesystem::path& path) {
     }
     file.note_unless("YawNeut", 0, "the nacelle points into the wind here");
     if (file.number("VSContrl") == 1) servo.rated_generator_speed = file.number("VS_RtGnSp") * rpm;
+    for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
+        file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
+    for (const char* keyword : {"CompNTMD", "CompTTMD"})
+        if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
     servo.notes = file.notes({{{"*"}, "control, brakes and electrical drive: not part of the description"}});
     servo.source = text("# ", path.string(), "\n", file.text());
     return servo;
@@ -58,17 +62,29 @@ Servo servo_of(OpenFastFile& main) {
 TurbineFile read_openfast(const std::filesystem::path& path) {
     OpenFastFile main = OpenFastFile::read(path);
     if (!main.has("EDFile") && main.has("NumBl")) return read_elastodyn(path);
+    if (!main.has("EDFile"))
+        throw ParseError(path.string(), 1, 0,
+                         "neither a main file of OpenFAST (no line with the keyword EDFile) nor one of ElastoDyn (none "
+                         "with NumBl)");
     const std::filesystem::path elastodyn = main.path("EDFile");
+    if (main.number_or("NRotors", 1) != 1)
+        main.fail("NRotors", text("NRotors = ", main.number("NRotors"), "; allowed: 1"));
+    if (main.has("MirrorRotor") && main.flag("MirrorRotor"))
+        main.note("MirrorRotor", "the rotor turns clockwise seen from upwind here");
     const int kind = main.integer("CompElast", 1, 2);
     Servo servo = servo_of(main);
     ElastoDynContext context;
     context.yaw = servo.yaw;
     if (kind == 2) {
-        BeamDynBlade blade = read_beamdyn(main.path(bare_or_first(main, "BDBldFile")));
+        const std::string first = bare_or_first(main, "BDBldFile");
+        BeamDynBlade blade = main.follow(first, [&] { return read_beamdyn(main.path(first)); });
+        for (const char* other : {"BDBldFile(2)", "BDBldFile(3)", "BDBldFile2", "BDBldFile3"})
+            if (main.has(other) && main.word(other) != main.word(first))
+                main.note(other, "all blades are the first one");
         context.blade = std::move(blade.beam);
         context.pitch = blade.pitch;
     }
-    TurbineFile out = read_elastodyn(elastodyn, context);
+    TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
         main.note_unless(keyword, 0,
                          "what the tower stands on is not part of the description; it stands on the ground");

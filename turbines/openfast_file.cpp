@@ -307,7 +307,7 @@ OpenFastTable OpenFastFile::table(std::string_view first, std::size_t rows) {
         const std::string what = cardan::text("row ", row + 1, " of ", rows, " of the table of ", first);
         if (at == lines_.end())
             throw ParseError(file_, lines_.back().number, 0, cardan::text(what, ": the file ends before it"));
-        if (at->heading || at->tokens.empty() || !at->keyword.empty() || at->tokens.size() < out.names.size())
+        if (at->heading || at->tokens.empty() || !at->keyword.empty() || at->tokens.size() != out.names.size())
             throw ParseError(file_, at->number, 0,
                              cardan::text(what, ": ", out.names.size(), " numbers expected (", joined(out.names), ")"));
         for (std::size_t k = 0; k < out.names.size(); ++k)
@@ -323,7 +323,7 @@ OpenFastTable OpenFastFile::table(std::string_view first, std::size_t rows) {
 
 std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
     auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower(what)](const Line& l) {
-        return (l.heading || l.tokens.size() > 0) && lower(l.all).find(key) != std::string::npos;
+        return l.number > 2 && (l.heading || l.tokens.size() > 0) && lower(l.all).find(key) != std::string::npos;
     });
     if (at == lines_.end()) throw ParseError(file_, lines_.back().number, 0, cardan::text("no line with '", what, "'"));
     at->used = true;
@@ -339,9 +339,15 @@ std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
         if (!at->tokens.empty() && at->tokens.front().text.starts_with('(')) continue;  // units
         Row row{{}, at->number};
         for (const Token& token : at->tokens) row.values.push_back(parsed(token, at->number, what));
+        at->used = true;
         rows.push_back(std::move(row));
     }
     return rows;
+}
+
+void OpenFastFile::pass_over(std::string_view keyword, std::size_t lines) {
+    const std::size_t first = static_cast<std::size_t>(&known(keyword) - lines_.data()) + 1;
+    for (std::size_t i = first; i < std::min(first + lines, lines_.size()); ++i) lines_[i].used = true;
 }
 
 void OpenFastFile::note(std::string_view keyword, std::string why) {
@@ -357,9 +363,16 @@ void OpenFastFile::note_unless(std::string_view keyword, double neutral, std::st
 
 std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& groups) const {
     std::vector<FileNote> out = notes_;
+    // In files of which all the rest has no meaning they have none either.
+    const bool lone_numbers = std::none_of(groups.begin(), groups.end(), [](const KeywordGroup& g) {
+        return std::find(g.keywords.begin(), g.keywords.end(), "*") != g.keywords.end();
+    });
+    const auto is_numbers = [&](const Line& line) {
+        return !line.heading && !line.tokens.empty() && numbers_of(line).has_value();
+    };
     std::vector<std::vector<std::string>> members(groups.size());
     for (const Line& line : lines_) {
-        if (line.used || line.keyword.empty()) continue;
+        if (line.used || (line.keyword.empty() && !(lone_numbers && is_numbers(line)))) continue;
         const auto group =
             std::find_if(groups.begin(), groups.end(), [&](const KeywordGroup& g) { return belongs(line.keyword, g); });
         if (group != groups.end()) {
@@ -368,7 +381,10 @@ std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& group
         }
         std::string value;
         for (const Token& token : line.tokens) value += (value.empty() ? "" : ", ") + token.text;
-        out.push_back({file_, line.number, line.keyword, value, "not known to this reader and without effect"});
+        if (line.keyword.empty())
+            out.push_back({file_, line.number, "line without a keyword", value, "without effect"});
+        else
+            out.push_back({file_, line.number, line.keyword, value, "not known to this reader and without effect"});
     }
     for (std::size_t g = 0; g < groups.size(); ++g)
         if (!members[g].empty()) out.push_back({file_, 0, joined(members[g]), "", std::string(groups[g].why)});

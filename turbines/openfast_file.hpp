@@ -6,6 +6,7 @@
 /// with "---", "===", "!" or "#". Numbers may be written as Fortran does (1.0D+3, .5, 5.).
 #pragma once
 
+#include "mbs/error.hpp"
 #include "turbines/turbine_file.hpp"
 
 #include <filesystem>
@@ -65,12 +66,24 @@ public:
     std::string word(std::string_view keyword);
     /// A path seen from the folder of this file.
     std::filesystem::path path(std::string_view keyword);
+    /// What `read()` makes of the file that the keyword names. @throws ParseError at the keyword for FileError
+    template <class Read>
+    auto follow(std::string_view keyword, const Read& read) const {
+        try {
+            return read();
+        } catch (const FileError& error) {
+            fail(keyword, cardan::text(keyword, ": ", error.what()));
+        }
+    }
 
     /// The rows below a line of names that begins with `first` and a line of units.
     OpenFastTable table(std::string_view first, std::size_t rows);
     /// The rows of numbers below the heading, or the line of names, that contains `what`, up to the next heading or
     /// keyword; lines without numbers are passed over.
     std::vector<Row> rows_below(std::string_view what);
+
+    /// The lines after that of the keyword count as used.
+    void pass_over(std::string_view keyword, std::size_t lines);
 
     /// A note on the entry, which then counts as used.
     void note(std::string_view keyword, std::string why);

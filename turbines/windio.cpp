@@ -5,6 +5,7 @@
 #include "turbines/windio_beams.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace cardan::turbines {
 
@@ -18,53 +19,55 @@ WindioFile::WindioFile(YamlNode root) : root_(std::move(root)) {
     if (version_ == 2) angle_ = pi / 180;
 }
 
-std::optional<YamlNode> WindioFile::find(std::initializer_list<const char*> paths) {
+std::optional<YamlNode> WindioFile::find(std::initializer_list<const char*> paths) const {
     for (const char* path : paths)
-        if (std::optional<YamlNode> found = root_.find_path(path)) {
-            used_.insert(path);
-            return found;
-        }
+        if (std::optional<YamlNode> found = root_.find_path(path)) return found;
     return std::nullopt;
 }
 
-YamlNode WindioFile::get(std::initializer_list<const char*> paths) {
+YamlNode WindioFile::get(std::initializer_list<const char*> paths) const {
     if (std::optional<YamlNode> found = find(paths)) return *std::move(found);
     std::string all;
     for (const char* path : paths) all += (all.empty() ? "" : " or ") + std::string(path);
-    root_.fail(text("no ", all));
+    // As far as the first one goes.
+    YamlNode at = root_;
+    std::string_view rest = *paths.begin();
+    while (std::optional<YamlNode> next = at.find(rest.substr(0, rest.find('.')))) {
+        at = *std::move(next);
+        rest.remove_prefix(std::min(rest.find('.'), rest.size() - 1) + 1);
+    }
+    at.fail(text("no ", all));
 }
 
 void WindioFile::note(const YamlNode& node, std::string value, std::string why) {
     notes.push_back({node.file(), node.line(), node.path(), std::move(value), std::move(why)});
 }
 
-void WindioFile::collect(const YamlNode& node, int levels, std::vector<FileNote>& out) const {
-    for (const std::string& key : node.keys()) {
-        const YamlNode entry = node[key];
-        const std::string& path = entry.path();
-        if (used_.contains(path)) continue;
-        const bool above_used = std::any_of(used_.begin(), used_.end(),
-                                            [&](const std::string& used) { return used.starts_with(path + "."); });
-        if (above_used && entry.is_map() && levels > 0)
-            collect(entry, levels - 1, out);
-        else if (!above_used)
+namespace {
+
+// In a node that was read, what was not.
+void collect(const YamlNode& node, std::vector<FileNote>& out) {
+    if (node.is_list())
+        for (const YamlNode& item : node.items()) collect(item, out);
+    if (!node.is_map()) return;
+    for (const YamlNode& entry : node.entries())
+        if (entry.was_read())
+            collect(entry, out);
+        else if (!entry.path().ends_with(".name"))
             out.push_back(
-                {entry.file(), entry.line(), path, "", "not used: no part of the structure as it is modelled"});
-    }
+                {entry.file(), entry.line(), entry.path(), "", "not used: no part of the structure as it is modelled"});
 }
+
+}  // namespace
 
 std::vector<FileNote> WindioFile::unused() const {
     std::vector<FileNote> out;
     std::string others;
-    for (const std::string& key : root_.keys()) {
-        if (used_.contains(key)) continue;
-        const bool within = std::any_of(used_.begin(), used_.end(),
-                                        [&](const std::string& used) { return used.starts_with(key + "."); });
-        if (within)
-            collect(root_[key], 4, out);
-        else
-            others += (others.empty() ? "" : ", ") + key;
-    }
+    for (const YamlNode& entry : root_.entries())
+        if (!entry.was_read())
+            others += (others.empty() ? "" : ", ") + entry.path();
+        else if (entry.path() != "materials")  // of which others hold much
+            collect(entry, out);
     if (!others.empty())
         out.push_back(
             {root_.file(), 0, others, "", "aerodynamics, control, costs, remarks: without meaning for the machine"});
@@ -114,8 +117,11 @@ public:
         d_.name = file_.get({"name"}).word();
         const auto blades = file_.find({"assembly.number_of_blades"});
         d_.blades = blades ? blades->integer(1, 10) : 3;
-        const auto side = file_.find({"assembly.rotor_orientation"});
-        upwind_ = !side || side->word().starts_with('u') || side->word().starts_with('U');
+        if (const auto side = file_.find({"assembly.rotor_orientation"})) {
+            std::string word = side->word();
+            std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+            if (word != "upwind") side->fail(text("'", side->word(), "'; allowed: upwind"));
+        }
         try {
             d_.tower.line = beam_line(windio_tower(file_));
         } catch (const InputError& error) {
@@ -138,14 +144,22 @@ public:
     }
 
 private:
+    // Cone and tilt, in rad.
+    double small_angle(const YamlNode& node) const {
+        const double value = node.number() * file_.angle();
+        if (!(std::abs(value) < pi / 4))
+            node.fail(text(node.number(), "; allowed: below an eighth of a turn (", file_.unit_of_angle(), ")"));
+        return value;
+    }
     void missing(const char* entry, const char* why) {
         out_.notes.push_back({file_.root().file(), 0, entry, "not there", why});
     }
 
     void read_hub() {
-        d_.hub.radius = positive(file_.get({"components.hub.diameter"})) / 2;
-        const double cone = file_.get({"components.hub.cone_angle"}).number() * file_.angle();
-        d_.blade.cone = upwind_ ? -cone : cone;  // away from the tower positive there
+        d_.hub.radius = positive(file_.get({"components.hub.diameter", "components.hub.outer_shape_bem.diameter"})) / 2;
+        // Away from the tower positive there.
+        d_.blade.cone =
+            -small_angle(file_.get({"components.hub.cone_angle", "components.hub.outer_shape_bem.cone_angle"}));
         RigidInertia hub;
         hub.mass = not_negative(
             file_.get({"components.hub.elastic_properties.mass", "components.hub.elastic_properties_mb.system_mass"}));
@@ -161,9 +175,8 @@ private:
 
     void read_nacelle() {
         NacelleDescription& n = d_.nacelle;
-        n.tilt =
-            file_.get({"components.drivetrain.outer_shape.uptilt", "components.nacelle.drivetrain.uptilt"}).number() *
-            file_.angle();
+        n.tilt = small_angle(
+            file_.get({"components.drivetrain.outer_shape.uptilt", "components.nacelle.drivetrain.uptilt"}));
         const double overhang =
             file_.get({"components.drivetrain.outer_shape.overhang", "components.nacelle.drivetrain.overhang"})
                 .number();
@@ -171,8 +184,6 @@ private:
                                   .get({"components.drivetrain.outer_shape.distance_tt_hub",
                                         "components.nacelle.drivetrain.distance_tt_hub"})
                                   .number();
-        if (!(std::abs(n.tilt) < pi / 2))
-            file_.root().fail(text("uptilt of ", n.tilt, " rad; allowed: below a quarter turn"));
         n.overhang = overhang / std::cos(n.tilt);
         n.shaft_height = height - overhang * std::tan(n.tilt);
         n.tilt_bearing = rigid_joint;
@@ -204,9 +215,11 @@ private:
             file_.find({"components.drivetrain.gearbox.gear_ratio", "components.nacelle.drivetrain.gear_ratio"});
         t.gear_ratio = ratio ? positive(*ratio) : 1;
         t.high_speed_shaft = t.main_shaft = rigid_joint;
-        if (const auto k = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_stiffness"})) {
+        if (const auto k = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_stiffness",
+                                       "components.nacelle.elastic_properties_mb.spring_constant"})) {
             t.main_shaft.stiffness = positive(*k);
-            if (const auto c = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_damping"}))
+            if (const auto c = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_damping",
+                                           "components.nacelle.elastic_properties_mb.damping_coefficient"}))
                 t.main_shaft.damping = not_negative(*c);
         } else {
             missing("torsional stiffness of the drive train", "the drive train is rigid");
@@ -220,7 +233,6 @@ private:
     }
 
     WindioFile file_;
-    bool upwind_ = true;
     TurbineFile out_;
     TurbineDescription& d_ = out_.description;
 };

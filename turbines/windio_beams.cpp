@@ -24,6 +24,14 @@ std::vector<double> increasing_grid(const YamlNode& node, std::size_t values) {
     return grid;
 }
 
+// From one end to the other.
+WindioCurve whole_curve(const YamlNode& node) {
+    WindioCurve curve = windio_curve(node);
+    if (curve.grid.front() > 1e-9 || curve.grid.back() < 1 - 1e-9)
+        node["grid"].fail(text("places ", curve.grid.front(), " ... ", curve.grid.back(), "; allowed: 0 ... 1"));
+    return curve;
+}
+
 std::vector<double> united(std::vector<double> a, const std::vector<double>& b) {
     a.insert(a.end(), b.begin(), b.end());
     std::sort(a.begin(), a.end());
@@ -125,14 +133,11 @@ BeamDamping damping_of(WindioFile& file, const std::optional<YamlNode>& given, c
     return damping;
 }
 
-// Points at the places of the finest of the three grids.
+// Points at the places of all three grids.
 std::vector<Vec3> axis_points(const YamlNode& node) {
-    const WindioCurve x = windio_curve(node["x"]), y = windio_curve(node["y"]), z = windio_curve(node["z"]);
-    const std::vector<double>* grid = &z.grid;
-    for (const WindioCurve* other : {&x, &y})
-        if (other->grid.size() > grid->size()) grid = &other->grid;
+    const WindioCurve x = whole_curve(node["x"]), y = whole_curve(node["y"]), z = whole_curve(node["z"]);
     std::vector<Vec3> points;
-    for (double at : *grid) points.emplace_back(x.at(at), y.at(at), z.at(at));
+    for (double at : united(united(x.grid, y.grid), z.grid)) points.emplace_back(x.at(at), y.at(at), z.at(at));
     for (std::size_t i = 1; i < points.size(); ++i)
         if (!(points[i](2) > points[i - 1](2)))
             node["z"].fail(text(points[i](2), " m after ", points[i - 1](2), " m; allowed: larger"));
@@ -159,12 +164,11 @@ BeamTable windio_blade(WindioFile& file) {
     const YamlNode twist =
         file.get({"components.blade.outer_shape.twist", "components.blade.elastic_properties_mb.six_x_six.twist",
                   "components.blade.outer_shape_bem.twist"});
-    const WindioCurve angle = windio_curve(twist);
+    const WindioCurve angle = whole_curve(twist);
     blade.twist_at = angle.grid;
     for (double value : angle.values) {
         if (std::abs(value * file.angle()) > pi)
-            twist.fail(text("twist of ", value, "; allowed: half a turn at most (",
-                            file.version() == 1 ? "version 1 counts in rad" : "version 2 counts in degrees", ")"));
+            twist.fail(text("twist of ", value, "; allowed: half a turn at most (", file.unit_of_angle(), ")"));
         blade.twist.push_back(value * file.angle());
     }
     const YamlNode elastic =
@@ -250,7 +254,7 @@ EngineeringSection tube_section(double diameter, const std::vector<Layer>& layer
 void add_tube(BeamTable& table, WindioFile& file, double length) {
     const YamlNode shape =
         file.get({"components.tower.outer_shape.outer_diameter", "components.tower.outer_shape_bem.outer_diameter"});
-    const WindioCurve diameter = windio_curve(shape);
+    const WindioCurve diameter = whole_curve(shape);
     const YamlNode list =
         file.get({"components.tower.structure.layers", "components.tower.internal_structure_2d_fem.layers"});
     const auto factor = file.find({"components.tower.structure.outfitting_factor",
@@ -260,14 +264,14 @@ void add_tube(BeamTable& table, WindioFile& file, double length) {
     std::vector<double> grid = diameter.grid;
     std::vector<Layer> layers;
     for (const YamlNode& layer : list.items()) {
-        layers.push_back({material(file, layer["material"]), windio_curve(layer["thickness"])});
+        layers.push_back({material(file, layer["material"]), whole_curve(layer["thickness"])});
         grid = united(grid, layers.back().thickness.grid);
     }
     constexpr int parts = 8;
     for (std::size_t i = 1; i < grid.size(); ++i)
         for (int k = i == 1 ? 0 : 1; k <= parts; ++k) {
             const double at = grid[i - 1] + (grid[i] - grid[i - 1]) * k / parts;
-            table.stations.push_back((at - grid.front()) / (grid.back() - grid.front()) * length);
+            table.stations.push_back(at * length);
             table.sections.push_back(tube_section(diameter.at(at), layers, at, mass_factor, shape));
         }
 }
@@ -277,7 +281,7 @@ void add_matrices(BeamTable& table, const YamlNode& stiffness, const YamlNode& i
     Mat3 R;
     R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
     const Matrices sections = read_matrices(stiffness, inertia);
-    if (sections.eta.front() != 0 || sections.eta.back() < 1 - 1e-9)
+    if (sections.eta.front() > 1e-9 || sections.eta.back() < 1 - 1e-9)
         stiffness.fail(text("places ", sections.eta.front(), " ... ", sections.eta.back(), "; allowed: 0 ... 1"));
     for (double at : sections.eta) table.stations.push_back(at * length);
     table.stations.back() = length;

@@ -6,8 +6,6 @@
 #include "turbines/description_yaml_node.hpp"
 #include "turbines/turbine_file.hpp"
 
-#include <set>
-
 namespace cardan::turbines {
 
 /// A windIO document: finds entries under the names of both versions and knows which ones were looked at.
@@ -17,25 +15,25 @@ public:
     int version() const { return version_; }
     /// Radians per unit of angle.
     double angle() const { return angle_; }
+    const char* unit_of_angle() const {
+        return version_ == 1 ? "version 1 counts in rad" : "version 2 counts in degrees";
+    }
     /// rad/s per unit of rotor speed: version 1 counts in rad/s, version 2 in rev/min.
     double rotor_speed() const { return version_ == 2 ? pi / 30 : 1; }
     /// The first of several paths ("components.hub.diameter") that is there; none.
-    std::optional<YamlNode> find(std::initializer_list<const char*> paths);
-    /// @throws ParseError naming the first path
-    YamlNode get(std::initializer_list<const char*> paths);
-    /// Entries that nobody looked at beside others that were used, and the other top-level keys as a group.
+    std::optional<YamlNode> find(std::initializer_list<const char*> paths) const;
+    /// @throws ParseError naming the paths, where the first one ends
+    YamlNode get(std::initializer_list<const char*> paths) const;
+    /// Entries that nobody looked at beside others that were read, and the other top-level keys as a group.
     std::vector<FileNote> unused() const;
     const YamlNode& root() const { return root_; }
     void note(const YamlNode& node, std::string value, std::string why);
     std::vector<FileNote> notes;
 
 private:
-    void collect(const YamlNode& node, int levels, std::vector<FileNote>& out) const;
-
     YamlNode root_;
     int version_ = 1;
     double angle_ = 1;
-    std::set<std::string> used_;
 };
 
 /// Values over a grid of fractions.

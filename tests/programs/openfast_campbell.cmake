@@ -20,7 +20,7 @@ add_example_test(example_windio_rpm openfast_campbell 1 "--rpm: value = none, an
 add_example_test(example_openfast_help openfast_campbell 0 "--max-frequency" --help)
 add_example_test(example_openfast_no_model openfast_campbell 2 "model is required" --rpm 0)
 add_example_test(example_openfast_no_file openfast_campbell 1 "no/such.fst: cannot be read: No such file" no/such.fst)
-add_example_test(example_openfast_not_one openfast_campbell 1 "[.]cmake:[0-9]+: no line with the keyword EDFile"
+add_example_test(example_openfast_not_one openfast_campbell 1 "[.]cmake:1: neither a main file of OpenFAST"
                  ${CMAKE_CURRENT_LIST_FILE})
 add_example_test(example_openfast_bad_rpm openfast_campbell 1 "--rpm: value = 1:x; allowed: numbers and FIRST" ${models}/openfast/small.fst
                  --rpm 1:x)
@@ -28,3 +28,20 @@ add_example_test(example_openfast_elements openfast_campbell 1 "number of elemen
                  ${models}/openfast/small.fst --blade-elements 0)
 add_example_test(example_openfast_unwritable openfast_campbell 1 "the folder 'no/such' does not exist"
                  ${models}/openfast/small.fst --rpm 0 --out no/such/x)
+add_example_test(example_openfast_save openfast_campbell 1 "--save: file = example.dat; allowed: one that ends in .yaml"
+                 ${models}/openfast/small.fst --save example.dat)
+add_example_test(example_openfast_pitched openfast_campbell 0 "holds the machine, not how it runs: --pitch 1.5.*1st blade flap"
+                 ${models}/openfast/small.fst --rpm 45 --pitch 10 --max-frequency 12 ${coarse} --save example_openfast_pitched.yaml --out
+                 example_openfast_pitched)
+add_example_test(example_openfast_gravity openfast_campbell 0 "mean over the azimuth.*1st tower fore-aft"
+                 ${models}/openfast/small.fst --rpm 0,45 --gravity ${coarse} --out example_openfast_gravity)
+# Products of inertia of the hub.
+add_example_test(example_windio_unbalanced openfast_campbell 0 "mean over the azimuth.*1st tower fore-aft"
+                 ${models}/windio/small_v1.yaml ${coarse} --out example_windio_unbalanced)
+
+file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/two_blades)
+file(READ ${models}/openfast/small_ElastoDyn.dat elastodyn)
+string(REPLACE " 3   NumBl" " 2   NumBl" elastodyn "${elastodyn}")
+file(WRITE ${test_output_dir}/two_blades/small_ElastoDyn.dat "${elastodyn}")
+add_example_test(example_openfast_two_blades openfast_campbell 0 "Floquet.*1st blade flap .antisymmetric" two_blades/small.fst
+                 --rpm 0,45 ${coarse} --out example_openfast_two_blades)

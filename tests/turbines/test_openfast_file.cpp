@@ -77,7 +77,7 @@ TEST_CASE("openfast file: what is wrong is told with file, line and what was exp
 
 TEST_CASE("openfast file: tables have as many rows as announced, each with all columns", "[property]") {
     const std::string head = "  A   B(2)\n (-)  (m)\n";
-    OpenFastFile f = file(head + " 1 2\n 3 4 5\n--- end\n");
+    OpenFastFile f = file(head + " 1 2\n 3 4\n--- end\n");
     const turbines::OpenFastTable t = f.table("a", 2);
     CHECK(t.column("b(2)") == std::vector<double>{2, 4});
     CHECK(t.rows() == 2);
@@ -85,6 +85,7 @@ TEST_CASE("openfast file: tables have as many rows as announced, each with all c
         return message_of([&] { (void)file(head + rows).table("A", count); });
     };
     CHECK_THAT(message("1 2\n3\n", 2), Contains("x.dat:6: row 2 of 2 of the table of A: 2 numbers expected (A, B(2))"));
+    CHECK_THAT(message("1 2\n3 4 5\n", 2), Contains("x.dat:6: row 2 of 2 of the table of A: 2 numbers expected"));
     CHECK_THAT(message("1 2\n--- end\n", 2), Contains("x.dat:6: row 2 of 2"));
     CHECK_THAT(message("1 2\n", 2), Contains("the file ends before it"));
     CHECK_THAT(message("1 2\n3 4\n5 6\n", 2), Contains("x.dat:7: one more row than the 2 announced"));
