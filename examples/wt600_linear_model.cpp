@@ -104,13 +104,16 @@ void print_modes(const turbines::Turbine& turbine, const solvers::ConstantModel&
     const std::vector<Complex> poles = fixed.poles();
     solvers::Campbell diagram;
     if (!a.gravity) {
-        const double speed[] = {a.rotor_rpm * pi / 30};
+        // From standstill on, so that the modes keep their names.
+        const std::vector<double> speeds =
+            a.rotor_rpm > 0 ? solvers::rpm_range(0, a.rotor_rpm, a.rotor_rpm / 9) : std::vector<double>{0};
         solvers::CampbellOptions options;
         options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
         options.max_frequency_hz = a.max_frequency;
         options.keep_shapes = false;
-        diagram = solvers::campbell(turbine.system(), turbine.rotor(), speed, options);
+        diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     }
+    const std::size_t last = diagram.points.size() - 1;
     std::printf("modes of A%s\n", a.gravity ? "" : " and of the Campbell diagram");
     std::printf("  natural Hz  damping %%%s\n", a.gravity ? "" : "    natural Hz  damping %");
     for (const Complex& pole : poles) {
@@ -120,37 +123,78 @@ void print_modes(const turbines::Turbine& turbine, const solvers::ConstantModel&
         const solvers::Branch* best = nullptr;
         double nearest = 1e-3 * std::abs(pole);
         for (const solvers::Branch& branch : diagram.branches) {
-            if (branch.mode[0] < 0) continue;
-            const Complex other = diagram.points[0].modes[static_cast<std::size_t>(branch.mode[0])].mode.eigenvalue;
+            const solvers::CampbellMode* mode = diagram.mode(branch, last);
+            if (mode == nullptr) continue;
+            const Complex other = mode->mode.eigenvalue;
             if (std::abs(other - pole) < nearest) best = &branch, nearest = std::abs(other - pole);
         }
         if (best)
-            std::printf("  %12.6f %10.4f  %s", diagram.natural_hz(*best, 0), 100 * diagram.damping_ratio(*best, 0),
-                        best->name.c_str());
+            std::printf("  %12.6f %10.4f  %s%s", diagram.natural_hz(*best, last),
+                        100 * diagram.damping_ratio(*best, last), best->name.c_str(), best->doubtful[last] ? " ?" : "");
         std::printf("\n");
     }
 }
 
-// Sizes that count as much in each signal, so that newtons do not outweigh radians: 10 kN (m), and 0.01 of the others.
+// What counts as much in each output, so that newtons do not outweigh radians: 10 kN (m), and 0.01 of the others.
+Vector output_sizes(const solvers::ConstantModel& model) {
+    Vector size(model.C.rows());
+    for (Eigen::Index i = 0; i < size.size(); ++i) {
+        const std::string& units = model.outputs[static_cast<std::size_t>(i)].units;
+        size(i) = units == "N m" || units == "N" ? 1e4 : 0.01;
+    }
+    return size;
+}
+
+// Of each input the largest response up to a frequency, in sizes of the outputs: of a model, or of the difference of
+// two.
+Vector largest_responses(const solvers::ConstantModel& model, const solvers::ConstantModel* less, double frequency) {
+    const Vector weight = output_sizes(model).cwiseInverse();
+    Vector largest = Vector::Zero(model.B.cols());
+    constexpr int steps = 400;
+    for (int i = 0; i <= steps; ++i) {
+        const Complex s(0, 2 * pi * 0.01 * std::pow(frequency / 0.01, static_cast<double>(i) / steps));
+        ComplexMatrix G = model.transfer(s);
+        if (less) G -= less->transfer(s);
+        const Matrix sizes = weight.asDiagonal() * G.cwiseAbs();
+        largest = largest.cwiseMax(sizes.colwise().maxCoeff().transpose());
+    }
+    return largest;
+}
+
+// Of inputs a tenth of what the machine has.
+double input_size(const solvers::Signal& input) {
+    for (const auto& [name, size] :
+         {std::pair{"generator torque", 400.0}, std::pair{"yaw moment", 2e4}, std::pair{"thrust", 1e4},
+          std::pair{"rotor torque", 2e4}, std::pair{"blade", 5e5}})  // 0.01 rad of the pitch drive's spring
+        if (input.name.starts_with(name)) return size;
+    throw InputError("balanced model", "input", input.name, "one whose size is known");
+}
+
 solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Arguments& a) {
     solvers::BalancedOptions options;
     options.order = a.order;
     options.static_gain = solvers::StaticGain::kept;
-    const auto sizes = [](const std::vector<solvers::Signal>& signals) {
-        Vector size(static_cast<Eigen::Index>(signals.size()));
-        for (std::size_t i = 0; i < signals.size(); ++i) {
-            const std::string& units = signals[i].units;
-            size(static_cast<Eigen::Index>(i)) = units == "N m" || units == "N" ? 1e4 : 0.01;
-        }
-        return size;
-    };
-    options.input_size = sizes(fixed.inputs);
-    options.output_size = sizes(fixed.outputs);
+    options.input_size.resize(fixed.B.cols());
+    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i)
+        options.input_size(i) = input_size(fixed.inputs[static_cast<std::size_t>(i)]);
+    options.output_size = output_sizes(fixed);
     return solvers::balanced_truncation(fixed, options);
+}
+
+// A small model spends its states on the large responses: which inputs it serves is seen here.
+void print_errors(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency) {
+    const Vector largest = largest_responses(fixed, nullptr, max_frequency),
+                 error = largest_responses(fixed, &small, max_frequency);
+    std::printf("largest error up to %g Hz, of the largest response to the same input:\n", max_frequency);
+    for (Eigen::Index j = 0; j < error.size(); ++j)
+        std::printf("  %-34s %8.2f %%\n", fixed.inputs[static_cast<std::size_t>(j)].name.c_str(),
+                    100 * error(j) / largest(j));
 }
 
 int run(const Arguments& a) {
     if (!std::isfinite(a.rotor_rpm) || a.rotor_rpm < 0) throw InputError("--rpm", "value", a.rotor_rpm, ">= 0");
+    require_positive("--max-frequency", "value [Hz]", a.max_frequency);
+    if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
     const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
@@ -165,8 +209,8 @@ int run(const Arguments& a) {
                 fixed.A_remainder, fixed.B_remainder, fixed.C_remainder, fixed.D_remainder);
     std::printf("estimated error of C and D, relative: %.1e\n\n", model.output_error.maxCoeff());
     print_modes(turbine, fixed, a);
-    std::printf("\nbalanced model: order %d and %d states that are not stable; error at most %.2e of %.2e (scaled)\n",
-                small.order, small.kept_as_is, small.error_bound, 2 * small.hankel.sum());
+    std::printf("\nbalanced model: order %d and %d states that are not stable\n", small.order, small.kept_as_is);
+    print_errors(fixed, small, a.max_frequency);
     std::printf("Hankel singular values:");
     for (Eigen::Index i = 0; i < std::min<Eigen::Index>(small.hankel.size(), small.order + 4); ++i)
         std::printf("%s%s %.3e", i % 8 == 0 ? "\n " : "", i == small.order ? " |" : "", small.hankel(i));

@@ -15,7 +15,7 @@ namespace cardan::solvers {
 /// Descriptions begin with the module name "Cardan", are followed by the units, and use the channel's alias where it
 /// has one. Units are SI throughout, also where OpenFAST has degrees, rpm or kN. States are of second order, positions
 /// before rates. Signals that all blades have are marked as in the rotating frame, so that these tools find their
-/// triplets.
+/// triplets. Files with higher numbers, of an earlier model with more azimuths, are removed: tools take all for one.
 /// @returns the paths
 /// @throws FileError; InputError for a model without samples
 std::vector<std::filesystem::path> write_lin(const LinearModel& model, const std::filesystem::path& prefix);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <matio.h>
 #include <memory>
 #include <span>
@@ -45,10 +46,40 @@ Variable matrix(const Matrix& A) {
                    {static_cast<std::size_t>(A.rows()), static_cast<std::size_t>(A.cols())});
 }
 
-Variable characters(const std::string& words, const char* name = nullptr) {
-    std::array<std::size_t, 2> shape{words.empty() ? std::size_t{0} : std::size_t{1}, words.size()};
-    std::string copy = words;
-    return checked(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF8, 2, shape.data(), copy.data(), 0));
+// UTF-8 to UTF-16; bytes that are no UTF-8 become '?'. In UTF-8 libmatio counts now bytes, now characters.
+std::u16string utf16(const std::string& words) {
+    std::u16string out;
+    for (std::size_t at = 0; at < words.size();) {
+        const auto byte = [&](std::size_t i) {
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(words[i]));
+        };
+        const std::uint32_t first = byte(at);
+        const std::size_t size = first < 0x80                   ? 1
+                                 : first < 0xC2 || first > 0xF4 ? 0
+                                 : first < 0xE0                 ? 2
+                                 : first < 0xF0                 ? 3
+                                                                : 4;
+        std::uint32_t code = size < 2 ? first : first & (0x7Fu >> size);
+        bool whole = size > 0 && at + size <= words.size();
+        for (std::size_t i = 1; whole && i < size; ++i) {
+            whole = (byte(at + i) & 0xC0) == 0x80;
+            code = code << 6 | (byte(at + i) & 0x3F);
+        }
+        at += whole ? size : 1;
+        if (!whole)
+            out += u'?';
+        else if (code < 0x10000)
+            out += static_cast<char16_t>(code);
+        else
+            (out += static_cast<char16_t>(0xD7C0 + (code >> 10))) += static_cast<char16_t>(0xDC00 + (code & 0x3FF));
+    }
+    return out;
+}
+
+Variable characters(const std::string& words) {
+    std::u16string units = utf16(words);
+    std::array<std::size_t, 2> shape{units.empty() ? std::size_t{0} : std::size_t{1}, units.size()};
+    return checked(Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UTF16, 2, shape.data(), units.data(), 0));
 }
 
 Variable cells(const std::vector<Signal>& signals, std::string Signal::*field) {

@@ -21,8 +21,9 @@ public:
     using Coordinates = std::vector<std::pair<int, double>>;
 
     /// Adds factor * u to the generalised force on each coordinate: a generator's torque with minus the gear ratio on
-    /// the spin coordinate (positive: brakes), a yaw moment, a pitch drive.
-    static LinearInput generalised_force(std::string name, Coordinates coordinates, std::string units = "N m");
+    /// the spin coordinate (positive: brakes), a yaw moment, a pitch drive. N m, or N on translations; the coordinates
+    /// of one input, here and below, have one unit.
+    static LinearInput generalised_force(std::string name, Coordinates coordinates);
     /// A force (N) or moment (N m) of size u at the origin of a frame, along a direction that is constant in the base
     /// axes (dead load) or in those of the frame (follower load). The direction is not normalised: it is a factor.
     /// Such loads are part of what the joints transmit.
@@ -36,7 +37,6 @@ public:
 
     Kind kind() const { return kind_; }
     const std::string& name() const { return name_; }
-    const std::string& units() const { return units_; }
     const Coordinates& coordinates() const { return coordinates_; }
     FrameId frame() const { return frame_; }
     const Vec3& direction() const { return direction_; }
@@ -44,11 +44,10 @@ public:
     bool with_states() const { return with_states_; }
 
 private:
-    LinearInput(Kind kind, std::string name, std::string units)
-        : kind_(kind), name_(std::move(name)), units_(std::move(units)) {}
+    LinearInput(Kind kind, std::string name) : kind_(kind), name_(std::move(name)) {}
 
     Kind kind_;
-    std::string name_, units_;
+    std::string name_;
     Coordinates coordinates_;
     FrameId frame_ = {};
     Vec3 direction_ = Vec3::Zero();

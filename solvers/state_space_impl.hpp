@@ -44,6 +44,7 @@ private:
         int derivative;  ///< 0, 1, 2 of a motion: position, rate, acceleration
     };
     void check(const LinearInput& input) const;
+    std::string units(const LinearInput& input) const;
     void add_columns(const std::vector<LinearInput>& inputs);
     void name_states();
 

@@ -16,14 +16,14 @@ constexpr const char* place = "inputs of a linear model";
 
 }  // namespace
 
-LinearInput LinearInput::generalised_force(std::string name, Coordinates coordinates, std::string units) {
-    LinearInput input(Kind::generalised_force, std::move(name), std::move(units));
+LinearInput LinearInput::generalised_force(std::string name, Coordinates coordinates) {
+    LinearInput input(Kind::generalised_force, std::move(name));
     input.coordinates_ = std::move(coordinates);
     return input;
 }
 
 LinearInput LinearInput::force(std::string name, FrameId frame, const Vec3& direction, WrenchAxes axes) {
-    LinearInput input(Kind::force, std::move(name), "N");
+    LinearInput input(Kind::force, std::move(name));
     input.frame_ = frame;
     input.direction_ = direction;
     input.axes_ = axes;
@@ -33,12 +33,11 @@ LinearInput LinearInput::force(std::string name, FrameId frame, const Vec3& dire
 LinearInput LinearInput::moment(std::string name, FrameId frame, const Vec3& direction, WrenchAxes axes) {
     LinearInput input = force(std::move(name), frame, direction, axes);
     input.kind_ = Kind::moment;
-    input.units_ = "N m";
     return input;
 }
 
 LinearInput LinearInput::motion(std::string name, Coordinates coordinates) {
-    LinearInput input(Kind::motion, std::move(name), {});
+    LinearInput input(Kind::motion, std::move(name));
     input.coordinates_ = std::move(coordinates);
     return input;
 }
@@ -126,11 +125,24 @@ void Layout::check(const LinearInput& input) const {
             throw InputError(where, "index of a coordinate", coordinate, text("0 ... ", model.size() - 1));
         if (!seen.insert(coordinate).second)
             throw InputError(where, "coordinate", model.coordinates()[coordinate].name, "each once");
+        const std::string &unit = model.coordinates()[coordinate].unit,
+                          &first = model.coordinates()[input.coordinates()[0].first].unit;
+        if (unit != first)
+            throw InputError(where, text("unit of '", model.coordinates()[coordinate].name, "'"), unit,
+                             text(first, ", that of the first coordinate"));
         if (!std::isfinite(factor) || factor == 0) throw InputError(where, "factor", factor, "finite and not zero");
         if (input.kind() == LinearInput::Kind::generalised_force && Moved::contains(driven, coordinate))
             throw InputError(where, "coordinate", model.coordinates()[coordinate].name,
                              "one that is not driven: a force on it has no effect");
     }
+}
+
+std::string Layout::units(const LinearInput& input) const {
+    if (input.kind() == LinearInput::Kind::force) return "N";
+    if (input.kind() == LinearInput::Kind::moment) return "N m";
+    const std::string& unit = system_.model.coordinates()[input.coordinates()[0].first].unit;
+    if (input.kind() == LinearInput::Kind::motion) return unit;
+    return unit == "m" ? "N" : "N m";
 }
 
 void Layout::add_columns(const std::vector<LinearInput>& inputs) {
@@ -143,9 +155,7 @@ void Layout::add_columns(const std::vector<LinearInput>& inputs) {
         const int first = input.with_states() ? 2 : 0, last = motion ? 2 : 0;
         for (int d = first; d <= last; ++d) {
             const auto at = static_cast<std::size_t>(d);
-            const std::string units =
-                motion ? system_.model.coordinates()[input.coordinates()[0].first].unit + per[at] : input.units();
-            Signal signal{.name = input.name() + suffix[at], .units = units};
+            Signal signal{.name = input.name() + suffix[at], .units = units(input) + per[at]};
             signal.blade = blade_number(signal.name);
             if (input.name().empty() || !names.insert(signal.name).second)
                 throw InputError(place, "name", text("'", signal.name, "'"), "not empty, each name once");

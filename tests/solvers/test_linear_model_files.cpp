@@ -5,21 +5,22 @@
 #include "solvers/matio_state_space.hpp"
 #include "solvers/multi_blade_model.hpp"
 #include "solvers/state_space.hpp"
+#include "tests/solvers/lin_file.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/mat_file.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <fstream>
-#include <map>
-#include <matio.h>
-#include <memory>
-#include <sstream>
 
 using namespace cardan;
 using namespace cardan::solvers;
 using namespace cardan::testing;
+using cardan::test::characters;
+using cardan::test::field;
 using cardan::test::Folder;
+using cardan::test::LinFile;
+using cardan::test::numbers;
+using cardan::test::read_variable;
 using cardan::test::SizeLimit;
 
 namespace {
@@ -55,79 +56,6 @@ struct Example {
 const Example& example() {
     static const Example made;
     return made;
-}
-
-// A reader of the text format: by words, as the toolboxes do.
-struct LinFile {
-    struct Row {
-        double value;
-        std::string rotating;
-        int order;
-        std::string description;
-    };
-    std::map<std::string, double> head;
-    std::map<std::string, std::vector<Row>> tables;
-    std::map<std::string, Matrix> matrices;
-    std::vector<std::string> lines;
-
-    explicit LinFile(const std::string& path) {
-        std::ifstream in(path);
-        for (std::string line; std::getline(in, line);) lines.push_back(line);
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            const std::size_t colon = lines[i].find(':');
-            if (lines[i].starts_with("   ") && colon != std::string::npos && tables.empty())
-                head[lines[i].substr(3, colon - 3)] = std::stod(lines[i].substr(colon + 1));
-            if (lines[i].starts_with("Order of ")) i = read_table(i, lines[i].substr(9, colon - 9));
-            if (colon == 1) i = read_matrix(i);
-        }
-    }
-    std::size_t read_table(std::size_t i, const std::string& name) {
-        for (i += 3; !lines[i].empty(); ++i) {
-            std::istringstream words(lines[i]);
-            std::size_t count = 0;
-            Row row;
-            words >> count >> row.value >> row.rotating >> row.order >> std::ws;
-            std::getline(words, row.description);
-            tables[name].push_back(row);
-            REQUIRE(count == tables[name].size());
-        }
-        return i;
-    }
-    std::size_t read_matrix(std::size_t i) {
-        std::istringstream title(lines[i].substr(2));
-        Eigen::Index rows = 0, columns = 0;
-        char times = 0;
-        title >> rows >> times >> columns;
-        Matrix& A = matrices[lines[i].substr(0, 1)];
-        A.resize(rows, columns);
-        for (Eigen::Index r = 0; r < rows; ++r) {
-            std::istringstream values(lines[++i]);
-            for (Eigen::Index c = 0; c < columns; ++c) values >> A(r, c);
-            REQUIRE(values);
-        }
-        return i;
-    }
-};
-
-struct FreeVariable {
-    void operator()(matvar_t* v) const { Mat_VarFree(v); }
-};
-
-const matvar_t* field(matvar_t* structure, const char* name) {
-    matvar_t* found = Mat_VarGetStructFieldByName(structure, name, 0);
-    REQUIRE(found != nullptr);
-    return found;
-}
-
-Matrix numbers(const matvar_t* v, std::size_t slice = 0) {
-    REQUIRE(v->class_type == MAT_C_DOUBLE);
-    const auto rows = static_cast<Eigen::Index>(v->dims[0]), columns = static_cast<Eigen::Index>(v->dims[1]);
-    return Eigen::Map<const Matrix>(static_cast<const double*>(v->data) + slice * v->dims[0] * v->dims[1], rows,
-                                    columns);
-}
-
-std::string characters(const matvar_t* v) {
-    return v->nbytes == 0 ? std::string() : std::string(static_cast<const char*>(v->data), v->nbytes);
 }
 
 }  // namespace
@@ -170,23 +98,17 @@ TEST_CASE("linear model files: MATLAB's format gives back what was written", "[p
     const Folder folder;
     const std::string path = folder / "m.mat";
     write_mat(e.model, e.constant, path);
-    mat_t* file = Mat_Open(path.c_str(), MAT_ACC_RDONLY);
-    REQUIRE(file != nullptr);
-    const std::unique_ptr<matvar_t, FreeVariable> model(Mat_VarRead(file, "model")),
-        fixed(Mat_VarRead(file, "multi_blade"));
-    Mat_Close(file);
-    REQUIRE(model != nullptr);
-    REQUIRE(fixed != nullptr);
+    const auto model = read_variable(path, "model"), fixed = read_variable(path, "multi_blade");
     const auto check = [](const Matrix& found, const Matrix& expected) { CHECK(found == expected); };
-    check(numbers(field(model.get(), "A"), 3), e.model.samples[3].A);
-    check(numbers(field(model.get(), "B"), 2), e.model.samples[2].B);
-    check(numbers(field(model.get(), "C"), 1), e.model.samples[1].C);
-    check(numbers(field(model.get(), "D"), 0), e.model.samples[0].D);
-    check(numbers(field(model.get(), "x_operating")).col(2), e.model.samples[2].x);
-    check(numbers(field(model.get(), "fourier_B"), 2), fourier_coefficients(e.model)[2].B);
-    check(numbers(field(fixed.get(), "A")), e.constant[0].model.A);
-    CHECK(numbers(field(model.get(), "rotor_speed"))(0, 0) == 6);
-    CHECK(characters(field(model.get(), "machine")) == "small rotor");
+    check(numbers(field(model, "A"), 3), e.model.samples[3].A);
+    check(numbers(field(model, "B"), 2), e.model.samples[2].B);
+    check(numbers(field(model, "C"), 1), e.model.samples[1].C);
+    check(numbers(field(model, "D"), 0), e.model.samples[0].D);
+    check(numbers(field(model, "x_operating")).col(2), e.model.samples[2].x);
+    check(numbers(field(model, "fourier_B"), 2), fourier_coefficients(e.model)[2].B);
+    check(numbers(field(fixed, "A")), e.constant[0].model.A);
+    CHECK(numbers(field(model, "rotor_speed"))(0, 0) == 6);
+    CHECK(characters(field(model, "machine")) == "small rotor");
     matvar_t* names = Mat_VarGetStructFieldByName(fixed.get(), "input_names", 0);
     REQUIRE(names->class_type == MAT_C_CELL);
     CHECK(names->dims[0] == 4);
@@ -240,6 +162,94 @@ TEST_CASE("linear model files: OpenFAST's text format gives back what was writte
     CHECK(file.lines[17] == "Order of continuous states:");
 }
 
+TEST_CASE("linear model files: names in all languages survive in MATLAB's format", "[property]") {
+    LinearModel model = example().model;
+    const Folder folder;
+    // Two, three and four bytes per character; more bytes than characters must not be read from memory.
+    for (const char* words :
+         {"M\u00fchle", "Gro\u00dfe M\u00fchle \u2013 5 MW: Pr\u00fcfstand", "\u98a8\u8eca \U0001f300"}) {
+        model.machine = model.states[0].name = words;
+        write_mat(model, {}, folder / "m.mat");
+        const auto read = read_variable(folder / "m.mat", "model");
+        CHECK(characters(field(read, "machine")) == words);
+        matvar_t* names = Mat_VarGetStructFieldByName(read.get(), "state_names", 0);
+        REQUIRE(names != nullptr);
+        REQUIRE(names->class_type == MAT_C_CELL);
+        REQUIRE(Mat_VarGetCell(names, 0) != nullptr);
+        CHECK(characters(Mat_VarGetCell(names, 0)) == words);
+        REQUIRE(Mat_VarGetCell(names, 1) != nullptr);
+        CHECK(characters(Mat_VarGetCell(names, 1)) == model.states[1].name);
+    }
+    model.machine = "Latin-1: M\xfchle, cut off: \xe2\x80";
+    write_mat(model, {}, folder / "m.mat");
+    CHECK(characters(field(read_variable(folder / "m.mat", "model"), "machine")) == "Latin-1: M?hle, cut off: ??");
+}
+
+TEST_CASE("linear model files: fewer azimuths leave no files of an earlier model", "[property]") {
+    LinearModel model = example().model;
+    const Folder folder;
+    REQUIRE(write_lin(model, folder / "m").size() == 4);
+    model.samples.resize(1);
+    const auto paths = write_lin(model, folder / "m");
+    CHECK(paths == std::vector<std::filesystem::path>{folder / "m.1.lin"});
+    CHECK(folder.files() == 1);
+}
+
+// The multi-blade transformation of second-order states as MBC3 makes it from these files:       [Bir 2008, eqs. 8-30]
+// x = S z, z' = S^-1 (A S - S') z, S = [T 0; Omega T_psi T]; the mean over the azimuths.
+TEST_CASE("linear model files: the text files give MBC3 the modes of the multi-blade model", "[crosscheck]") {
+    const Example& e = example();
+    const Folder folder;
+    Matrix mean;
+    const auto paths = write_lin(e.model, folder / "m");
+    for (const std::filesystem::path& path : paths) {
+        const LinFile file(path.string());
+        const double omega = file.head.at("Rotor Speed"), psi = file.head.at("Azimuth");
+        const auto& states = file.tables.at("continuous states");
+        const auto half = static_cast<Eigen::Index>(states.size() / 2);
+        // Rows in the rotating frame that differ in the number only.
+        std::map<std::string, std::vector<Eigen::Index>> sets;
+        for (Eigen::Index i = 0; i < half; ++i) {
+            const auto& row = states[static_cast<std::size_t>(i)];
+            if (row.rotating != "T") continue;
+            std::string key = row.description;
+            key.erase(key.find_first_of("123"), 1);
+            sets[key].push_back(i);
+        }
+        CHECK(sets.size() == 1);  // flap
+        Matrix T = Matrix::Identity(half, half), by_psi = Matrix::Zero(half, half), twice = by_psi;
+        for (const auto& set : sets) {
+            REQUIRE(set.second.size() == 3);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double at = psi + 2 * pi * static_cast<double>(k) / 3, c = std::cos(at), s = std::sin(at);
+                const Eigen::Index row = set.second[k];
+                const auto put = [&](Matrix& M, const Vec3& values) {
+                    for (Eigen::Index j = 0; j < 3; ++j) M(row, set.second[static_cast<std::size_t>(j)]) = values(j);
+                };
+                put(T, {1, c, s});
+                put(by_psi, {0, -s, c});
+                put(twice, {0, -c, -s});
+            }
+        }
+        Matrix S = Matrix::Zero(2 * half, 2 * half), rate = S;
+        S << T, Matrix::Zero(half, half), omega * by_psi, T;
+        rate << by_psi, Matrix::Zero(half, half), omega * twice, by_psi;
+        const Matrix A = S.inverse() * (file.matrices.at("A") * S - omega * rate);
+        mean = mean.size() == 0 ? A : Matrix(mean + A);
+    }
+    mean /= static_cast<double>(paths.size());
+    ConstantModel fixed = e.constant[0].model;
+    const std::vector<Complex> expected = fixed.poles();
+    fixed.A = mean;
+    const std::vector<Complex> found = fixed.poles();
+    for (const Complex& pole : expected) {
+        double nearest = 1e9;
+        for (const Complex& other : found) nearest = std::min(nearest, std::abs(other - pole));
+        CAPTURE(pole, nearest);
+        CHECK(nearest < 1e-9 * fixed.A.norm());
+    }
+}
+
 TEST_CASE("linear model files: a model without inputs and outputs can be written and read", "[property]") {
     const Example& e = example();
     StateSpaceOptions options;
@@ -255,14 +265,10 @@ TEST_CASE("linear model files: a model without inputs and outputs can be written
     CHECK(file.shape("fixed/D") == Shape{0, 0});
     CHECK(file.read_strings("inputs/name").empty());
     write_mat(bare, constant, folder / "b.mat");
-    mat_t* mat = Mat_Open((folder / "b.mat").c_str(), MAT_ACC_RDONLY);
-    REQUIRE(mat != nullptr);
-    const std::unique_ptr<matvar_t, FreeVariable> model(Mat_VarRead(mat, "model"));
-    Mat_Close(mat);
-    REQUIRE(model != nullptr);
-    CHECK(numbers(field(model.get(), "A"), 3) == bare.samples[3].A);
-    CHECK(field(model.get(), "C")->dims[0] == 0);
-    CHECK(field(model.get(), "input_names")->dims[0] == 0);
+    const auto model = read_variable(folder / "b.mat", "model");
+    CHECK(numbers(field(model, "A"), 3) == bare.samples[3].A);
+    CHECK(field(model, "C")->dims[0] == 0);
+    CHECK(field(model, "input_names")->dims[0] == 0);
     const LinFile lin(write_lin(bare, folder / "b")[3].string());
     CHECK(lin.matrices.at("A") == bare.samples[3].A);
     CHECK(lin.matrices.size() == 1);

@@ -115,9 +115,10 @@ TEST_CASE("state space: a mass that slides on a driven arm has the matrices that
     const LinearModel model = state_space(system, no_rotor(), at.of(x),
                                           {LinearInput::motion("arm", {{x.arm, 1.0}}),
                                            LinearInput::force("push", x.mass_frame, Vec3::UnitX(), WrenchAxes::frame),
-                                           LinearInput::generalised_force("pull", {{x.slider, -2.0}}, "N")},
+                                           LinearInput::generalised_force("pull", {{x.slider, -2.0}})},
                                           x.channels());
     REQUIRE(model.samples.size() == 1);
+    CHECK(model.inputs.back().units == "N");
     const LinearSample& found = model.samples[0];
     CHECK(model.states[1].name == "slider rate");
     CHECK(model.states[1].units == "m s-1");
@@ -278,6 +279,8 @@ TEST_CASE("state space: bad input is refused with what is allowed", "[property]"
     refused({LinearInput::generalised_force("a", {{9, 1.0}})}, {"'a'", "coordinate = 9", "0 ... 1"});
     refused({LinearInput::generalised_force("a", {})}, {"number of coordinates = 0"});
     refused({LinearInput::generalised_force("a", {{0, 0.0}})}, {"factor = 0"});
+    refused({LinearInput::generalised_force("a", {{x.arm, 1.0}, {x.slider, 1.0}})},
+            {"'a'", "unit of", "= m; allowed: rad"});
     refused({LinearInput::generalised_force("a", {{0, 1.0}, {0, -1.0}})}, {"'a'", "coordinate = arm", "each once"});
     refused({LinearInput::motion("a", {{-1, 1.0}})}, {"'a'", "= -1"});
     refused({LinearInput::force("a", FrameId{0}, Vec3::UnitX(), WrenchAxes::base)}, {"frame = 0", "of a body"});
