@@ -21,6 +21,10 @@ using namespace cardan;
 
 namespace {
 
+// Of the steady state under gravity, to begin with; as many more as it needs are taken. The cost rises with their cube.
+constexpr int steady_harmonics = 4;
+constexpr double tower_max_frequency = 12;  // Hz; first torsion and second bending modes are below
+
 struct Arguments {
     std::string rpm = "0:12:1,12.1,13,14";
     std::string out = "nrel5mw_campbell", variant = "report", names = "community", data;
@@ -58,7 +62,10 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--pitch-actuator", a.pitch_actuator, "elastic pitch actuators (the report has them for ADAMS)");
     app.add_option("--power", a.power, "scaled by the rules of similarity to this power, MW")->capture_default_str();
     app.add_flag("--undamped", a.undamped, "leave out all damping");
-    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    auto* highest =
+        app.add_option("--max-frequency", a.max_frequency,
+                       text("follow modes up to this frequency, Hz; with --tower by default ", tower_max_frequency))
+            ->capture_default_str();
     app.add_option("--names", a.names, "of modes: as reports and tools around OpenFAST print them, or Cardan's own")
         ->check(CLI::IsMember({"community", "descriptive"}))
         ->capture_default_str();
@@ -71,7 +78,9 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--data", a.data,
                    "folder with nrel5mw_blade.csv, nrel5mw_tower.csv and nrel5mw_turbine.csv (default: built in)");
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    return program::parse(app, argc, argv);
+    const int code = program::parse(app, argc, argv);
+    if (a.tower && highest->count() == 0) a.max_frequency = tower_max_frequency;
+    return code;
 }
 
 turbines::Nrel5mwVariant variant_of(const Arguments& a) {
@@ -186,6 +195,7 @@ int run(const Arguments& a) {
     if (a.gravity && light.complete) {
         const turbines::Turbine heavy = machine(a, turbines::nrel5mw_gravity);
         options.method = solvers::CampbellMethod::averaged;
+        options.floquet.harmonics = steady_harmonics;
         diagram = solvers::campbell(heavy.system(), heavy.rotor(), speeds, options);
         gravity = beside_references(a, heavy, light);
     }

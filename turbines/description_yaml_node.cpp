@@ -9,8 +9,8 @@
 
 namespace cardan::turbines {
 
-YamlNode::YamlNode(YAML::Node node, std::string path, std::shared_ptr<Document> document)
-    : node_(std::move(node)), path_(std::move(path)), document_(std::move(document)) {}
+YamlNode::YamlNode(const YAML::Node& node, std::string path, std::shared_ptr<Document> document)
+    : node_(node), path_(std::move(path)), document_(std::move(document)) {}
 
 YamlNode YamlNode::child(const YAML::Node& node, std::string path) const {
     document_->read.insert(path);

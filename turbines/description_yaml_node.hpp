@@ -54,7 +54,7 @@ private:
         std::string file;
         std::set<std::string> read;  // paths
     };
-    YamlNode(YAML::Node node, std::string path, std::shared_ptr<Document> document);
+    YamlNode(const YAML::Node& node, std::string path, std::shared_ptr<Document> document);
     YamlNode child(const YAML::Node& node, std::string path) const;
     void require_map() const;
 

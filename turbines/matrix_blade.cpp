@@ -63,7 +63,7 @@ BeamTable matrix_blade_table(const std::string& name, const MatrixBlade& blade) 
     std::vector<Vec3> points;
     std::vector<double> s;  // of the points
     for (const Vec3& p : blade.points) {
-        points.push_back(beamdyn_axes() * p);
+        points.emplace_back(beamdyn_axes() * p);
         s.push_back(p(2));
     }
     const bool straight =

@@ -29,8 +29,11 @@ const Geometry& geometry() {
 }  // namespace
 
 AssumedModesBlade nrel5mw_blade_of_2018(TensionIntegral tension, const BeamLine& line) {
-    return AssumedModesBlade(
-        line, {.basis = AssumedModesBasis::paper2018(line.length), .rotary_inertia = false, .tension = tension});
+    return nrel5mw_blade_of_2018(AssumedModesBasis::paper2018(line.length), tension, line);
+}
+
+AssumedModesBlade nrel5mw_blade_of_2018(const AssumedModesBasis& basis, TensionIntegral tension, const BeamLine& line) {
+    return AssumedModesBlade(line, {.basis = basis, .rotary_inertia = false, .tension = tension});
 }
 
 AssumedModesBlade nrel5mw_blade_converged(const BeamLine& line) {

@@ -13,6 +13,10 @@ namespace cardan::turbines {
 /// @param tension  wrong_end reproduces its frequencies in rotation, which are wrong
 AssumedModesBlade nrel5mw_blade_of_2018(TensionIntegral tension = TensionIntegral::from_free_tip,
                                         const BeamLine& line = nrel5mw_blade().line);
+/// The paper's model with other functions than its own.
+/// @throws InputError, see AssumedModesBlade
+AssumedModesBlade nrel5mw_blade_of_2018(const AssumedModesBasis& basis, TensionIntegral tension,
+                                        const BeamLine& line = nrel5mw_blade().line);
 
 /// The same blade by functions that converge, cubics for v and w and quadratics for torsion and extension between all
 /// stations, with rotary inertia: 384 coordinates.

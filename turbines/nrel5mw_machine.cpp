@@ -73,9 +73,10 @@ TurbineDescription describe(const Nrel5mwBlade& blade, const CsvTable& tower, co
     d.blades = static_cast<int>(q.number("number_of_blades", "-"));
     d.tower.line = tower_line(tower);
     const double tower_ratio = q.number("tower_structural_damping_ratio", "%") * percent;
-    ModalRatios bending;
-    bending.bending_y = bending.bending_z = {tower_ratio, tower_ratio};
-    d.tower.damping = BeamDamping::of_modes(bending);
+    ModalRatios tower_modes;
+    tower_modes.bending_y = tower_modes.bending_z = {tower_ratio, tower_ratio};
+    tower_modes.torsion = {tower_ratio};
+    d.tower.damping = BeamDamping::of_modes(tower_modes);
     d.yaw.rotation = {q.number("nacelle_yaw_spring", "N m/rad"), q.number("nacelle_yaw_damping", "N m s/rad")};
     d.yaw.translation = rigid_joint;
     d.nacelle = nacelle(q);

@@ -46,8 +46,9 @@ Nrel5mwOptions nrel5mw_options(Nrel5mwVariant variant);
 
 /// Left out because the machine has no data for them: translations in the yaw bearing, an elastic main frame, an
 /// inertia of the gearbox, inertias of nacelle and hub but about the yaw and the shaft axis. Damping: 1 % of the first
-/// two bending modes of the bare tower in each direction, 0.477465 % of the first six modes of the clamped blade, more
-/// in higher ones as their frequencies rise.
+/// two bending modes of the bare tower in each direction; the same of its first torsion mode in `report` (FAST's
+/// files, which have no torsion of the tower, give the number for bending alone); 0.477465 % of the first six modes of
+/// the clamped blade; more in higher ones as their frequencies rise.
 /// @throws InputError for an option out of range
 TurbineDescription nrel5mw_description(const Nrel5mwOptions& options = {});
 /// The same from a folder with nrel5mw_blade.csv, nrel5mw_tower.csv (or oc3_hywind_tower.csv) and nrel5mw_turbine.csv.

@@ -323,7 +323,7 @@ OpenFastTable OpenFastFile::table(std::string_view first, std::size_t rows) {
 
 std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
     auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower(what)](const Line& l) {
-        return l.number > 2 && (l.heading || l.tokens.size() > 0) && lower(l.all).find(key) != std::string::npos;
+        return l.number > 2 && (l.heading || !l.tokens.empty()) && lower(l.all).find(key) != std::string::npos;
     });
     if (at == lines_.end()) throw ParseError(file_, lines_.back().number, 0, cardan::text("no line with '", what, "'"));
     at->used = true;

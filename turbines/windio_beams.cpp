@@ -15,7 +15,7 @@ double WindioCurve::at(double place) const {
 namespace {
 
 std::vector<double> increasing_grid(const YamlNode& node, std::size_t values) {
-    const std::vector<double> grid = node.numbers();
+    std::vector<double> grid = node.numbers();
     if (grid.size() < 2 || grid.size() != values)
         node.fail(text(grid.size(), " places for ", values, " values; allowed: as many, at least 2"));
     for (std::size_t i = 1; i < grid.size(); ++i)

@@ -85,7 +85,7 @@ Frequencies stretched_frequencies(double rpm) {
         turbines::nrel5mw_blade_converged(stretched(line, turbines::nrel5mw_spinning_hub(rpm * to_rad))), rpm);
 }
 
-std::array<double, 3> torsion_at_rest_of_2018() {
+std::array<double, 3> torsion_at_rest(const AssumedModesBasis& basis) {
     const BeamLine line = turbines::nrel5mw_blade().line;
     BeamLine unscaled = line, about_axis = line;
     unscaled.section = [line](double x) {
@@ -101,8 +101,25 @@ std::array<double, 3> torsion_at_rest_of_2018() {
     };
     std::array<double, 3> hz{};
     for (std::size_t i = 0; const BeamLine& variant : {line, unscaled, about_axis})
-        hz.at(i++) = named_modes(turbines::nrel5mw_blade_of_2018(TensionIntegral::from_free_tip, variant), 0).hz.back();
+        hz.at(i++) =
+            named_modes(turbines::nrel5mw_blade_of_2018(basis, TensionIntegral::from_free_tip, variant), 0).hz.back();
     return hz;
+}
+
+Frequencies untwisted_at_rest(const AssumedModesBasis& basis) {
+    BeamLine line = turbines::nrel5mw_blade().line;
+    line.section = [own = line.section](double x) {
+        BeamSection s = own(x);
+        const Mat3 R = Eigen::AngleAxisd(-s.beta, Vec3::UnitX()).toRotationMatrix();
+        Mat6 T = Mat6::Zero();
+        T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = R;
+        s.compliance = (T * s.compliance * T.transpose()).eval();
+        s.J = (R * s.J * R.transpose()).eval();
+        s.centre.setZero();
+        s.beta = 0;
+        return s;
+    };
+    return named_modes(turbines::nrel5mw_blade_of_2018(basis, TensionIntegral::from_free_tip, line), 0).hz;
 }
 
 std::vector<Frequencies> chain_frequencies(int elements, const std::vector<double>& rpm) {

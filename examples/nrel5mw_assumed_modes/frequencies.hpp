@@ -25,6 +25,9 @@ inline constexpr std::array<Frequencies, 7> printed{{{0.6824, 1.0925, 1.9921, 4.
                                                      {0.8486, 1.1504, 2.4300, 4.2207, 0},
                                                      {},
                                                      {0.8983, 1.1763, 2.5923, 4.3072, 0}}};
+/// The other columns of its Table 1, at rest: FAST's program Modes, and ADAMS by a reference of the paper.
+inline constexpr Frequencies printed_modes{0.6830, 1.0968, 1.9909, 4.0714, 0};
+inline constexpr Frequencies printed_adams{0.6745, 1.1033, 1.8394, 3.8997, 0};
 /// Converged by a method that shares nothing with either model, to 1e-4 Hz (docs/nrel5mw_blade.md).
 inline constexpr std::array<double, 3> exact_rpm{0, 6, 12.1};
 inline constexpr std::array<Frequencies, 3> exact{{{0.6772, 1.0855, 1.9516, 3.9962, 5.4709},
@@ -42,9 +45,11 @@ NamedModes named_modes(const AssumedModesBlade& blade, double rpm);
 Frequencies gyroscopic_frequencies(const AssumedModesBlade& blade, double rpm);
 /// By converged functions with the velocity terms, of the blade drawn out by its centrifugal force.
 Frequencies stretched_frequencies(double rpm);
-/// First torsion at rest by the paper's functions, Hz: the blade as it is; its polar inertia without the mass factor;
+/// First torsion at rest by the paper's model, Hz: the blade as it is; its polar inertia without the mass factor;
 /// the tabulated inertia taken to be about the pitch axis instead of the mass centre.
-std::array<double, 3> torsion_at_rest_of_2018();
+std::array<double, 3> torsion_at_rest(const AssumedModesBasis& basis);
+/// The paper's model at rest without twist and offset of mass centres: flap and edge know nothing of each other.
+Frequencies untwisted_at_rest(const AssumedModesBasis& basis);
 
 /// Of the joint chain.
 std::vector<Frequencies> chain_frequencies(int elements, const std::vector<double>& rpm);

@@ -1,5 +1,6 @@
 // The NREL 5 MW blade by assumed modes: frames of the machine, the tables of the paper of 2018 by its own functions,
 // converged frequencies, response to gravity and platform motion, and the joint chain beside it.
+#include "mbs/error.hpp"
 #include "solvers/forced_response.hpp"
 #include "solvers/modes.hpp"
 #include "solvers/recorder.hpp"
@@ -176,6 +177,34 @@ TEST_CASE("paper of 2018: its functions give its Table 2 to 0.052 % if the tensi
     // Of another program by the same functions: 0.8979 and, with the right tension, 0.7591 Hz.
     CHECK(named(blade, 15 * rpm).bending[0] == Approx(0.8979).margin(6e-5));
     CHECK(named(nrel5mw_blade_of_2018(), 15 * rpm).bending[0] == Approx(0.7591).margin(6e-5));
+}
+
+TEST_CASE("paper of 2018: more of its functions, and pieces of them, bring its frequencies down to the converged ones",
+          "[property]") {
+    // Converged without rotary inertia, as the paper's model.
+    const Named exact = named(nrel5mw_blade_of_2018({.extension = 0}, TensionIntegral::from_free_tip), 0);
+    const double length = converged().length();
+    AssumedModesBasis basis = AssumedModesBasis::paper2018(length);
+    Named last = named(nrel5mw_blade_of_2018(), 0);
+    CHECK(named(nrel5mw_blade_of_2018(basis, TensionIntegral::from_free_tip), 0).bending == last.bending);
+    const auto falls = [&] {
+        const Named next = named(nrel5mw_blade_of_2018(basis, TensionIntegral::from_free_tip), 0);
+        for (std::size_t k = 0; k < 4; ++k) {
+            CAPTURE(k);
+            CHECK(next.bending.at(k) < last.bending.at(k));
+            CHECK(next.bending.at(k) > exact.bending.at(k) - 1e-5);
+        }
+        last = next;
+    };
+    basis.bending = 7;
+    falls();
+    basis.bending = 9;
+    falls();
+    basis.breaks = {0, length / 2, length};
+    falls();
+    for (std::size_t k = 0; k < 4; ++k) CHECK(last.bending.at(k) == Approx(exact.bending.at(k)).epsilon(2e-3));
+    basis.bending = 10;
+    CHECK_THROWS_AS(nrel5mw_blade_of_2018(basis, TensionIntegral::from_free_tip), InputError);
 }
 
 TEST_CASE("NREL 5 MW assumed modes: converged functions give the exact frequencies at rest", "[analytic]") {

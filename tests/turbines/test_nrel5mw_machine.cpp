@@ -7,6 +7,7 @@
 #include "tests/support/refusal.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
+#include "turbines/nrel5mw_shapes.hpp"
 #include "turbines/wt600.hpp"
 
 #include <fstream>
@@ -57,6 +58,105 @@ TEST_CASE("NREL 5 MW machine: inertia and mass of the rotor as OpenFAST's Elasto
     const int twist = machine.system().model.index("main shaft twist");
     CHECK(metric_at_rest(machine.system())(twist, twist) == Approx(38677040.613).epsilon(0.004));
     CHECK(56780 + 3 * machine.layout().blades[0].mass == Approx(109389.842).epsilon(0.003));
+}
+
+namespace {
+
+// The clamped blade in ElastoDyn's three shapes: integrals over the length are sums over elements of equal length with
+// the values at their middles, shapes are summed up from the curvatures there in the same way.
+struct ElastodynBlade {
+    double mass = 0, inertia = 0;  // about the apex
+    Eigen::Matrix3d M = Eigen::Matrix3d::Zero(), K = M;
+
+    Vec3 hz() const {
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> found(K, M, Eigen::EigenvaluesOnly);
+        return found.eigenvalues().cwiseSqrt() / (2 * pi);
+    }
+};
+ElastodynBlade elastodyn_blade(int elements) {
+    const auto r = table("blade").column("radius_from_rotor_apex", "m"), mu = table("blade").column("mass_per_length"),
+               flap = table("blade").column("flap_stiffness"), edge = table("blade").column("edge_stiffness"),
+               twist = table("blade").column("structural_twist", "deg");
+    const double L = 61.5, h = L / elements;
+    ElastodynBlade b;
+    Eigen::Matrix<double, 2, 3> slope_sum = Eigen::Matrix<double, 2, 3>::Zero(), sum = slope_sum;
+    for (int k = 0; k < elements; ++k) {
+        const double x = (k + 0.5) * h;
+        std::size_t i = 1;
+        while (i + 1 < r.size() && x > r[i] - 1.5) ++i;
+        const double t = (x + 1.5 - r[i - 1]) / (r[i] - r[i - 1]);
+        const auto here = [&](std::span<const double> y) { return y[i - 1] + t * (y[i] - y[i - 1]); };
+        const double m = 1.04536 * here(mu) * h, angle = here(twist) * pi / 180;
+        Eigen::Matrix<double, 2, 3> curvature;  // out of and in the plane of rotation
+        Vec3 own;                               // across the chord, across it, along it
+        for (int s = 0; s < 3; ++s) {
+            const auto& p = turbines::elastodyn_blade_polynomials.at(static_cast<std::size_t>(s));
+            own(s) = 0;
+            for (std::size_t j = 0; j < p.size(); ++j) {
+                const auto n = static_cast<double>(j + 2);
+                own(s) += p.at(j) * n * (n - 1) * std::pow(x / L, n - 2) / (L * L);
+            }
+            const double c = std::cos(angle), d = std::sin(angle);
+            curvature.col(s) = own(s) * (s < 2 ? Eigen::Vector2d(c, -d) : Eigen::Vector2d(d, c));
+        }
+        const Eigen::Matrix<double, 2, 3> slope = slope_sum + h / 2 * curvature, shape = sum + h / 2 * slope;
+        slope_sum += h * curvature;
+        sum += h * slope;
+        b.mass += m;
+        b.inertia += m * (x + 1.5) * (x + 1.5);
+        b.M += m * shape.transpose() * shape;
+        const Eigen::Vector2d across = own.head<2>();
+        b.K.topLeftCorner<2, 2>() += here(flap) * h * across * across.transpose();
+        b.K(2, 2) += here(edge) * h * own(2) * own(2);
+    }
+    return b;
+}
+
+solvers::SecondOrderSystem at_rest(const System& system) {
+    const Vector zero = Vector::Zero(system.model.size());
+    return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
+}
+
+// The same three shapes on Cardan's elements.
+Vec3 limited_blade(int elements) {
+    const turbines::TurbineDescription d =
+        turbines::nrel5mw_description(turbines::nrel5mw_options(Nrel5mwVariant::fast));
+    const turbines::Turbine blade = turbines::isolated_blade(d, undamped(Nrel5mwVariant::fast, elements, 1));
+    const Model& model = blade.system().model;
+    const solvers::SecondOrderSystem whole = at_rest(blade.system());
+    const CardanBeam& beam = blade.layout().blades[0];
+    const Matrix shapes = turbines::elastodyn_blade_shapes(beam);
+    REQUIRE(whole.M.rows() == model.size());
+    Matrix R = Matrix::Zero(model.size(), 3);
+    Eigen::Index at = 0;
+    for (const CardanBeam::Element& element : beam.elements)
+        for (const BodyId body : element.bodies) R.row(model.index(body)) = shapes.row(at++);
+    ElastodynBlade b;
+    b.M = R.transpose() * whole.M * R, b.K = R.transpose() * whole.K * R;
+    return b.hz();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "NREL 5 MW machine: ElastoDyn's sums over 17 elements make its blades softer than integrals of the same shapes",
+    "[published]") {
+    const ElastodynBlade sums = elastodyn_blade(17);
+    // 109389.842 kg and 38677040.613 kg m^2 in its summary file, hub included, cone 2.5 deg: these are its elements.
+    CHECK(56780 + 3 * sums.mass == Approx(109389.842).margin(1e-3));
+    CHECK(115926 + 3 * sums.inertia * std::pow(std::cos(2.5 * pi / 180), 2) == Approx(38677040.613).margin(1e-3));
+    const Vec3 integrals = elastodyn_blade(20000).hz();
+    const Vec3 change = 100 * (sums.hz().cwiseQuotient(integrals).array() - 1);
+    CAPTURE(integrals.transpose(), change.transpose());
+    CHECK(change(0) == Approx(-1.62).margin(0.01));  // first flap, first edge, second flap; %
+    CHECK(change(1) == Approx(-1.23).margin(0.01));
+    CHECK(change(2) == Approx(-0.62).margin(0.01));
+    // Against the same shapes on 16 elements, which docs/nrel5mw.md has beside ElastoDyn.
+    const Vec3 of_limited = 100 * (sums.hz().cwiseQuotient(limited_blade(16)).array() - 1);
+    CAPTURE(of_limited.transpose());
+    CHECK(of_limited(0) == Approx(-1.39).margin(0.01));
+    CHECK(of_limited(1) == Approx(-0.81).margin(0.01));
+    CHECK(of_limited(2) == Approx(-0.53).margin(0.01));
 }
 
 TEST_CASE("NREL 5 MW machine: hub 90 m above ground and 5 m upwind, tips upwind of the rotor plane", "[published]") {
@@ -156,10 +256,37 @@ TEST_CASE("NREL 5 MW machine: damping ratios of the clamped blade and the bare t
     for (std::size_t i = 0; i < 6; ++i)
         CHECK(alone.points[0].modes[i].mode.damping_ratio() == Approx(0.00477465).epsilon(1e-8));
     CHECK(alone.points[0].modes[6].mode.damping_ratio() > 0.00477466);
+    const turbines::Turbine tower = turbines::isolated_tower(d, turbines::nrel5mw_assembly());
+    solvers::CampbellOptions options;
+    options.max_frequency_hz = 13;
+    const std::array standstill{0.0};
+    const solvers::Campbell bare = solvers::campbell(tower.system(), tower.rotor(), standstill, options);
+    for (const char* mode : {"1st tower fore-aft", "2nd tower fore-aft", "1st tower side-side", "2nd tower side-side",
+                             "1st tower torsion"})
+        CHECK(bare.damping_ratio(bare.branch(mode), 0) == Approx(0.01).epsilon(1e-6));
     // In the machine the tower moves slower and takes its share of the damping along: zeta = 1 % f / f_bare nearly.
     const solvers::Campbell whole = diagram(turbines::nrel5mw(), {0});
     const double ratio = whole.damping_ratio(whole.branch("1st tower fore-aft"), 0);
     CHECK(ratio == Approx(0.01 * hz(whole, "1st tower fore-aft") / 0.8837).epsilon(0.1));
+}
+
+TEST_CASE(
+    "NREL 5 MW machine: damping of the tower's torsion is that of the report alone, other variants do not know it",
+    "[property]") {
+    for (const Nrel5mwVariant variant : {Nrel5mwVariant::report, Nrel5mwVariant::fast}) {
+        turbines::TurbineDescription d = turbines::nrel5mw_description(turbines::nrel5mw_options(variant));
+        const turbines::AssemblyOptions elements = turbines::nrel5mw_assembly(variant, 1, 3);
+        const auto damping = [&] {
+            const turbines::Turbine tower = turbines::isolated_tower(d, elements, true);
+            return at_rest(tower.system()).C;
+        };
+        const Matrix with = damping();
+        d.tower.damping.modal.torsion.clear();
+        if (variant == Nrel5mwVariant::fast)
+            CHECK(with == damping());
+        else
+            CHECK((with - damping()).norm() > 1e-4 * with.norm());
+    }
 }
 
 TEST_CASE("NREL 5 MW machine: multi-blade matrices are the same at every azimuth", "[property]") {
