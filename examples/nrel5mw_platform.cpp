@@ -11,6 +11,7 @@
 #include "examples/motion_option.hpp"
 #include "examples/nrel5mw_platform/files.hpp"
 #include "examples/nrel5mw_platform/reference.hpp"
+#include "examples/parked_energy.hpp"
 #include "examples/simulation.hpp"
 #include <array>
 #include <iomanip>
@@ -154,6 +155,9 @@ double tolerance(const Arguments& a) {
 solvers::IntegrationOptions integration(const Arguments& a) {
     solvers::IntegrationOptions options = program::integration_options(a.method, tolerance(a), a.max_order);
     options.fixed_step = a.step;
+    // A parked blade follows a slow platform in steps of a second, through which the work of its stiff joints is not
+    // known as well as the motion.
+    if (a.rpm == 0) options.max_step = 0.05;
     return options;
 }
 
@@ -262,7 +266,8 @@ int run(const Arguments& a) {
     }
     print_run(response, settings.period, a.settled);
     const double allowed = 10 * tolerance(a) * (integrator.time() / settings.period);  // that much in every period
-    bool good = program::check_energy(integrator.energy(), drawn.largest_kinetic_energy, allowed);
+    bool good = a.rpm == 0 ? program::check_exchanged_energy(integrator.energy(), drawn.exchanged_energy, allowed)
+                           : program::check_energy(integrator.energy(), drawn.largest_kinetic_energy, allowed);
     program::print_effort(integrator, *machine.system, elapsed);
     good = print_response(a, response.last, reference(a, motions)) && good;
     platform::write_csv(machine, response.last, a.out + ".csv");

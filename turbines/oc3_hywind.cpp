@@ -4,6 +4,7 @@
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -43,8 +44,17 @@ std::vector<HullStation> hull(const CsvQuantities& q) {
     return stations;
 }
 
+// The volume is published and so is the hull: one of them is wrong if they differ by more than their digits.
+void check_volume(const CsvQuantities& q, const std::vector<HullStation>& stations) {
+    const double given = q.number("displaced_volume", "m^3"), of_hull = displaced_volume(stations);
+    if (!(std::abs(given - of_hull) <= 1e-4 * of_hull))
+        throw InputError(q.file(), "displaced_volume [m^3]", given,
+                         text("that of the hull, ", of_hull, ", within 1e-4"));
+}
+
 PlatformDescription describe(const CsvQuantities& q) {
     PlatformDescription p;
+    const std::vector<HullStation> stations = hull(q);
     p.name = "OC3-Hywind spar";
     p.inertia.mass = q.number("platform_mass", "kg");
     p.inertia.com.z() = -q.number("platform_cm_below_still_water", "m");
@@ -52,8 +62,9 @@ PlatformDescription describe(const CsvQuantities& q) {
     p.inertia.J = Vec3(lateral, lateral, q.number("platform_yaw_inertia", "kg m^2")).asDiagonal();
     p.tower_foot.z() = q.number("tower_foot_above_still_water", "m");
     p.added_mass =
-        strip_theory_added_mass(hull(q), q.number("added_mass_coefficient", "-"),
+        strip_theory_added_mass(stations, q.number("added_mass_coefficient", "-"),
                                 q.number("end_added_mass_coefficient", "-"), q.number("water_density", "kg/m^3"));
+    check_volume(q, stations);
     p.hydrostatic =
         diagonal(0, q.number("hydrostatic_heave", "N/m"), q.number("hydrostatic_roll_and_pitch", "N m/rad"), 0);
     p.mooring = mooring(q);

@@ -16,7 +16,7 @@ namespace cardan::turbines {
 /// frequencies; in heave it is an estimate. No radiation damping, no viscous drag.
 PlatformDescription oc3_hywind();
 /// The same from a folder with oc3_hywind_platform.csv.
-/// @throws FileError, ParseError, InputError
+/// @throws FileError, ParseError; InputError, also where the displaced volume is not that of the hull
 PlatformDescription oc3_hywind(const std::filesystem::path& folder);
 
 /// Description and elements of one variant on the spar, with its own tower of 77.6 m on a foot 10 m above the water.

@@ -14,7 +14,7 @@ struct DecayOptions {
 };
 
 /// The whole study; writes PREFIX_<coordinate>.h5, .svg, .png for each.
-/// @return exit code
+/// @return exit code; 3 if a period, measured over enough cycles, is not within 1 % of the linear model's
 int decay(const MachineOptions& machine, const DecayOptions& options, const std::string& prefix);
 
 /// Frequency and damping of a decaying oscillation.

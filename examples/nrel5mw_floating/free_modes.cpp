@@ -6,6 +6,7 @@
 #include "solvers/plot_campbell.hpp"
 
 #include "examples/campbell_program.hpp"
+#include "examples/nrel5mw_floating/pairing.hpp"
 #include <algorithm>
 #include <cstdio>
 
@@ -28,16 +29,6 @@ Campbell diagram(const turbines::Turbine& turbine, const std::vector<double>& sp
         program::progress(text("\r", what, ": rotor speed ", done, " of ", total, done == total ? "\n" : ""));
     };
     return solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
-}
-
-const solvers::Branch* find(const Campbell& d, const std::string& name) {
-    const auto found = std::ranges::find(d.branches, name, &solvers::Branch::name);
-    return found == d.branches.end() ? nullptr : &*found;
-}
-
-double frequency(const Campbell& d, const std::string& name, std::size_t point) {
-    const solvers::Branch* branch = find(d, name);
-    return branch && point < d.points.size() ? d.natural_hz(*branch, point) : std::nan("");
 }
 
 // Multiples of the rotor speed meet them within the first turns of a start-up, which says nothing.
@@ -65,39 +56,58 @@ void print_equilibrium(const turbines::Turbine& turbine, const Campbell& d) {
 
 void print_platform_modes(const Campbell& d, const std::vector<std::string>& names) {
     std::printf("\nplatform modes: damped frequency, Hz (period, s; damping ratio, %%)\n%-18s", "");
-    for (const auto& point : d.points) std::printf(" %24.2f rpm", point.rotor_speed * 30 / pi);
+    for (const auto& point : d.points) std::printf(" %25.2f rpm", point.rotor_speed * 30 / pi);
     std::printf("\n");
     for (std::size_t b = 0; b < d.branches.size(); ++b) {
         if (!d.branches[b].family.starts_with("platform")) continue;
         std::printf("%-18s", names[b].c_str());
         for (std::size_t p = 0; p < d.points.size(); ++p) {
             const double hz = d.damped_hz(d.branches[b], p);
-            std::printf("   %9.5f (%7.2f; %6.3f)", hz, 1 / hz, 100 * d.damping_ratio(d.branches[b], p));
+            std::printf("   %9.5f (%7.2f; %6.3f)%s", hz, 1 / hz, 100 * d.damping_ratio(d.branches[b], p),
+                        d.branches[b].doubtful[p] ? "?" : " ");
         }
         std::printf("\n");
     }
+    for (std::size_t b = 0; b < d.branches.size(); ++b)
+        for (std::size_t p = 0; p < d.points.size(); ++p)
+            if (d.branches[b].family.starts_with("platform") && d.branches[b].doubtful[p])
+                std::printf("? %s at %.2f rpm: by its energy mostly %s\n", names[b].c_str(),
+                            d.points[p].rotor_speed * 30 / pi, d.branches[b].mostly[p].c_str());
+}
+
+// "0.7068? +0.8 %", the mark where the pair is doubtful.
+std::string beside(double hz, const Campbell& other, std::size_t branch, std::size_t point) {
+    const double theirs = other.natural_hz(other.branches[branch], point);
+    if (!(theirs > 0)) return "        -            ";
+    char out[60];
+    std::snprintf(out, sizeof out, "%9.4f%s %+9.2f %%", theirs, other.branches[branch].doubtful[point] ? "?" : " ",
+                  100 * (hz / theirs - 1));
+    return out;
 }
 
 void print_comparison(const Campbell& free, const Campbell& held, const Campbell& land,
                       const std::vector<std::string>& names) {
-    for (std::size_t p = 0; p < std::min(free.points.size(), held.points.size()); ++p) {
+    for (std::size_t p = 0; p < std::min({free.points.size(), held.points.size(), land.points.size()}); ++p) {
         std::printf(
-            "\nnatural frequency, Hz, at %.2f rpm: free spar, spar held (same tower), land-based (its own tower)\n"
-            "%-34s %9s %9s %12s %9s %12s\n",
+            "\nnatural frequency, Hz, at %.2f rpm: free spar, spar held (same tower), land-based (its own tower); the "
+            "modes of the others\nthat are nearest in shape (complex MAC)\n%-34s %9s  %9s %12s %9s %12s\n",
             free.points[p].rotor_speed * 30 / pi, "", "free", "held", "difference", "on land", "difference");
         for (std::size_t b = 0; b < free.branches.size(); ++b) {
             const solvers::Branch& branch = free.branches[b];
-            const double hz = free.natural_hz(branch, p), fixed = frequency(held, branch.name, p),
-                         ground = frequency(land, branch.name, p);
-            if (!(fixed > 0)) continue;
-            std::printf("%-34s %9.4f%s %8.4f %10.2f %%", names[b].c_str(), hz, branch.doubtful[p] ? "?" : " ", fixed,
-                        100 * (hz / fixed - 1));
-            if (ground > 0)
-                std::printf(" %9.4f %10.2f %%\n", ground, 100 * (hz / ground - 1));
-            else
-                std::printf(" %9s\n", "-");
+            const double hz = free.natural_hz(branch, p);
+            if (branch.family.starts_with("platform") || !(hz > 0)) continue;
+            std::printf("%-34s %9.4f%s %s %s\n", names[b].c_str(), hz, branch.doubtful[p] ? "?" : " ",
+                        beside(hz, held, b, p).c_str(), beside(hz, land, b, p).c_str());
         }
     }
+    std::printf("\n? behind a frequency of the free machine: the name is doubtful; of another one: the pair is\n");
+}
+
+Campbell without_doubtful_pairs(Campbell pairs) {
+    for (solvers::Branch& branch : pairs.branches)
+        for (std::size_t p = 0; p < branch.mode.size(); ++p)
+            if (branch.doubtful[p]) branch.mode[p] = -1;
+    return pairs;
 }
 
 void draw(const Campbell& free, const Campbell& held, const ModesOptions& options, const std::string& prefix) {
@@ -113,7 +123,8 @@ void draw(const Campbell& free, const Campbell& held, const ModesOptions& option
          panel({"tower fore-aft", "tower side-side"}, "tower, first modes", 1, 1),
          panel({"blade flap"}, "first flap", 1, 1.5), panel({"blade edge"}, "first edge", 1, 2.5)});
     if (held.complete && held.points.size() == free.points.size())
-        solvers::plot_differences(free, held, prefix + "_difference.png", "free spar less held spar");
+        solvers::plot_differences(free, without_doubtful_pairs(held), prefix + "_difference.png",
+                                  "free spar less held spar");
 }
 
 }  // namespace
@@ -137,11 +148,12 @@ int free_modes(const MachineOptions& machine, const ModesOptions& options, const
     std::cout << solvers::table(without_platform_crossings(named)) << std::flush;
     print_equilibrium(floating, free);
     print_platform_modes(free, names);
-    print_comparison(free, held, land, names);
+    const Campbell held_pairs = paired(named, held, still), land_pairs = paired(named, land, ground);
+    print_comparison(named, held_pairs, land_pairs, names);
     std::fflush(stdout);
     solvers::write_hdf5(named, prefix + ".h5");
     solvers::write_csv(named, prefix + ".csv");
-    draw(named, solvers::renamed(held, style), options, prefix);
+    draw(named, held_pairs, options, prefix);
     if (options.shapes && free.complete) program::draw_modes(named, prefix + "_modes");
     const bool several = free.complete && free.points.size() > 1;
     std::cout << "\nfiles: " << prefix << ".h5, .csv, .svg, .png" << (several ? ", _families.png, _difference.png" : "")

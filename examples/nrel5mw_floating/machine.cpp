@@ -44,6 +44,18 @@ std::size_t coordinate_index(const std::string& option, const std::string& name)
     return static_cast<std::size_t>(found - coordinate_names.begin());
 }
 
+void check_offset(const std::string& option, std::size_t coordinate, double value) {
+    const double largest = coordinate < 3 ? 100 : coordinate == 5 ? 180 : 89;
+    if (!(std::abs(value) <= largest))
+        throw InputError(option, text("displacement [", unit_name(coordinate), "]"), value,
+                         text("at most ", largest, " to either side"));
+}
+
+void check_tolerance(double tolerance) {
+    require_positive("--tolerance", "value", tolerance);
+    if (tolerance > 1e-4) throw InputError("--tolerance", "value", tolerance, "at most 1e-4");
+}
+
 turbines::Turbine on_spar(const MachineOptions& options, CoordinateRole role) {
     turbines::PlatformOptions platform = turbines::free_floating(
         options.data.empty() ? turbines::oc3_hywind() : turbines::oc3_hywind(std::filesystem::path(options.data)));

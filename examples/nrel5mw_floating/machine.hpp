@@ -21,6 +21,18 @@ inline const char* unit_name(std::size_t coordinate) {
 /// @throws InputError naming the option
 std::size_t coordinate_index(const std::string& option, const std::string& name);
 
+/// Forces of the platform are those of small displacements; roll and pitch end at 90 degrees in any case.
+/// @param value  m or deg
+/// @throws InputError naming the option
+void check_offset(const std::string& option, std::size_t coordinate, double value);
+
+/// Of the integration, and what of its energy it may lose.
+/// @throws InputError
+void check_tolerance(double tolerance);
+inline double energy_allowed(double tolerance) {
+    return 100 * tolerance;
+}
+
 struct MachineOptions {
     std::string variant = "report", data;
     int blade_elements = 8, tower_elements = 6;

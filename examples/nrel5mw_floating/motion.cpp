@@ -1,11 +1,13 @@
 #include "examples/nrel5mw_floating/motion.hpp"
 
-#include "solvers/harmonics.hpp"
 #include "turbines/channels.hpp"
 
 #include "examples/motion_option.hpp"
+#include "examples/nrel5mw_floating/lines.hpp"
+#include "examples/parked_energy.hpp"
 #include "examples/simulation.hpp"
 #include <fstream>
+#include <iomanip>
 
 namespace cardan::floating {
 
@@ -13,6 +15,20 @@ namespace {
 
 constexpr std::array studied{"OoPDefl1", "IPDefl1",  "RootMyc1", "RootMxc1",  "RootFzb1",
                              "TTDspFA",  "TwrBsMyt", "TwrBsMxt", "YawBrTAxp", "YawBrTAyp"};
+
+// "pitch 1 deg at 12 s (mean 3 deg, phase 90 deg)"
+std::string in_words(std::size_t coordinate, const program::MotionOption& motion) {
+    const char* const unit = unit_name(coordinate);
+    std::string more;
+    const auto add = [&](const char* what, double value, const std::string& units) {
+        if (value != 0) more += text(more.empty() ? " (" : ", ", what, " ", value, " ", units);
+    };
+    add("mean", motion.mean, unit);
+    add("velocity", motion.velocity, text(unit, "/s"));
+    add("phase", motion.phase, "deg");
+    return text(coordinate_names.at(coordinate), " ", motion.amplitude, " ", unit, " at ", motion.period, " s", more,
+                more.empty() ? "" : ")");
+}
 
 // One run: what moves, and how.
 struct Case {
@@ -26,9 +42,14 @@ struct Case {
             throw InputError(text("--", coordinate_names.at(coordinate)), "motion", given, "one that oscillates");
         motions.at(coordinate) = motion;
         name += (name.empty() ? "" : "_") + std::string(coordinate_names.at(coordinate));
-        words += text(words.empty() ? "" : ", ", coordinate_names.at(coordinate), " ", motion.amplitude, " ",
-                      unit_name(coordinate), " at ", motion.period, " s");
+        words += (words.empty() ? "" : ", ") + in_words(coordinate, motion);
         period = std::max(period, motion.period);
+    }
+    std::vector<double> frequencies() const {
+        std::vector<double> hz;
+        for (const auto& motion : motions)
+            if (motion) hz.push_back(1 / motion->period);
+        return hz;
     }
 };
 
@@ -52,6 +73,33 @@ std::vector<Case> cases(const MotionOptions& options) {
         all.back().add(i, "", {.amplitude = options.amplitude, .period = options.period});
     }
     return all;
+}
+
+// Roll and pitch are angles of a joint that has no further turn at 90 degrees.
+void check_range(const Case& one, double duration) {
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (!one.motions.at(i)) continue;
+        const program::MotionOption& m = *one.motions.at(i);
+        check_offset(text("--", coordinate_names.at(i)), i,
+                     std::abs(m.mean) + std::abs(m.amplitude) + (i < 3 ? 0 : std::abs(m.velocity) * duration));
+    }
+}
+
+// Before anything runs: can the stretch that is looked at tell the motions' frequencies from those beside them?
+void check_window(const Case& one, const MotionOptions& o, double window) {
+    const double rotor = o.rpm / 60;
+    const Resolution needed = needed_resolution(one.frequencies(), rotor);
+    if (window < (1 - 1e-9) * needed.window)
+        throw InputError(text("--periods (", one.words, ")"), "stretch that is looked at [s]", window,
+                         text("at least ", needed.window, ", to tell ", needed.hz, " Hz from ", needed.beside, " Hz, ",
+                              needed.nature, "; or another period"));
+    double highest = 0;
+    const Lines lines = response_lines(one.frequencies(), rotor, window);
+    for (const double hz : lines.hz) highest = std::max(highest, hz);
+    const double longest = std::min(1 / (4 * highest), window / (4.0 * static_cast<double>(1 + lines.hz.size())));
+    if (o.step > longest)
+        throw InputError("--step", "value [s]", o.step,
+                         text("at most ", longest, ", for amplitudes up to ", highest, " Hz"));
 }
 
 // Faded in, so that no vibration of tower and blades is begun that would take minutes to die away.
@@ -127,8 +175,11 @@ Outcome run(const Study& study, const Case& one, const std::string& prefix) {
     file.close(end.reached());
     out.complete = end.reached();
     std::printf("\n%s\n", out.history.title.c_str());
-    out.good = program::check_energy(integrator.energy(), program::largest(out.history, "kinetic energy").value,
-                                     100 * o.tolerance);
+    const double allowed = energy_allowed(o.tolerance);
+    out.good = o.rpm == 0 ? program::check_exchanged_energy(integrator.energy(), program::exchanged_energy(out.history),
+                                                            allowed)
+                          : program::check_energy(integrator.energy(),
+                                                  program::largest(out.history, "kinetic energy").value, allowed);
     program::print_effort(integrator, study.turbine.system(), watch.elapsed());
     return out;
 }
@@ -149,26 +200,55 @@ std::vector<double> less(const std::vector<double>& a, const std::vector<double>
     return difference;
 }
 
-// What the platform's motion adds: amplitude at its own frequency, and the whole.
-void print_case(const solvers::History& still, const solvers::History& moving, const Case& one, double settle,
-                std::ofstream& csv) {
-    std::printf("\n%s\n%-44s %6s %11s %11s %11s %11s %11s\n%-44s %6s %11s %11s %11s %11s %11s\n", one.words.c_str(), "",
-                "", "still", "still", "moving", "difference", "difference", "channel", "units", "middle", "half range",
-                "half range", "at period", "half range");
-    const solvers::SampleRange range = solvers::samples_between(moving.time, settle, moving.time.back());
+struct Table {
+    std::vector<double> periods;  ///< s, columns of amplitudes
+    std::ofstream& csv;
+
+    void csv_header() {
+        csv << "case,motion,channel,units,middle still,half range still,half range moving";
+        for (const double period : periods) csv << text(",amplitude at ", period, " s");
+        csv << ",half range of the difference,rest of the difference\n";
+    }
+    void header(const std::string& words) const {
+        std::printf("\n%s\n%-44s %6s %11s %11s %11s", words.c_str(), "", "", "still", "still", "moving");
+        for (std::size_t i = 0; i < periods.size() + 2; ++i) std::printf(" %11s", "difference");
+        std::printf("\n%-44s %6s %11s %11s %11s", "channel", "units", "middle", "half range", "half range");
+        for (const double period : periods)
+            std::printf(" %11s", text(std::setprecision(5), "at ", period, " s").c_str());
+        std::printf(" %11s %11s\n", "half range", "rest");
+    }
+    void row(const Case& one, const Channel& channel, const std::vector<double>& numbers) {
+        std::printf("%-44s %6s", channel.name.c_str(), channel.units.c_str());
+        csv << one.name << ",\"" << one.words << "\"," << channel.alias << "," << channel.units;
+        for (const double number : numbers) {
+            std::printf(" %11.4g", number);
+            csv << text(",", number);
+        }
+        std::printf("\n");
+        csv << "\n";
+    }
+};
+
+// What the platform's motion adds: amplitudes at its own frequencies, the whole, and what neither motion nor rotor
+// explains.
+void print_case(const solvers::History& still, const solvers::History& moving, const Case& one, const Study& study,
+                Table& table) {
+    table.header(one.words);
+    const solvers::SampleRange range = solvers::samples_between(moving.time, study.settle, moving.time.back());
+    const auto late = [&](const std::vector<double>& values) {
+        return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(range.first), values.end());
+    };
+    const LineFit fit(late(moving.time),
+                      response_lines(one.frequencies(), study.options.rpm / 60, study.duration - study.settle));
     for (const char* name : studied) {
-        const Channel& channel = moving.channels[moving.index(name)];
         const std::vector<double> difference = less(moving[name], still[name]);
-        const Swing before = swing(still[name], range), after = swing(moving[name], range),
-                    added = swing(difference, range);
-        const std::vector<double> time(moving.time.begin() + static_cast<std::ptrdiff_t>(range.first),
-                                       moving.time.end()),
-            late(difference.begin() + static_cast<std::ptrdiff_t>(range.first), difference.end());
-        const double amplitude = solvers::harmonics(time, late, 1 / one.period, 1).amplitude.front();
-        std::printf("%-44s %6s %11.4g %11.4g %11.4g %11.4g %11.4g\n", channel.name.c_str(), channel.units.c_str(),
-                    before.mean, before.half_range, after.half_range, amplitude, added.half_range);
-        csv << text(one.name, ",", channel.alias, ",", channel.units, ",", before.mean, ",", before.half_range, ",",
-                    after.half_range, ",", amplitude, ",", added.half_range, "\n");
+        const Swing before = swing(still[name], range);
+        std::vector<double> numbers{before.mean, before.half_range, swing(moving[name], range).half_range};
+        const LineFit::Amplitudes found = fit(late(difference));
+        numbers.insert(numbers.end(), found.own.begin(), found.own.end());
+        numbers.push_back(swing(difference, range).half_range);
+        numbers.push_back(found.rest);
+        table.row(one, moving.channels[moving.index(name)], numbers);
     }
 }
 
@@ -189,9 +269,14 @@ int motion(const MachineOptions& machine, const MotionOptions& options, const st
     require_not_negative("--rpm", "value", options.rpm);
     require_not_negative("--settle", "value [s]", options.settle);
     require_positive("--step", "value", options.step);
+    check_tolerance(options.tolerance);
     const std::vector<Case> all = cases(options);
     double longest = 0;
     for (const Case& one : all) longest = std::max(longest, one.period);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        check_range(all[i], options.settle + options.periods * longest);
+        check_window(all[i], options, options.periods * longest);
+    }
     program::check_outputs(prefix, {".csv"});
     for (const Case& one : all) program::check_outputs(text(prefix, "_", one.name), {".h5", ".png"});
     const turbines::Turbine turbine = on_spar(machine, CoordinateRole::driven);
@@ -199,8 +284,9 @@ int motion(const MachineOptions& machine, const MotionOptions& options, const st
     const Study study{turbine, start, options, options.settle, options.settle + options.periods * longest};
     const std::string path = prefix + ".csv";
     std::ofstream csv(path);
-    csv << "case,channel,units,middle still,half range still,half range moving,amplitude at the period,half range of "
-           "the difference\n";
+    Table table{{}, csv};
+    for (const double hz : distinct_frequencies(all.back().frequencies())) table.periods.push_back(1 / hz);
+    table.csv_header();
     const Outcome still = run(study, all.front(), prefix);
     bool complete = still.complete, good = still.good;
     for (std::size_t i = 1; i < all.size() && complete; ++i) {
@@ -209,7 +295,7 @@ int motion(const MachineOptions& machine, const MotionOptions& options, const st
         good = good && moving.good;
         if (moving.history.time.size() > 1)
             draw(moving.history, all[i], complete ? study.settle : 0, text(prefix, "_", all[i].name, ".png"));
-        if (complete) print_case(still.history, moving.history, all[i], study.settle, csv);
+        if (complete) print_case(still.history, moving.history, all[i], study, table);
     }
     if (!csv.flush()) throw FileError(path, "could not be written");
     std::printf("\nfiles: %s.csv;", prefix.c_str());

@@ -10,7 +10,7 @@ namespace cardan::floating {
 struct MotionOptions {
     std::array<std::string, 6> motions;  ///< of surge ... yaw; all empty: each in turn
     double amplitude = 1;                ///< m or deg, of those in turn
-    double period = 10;                  ///< s, likewise
+    double period = 12;                  ///< s, likewise; 10 s would beat with the rotor less 10 s, in ten minutes
     double rpm = 12.1, settle = 100, step = 0.05, tolerance = 1e-5;
     int periods = 6;  ///< of the slowest motion that are looked at
     std::string method = "dirk";

@@ -2,6 +2,7 @@
 
 #include "mbs/pending_file.hpp"
 
+#include "examples/parked_energy.hpp"
 #include "examples/simulation.hpp"
 #include <iomanip>
 #include <locale>
@@ -107,7 +108,8 @@ Drawn draw_pictures(const turbines::Nrel5mwPlatform& machine, const std::string&
     const std::string file = prefix + ".h5";
     const solvers::History balance = solvers::read_history(file, {.channels = energies});
     if (balance.time.size() < 2) return {};
-    Drawn drawn{program::largest(balance, energies.front()).value, ", .svg, .png, _energy.png"};
+    Drawn drawn{program::largest(balance, energies.front()).value, program::exchanged_energy(balance),
+                ", .svg, .png, _energy.png"};
     solvers::plot_energies(balance, prefix + "_energy.png");
     const double rounding = 1e-9 * options.period;
     const auto part = [&](double from, double to) {

@@ -34,6 +34,7 @@ struct PictureOptions {
 
 struct Drawn {
     double largest_kinetic_energy = 0;  ///< of the run, J
+    double exchanged_energy = 0;        ///< see program::exchanged_energy()
     std::string files;                  ///< endings, for people
 };
 /// From PREFIX.h5: PREFIX.svg and .png with motions, deflections and root moments in the last three periods,

@@ -25,6 +25,8 @@ add_example_test(example_platform_all nrel5mw_platform 0 "3 blade.*periods of 29
     1e-3 --harmonics 2 --method alpha --tolerance 1e-4 --surge mean=2,amplitude=1,revolutions=2,phase=30 --sway
     amplitude=1,revolutions=3 --heave amplitude=0.5,velocity=0.1,revolutions=1 --roll amplitude=2,revolutions=2 --yaw
     amplitude=1,revolutions=6 --nacelle-yaw mean=10 --blade-pitch 3 --out example_platform_all)
+add_example_test(example_platform_at_rest nrel5mw_platform 0 "energy lost.*exchanged.*ok" --rpm 0 --surge amplitude=1,period=20
+                 --elements 8 --damping 0.02 --out example_platform_at_rest)
 add_example_test(example_platform_unsettled nrel5mw_platform 3 "NOT PERIODIC.*more --periods" --elements 1 --tolerance 1e-5 --periods
                   3 --out example_platform_unsettled)
 add_example_test(example_platform_undamped nrel5mw_platform 3 "NOT PERIODIC.*some damping" --elements 1 --tolerance 1e-5 --damping 0

@@ -195,7 +195,8 @@ TEST_CASE("elastodyn: figures that make no machine are refused with the line", "
     CHECK_THAT(main("   1200   HubMass", "  -1200   HubMass"), Contains("HubMass = -1200; allowed: >= 0"));
     CHECK_THAT(main("     25   GBRatio", "      0   GBRatio"), Contains("GBRatio = 0; allowed: > 0"));
     CHECK_THAT(main("      3   NumBl", "      4   NumBl"), Contains("NumBl = 4; allowed: 1 ... 3"));
-    CHECK_THAT(main("   -4.0   ShftTilt", " -400.0   ShftTilt"), Contains("ShftTilt = -400; allowed: -45 ... 45 degrees"));
+    CHECK_THAT(main("   -4.0   ShftTilt", " -400.0   ShftTilt"),
+               Contains("ShftTilt = -400; allowed: -45 ... 45 degrees"));
     CHECK_THAT(main("small_Blade.dat", "no_such.dat"), Contains("small_ElastoDyn.dat:96: BldFile(1): "));
     const auto blade = [&](const char* a, const char* b) { return message("small_Blade.dat", a, b); };
     CHECK_THAT(blade("  0.200", "  0.020"), Contains("small_Blade.dat:19: BlFract = 0.02 after 0.05; allowed: larger"));

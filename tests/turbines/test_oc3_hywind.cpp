@@ -95,4 +95,7 @@ TEST_CASE("OC3-Hywind: tables of a folder are read, and bad ones refused with fi
     CHECK(written("damping_yaw,", "damping_jaw,").find("damping_yaw") != std::string::npos);
     CHECK(written("hull_depth,m,0/4/", "hull_depth,m,4/").find("number of hull_diameter = 4") != std::string::npos);
     CHECK(written("hull_depth,m,0/4/", "hull_depth,m,0/14/").find("depth of station 3") != std::string::npos);
+    CHECK(written("displaced_volume,m^3,8029.21", "displaced_volume,m^3,8031.21").find("that of the hull, 8029.2") !=
+          std::string::npos);
+    CHECK(written("hull_depth,m,0/4/12/120", "hull_depth,m,0/4/12/121").find("displaced_volume") != std::string::npos);
 }
