@@ -200,6 +200,15 @@ Matrix multi_blade_states(const LinearModel& model, const RotorMap& rotor, doubl
     return States(model, rotor).matrix(psi);
 }
 
+namespace {
+
+// Eigen is not to be asked for the solution of nothing: a model may have no inputs or no outputs.
+Matrix solved(const Eigen::PartialPivLU<Matrix>& lu, const Matrix& right) {
+    return right.size() > 0 ? Matrix(lu.solve(right)) : right;
+}
+
+}  // namespace
+
 MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor) {
     check(model, rotor);
     const States states(model, rotor);
@@ -211,9 +220,9 @@ MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor) {
         const auto Y_inverse = outputs.matrix(sample.azimuth).partialPivLu();
         StateMatrices z;
         z.A = V_inverse.solve(sample.A * V - states.rate(sample.azimuth));
-        z.B = V_inverse.solve(sample.B * U);
-        z.C = sample.C.rows() > 0 ? Matrix(Y_inverse.solve(sample.C * V)) : Matrix(sample.C);
-        z.D = sample.D.rows() > 0 ? Matrix(Y_inverse.solve(sample.D * U)) : Matrix(sample.D);
+        z.B = solved(V_inverse, sample.B * U);
+        z.C = solved(Y_inverse, sample.C * V);
+        z.D = solved(Y_inverse, sample.D * U);
         all.push_back(std::move(z));
     }
     MultiBladeModel result;
