@@ -14,8 +14,6 @@
 #include "turbines/windio.hpp"
 
 #include "examples/campbell_program.hpp"
-#include <algorithm>
-#include <cctype>
 #include <iostream>
 #include <optional>
 
@@ -55,8 +53,7 @@ int parse(int argc, char** argv, Arguments& a) {
 }
 
 bool is_yaml(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = turbines::lower_case(path.extension().string());
     return ending == ".yaml" || ending == ".yml";
 }
 

@@ -11,19 +11,12 @@ namespace cardan::turbines {
 
 namespace {
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
-
 bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 std::optional<bool> truth(std::string_view word) {
-    const std::string w = lower(word);
+    const std::string w = lower_case(word);
     if (w == "true" || w == "t" || w == ".true.") return true;
     if (w == "false" || w == "f" || w == ".false.") return false;
     return std::nullopt;
@@ -83,7 +76,8 @@ bool belongs(const std::string& keyword, const KeywordGroup& group) {
     return std::any_of(group.keywords.begin(), group.keywords.end(), [&](std::string_view member) {
         const bool beginning = member.ends_with('*');
         if (beginning) member.remove_suffix(1);
-        return beginning ? lower(keyword).starts_with(lower(member)) : lower(keyword) == lower(member);
+        return beginning ? lower_case(keyword).starts_with(lower_case(member))
+                         : lower_case(keyword) == lower_case(member);
     });
 }
 
@@ -98,12 +92,13 @@ std::string to_text(const FileNote& note) {
 
 const std::vector<double>& OpenFastTable::column(std::string_view name) const {
     for (std::size_t k = 0; k < names.size(); ++k)
-        if (lower(names[k]) == lower(name)) return columns[k];
+        if (lower_case(names[k]) == lower_case(name)) return columns[k];
     throw ParseError(file, line, 0, text("no column '", name, "'; there are: ", joined(names)));
 }
 
 bool OpenFastTable::has(std::string_view name) const {
-    return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return lower(n) == lower(name); });
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& n) { return lower_case(n) == lower_case(name); });
 }
 
 void OpenFastTable::fail(std::size_t row, std::string_view what) const {
@@ -139,7 +134,7 @@ OpenFastFile::Line OpenFastFile::classified(std::string_view line, int number) {
     const std::size_t first = line.find_first_not_of(" \t\r");
     const std::string_view start = first == std::string_view::npos ? std::string_view() : line.substr(first);
     out.heading = number <= 2 || start.empty() || start.starts_with("---") || start.starts_with("===") ||
-                  start.starts_with('!') || start.starts_with('#') || lower(start.substr(0, 3)) == "end";
+                  start.starts_with('!') || start.starts_with('#') || lower_case(start.substr(0, 3)) == "end";
     std::vector<Token>& t = out.tokens;
     const auto remark = std::find_if(t.begin(), t.end(), [](const Token& token) { return token.text == "-"; });
     t.erase(remark, t.end());
@@ -174,7 +169,7 @@ OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
         }
         const bool blank = line.all.find_first_not_of(" \t\r") == std::string::npos;
         if (in_list && (blank || !line.heading)) continue;
-        in_list = lower(line.keyword) == "outlist";
+        in_list = lower_case(line.keyword) == "outlist";
         out.lines_.push_back(std::move(line));
     }
     if (out.lines_.size() < 3) throw ParseError(out.file_, 1, 0, "an OpenFAST input file begins with two title lines");
@@ -186,8 +181,9 @@ OpenFastFile OpenFastFile::read(const std::filesystem::path& path) {
 }
 
 const OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) const {
-    const auto found = std::find_if(lines_.begin(), lines_.end(),
-                                    [key = lower(keyword)](const Line& l) { return lower(l.keyword) == key; });
+    const auto found = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(keyword)](const Line& l) {
+        return lower_case(l.keyword) == key;
+    });
     return found == lines_.end() ? nullptr : &*found;
 }
 
@@ -200,9 +196,9 @@ OpenFastFile::Line& OpenFastFile::known(std::string_view keyword) {
     if (line == nullptr)
         throw ParseError(file_, lines_.back().number, 0,
                          cardan::text("no line with the keyword ", keyword, " up to the end of the file"));
-    const std::string key = lower(keyword);
+    const std::string key = lower_case(keyword);
     for (const Line& other : lines_)
-        if (&other != line && lower(other.keyword) == key)
+        if (&other != line && lower_case(other.keyword) == key)
             throw ParseError(file_, other.number, 0,
                              cardan::text(keyword, " is there already, in line ", line->number));
     line->used = true;
@@ -291,8 +287,8 @@ std::optional<std::vector<double>> OpenFastFile::numbers_of(const Line& line) co
 OpenFastTable OpenFastFile::table(std::string_view first, std::size_t rows) {
     OpenFastTable out;
     out.file = file_;
-    auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower(first)](const Line& l) {
-        return !l.heading && !l.tokens.empty() && lower(l.tokens.front().text) == key;
+    auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(first)](const Line& l) {
+        return !l.heading && !l.tokens.empty() && lower_case(l.tokens.front().text) == key;
     });
     if (at == lines_.end())
         throw ParseError(file_, lines_.back().number, 0, cardan::text("no table whose first column is ", first));
@@ -322,8 +318,8 @@ OpenFastTable OpenFastFile::table(std::string_view first, std::size_t rows) {
 }
 
 std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
-    auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower(what)](const Line& l) {
-        return l.number > 2 && (l.heading || !l.tokens.empty()) && lower(l.all).find(key) != std::string::npos;
+    auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(what)](const Line& l) {
+        return l.number > 2 && (l.heading || !l.tokens.empty()) && lower_case(l.all).find(key) != std::string::npos;
     });
     if (at == lines_.end()) throw ParseError(file_, lines_.back().number, 0, cardan::text("no line with '", what, "'"));
     at->used = true;

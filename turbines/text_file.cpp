@@ -20,4 +20,11 @@ std::string text_file(const std::filesystem::path& path) {
     throw FileError(path.string(), text("cannot be read: ", reason));
 }
 
+std::string lower_case(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+}
+
 }  // namespace cardan::turbines

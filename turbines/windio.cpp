@@ -5,7 +5,6 @@
 #include "turbines/windio_beams.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 namespace cardan::turbines {
 
@@ -118,9 +117,7 @@ public:
         const auto blades = file_.find({"assembly.number_of_blades"});
         d_.blades = blades ? blades->integer(1, 10) : 3;
         if (const auto side = file_.find({"assembly.rotor_orientation"})) {
-            std::string word = side->word();
-            std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-            if (word != "upwind") side->fail(text("'", side->word(), "'; allowed: upwind"));
+            if (lower_case(side->word()) != "upwind") side->fail(text("'", side->word(), "'; allowed: upwind"));
         }
         try {
             d_.tower.line = beam_line(windio_tower(file_));

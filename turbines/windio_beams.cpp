@@ -8,10 +8,6 @@
 
 namespace cardan::turbines {
 
-double WindioCurve::at(double place) const {
-    return interpolated(grid, values, place);
-}
-
 namespace {
 
 std::vector<double> increasing_grid(const YamlNode& node, std::size_t values) {
@@ -24,9 +20,16 @@ std::vector<double> increasing_grid(const YamlNode& node, std::size_t values) {
     return grid;
 }
 
-// From one end to the other.
-WindioCurve whole_curve(const YamlNode& node) {
-    WindioCurve curve = windio_curve(node);
+// Values over a grid of fractions, from one end to the other.
+struct Curve {
+    std::vector<double> grid, values;
+    double at(double place) const { return interpolated(grid, values, place); }
+};
+
+Curve whole_curve(const YamlNode& node) {
+    Curve curve;
+    curve.values = node["values"].numbers();
+    curve.grid = increasing_grid(node["grid"], curve.values.size());
     if (curve.grid.front() > 1e-9 || curve.grid.back() < 1 - 1e-9)
         node["grid"].fail(text("places ", curve.grid.front(), " ... ", curve.grid.back(), "; allowed: 0 ... 1"));
     return curve;
@@ -135,7 +138,7 @@ BeamDamping damping_of(WindioFile& file, const std::optional<YamlNode>& given, c
 
 // Points at the places of all three grids.
 std::vector<Vec3> axis_points(const YamlNode& node) {
-    const WindioCurve x = whole_curve(node["x"]), y = whole_curve(node["y"]), z = whole_curve(node["z"]);
+    const Curve x = whole_curve(node["x"]), y = whole_curve(node["y"]), z = whole_curve(node["z"]);
     std::vector<Vec3> points;
     for (double at : united(united(x.grid, y.grid), z.grid)) points.emplace_back(x.at(at), y.at(at), z.at(at));
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -145,13 +148,6 @@ std::vector<Vec3> axis_points(const YamlNode& node) {
 }
 
 }  // namespace
-
-WindioCurve windio_curve(const YamlNode& node) {
-    WindioCurve curve;
-    curve.values = node["values"].numbers();
-    curve.grid = increasing_grid(node["grid"], curve.values.size());
-    return curve;
-}
 
 BeamTable windio_blade(WindioFile& file) {
     const YamlNode axis =
@@ -164,7 +160,7 @@ BeamTable windio_blade(WindioFile& file) {
     const YamlNode twist =
         file.get({"components.blade.outer_shape.twist", "components.blade.elastic_properties_mb.six_x_six.twist",
                   "components.blade.outer_shape_bem.twist"});
-    const WindioCurve angle = whole_curve(twist);
+    const Curve angle = whole_curve(twist);
     blade.twist_at = angle.grid;
     for (double value : angle.values) {
         if (std::abs(value * file.angle()) > pi)
@@ -220,7 +216,7 @@ Material material(WindioFile& file, const YamlNode& name) {
 
 struct Layer {
     Material material;
-    WindioCurve thickness;
+    Curve thickness;
 };
 
 // A tube of layers, the first outside.
@@ -254,7 +250,7 @@ EngineeringSection tube_section(double diameter, const std::vector<Layer>& layer
 void add_tube(BeamTable& table, WindioFile& file, double length) {
     const YamlNode shape =
         file.get({"components.tower.outer_shape.outer_diameter", "components.tower.outer_shape_bem.outer_diameter"});
-    const WindioCurve diameter = whole_curve(shape);
+    const Curve diameter = whole_curve(shape);
     const YamlNode list =
         file.get({"components.tower.structure.layers", "components.tower.internal_structure_2d_fem.layers"});
     const auto factor = file.find({"components.tower.structure.outfitting_factor",

@@ -36,14 +36,6 @@ private:
     double angle_ = 1;
 };
 
-/// Values over a grid of fractions.
-struct WindioCurve {
-    std::vector<double> grid, values;
-    double at(double place) const;
-};
-/// @throws ParseError: grid not increasing, another number of values
-WindioCurve windio_curve(const YamlNode& node);
-
 BeamTable windio_blade(WindioFile& file);
 BeamDamping windio_blade_damping(WindioFile& file);
 /// Of the matrices of its elastic properties; without them a tube of its layers.

@@ -4,7 +4,6 @@
 
 #include "examples/motion_option.hpp"
 #include "examples/nrel5mw_floating/lines.hpp"
-#include "examples/parked_energy.hpp"
 #include "examples/simulation.hpp"
 #include <fstream>
 #include <iomanip>
@@ -175,11 +174,10 @@ Outcome run(const Study& study, const Case& one, const std::string& prefix) {
     file.close(end.reached());
     out.complete = end.reached();
     std::printf("\n%s\n", out.history.title.c_str());
-    const double allowed = energy_allowed(o.tolerance);
-    out.good = o.rpm == 0 ? program::check_exchanged_energy(integrator.energy(), program::exchanged_energy(out.history),
-                                                            allowed)
-                          : program::check_energy(integrator.energy(),
-                                                  program::largest(out.history, "kinetic energy").value, allowed);
+    const bool parked = o.rpm == 0;
+    const double scale =
+        parked ? program::exchanged_energy(out.history) : program::largest(out.history, "kinetic energy").value;
+    out.good = program::check_energy(integrator.energy(), scale, energy_allowed(o.tolerance), parked);
     program::print_effort(integrator, study.turbine.system(), watch.elapsed());
     return out;
 }

@@ -2,7 +2,6 @@
 
 #include "mbs/pending_file.hpp"
 
-#include "examples/parked_energy.hpp"
 #include "examples/simulation.hpp"
 #include <iomanip>
 #include <locale>
