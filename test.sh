@@ -30,9 +30,15 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/packages.sh
 
 jobs="${CARDAN_JOBS:-$(nproc)}"
-step="start"
+step=""
+step_start=0
+finish_step() {
+    if [[ -n "$step" ]]; then printf -- '-- %s: %d s, %d s in all\n' "$step" $((SECONDS - step_start)) "$SECONDS"; fi
+}
 heading() {
+    finish_step
     step="$*"
+    step_start=$SECONDS
     printf '\n== %s\n' "$step"
 }
 trap 'echo "test.sh: FAILED in step: $step" >&2' ERR
@@ -117,3 +123,4 @@ fi
 
 heading "Tests, GCC release"
 ctest --preset release --parallel "$jobs"
+finish_step
