@@ -3,11 +3,17 @@
 #include "elements/coordinate_force.hpp"
 #include "mbs/error.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cardan {
 
-DriveOrder::DriveOrder(double position, const TravelLimits& limits) : limits_(limits), travel_(position) {
+DriveOrder::DriveOrder(double position, const TravelLimits& limits) : limits_(limits), rate_(0), travel_(position) {
     require_positive("order of a drive", "largest rate", limits.rate);
     require_positive("order of a drive", "largest acceleration", limits.acceleration);
+    require_not_negative("order of a drive", "largest jerk", limits.jerk);
+    // That of the drive, also when it is ordered to be slow.
+    if (limits.jerk == 0) limits_.jerk = default_jerk(limits);
 }
 
 void DriveOrder::move_to(double target, double time) {
@@ -15,7 +21,17 @@ void DriveOrder::move_to(double target, double time) {
 }
 
 void DriveOrder::move_to(double target, double time, double rate) {
-    travel_ = Travel(time, travel_.at(time), target, {rate, limits_.acceleration});
+    if (target == travel_.target() && rate == rate_ && time >= travel_.start()) return;
+    travel_ = Travel(time, travel_.at(time), target, {rate, limits_.acceleration, limits_.jerk});
+    rate_ = rate;
+}
+
+void DriveOrder::follow(double target, double time, double period) {
+    require_positive("order of a drive", "period of commands [s]", period);
+    if (target == travel_.target() && rate_ == 0 && time >= travel_.start()) return;
+    const double from = travel_.at(time).position;
+    travel_ = Travel::straight(time, from, target, std::max(period, std::abs(target - from) / limits_.rate));
+    rate_ = 0;
 }
 
 namespace {

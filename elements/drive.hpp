@@ -12,9 +12,11 @@
 
 namespace cardan {
 
-/// The position that drives are ordered to, as a function of time: position and rate continuous, both limited. A new
-/// order starts from where the last one has come to. Orders are given between two steps (in the action of an event);
-/// it belongs to one simulation at a time, and to one thread.
+/// The position that drives are ordered to, as a function of time: the fastest travel within the limits of rate,
+/// acceleration and jerk (Travel), continuous in all but the last of them. A new order goes on from the state that the
+/// last one has come to, so that repeating an order changes nothing, and orders may come as often as a controller
+/// samples. They are given between two steps (in the action of an event, or between two calls of advance(), followed by
+/// Integrator::restart()); an order belongs to one simulation at a time, and to one thread.
 class DriveOrder {
 public:
     /// At rest.  @throws InputError: a position that is not finite, limits that are not positive
@@ -24,6 +26,11 @@ public:
     void move_to(double target, double time);
     /// The same at another largest rate, this time.
     void move_to(double target, double time, double rate);
+    /// One of a sequence of commands that come every `period` (s): straight from the present position to `target`,
+    /// within a period or, if that is too fast, at the largest rate. Limited in rate only: a ramp of commands is
+    /// followed as a ramp, one period late. The rate jumps where the command changes.
+    /// @throws InputError for values that are not finite, a period that is not positive
+    void follow(double target, double time, double period);
 
     Travel::State at(double time) const { return travel_.at(time); }
     double target() const { return travel_.target(); }
@@ -34,6 +41,7 @@ public:
 
 private:
     TravelLimits limits_;
+    double rate_;  ///< the largest, of the present order; 0: none, or a command that is followed
     Travel travel_;
 };
 

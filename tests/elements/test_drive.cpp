@@ -4,6 +4,7 @@
 #include "tests/elements/shaft.hpp"
 #include "tests/support/refusal.hpp"
 
+#include <cmath>
 #include <limits>
 
 using namespace cardan;
@@ -37,13 +38,101 @@ TEST_CASE("drive: a new order starts from where the last one has come to, withou
     CHECK(order.at(2).position == Approx(0.1));
     const Travel::State before = order.at(3.1);
     CHECK(before.rate > 0.3);
-    order.move_to(-0.2, 3.1);
+    order.move_to(-0.2, 3.1);  // at full rate
     CHECK(order.at(3.1).position == Approx(before.position).epsilon(1e-14));
     CHECK(order.at(3.1).rate == Approx(before.rate).epsilon(1e-14));
+    CHECK(order.at(3.1).acceleration == Approx(before.acceleration).margin(1e-14));
     CHECK(order.at(3.2).position > before.position);  // it has to stop first
     CHECK(order.at(order.arrival() + 1).position == -0.2);
     order.move_to(0.3, 20, 0.05);
     CHECK(order.at(25).rate == Approx(0.05).epsilon(1e-12));
+}
+
+TEST_CASE("drive: an order that is repeated at any rate is the one order", "[analytic]") {
+    constexpr double degree = pi / 180, target = 20 * degree, rate = 8 * degree, acceleration = 15 * degree;
+    const TravelLimits pitch{rate, acceleration};
+    // Up and down to the largest rate take 3/2 rate / acceleration each, and half the way of that at the full rate.
+    const double arrival = target / rate + 1.5 * rate / acceleration;
+    for (double period : {0.05, 0.02, 0.001}) {
+        DriveOrder repeated(0, pitch), single(0, pitch);
+        single.move_to(target, 0);
+        for (int k = 0; k * period < 20; ++k) {
+            const double t = k * period;
+            repeated.move_to(target, t);
+            const Travel::State now = repeated.at(t + period / 3), one = single.at(t + period / 3);
+            REQUIRE(now.position == one.position);
+            REQUIRE(now.rate == one.rate);
+            REQUIRE(now.acceleration == one.acceleration);
+            REQUIRE(now.position <= target);
+        }
+        CHECK(repeated.arrival() == Approx(arrival).epsilon(1e-13));
+        CHECK(repeated.at(arrival / 2).position == Approx(target / 2).epsilon(1e-13));
+    }
+}
+
+TEST_CASE("drive: orders that change with every sample are followed without overshoot or jumps", "[property]") {
+    // A command that rises slowly, with noise of the last digits, so that no order is the one before; then it stands.
+    constexpr double top = 0.5, slope = 0.1;
+    for (double period : {0.05, 0.02, 0.001}) {
+        DriveOrder order(0, limits);
+        Travel::State last;
+        double worst = 0;
+        for (int k = 0; k * period < 12; ++k) {
+            const double t = k * period, command = std::min(top, slope * t);
+            order.move_to(command * (1 + 1e-12 * (k % 3)), t);
+            const Travel::State now = order.at(t);
+            CAPTURE(period, t);
+            REQUIRE(std::abs(now.position - last.position) <= limits.rate * period * (1 + 1e-9));
+            REQUIRE(std::abs(now.rate - last.rate) <= limits.acceleration * period * (1 + 1e-9));
+            REQUIRE(std::abs(now.acceleration - last.acceleration) <= default_jerk(limits) * period * (1 + 1e-9));
+            REQUIRE(now.position < command + 1e-9);
+            if (t > 2) worst = std::max(worst, command - now.position);
+            last = now;
+        }
+        // Never farther behind than it needs to stop, and what a sample brings.
+        const double stopping = slope / 2 * 2 * std::sqrt(slope / default_jerk(limits));
+        CHECK(worst < stopping + 2 * slope * period);
+        CHECK(order.at(12).position == Approx(top).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("drive: commands that are followed are limited in rate and one period late", "[analytic]") {
+    for (double period : {0.05, 0.02, 0.001}) {
+        CAPTURE(period);
+        // A step: at the largest rate, however often it is commanded.
+        DriveOrder step(0, limits);
+        for (int k = 0; k * period < 2; ++k) {
+            step.follow(0.5, k * period, period);
+            const double t = (k + 0.4) * period;
+            REQUIRE(step.at(t).position == Approx(std::min(0.5, limits.rate * t)).epsilon(1e-12));
+        }
+        // A ramp below the largest rate.
+        DriveOrder ramp(0, limits);
+        for (int k = 0; k * period < 2; ++k) {
+            ramp.follow(0.3 * k * period, k * period, period);
+            const double t = (k + 0.4) * period;
+            REQUIRE(ramp.at(t).position == Approx(0.3 * std::max(0.0, t - period)).margin(1e-12));
+        }
+    }
+    check_refused([] { DriveOrder(0, limits).follow(1, 0, 0); }, {"order of a drive: period of commands [s] = 0"});
+    check_refused([] { DriveOrder(0, limits).follow(NAN, 0, 1); }, {"target = nan"});
+}
+
+TEST_CASE("drive: an order while moving is smooth in position, rate and acceleration", "[property]") {
+    DriveOrder order(0, limits);
+    order.move_to(1, 0);
+    int moving = 0;
+    for (int k = 1; k <= 200; ++k) {
+        const double t = 0.037 * k;
+        const Travel::State before = order.at(t);
+        order.move_to(std::sin(3.7 * k), t);
+        const Travel::State after = order.at(t);
+        REQUIRE(after.position == Approx(before.position).margin(1e-12));
+        REQUIRE(after.rate == Approx(before.rate).margin(1e-12));
+        REQUIRE(after.acceleration == Approx(before.acceleration).margin(1e-12));
+        moving += std::abs(before.acceleration) > 0.1;
+    }
+    CHECK(moving > 100);
 }
 
 TEST_CASE("drive: a spring and a damper about the order, in either sense", "[analytic]") {
