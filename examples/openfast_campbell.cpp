@@ -7,10 +7,10 @@
 // What the files hold beside the structure, and what is taken otherwise than in the program they were made for, is
 // printed as notes. Frames, signs, and what is read: docs/coming_from_openfast.md.
 #include "mbs/error.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/assembly.hpp"
 #include "turbines/description_yaml.hpp"
 #include "turbines/openfast.hpp"
-#include "turbines/text_file.hpp"
 #include "turbines/windio.hpp"
 
 #include "examples/campbell_program.hpp"
@@ -53,14 +53,14 @@ int parse(int argc, char** argv, Arguments& a) {
 }
 
 bool is_yaml(const std::filesystem::path& path) {
-    const std::string ending = turbines::lower_case(path.extension().string());
+    const std::string ending = lower_case(path.extension().string());
     return ending == ".yaml" || ending == ".yml";
 }
 
 turbines::TurbineFile read(const std::string& model) {
     const std::filesystem::path path(model);
     if (!is_yaml(path)) return turbines::read_openfast(path);
-    if (!turbines::is_description(turbines::text_file(path))) return turbines::read_windio(path);
+    if (!turbines::is_description(text_file(path))) return turbines::read_windio(path);
     turbines::TurbineFile own;
     own.description = turbines::read_description(path);
     return own;

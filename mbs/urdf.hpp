@@ -53,9 +53,9 @@ struct UrdfModel {
 /// ("<joint> translation x", "... y", "<joint> rotation", in the plane whose normal is the axis), on massless
 /// intermediate bodies. A fixed link becomes a frame with its name, and its inertia is welded there. Coordinates,
 /// bodies and frames come in the order of the joints in the file as far as parents precede children.
-/// @throws FileError if the file cannot be read, InputError ("<file>:<line>: ...") if it is not XML or not URDF, if the
-/// links are no tree, if a value is no finite number, if an axis is zero, if an inertia is impossible, or if a link at
-/// the end of a branch moves and nothing there has an inertia.
+/// @throws FileError if the file cannot be read, ParseError if it is no text in UTF-8, InputError ("<file>:<line>:
+/// ...") if it is not XML or not URDF, if the links are no tree, if a value is no finite number, if an axis is zero, if
+/// an inertia is impossible, or if a link at the end of a branch moves and nothing there has an inertia.
 [[nodiscard]] UrdfModel read_urdf(const std::filesystem::path& file);
 /// The same of URDF text; `source_name` stands for the file in messages.
 [[nodiscard]] UrdfModel parse_urdf(std::string_view xml, std::string_view source_name = "URDF text");

@@ -1,3 +1,4 @@
+#include "mbs/text_file.hpp"
 #include "mbs/urdf_impl.hpp"
 #include "mbs/urdf_vocabulary.hpp"
 
@@ -60,10 +61,9 @@ void check_tags(std::string_view xml, std::string_view source) {
 }
 
 void parse(TiXmlDocument& document, std::string_view xml, std::string_view source) {
+    require_text(xml, source);
     if (xml.find_first_not_of(" \t\r\n") == std::string_view::npos)
         throw InputError(text(source, ": is empty; a URDF document was expected"));
-    if (xml.find('\0') != std::string_view::npos)
-        throw InputError(text(source, ": is not XML: it contains a zero byte"));
     check_tags(xml, source);
     document.Parse(std::string(xml).c_str(), nullptr, TIXML_ENCODING_UTF8);
     if (document.Error())

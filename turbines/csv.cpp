@@ -1,7 +1,7 @@
 #include "turbines/csv.hpp"
 
 #include "mbs/error.hpp"
-#include "turbines/text_file.hpp"
+#include "mbs/text_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,6 +13,7 @@ namespace cardan::turbines {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
+constexpr std::size_t most_columns = 1000;
 
 /// A stretch of a line without the blanks around it, and where it begins: character column from 1.
 struct Field {
@@ -51,6 +52,7 @@ struct Line {
 class Lines {
 public:
     Lines(std::string_view rest, std::string_view file) : rest_(rest), file_(file) {
+        require_text(rest, file);
         if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
     }
 
@@ -136,6 +138,8 @@ CsvTable CsvTable::parse(std::string_view text_of_file, std::string_view file) {
     CsvTable table;
     table.file_ = file;
     table.header_line_ = header.number;
+    if (header.fields.size() > most_columns)
+        lines.fail(header.number, 0, text(header.fields.size(), " columns; allowed: at most ", most_columns));
     for (const Field& f : header.fields) {
         const std::size_t bracket = f.text.find('[');
         const bool good = bracket != std::string_view::npos && bracket > 0 && f.text.ends_with(']');

@@ -2,9 +2,9 @@
 
 #include "mbs/error.hpp"
 #include "mbs/pending_file.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/description_yaml_fields.hpp"
 #include "turbines/description_yaml_node.hpp"
-#include "turbines/text_file.hpp"
 
 #include <charconv>
 #include <set>

@@ -9,52 +9,47 @@
 
 namespace cardan::turbines {
 
-YamlNode::YamlNode(const YAML::Node& node, std::string path, std::shared_ptr<Document> document)
-    : node_(node), path_(std::move(path)), document_(std::move(document)) {}
+YamlNode::YamlNode(const YamlTree& tree, std::string path, std::shared_ptr<Document> document)
+    : tree_(&tree), path_(std::move(path)), document_(std::move(document)) {}
 
-YamlNode YamlNode::child(const YAML::Node& node, std::string path) const {
+YamlNode YamlNode::child(const YamlTree& tree, std::string path) const {
     document_->read.insert(path);
-    return {node, std::move(path), document_};
+    return {tree, std::move(path), document_};
 }
 
 YamlNode YamlNode::parse(const std::string& text, const std::string& file) {
-    try {
-        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-        if (documents.size() != 1)
-            throw ParseError(file, 1, 0, cardan::text(documents.size(), " YAML documents; allowed: 1"));
-        YamlNode root(documents.front(), "", std::make_shared<Document>(Document{file, {}}));
-        if (!root.is_map()) throw ParseError(file, 1, 0, "a YAML map expected");
-        return root;
-    } catch (const YAML::Exception& error) {
-        throw ParseError(file, std::max(error.mark.line, 0) + 1, std::max(error.mark.column, 0) + 1,
-                         cardan::text("is not YAML: ", error.msg));
-    }
-}
-
-int YamlNode::line() const {
-    return std::max(node_.Mark().line, 0) + 1;
+    auto document = std::make_shared<Document>(Document{file, yaml_trees(text, file), {}, {}});
+    if (document->trees.empty()) throw ParseError(file, 1, 0, "a YAML map expected");
+    const YamlTree& tree = *document->trees.front();
+    YamlNode root(tree, "", std::move(document));
+    if (!root.is_map()) throw ParseError(file, 1, 0, "a YAML map expected");
+    return root;
 }
 
 void YamlNode::fail(std::string_view what) const {
-    throw ParseError(file(), line(), std::max(node_.Mark().column, 0) + 1,
-                     path_.empty() ? std::string(what) : text(path_, ": ", what));
+    throw ParseError(file(), line(), tree_->column, path_.empty() ? std::string(what) : text(path_, ": ", what));
+}
+
+std::string YamlNode::path_of(std::string_view key) const {
+    return path_.empty() ? std::string(key) : text(path_, ".", key);
 }
 
 void YamlNode::require_map() const {
-    if (!node_.IsMap()) fail("a map (key: value) expected");
-    std::set<std::string> seen;
-    for (const auto& entry : node_) {
-        if (!entry.first.IsScalar()) fail("a key is not a word");
-        if (!seen.insert(entry.first.Scalar()).second)
-            fail(text("the key '", entry.first.Scalar(), "' is there twice"));
+    if (!is_map()) fail("a map (key: value) expected");
+    if (document_->with_good_keys.contains(tree_)) return;
+    std::set<std::string_view> seen;
+    for (std::size_t i = 0; i < tree_->children.size(); i += 2) {
+        const YamlTree& key = *tree_->children[i];
+        if (key.kind != YamlTree::Kind::scalar) fail("a key is not a word");
+        if (!seen.insert(key.scalar).second) fail(text("the key '", key.scalar, "' is there twice"));
     }
+    document_->with_good_keys.insert(tree_);
 }
 
 std::optional<YamlNode> YamlNode::find(std::string_view key) const {
     require_map();
-    for (const auto& entry : node_)
-        if (entry.first.Scalar() == key)
-            return child(entry.second, path_.empty() ? std::string(key) : text(path_, ".", key));
+    for (std::size_t i = 0; i < tree_->children.size(); i += 2)
+        if (tree_->children[i]->scalar == key) return child(*tree_->children[i + 1], path_of(key));
     return std::nullopt;
 }
 
@@ -75,30 +70,33 @@ std::optional<YamlNode> YamlNode::find_path(std::string_view keys) const {
 std::vector<std::string> YamlNode::keys() const {
     require_map();
     std::vector<std::string> all;
-    for (const auto& entry : node_) all.push_back(entry.first.Scalar());
+    for (std::size_t i = 0; i < tree_->children.size(); i += 2) all.push_back(tree_->children[i]->scalar);
     return all;
 }
 
 std::vector<YamlNode> YamlNode::entries() const {
     require_map();
     std::vector<YamlNode> all;
-    for (const auto& entry : node_) {
-        const std::string& key = entry.first.Scalar();
-        all.push_back({entry.second, path_.empty() ? key : text(path_, ".", key), document_});
-    }
+    for (std::size_t i = 0; i < tree_->children.size(); i += 2)
+        all.push_back({*tree_->children[i + 1], path_of(tree_->children[i]->scalar), document_});
     return all;
 }
 
 std::vector<YamlNode> YamlNode::items() const {
-    if (!node_.IsSequence()) fail("a list expected");
+    if (!is_list()) fail("a list expected");
     std::vector<YamlNode> all;
-    for (std::size_t i = 0; i < node_.size(); ++i) all.push_back(child(node_[i], text(path_, "[", i, "]")));
+    for (std::size_t i = 0; i < tree_->children.size(); ++i)
+        all.push_back(child(*tree_->children[i], text(path_, "[", i, "]")));
     return all;
 }
 
+const std::string& YamlNode::scalar(const char* expected) const {
+    if (tree_->kind != YamlTree::Kind::scalar) fail(expected);
+    return tree_->scalar;
+}
+
 std::string YamlNode::word() const {
-    if (!node_.IsScalar()) fail("a text expected");
-    return node_.Scalar();
+    return scalar("a text expected");
 }
 
 bool YamlNode::flag() const {
@@ -109,8 +107,7 @@ bool YamlNode::flag() const {
 }
 
 double YamlNode::number(bool or_infinite) const {
-    if (!node_.IsScalar()) fail("a number expected");
-    const std::string& digits = node_.Scalar();
+    const std::string& digits = scalar("a number expected");
     if (or_infinite && digits == ".inf") return std::numeric_limits<double>::infinity();
     const char* begin = digits.data();
     const char* const end = begin + digits.size();

@@ -3,27 +3,28 @@
 /// YAML models: not installed.
 #pragma once
 
+#include "turbines/description_yaml_tree.hpp"
+
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
-#include <yaml-cpp/yaml.h>
 
 namespace cardan::turbines {
 
 /// A node and where it is. Everything that reads throws ParseError if the node is of another kind.
 class YamlNode {
 public:
-    /// The only document of a text. @throws ParseError for what is no YAML
+    /// The only document of a text. @throws ParseError, see yaml_trees(), and if it is no map
     static YamlNode parse(const std::string& text, const std::string& file);
 
     const std::string& file() const { return document_->file; }
     const std::string& path() const { return path_; }  ///< "components.blade"
-    int line() const;
-    bool is_map() const { return node_.IsMap(); }
-    bool is_list() const { return node_.IsSequence(); }
+    int line() const { return tree_->line; }
+    bool is_map() const { return tree_->kind == YamlTree::Kind::map; }
+    bool is_list() const { return tree_->kind == YamlTree::Kind::list; }
 
     /// Was it asked for, by the key or as an item of a list?
     bool was_read() const { return document_->read.contains(path_); }
@@ -52,13 +53,17 @@ public:
 private:
     struct Document {
         std::string file;
-        std::set<std::string> read;  // paths
+        YamlTrees trees;
+        std::set<std::string> read;                // paths
+        std::set<const YamlTree*> with_good_keys;  // maps that were looked at
     };
-    YamlNode(const YAML::Node& node, std::string path, std::shared_ptr<Document> document);
-    YamlNode child(const YAML::Node& node, std::string path) const;
+    YamlNode(const YamlTree& tree, std::string path, std::shared_ptr<Document> document);
+    YamlNode child(const YamlTree& tree, std::string path) const;
+    std::string path_of(std::string_view key) const;
+    const std::string& scalar(const char* expected) const;
     void require_map() const;
 
-    YAML::Node node_;
+    const YamlTree* tree_;
     std::string path_;
     std::shared_ptr<Document> document_;
 };

@@ -2,9 +2,9 @@
 
 #include "elements/quadrature.hpp"
 #include "mbs/error.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
-#include "turbines/text_file.hpp"
 
 namespace cardan::turbines {
 

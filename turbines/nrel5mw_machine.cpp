@@ -1,9 +1,9 @@
 #include "turbines/nrel5mw_machine.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
-#include "turbines/text_file.hpp"
 
 namespace cardan::turbines {
 

@@ -1,12 +1,11 @@
 #include "turbines/oc3_hywind.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 namespace cardan::turbines {
 
@@ -86,8 +85,7 @@ PlatformDescription oc3_hywind() {
 PlatformDescription oc3_hywind(const std::filesystem::path& folder) {
     const auto path = folder / table;
     PlatformDescription p = describe(CsvQuantities::read(path));
-    std::ifstream file(path);
-    p.source = {std::istreambuf_iterator<char>(file), {}};
+    p.source = text_file(path);
     return p;
 }
 

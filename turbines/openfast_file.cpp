@@ -1,7 +1,7 @@
 #include "turbines/openfast_file.hpp"
 
 #include "mbs/error.hpp"
-#include "turbines/text_file.hpp"
+#include "mbs/text_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -38,19 +38,6 @@ std::optional<double> fortran_number(std::string_view word) {
 }
 
 // Old files hold single bytes of Latin-1 in their remarks; what is kept as text must be UTF-8.
-bool is_utf8(std::string_view text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        if (byte < 0x80) continue;
-        const std::size_t more = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : byte >= 0xC2 ? 1 : 0;
-        if (more == 0 || byte > 0xF4 || i + more >= text.size()) return false;
-        for (std::size_t k = 1; k <= more; ++k)
-            if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
-        i += more;
-    }
-    return true;
-}
-
 std::string utf8(std::string_view text) {
     if (is_utf8(text)) return std::string(text);
     std::string out;
@@ -153,6 +140,7 @@ OpenFastFile::Line OpenFastFile::classified(std::string_view line, int number) {
 }
 
 OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
+    require_text(text, file, TextRules::any_bytes);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     OpenFastFile out;
     out.file_ = std::move(file);

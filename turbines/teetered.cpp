@@ -2,9 +2,9 @@
 
 #include "mbs/error.hpp"
 #include "mbs/summary.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
-#include "turbines/text_file.hpp"
 
 #include <limits>
 

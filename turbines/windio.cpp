@@ -1,7 +1,7 @@
 #include "turbines/windio.hpp"
 
 #include "mbs/error.hpp"
-#include "turbines/text_file.hpp"
+#include "mbs/text_file.hpp"
 #include "turbines/windio_beams.hpp"
 
 #include <algorithm>

@@ -36,7 +36,10 @@ TEST_CASE("urdf bad input: what is not XML is refused with line and column", "[p
     refused("<robot name=\"x\">\n  <link name=a/>\n</robot>\n", {"arm.urdf:2: is not XML", "in no quotes"});
     refused("<robot name=\"x\">\n  <link name=\"a\" name=\"b\"/>\n</robot>\n", {"arm.urdf:2:", "not XML"});
     refused("<robot name=\"x\"><link name=\"a\"", {"arm.urdf:1", "not XML"});
-    refused(std::string("<robot name=\"x\"/>\0junk", 22), {"arm.urdf: is not XML: it contains a zero byte"});
+    CHECK_THROWS_WITH(parse_urdf(std::string("<robot name=\"x\"/>\0junk", 22), "arm.urdf"),
+                      Catch::Matchers::Contains("arm.urdf:1:18: is no text: the character NUL"));
+    CHECK_THROWS_WITH(parse_urdf("<robot name=\"x\">\n<!-- \xE4 --></robot>", "arm.urdf"),
+                      Catch::Matchers::Contains("arm.urdf:2:6: is not UTF-8: byte 0xE4"));
     refused("junk <robot name=\"x\"><link name=\"a\"/></robot>", {"arm.urdf:1", "not XML"});
     refused("<robot name=\"x\">\n<link name=\"a/></robot>", {"arm.urdf:2: is not XML: a tag does not end"});
     refused("<!-- nothing -->", {"arm.urdf:1", "it has no tag"});
