@@ -1,4 +1,4 @@
-// Time marching with gravity at rated speed, of the 600 kW machine (27.1 rpm; 3 and 12 elements per blade and tower)
+// Time marching with gravity of the 600 kW machine (27.1 rpm; 3 and 12 elements per blade and tower)
 // and of the NREL 5 MW machine (12.1 rpm; 8 elements), beside one evaluation of forward dynamics of the same model in
 // the same run. "x real time" depends on the machine; "step / forward dynamics" and "second / forward dynamics" (per
 // second of simulated time) are the figures to keep.

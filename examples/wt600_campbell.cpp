@@ -9,6 +9,7 @@
 #include "turbines/wt600.hpp"
 
 #include "examples/campbell_program.hpp"
+#include "examples/wt600_generator_option.hpp"
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -21,8 +22,9 @@ struct Arguments {
     std::string rpm = "0:40:1";
     std::string out = "wt600_campbell";
     std::string data;
+    program::GeneratorOption generator;
     turbines::AssemblyOptions assembly;
-    bool undamped = false, frozen = false, prescribed = false, modes = false, summary = false;
+    bool undamped = false, frozen = false, modes = false, summary = false;
     bool gravity = false, shaft_beam = false, floquet = false;
     double max_frequency = 16;
 };
@@ -39,9 +41,10 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
     app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
     app.add_flag("--undamped", a.undamped, "leave out all damping");
-    app.add_flag("--generator-prescribed", a.prescribed, "generator speed prescribed instead of free");
-    auto* frozen = app.add_flag("--frozen-azimuth", a.frozen,
-                                "eigenvalues at one azimuth, as published in 2007 (no motions of the machine)");
+    program::add_generator_option(app, a.generator);
+    auto* frozen =
+        app.add_flag("--frozen-azimuth", a.frozen,
+                     "eigenvalues at one azimuth (no motions of the machine), for comparison with the paper");
     app.add_flag("--floquet", a.floquet,
                  "by Floquet's theory about the periodic steady state, beside the mean of the multi-blade system over "
                  "the azimuth (PREFIX_averaged.csv, PREFIX_difference.svg, .png)")
@@ -98,14 +101,15 @@ int run(const Arguments& a) {
     std::string files = text(a.out, ".h5, .csv, .svg, .png");
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
-    const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
+    const turbines::Turbine turbine =
+        program::with_generator(turbines::assemble(description, a.assembly), a.generator, a.data);
     program::introduce(turbine, a.summary);
 
     solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.method = a.frozen    ? solvers::CampbellMethod::frozen_azimuth
                      : a.floquet ? solvers::CampbellMethod::floquet
                                  : solvers::CampbellMethod::coleman;
-    options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
+    options.spin = a.generator.spin();
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"});
     if (a.floquet) program::check_outputs(a.out, {"_averaged.csv", "_difference.svg", "_difference.png"});
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);

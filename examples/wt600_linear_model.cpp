@@ -17,6 +17,7 @@
 #include "turbines/wt600.hpp"
 
 #include "examples/program.hpp"
+#include "examples/wt600_generator_option.hpp"
 #include <algorithm>
 #include <cstdio>
 
@@ -27,7 +28,8 @@ namespace {
 struct Arguments {
     double rotor_rpm = 27, max_frequency = 10;
     int azimuths = 12, order = 16, harmonics = 8;
-    bool gravity = false, prescribed = false;
+    bool gravity = false;
+    program::GeneratorOption generator;
     std::string out = "wt600_linear_model", data;
     turbines::AssemblyOptions assembly;
 };
@@ -44,7 +46,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
     app.add_flag("--gravity", a.gravity, "about the periodic steady state under gravity");
-    app.add_flag("--rotor-prescribed", a.prescribed, "rotor speed prescribed instead of free");
+    program::add_generator_option(app, a.generator);
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
@@ -80,8 +82,8 @@ solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments
     solvers::StateSpaceOptions options;
     options.azimuths = a.azimuths;
     options.outputs = outputs;
-    options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
-    const auto list = inputs(turbine, !a.prescribed);
+    options.spin = a.generator.spin();
+    const auto list = inputs(turbine, options.spin == solvers::RotorSpin::free);
     const auto channels = turbines::channels(turbine);
     const int spin = turbine.rotor().spin;
     if (a.gravity && rotor_speed != 0) {
@@ -108,7 +110,7 @@ void print_modes(const turbines::Turbine& turbine, const solvers::ConstantModel&
         const std::vector<double> speeds =
             a.rotor_rpm > 0 ? solvers::rpm_range(0, a.rotor_rpm, a.rotor_rpm / 9) : std::vector<double>{0};
         solvers::CampbellOptions options;
-        options.spin = a.prescribed ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
+        options.spin = a.generator.spin();
         options.max_frequency_hz = a.max_frequency;
         options.keep_shapes = false;
         diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
@@ -197,7 +199,8 @@ int run(const Arguments& a) {
     if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
-    const turbines::Turbine turbine = turbines::assemble(description, a.assembly);
+    const turbines::Turbine turbine =
+        program::with_generator(turbines::assemble(description, a.assembly), a.generator, a.data);
     program::check_outputs(a.out, {".h5", ".mat", ".1.lin"});
 
     const solvers::LinearModel model = linearise(turbine, a);

@@ -2,6 +2,7 @@
 /// What the programs that simulate the 600 kW machine have in common: options, starts, rows, pictures.
 #pragma once
 
+#include "mbs/dynamics.hpp"
 #include "solvers/steady_state.hpp"
 #include "turbines/wt600_operation.hpp"
 
@@ -93,6 +94,35 @@ inline Vector steady_position(const turbines::Turbine& turbine, const ForceSet& 
 inline Start standing_start(const turbines::Wt600Operation& machine, const Vector& driven = {}) {
     const Vector q = steady_position(machine.turbine, machine.turbine.forces(), 0, 0, driven);
     return {q, Vector::Zero(q.size())};
+}
+
+/// Rotor speed at which the torques of rotor load and generator are equal, the blades turned as far as they turn in
+/// their pitch drives: that of a constant rotation without gravity and tower shadow. By the secant method.
+/// @param calm   the machine without gravity and tower shadow
+/// @param guess  rad/s, about right
+/// @throws NumericalError if there is none near the guess
+inline double balanced_speed(const turbines::Wt600Operation& calm, double guess) {
+    const System& system = calm.turbine.system();
+    const int spin = calm.turbine.rotor().spin;
+    Workspace workspace(system.model);
+    Vector Q(system.model.size()), tau(system.model.size());
+    const auto surplus = [&](double speed) {
+        Vector qd = Vector::Zero(system.model.size());
+        const Vector q = steady_position(calm.turbine, calm.turbine.forces(), speed, 0), qdd = qd;
+        qd(spin) = speed;
+        const Kinematics kin = kinematics(system.model, q, workspace);
+        system.forces.generalised_forces(kin, 0, q, qd, Q);
+        inverse_dynamics(kin, VectorIn(qd), VectorIn(qdd), VectorOut(tau));
+        return Q(spin) - tau(spin);
+    };
+    double a = guess, b = 1.001 * guess, fa = surplus(a);
+    for (int i = 0; i < 30; ++i) {
+        const double fb = surplus(b), next = b - fb * (b - a) / (fb - fa);
+        a = b, fa = fb, b = next;
+        if (std::abs(b - a) < 1e-10 * guess) return b;
+    }
+    throw NumericalError(text("start of the simulation: no rotor speed near ", guess / rpm,
+                              " rpm at which rotor and generator balance; give one (--rpm)"));
 }
 
 /// In rotation, blade 1 up: the steady state without gravity and tower shadow, and what gravity bends the standing

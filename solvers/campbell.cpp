@@ -180,7 +180,7 @@ std::string method_name(CampbellMethod method, std::size_t blades) {
         case CampbellMethod::coleman:
             return blades < 2 ? rotating : "Coleman (fixed frame)";
         case CampbellMethod::frozen_azimuth:
-            return blades < 2 ? rotating : "frozen azimuth (as published in 2007)";
+            return blades < 2 ? rotating : "frozen azimuth";
         case CampbellMethod::floquet:
             return text("Floquet (principal frequencies, ",
                         blades > 2    ? "fixed frame"

@@ -22,8 +22,7 @@ enum class RotorSpin : std::uint8_t { free, prescribed };
 /// Frequencies in which frame.
 enum class CampbellMethod : std::uint8_t {
     coleman,         ///< fixed frame, by multi-blade transformation: motions of the machine; three and more blades
-    frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: as published in 2007, no
-                     ///< motions of the machine
+    frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: no motions of the machine
     floquet,  ///< motions of the machine about its periodic steady state by Floquet's theory, in multi-blade rows: any
               ///< number of blades, gravity, blades that differ. The frequencies are principal ones: in the fixed
               ///< frame, but those of blade modes of two blades in the rotating frame

@@ -50,10 +50,11 @@ PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& opt
 
 }  // namespace
 
-Turbine Turbine::with_forces(const ForceSet& forces) const {
+Turbine Turbine::with_forces(const ForceSet& forces, const std::string& remark) const {
     Turbine other = *this;
     other.forces_ = std::make_shared<const ForceSet>(forces);
     other.system_ = std::make_shared<const System>(*tree_, forces);
+    if (!remark.empty()) other.rotor_.description = text(remark, "\n\n", rotor_.description);
     return other;
 }
 

@@ -64,8 +64,9 @@ public:
     const ForceSet& forces() const { return *forces_; }
     const MachineLayout& layout() const { return *layout_; }
     /// The same machine under other forces: mostly a copy of forces() with generator, brake or loads added.
+    /// @param remark  what they are, for the description in files
     /// @throws InputError as System does
-    Turbine with_forces(const ForceSet& forces) const;
+    Turbine with_forces(const ForceSet& forces, const std::string& remark = {}) const;
     const std::string& source() const { return source_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
     /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.

@@ -4,6 +4,7 @@
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace cardan::turbines {
@@ -12,7 +13,9 @@ namespace {
 
 constexpr double rpm = pi / 30, degree = pi / 180;
 constexpr double gear_ratio = 50;  // of the data set; the torque table is that of this machine
-constexpr double rated_power = 600e3, rated_speed = 27.1 * rpm;
+// The paper's Table 1; at its tip speed ratio the nominal wind gives the speed of rated operation.
+constexpr double rated_power = 600e3, rated_wind = 11.86, tip_speed_ratio = 6.25, radius = 21.5;
+constexpr double rated_speed = tip_speed_ratio * rated_wind / radius;
 
 InductionMachine induction_machine(const CsvQuantities& q) {
     return {q.number("generator_sync_speed", "rpm") * rpm, q.number("generator_breakdown_torque", "N m"),
@@ -66,11 +69,15 @@ InductionMachine wt600_induction_machine(const std::filesystem::path& folder) {
     return induction_machine(CsvQuantities::read(folder / "wt600_turbine.csv"));
 }
 
+double wt600_rated_speed() {
+    return rated_speed;
+}
+
 RotorCurve wt600_rotor_curve() {
     RotorCurve curve;
-    curve.radius = 21.5;
-    curve.power = 0.42;
-    curve.tip_speed_ratio = 6.25;
+    curve.radius = radius;
+    curve.power = rated_power / (curve.air_density / 2 * pi * radius * radius * std::pow(rated_wind, 3));
+    curve.tip_speed_ratio = tip_speed_ratio;
     curve.thrust = 0.8;
     return curve;
 }
@@ -82,7 +89,7 @@ TorqueTable wt600_torque_table() {
         return curve.torque(speed * curve.radius / curve.tip_speed_ratio, pi, speed, 0.0);
     };
     std::vector<double> speeds{19 * rpm * gear_ratio}, torques{0};
-    for (double n : {20.0, 21.5, 23.0, 24.5, 26.0}) {
+    for (double n : {20.0, 22.0, 24.0, 26.0, 28.0, 30.0, 32.0}) {
         speeds.push_back(n * rpm * gear_ratio);
         torques.push_back(best(n * rpm) / gear_ratio);
     }

@@ -15,16 +15,20 @@ namespace cardan::turbines {
 
 enum class Wt600Generator : std::uint8_t {
     induction,  ///< at the grid: 1500 rpm, Kloss' law; about 30.4 rpm of the rotor at 600 kW
-    converter   ///< torque over speed: best tip speed ratio from 20 rpm up, 600 kW at 27.1 rpm
+    converter   ///< torque over speed: best tip speed ratio from 20 rpm up to 600 kW at 32.92 rpm
 };
 
 /// "generator_sync_speed" ... of the data set.  @throws FileError, ParseError
 InductionMachine wt600_induction_machine();
 InductionMachine wt600_induction_machine(const std::filesystem::path& folder);
-/// Torque of the generator with converter (assumed): none below 19 rpm of the rotor, from 20 to 26 rpm that of the best
-/// tip speed ratio, 4228 N m from 27.1 rpm on.
+/// Speed of the rotor in rated operation, rad/s: tip speed ratio times nominal wind speed over radius, all of the
+/// paper's Table 1, 6.25 * 11.86 / 21.5 = 3.4477 rad/s (32.92 rpm).
+double wt600_rated_speed();
+/// Torque of the generator with converter (assumed): none below 19 rpm of the rotor, from 20 rpm to the rated speed
+/// that of the best tip speed ratio, from there on 3481 N m, which is 600 kW at the rated speed.
 TorqueTable wt600_torque_table();
-/// Load on the rotor (assumed): power coefficient 0.42 at the tip speed ratio of Table 1, 6.25; thrust coefficient 0.8.
+/// Load on the rotor (assumed): at the tip speed ratio of Table 1, 6.25, the power coefficient that makes the nominal
+/// power of the nominal wind, 0.404, and a thrust coefficient of 0.8.
 RotorCurve wt600_rotor_curve();
 
 struct Wt600OperationOptions {

@@ -1,6 +1,11 @@
 add_example_test(example_wt600 wt600_campbell 0 "files: example_wt600.h5" --rpm 0:30:15 --out example_wt600 --modes)
 add_example_test(example_wt600_frozen wt600_campbell 0 "warning: frozen azimuth" --rpm 0:30:15 --frozen-azimuth --undamped
-                 --shaft-beam --generator-prescribed --blade-elements 2 --tower-elements 2 --out example_frozen)
+                 --shaft-beam --generator locked --blade-elements 2 --tower-elements 2 --out example_frozen)
+add_example_test(example_wt600_slip wt600_campbell 0 "1st drive-train torsion +1.4286 . 52.14. +1.4290 . 52.24." --rpm 0:27:27
+                 --generator slip --out example_wt600_slip)
+add_example_test(example_wt600_generator wt600_campbell 2 "--generator" --generator grid)
+add_example_test(example_wt600_generator_torque wt600_campbell 1 "--generator-torque: value .N m. = 100; allowed: 0, or --generator slip"
+                 --generator-torque 100)
 add_example_test(example_one_speed wt600_campbell 0 "files: example_one_speed.h5, .csv, .svg, .png\n" --rpm 0 --blade-elements 1
                  --tower-elements 1 --out example_one_speed)
 add_example_test(example_help wt600_campbell 0 "--blade-elements" --help)

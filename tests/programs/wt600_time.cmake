@@ -1,7 +1,7 @@
 # The 600 kW machine in time.
 set(coarse --blade-elements 1 --tower-elements 1)
 add_example_test(example_stop wt600_emergency_stop 0
-              "grid loss .*overspeed, pitch to feather.*brake on.*standstill.*tower base moment y.*ok.*ok.*ok.*_spectrum.png"
+              "grid loss .*overspeed, pitch to feather.*brake on.*standstill.*tower base moment y.*ok.*ok.*start in equilibrium[^\n]*ok.*ok.*_spectrum.png"
               ${coarse} --grid-loss 1 --tolerance 1e-5 --after 3 --out example_stop)
 add_example_test(example_stop_delay wt600_emergency_stop 0 "brake on.*standstill" ${coarse} --grid-loss 0.5 --brake-delay 6
               --tolerance 1e-4 --after 0 --no-gravity --method dirk --out example_stop_delay)
@@ -26,7 +26,7 @@ add_example_test(example_time_platform wt600_time_history 0
               --out example_time_platform)
 add_example_test(example_time_revolutions wt600_time_history 1 "--surge: revolutions of a rotor at = 0 rpm or at changing speed"
               --surge amplitude=1,revolutions=2)
-add_example_test(example_time_alpha wt600_time_history 0 "fixed speed.*ok.*ok" --method alpha --duration 3
+add_example_test(example_time_alpha wt600_time_history 0 "fixed speed.*ok.*ok" --method alpha --duration 5
               --tolerance 1e-6 --out example_time_alpha)
 # Connected within the first stretch: the second one must know.
 set(resumed ${coarse} --mode fixed --pitch-rate 6 --tolerance 1e-5 --step 0.05 --out example_time_resume)

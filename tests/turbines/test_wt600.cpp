@@ -3,6 +3,7 @@
 
 #include "tests/oracles/wt600_stations.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -150,4 +151,25 @@ TEST_CASE("600 kW machine: has 70 coordinates, 15 of the tower and 15 of each bl
     CHECK(table.of_part("tower").size() == 15);
     for (int blade : {1, 2, 3}) CHECK(table.of_part("blade", blade).size() == 15);
     for (const CoordinateInfo& row : table) CHECK(row.name.find("extension") == std::string::npos);
+}
+
+TEST_CASE(
+    "600 kW machine: a tower of 52.2 m, the other reading of Table 1, lowers its first modes from 0.713 to 0.683 Hz",
+    "[crosscheck]") {
+    // The data set reads "height of tower 52.2 m" as the height of the hub: tower 50.7 m, hub 52.44 m.
+    const test::Folder folder;
+    for (const char* name : {"wt600_blade.csv", "wt600_turbine.csv"}) {
+        std::string data = test::bytes_of(text(CARDAN_SOURCE_DIR, "/turbines/data/", name));
+        const std::string built_in = "tower_length,m,50.7,";
+        if (const auto at = data.find(built_in); at != std::string::npos)
+            data.replace(at, built_in.size(), "tower_length,m,52.2,");
+        std::ofstream(folder / name) << data;
+    }
+    const turbines::Turbine machine = turbines::wt600(undamped()),
+                            tall = turbines::assemble(turbines::wt600_description(folder.path), undamped());
+    CHECK(load_of(tall, "tower").mass == Approx(load_of(machine, "tower").mass * 52.2 / 50.7).epsilon(1e-9));
+    CHECK(frequencies(machine, 0)[0] == Approx(0.713).margin(5e-4));
+    CHECK(frequencies(machine, 0)[1] == Approx(0.717).margin(5e-4));
+    CHECK(frequencies(tall, 0)[0] == Approx(0.683).margin(5e-4));
+    CHECK(frequencies(tall, 0)[1] == Approx(0.687).margin(5e-4));
 }

@@ -1,5 +1,7 @@
 // The 600 kW machine in operation: its elements at the points that define them, and the machine they leave untouched.
+#include "mbs/metric.hpp"
 #include "solvers/linearise.hpp"
+#include "solvers/steady_state.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -30,22 +32,54 @@ TEST_CASE("wt600 operation: at the grid the machine gives 600 kW at about 30.4 r
     CHECK(speed / 50 / rpm == Approx(30.4).margin(0.05));
 }
 
-TEST_CASE("wt600 operation: the converter's table holds the best tip speed ratio, then 600 kW at 27.1 rpm",
+TEST_CASE("wt600 operation: the converter's table holds the best tip speed ratio up to 600 kW at 32.9 rpm",
           "[analytic]") {
     const TorqueTable table = wt600_torque_table();
-    const double rho = 1.225, R = 21.5, l = 6.25, cp = 0.42;
-    for (double n : {20.0, 21.5, 23.0, 24.5, 26.0}) {
+    // Table 1: 600 kW at 11.86 m/s with a tip speed ratio of 6.25 and a radius of 21.5 m.
+    const double rho = 1.225, R = 21.5, l = 6.25, rated = l * 11.86 / R;
+    CHECK(wt600_rated_speed() == Approx(3.448).margin(5e-4));
+    CHECK(wt600_rated_speed() == Approx(rated).epsilon(1e-14));
+    const double cp = 600e3 / (rho / 2 * pi * R * R * std::pow(11.86, 3));
+    CHECK(cp == Approx(0.404).margin(5e-4));
+    for (double n : {20.0, 22.0, 24.0, 26.0, 28.0, 30.0, 32.0}) {
         const double w = n * rpm, V = w * R / l, power = cp * rho / 2 * pi * R * R * V * V * V;
         CHECK(table.torque(50 * w) * 50 * w == Approx(power).epsilon(1e-12));
     }
-    CHECK(table.torque(50 * 27.1 * rpm) * 50 * 27.1 * rpm == Approx(600e3).epsilon(1e-12));
-    CHECK(table.torque(50 * 35 * rpm) == Approx(600e3 / (50 * 27.1 * rpm)).epsilon(1e-12));
+    CHECK(table.torque(50 * rated) * 50 * rated == Approx(600e3).epsilon(1e-12));
+    CHECK(table.torque(50 * rated) == Approx(3480.6).margin(0.05));
+    CHECK(table.torque(50 * 35 * rpm) == Approx(600e3 / (50 * rated)).epsilon(1e-12));
     CHECK(table.torque(50 * 18 * rpm) == 0);
-    // In the nominal wind the prescribed load drives the rotor to just above that speed.
+    // In the nominal wind the prescribed load drives the rotor to that speed.
     const RotorCurve curve = wt600_rotor_curve();
     const double speed = oracles::bisect(
-        [&](double w) { return curve.torque(11.86, 0.0, w, 0.0) - 50 * table.torque(50 * w); }, 26 * rpm, 30 * rpm);
-    CHECK(speed / rpm == Approx(27.3).margin(0.3));
+        [&](double w) { return curve.torque(11.86, 0.0, w, 0.0) - 50 * table.torque(50 * w); }, 26 * rpm, 36 * rpm);
+    CHECK(speed == Approx(rated).epsilon(1e-6));
+}
+
+TEST_CASE("wt600 operation: with the converter, rated operation is an equilibrium that the machine returns to",
+          "[analytic]") {
+    Wt600OperationOptions options{.assembly = {}, .generator = Wt600Generator::converter};
+    options.assembly.gravity.setZero();
+    const Wt600Operation machine = wt600_operation(options);
+    const System& system = machine.turbine.system();
+    const int spin = machine.turbine.rotor().spin, n = system.model.size();
+    Workspace workspace(system.model);
+    // What the torques left over would do to all that turns with the rotor, rad/s^2.
+    const auto drift = [&](double speed) {
+        solvers::SteadyOptions steady;
+        steady.rotor_speed = speed;
+        const solvers::SteadyState state = solvers::steady_state(system, spin, steady);
+        REQUIRE(state.converged);
+        const Kinematics kin = kinematics(system.model, state.at.q, workspace);
+        Vector Q(n);
+        Matrix g(n, n);
+        system.forces.generalised_forces(kin, 0, state.at.q, state.at.qd, Q);
+        metric(kin, g);
+        return Q(spin) / g(spin, spin);
+    };
+    CHECK(std::abs(drift(wt600_rated_speed())) < 1e-5);  // 0.3 mrad/s in half a minute
+    CHECK(drift(0.98 * wt600_rated_speed()) > 1e-3);
+    CHECK(drift(1.02 * wt600_rated_speed()) < -1e-3);
 }
 
 TEST_CASE("wt600 operation: without grid, brake and wind it is the machine with pitch springs", "[property]") {
