@@ -39,6 +39,7 @@ ChannelGroup brake_channels(const Brake& brake) {
     group.channels = {{.name = brake.name + " torque",
                        .units = "N m",
                        .long_name = "torque of the brake on its disc, positive: against positive rotation",
+                       .frame = "axis of the brake disc",
                        .alias = brake.alias},
                       {.name = brake.name + " power", .units = "W", .long_name = "heat that the brake makes"}};
     group.sample = [brake](const ChannelInput& in, double* values) {

@@ -73,10 +73,14 @@ UserForce drive_force(const ElasticDrive& drive) {
 ChannelGroup drive_channels(const ElasticDrive& drive, const std::string& units) {
     ChannelGroup group;
     group.channels = {
-        {.name = drive.name + " order", .units = units, .long_name = "position that the drive is ordered to"},
+        {.name = drive.name + " order",
+         .units = units,
+         .long_name = "position that the drive is ordered to",
+         .frame = "axis of " + drive.name},
         {.name = drive.name + " force",
          .units = units == "rad" ? "N m" : "N",
-         .long_name = "force of the drive along its coordinate"},
+         .long_name = "force of the drive along its coordinate",
+         .frame = "axis of " + drive.name},
         {.name = drive.name + " power", .units = "W", .long_name = "power of the drive less the heat of its damper"}};
     group.sample = [drive](const ChannelInput& in, double* values) {
         const int i = in.kinematics.model().index(drive.coordinate);

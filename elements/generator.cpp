@@ -77,6 +77,7 @@ ChannelGroup generator_channels(const Generator& generator) {
     group.channels = {{.name = generator.name + " torque",
                        .units = "N m",
                        .long_name = "torque of the generator on its own shaft, positive: braking",
+                       .frame = "axis of the generator shaft",
                        .alias = generator.alias},
                       {.name = generator.name + " power",
                        .units = "W",

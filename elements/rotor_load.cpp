@@ -153,11 +153,16 @@ UserForce rotor_load_force(const RotorLoad& load) {
 
 ChannelGroup rotor_load_channels(const RotorLoad& load) {
     ChannelGroup group;
-    group.channels = {
-        {.name = load.name + " torque", .units = "N m", .long_name = "prescribed torque on the hub about its axis"},
-        {.name = load.name + " thrust", .units = "N", .long_name = "prescribed thrust on the hub, downwind"},
-        {.name = load.name + " power", .units = "W", .long_name = "prescribed torque times rotor speed"},
-        {.name = "wind speed", .units = "m s-1", .long_name = "wind speed of the prescribed rotor load"}};
+    group.channels = {{.name = load.name + " torque",
+                       .units = "N m",
+                       .long_name = "prescribed torque on the hub about its axis",
+                       .frame = "rotor axis"},
+                      {.name = load.name + " thrust",
+                       .units = "N",
+                       .long_name = "prescribed thrust on the hub, downwind",
+                       .frame = "rotor axis"},
+                      {.name = load.name + " power", .units = "W", .long_name = "prescribed torque times rotor speed"},
+                      {.name = "wind speed", .units = "m s-1", .long_name = "wind speed of the prescribed rotor load"}};
     group.sample = [load](const ChannelInput& in, double* values) {
         const ForceInput at{in.time, in.q, in.qd, in.kinematics};
         const RotorCurve::Value v = load.value(at);

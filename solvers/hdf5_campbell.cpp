@@ -60,14 +60,7 @@ private:
         file_.set_attribute("/", {"complete", std::int64_t{d_.complete}});
         file_.set_attribute("/", {"number_of_blades", std::int64_t{d_.blades}});
         file_.write("input_description", std::vector<std::string>{d_.source}, {},
-                    "text that the machine was read from");
-    }
-
-    void scale(const std::string& name, std::size_t count, const std::string& long_name) {
-        std::vector<int> index(count);
-        std::iota(index.begin(), index.end(), 0);
-        file_.write(name, index, {count}, {"1", long_name});
-        file_.make_dimension(name);
+                    "the machine as assembled, what it was read from, and the machine that was computed");
     }
 
     void axes() {
@@ -83,10 +76,11 @@ private:
             file_.write("parameter", d_.parameters, {points_}, {"1", d_.parameter});
             file_.attach("parameter", 0, "rotor_speed");
         }
-        scale("branch", branches_, "index of the branch (a mode followed over rotor speed); names in branches/name");
-        scale("component", d_.components.size(), "index of the component mode; names in components/name");
-        scale("row", d_.rows.size(), "index of the row of the linear system; names in rows/name");
-        scale("coordinate", static_cast<std::size_t>(d_.coordinates.size()), "index of the coordinate");
+        file_.make_index("branch", branches_,
+                         "index of the branch (a mode followed over rotor speed); names in branches/name");
+        file_.make_index("component", d_.components.size(), "index of the component mode; names in components/name");
+        file_.make_index("row", d_.rows.size(), "index of the row of the linear system; names in rows/name");
+        file_.make_index("coordinate", static_cast<std::size_t>(d_.coordinates.size()), "index of the coordinate");
     }
 
     // value(point, branch), rotor speed by branch
@@ -193,6 +187,7 @@ private:
     void crossings() {
         const auto& x = d_.crossings;
         if (x.empty()) return;
+        file_.make_index("crossing", x.size(), "index of the crossing");
         file_.write("crossings/branch", column(x, [](const Crossing& c) { return c.branch; }), {x.size()},
                     {"1", "index of the branch"});
         file_.write("crossings/multiple", column(x, [](const Crossing& c) { return c.multiple; }), {x.size()},
@@ -201,6 +196,8 @@ private:
                     {"rad s-1", "rotor speed at the crossing"});
         file_.write("crossings/frequency", column(x, [](const Crossing& c) { return c.frequency_hz; }), {x.size()},
                     {"Hz", "frequency at the crossing"});
+        for (const char* name : {"branch", "multiple", "rotor_speed", "frequency"})
+            file_.attach(std::string("crossings/") + name, 0, "crossing");
     }
 
     void coordinates() {
@@ -212,6 +209,7 @@ private:
         names("coordinates/part", column(c, [](const Info& x) { return x.part; }), "part", "coordinate");
         file_.write("coordinates/blade", column(c, [](const Info& x) { return x.blade; }), {n},
                     {"1", "blade number from 1, 0: no blade"});
+        file_.attach("coordinates/blade", 0, "coordinate");
         std::vector<double> q;
         for (const CampbellPoint& point : d_.points) q.insert(q.end(), point.at.q.begin(), point.at.q.end());
         file_.write("steady_state/q", q, {points_, n}, {"rad or m", "coordinates in the steady state, azimuth 0"});
@@ -221,13 +219,16 @@ private:
 
     void shapes() {
         const std::size_t frames = d_.frames.size();
-        scale("frame", frames, "index of the frame; names in frames/name");
+        file_.make_index("frame", frames, "index of the frame; names in frames/name");
         names("frames/name", d_.frames, "name of the frame", "frame");
         std::vector<double> position;
         for (const Vec3& p : d_.frame_positions) position.insert(position.end(), p.begin(), p.end());
         file_.write("frames/position", position, {frames, 3},
                     {"m", "position undeformed at azimuth 0, ground axes (x downwind, z up)"});
+        file_.make_index("axis", 3, "ground axes: x downwind, y, z up");
         file_.attach("frames/position", 0, "frame");
+        file_.attach("frames/position", 1, "axis");
+        file_.make_index("motion", 6, "rotation about x, y, z and displacement along x, y, z, ground axes");
         std::vector<Complex> motion;
         for (std::size_t i = 0; i < points_; ++i)
             for (const Branch& branch : d_.branches) {
@@ -244,6 +245,7 @@ private:
         file_.attach("branches/frame_motion", 0, "rotor_speed");
         file_.attach("branches/frame_motion", 1, "branch");
         file_.attach("branches/frame_motion", 2, "frame");
+        file_.attach("branches/frame_motion", 3, "motion");
         lines();
     }
 
@@ -274,7 +276,9 @@ private:
                     {"rad or m",
                      "periodic steady state: mean, then cosine and sine coefficients of the multiples 1, 2, ... of the "
                      "azimuth"});
+        file_.make_index("term", width, "of a Fourier series in the azimuth: mean, cosine 1, sine 1, cosine 2 ...");
         file_.attach("steady_state/series", 0, "rotor_speed");
+        file_.attach("steady_state/series", 1, "term");
         file_.attach("steady_state/series", 2, "coordinate");
     }
 
@@ -297,11 +301,16 @@ private:
                 line.push_back(static_cast<int>(l));
                 frame.push_back(point.index);
             }
-        names("lines/part", column(d_.lines, [](const Polyline& x) { return x.part; }), "part that the line shows", "");
+        file_.make_index("line", d_.lines.size(), "index of the line; what it shows in lines/part");
+        file_.make_index("line_point", line.size(), "index of the point, line by line");
+        names("lines/part", column(d_.lines, [](const Polyline& x) { return x.part; }), "part that the line shows",
+              "line");
         file_.write("lines/blade", column(d_.lines, [](const Polyline& x) { return x.blade; }), {d_.lines.size()},
                     {"1", "blade number from 1, 0: no blade"});
         file_.write("lines/point_line", line, {line.size()}, {"1", "line that the point belongs to, in order"});
         file_.write("lines/point_frame", frame, {frame.size()}, {"1", "index of the frame at the point"});
+        file_.attach("lines/blade", 0, "line");
+        for (const char* name : {"lines/point_line", "lines/point_frame"}) file_.attach(name, 0, "line_point");
     }
 
     const Campbell& d_;

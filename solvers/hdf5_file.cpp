@@ -1,14 +1,17 @@
 #include "solvers/hdf5_file.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/text_file.hpp"
 #include "solvers/hdf5_impl.hpp"
 #include "solvers/hdf5_storage.hpp"
+#include "solvers/hdf5_text.hpp"
 
 #include <hdf5.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace cardan::solvers {
@@ -18,7 +21,7 @@ using detail::Handle;
 using detail::Quiet;
 
 constexpr unsigned keep_order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
-constexpr std::size_t big_array = 65536;       // bytes; smaller ones are stored plainly
+constexpr std::size_t big_array = 32768;       // bytes; smaller ones lie in the header, whose checksum they share
 constexpr std::size_t largest_chunk = 524288;  // bytes; two of them fit into the chunk cache of the C library
 constexpr unsigned deflate_level = 4;
 
@@ -30,10 +33,16 @@ bool has_nul(std::string_view s) {
     return s.find('\0') != std::string_view::npos;
 }
 
+/// The first thing that keeps a text from being stored; empty: nothing.
+std::string flaw(std::string_view s) {
+    if (has_nul(s)) return "contains a NUL";
+    return is_utf8(s) ? "" : "is not UTF-8";
+}
+
 /// Without the leading slash; parts between slashes are names.
 std::string checked_name(const std::string& path, std::string_view name) {
     if (name.starts_with('/')) name.remove_prefix(1);
-    bool good = !has_nul(name);
+    bool good = flaw(name).empty();
     for (std::size_t start = 0; start <= name.size();) {
         const std::size_t end = std::min(name.find('/', start), name.size());
         const std::string_view part = name.substr(start, end - start);
@@ -41,15 +50,17 @@ std::string checked_name(const std::string& path, std::string_view name) {
         start = end + 1;
     }
     if (!good)
-        refuse(path, text("'", name, "'"), "is not a name; allowed: parts that are not empty, with / between them");
+        refuse(path, text("'", name, "'"),
+               "is not a name; allowed: parts in UTF-8 that are not empty, with / between them");
     return std::string(name);
 }
 
 void check(const std::string& path, std::string_view object, const Attributes& attributes) {
     for (const Attribute& a : attributes) {
         const auto* value = std::get_if<std::string>(&a.value);
-        if (a.name.empty() || has_nul(a.name)) refuse(path, object, "an attribute has no name");
-        if (value != nullptr && has_nul(*value)) refuse(path, object, text("attribute ", a.name, " contains a NUL"));
+        if (a.name.empty() || !flaw(a.name).empty()) refuse(path, object, "an attribute has no name in UTF-8");
+        if (value != nullptr && !flaw(*value).empty())
+            refuse(path, object, text("attribute ", a.name, " ", flaw(*value)));
     }
 }
 
@@ -63,13 +74,6 @@ Attributes checked(const std::string& path, std::string_view object, const Descr
     return all;
 }
 
-Handle text_type() {
-    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type.get(), H5T_VARIABLE);
-    H5Tset_cset(type.get(), H5T_CSET_UTF8);
-    return type;
-}
-
 Handle complex_type(hid_t number) {
     const std::size_t size = H5Tget_size(number);
     Handle type(H5Tcreate(H5T_COMPOUND, 2 * size), H5Tclose);
@@ -78,14 +82,27 @@ Handle complex_type(hid_t number) {
     return type;
 }
 
-/// Large arrays get chunks of at most largest_chunk bytes, cut along the slowest axes first.
+void check_fill(const std::string& path, std::string_view name, std::size_t given, const Shape& shape) {
+    std::size_t count = std::ranges::count(shape, 0U) > 0 ? 0 : 1;
+    for (const std::size_t n : shape)
+        if (n != 0 && __builtin_mul_overflow(count, n, &count))
+            refuse(path, name, text(given, " values do not fill a shape of more than 2^64"));
+    if (count != given) refuse(path, name, text(given, " values do not fill a shape of ", count));
+}
+
+/// Every value has a checksum: that of the header, in which small arrays lie, or that of its chunk. Chunks have at most
+/// largest_chunk bytes and are cut along the slowest axes first.
 void set_layout(hid_t list, std::vector<hsize_t> extents, std::size_t bytes_per_value) {
     const auto bytes = [&] {
         hsize_t product = bytes_per_value;
         for (const hsize_t n : extents) product *= n;
         return product;
     };
-    if (extents.empty() || bytes() < big_array) return;
+    if (bytes() == 0) return;
+    if (extents.empty() || bytes() < big_array) {
+        H5Pset_layout(list, H5D_COMPACT);
+        return;
+    }
     for (hsize_t& n : extents) {
         while (n > 1 && bytes() > largest_chunk) n = (n + 1) / 2;
     }
@@ -112,9 +129,8 @@ struct Hdf5Writer {
             impl.ok(made.close(), what, "be written");
         };
         if (const auto* s = std::get_if<std::string>(&a.value)) {
-            const Handle type = text_type();
-            const char* characters = s->c_str();
-            put(type.get(), type.get(), &characters);
+            const Handle type = detail::text_type(s->size());
+            put(type.get(), type.get(), s->c_str());
         } else if (const auto* x = std::get_if<double>(&a.value)) {
             put(H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, x);
         } else {
@@ -145,17 +161,13 @@ struct Hdf5Writer {
         std::size_t count;
         hid_t memory_type;
         hid_t file_type;
-        std::size_t bytes_per_value;  ///< 0: never chunked
+        std::size_t bytes_per_value;
     };
 
     void put_array(std::string_view given_name, const Array& array, const Shape& shape,
                    const Attributes& attributes) const {
         const std::string name = checked_name(impl.path, given_name);
-        std::size_t count = 1;
-        for (const std::size_t n : shape) count *= n;
-        if (count != array.count) {
-            refuse(impl.path, name, text(array.count, " values do not fill a shape of ", count));
-        }
+        check_fill(impl.path, name, array.count, shape);
         if (shape.size() > H5S_MAX_RANK) refuse(impl.path, name, "too many axes");
         if (impl.exists(name)) refuse(impl.path, name, "exists already");
         refuse_dataset_as_group(name);
@@ -178,6 +190,35 @@ struct Hdf5Writer {
             for (const Attribute& a : attributes) put_attribute(made.get(), name, a);
             impl.ok(made.close(), name, "be written");
         });
+    }
+
+    /// The scale, beside the data set, of the axis that runs over the characters of a text.
+    std::string character_scale(const std::string& dataset, std::size_t length) const {
+        const std::string plain = text(dataset.substr(0, dataset.rfind('/') + 1), "string", length);
+        std::string name = plain;
+        for (int i = 2; impl.exists(name); ++i) {
+            if (is_character_scale(name, length)) return name;
+            name = text(plain, "_", i);
+        }
+        impl.change(name, [&] {
+            const hsize_t extent = length;
+            const Handle space = impl.own(H5Screate_simple(1, &extent, nullptr), H5Sclose, name, "be created");
+            const Handle list = impl.own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name, "be created");
+            H5Pset_attr_creation_order(list.get(), keep_order);
+            H5Pset_obj_track_times(list.get(), false);
+            Handle made = impl.own(
+                H5Dcreate2(impl.file, name.c_str(), H5T_IEEE_F32BE, space.get(), H5P_DEFAULT, list.get(), H5P_DEFAULT),
+                H5Dclose, name, "be created");
+            impl.ok(H5DSset_scale(made.get(), detail::name_without_values(length).c_str()), name, "become a dimension");
+            impl.ok(made.close(), name, "be written");
+        });
+        return name;
+    }
+
+    bool is_character_scale(const std::string& name, std::size_t length) const {
+        const Handle object = impl.open_object(name);
+        return H5Iget_type(object.get()) == H5I_DATASET && H5DSis_scale(object.get()) > 0 &&
+               impl.shape(object.get(), name) == Shape{length};
     }
 
     /// "a/b" cannot be made where a is a data set.
@@ -254,15 +295,20 @@ void Hdf5File::write(std::string_view name, std::span<const std::string> values,
     Impl& impl = writable();
     if (long_name.empty()) refuse(impl.path, name, "long_name is missing");
     Attributes all{{"long_name", std::string(long_name)}};
+    if (detail::may_be_decoded(values)) all.push_back({"_Encoding", "utf-8"});
     all.insert(all.end(), more.begin(), more.end());
     check(impl.path, name, all);
-    std::vector<const char*> characters;
-    for (const std::string& s : values) {
-        if (has_nul(s)) refuse(impl.path, name, text("text ", characters.size(), " contains a NUL"));
-        characters.push_back(s.c_str());
-    }
-    const Handle type = text_type();
-    Hdf5Writer{impl}.put_array(name, {characters.data(), characters.size(), type.get(), type.get(), 0}, shape, all);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (const std::string why = flaw(values[i]); !why.empty()) refuse(impl.path, name, text("text ", i, " ", why));
+    check_fill(impl.path, name, values.size(), shape);
+    const detail::CharacterBlock block(values);
+    const Handle type = detail::text_type(1);
+    Shape extents = shape;
+    extents.push_back(block.length);
+    const Hdf5Writer writer{impl};
+    writer.put_array(name, {block.characters.data(), block.characters.size(), type.get(), type.get(), 1}, extents, all);
+    const std::string clean = checked_name(impl.path, name);
+    attach(clean, shape.size(), writer.character_scale(clean, block.length));
 }
 
 void Hdf5File::make_group(std::string_view name, const Attributes& attributes) {
@@ -295,6 +341,13 @@ void Hdf5File::make_dimension(std::string_view name) {
     if (H5DSis_scale(dataset.get()) > 0) refuse(impl.path, name, "is a dimension already");
     const std::string label(name.substr(name.rfind('/') + 1));
     impl.change(name, [&] { impl.ok(H5DSset_scale(dataset.get(), label.c_str()), name, "become a dimension"); });
+}
+
+void Hdf5File::make_index(std::string_view name, std::size_t count, std::string_view long_name) {
+    std::vector<std::int64_t> index(count);
+    std::iota(index.begin(), index.end(), 0);
+    write(name, index, {count}, {"1", std::string(long_name)});
+    make_dimension(name);
 }
 
 void Hdf5File::attach(std::string_view dataset, std::size_t axis, std::string_view scale) {

@@ -45,9 +45,12 @@ struct Description {
 /// finish(). After a failed write the file cannot be finished. Misuse (a name used twice, sizes that do not fit, a
 /// missing unit) is an InputError and leaves the file as it was.
 ///
-/// Arrays from 64 KiB on are chunked, shuffled, deflated and given checksums. Groups and attributes keep the order in
-/// which they were made; no times are stored: the same data give the same bytes. Complex numbers are compounds {r, i}
-/// of doubles and texts are UTF-8 of variable length, as h5py has them.
+/// Arrays from 32 KiB on are chunked, shuffled, deflated and given checksums; smaller ones lie within headers, which
+/// have checksums. Groups and attributes keep the order in which they were made; no times are stored: the same data
+/// give the same bytes. Complex numbers are compounds {r, i} of doubles, as h5py has them. Texts are UTF-8: attributes
+/// of fixed length, arrays with one more axis that runs over the characters, as netCDF has them (with the attribute
+/// _Encoding where programs decode them right: one text, or ASCII); the scale of that axis, "string<length>", lies in
+/// the same group.
 ///
 /// One thread at a time for all files together: the high-level part of the C library is not thread-safe.
 class Hdf5File {
@@ -76,7 +79,7 @@ public:
                const Description& about);
     void write(std::string_view name, std::span<const std::complex<double>> values, const Shape& shape,
                const Description& about);
-    /// Texts have no units; they must not contain the character NUL.
+    /// Texts have no units; they must be UTF-8 without the character NUL. The axis of characters is no part of shapes.
     void write(std::string_view name, std::span<const std::string> values, const Shape& shape,
                std::string_view long_name, const Attributes& more = {});
 
@@ -85,8 +88,10 @@ public:
     /// Adds or replaces an attribute of a group or data set; "/" is the root.
     void set_attribute(std::string_view object, const Attribute& attribute);
 
-    /// Turns a data set with one axis into a dimension scale.
+    /// Turns a data set of numbers with one axis into a dimension scale.
     void make_dimension(std::string_view name);
+    /// A new dimension scale 0, 1, 2 ... for axes that run over things with names and no values of their own.
+    void make_index(std::string_view name, std::size_t count, std::string_view long_name);
     /// Declares axis `axis` (from 0) of a data set to run over the scale, which has as many values.
     void attach(std::string_view dataset, std::size_t axis, std::string_view scale);
 
@@ -107,7 +112,7 @@ public:
     /// Refuses floating-point numbers.
     [[nodiscard]] std::vector<std::int64_t> read_ints(std::string_view name) const;
     [[nodiscard]] std::vector<std::complex<double>> read_complex(std::string_view name) const;
-    /// Variable or fixed length.
+    /// Characters with one more axis, or texts of variable or fixed length as others write them.
     [[nodiscard]] std::vector<std::string> read_strings(std::string_view name) const;
     /// The path of the scale attached to an axis, empty when there is none.
     [[nodiscard]] std::string dimension(std::string_view dataset, std::size_t axis) const;

@@ -2,6 +2,7 @@
 #include "solvers/hdf5_file.hpp"
 #include "solvers/hdf5_impl.hpp"
 #include "solvers/hdf5_storage.hpp"
+#include "solvers/hdf5_text.hpp"
 
 #include <hdf5.h>
 #include <hdf5_hl.h>
@@ -41,13 +42,6 @@ herr_t keep_name(hid_t, unsigned, hid_t scale, void* out) noexcept {
     }
 }
 
-std::string trimmed(const char* from, std::size_t size, H5T_str_t padding) {
-    std::string_view all(from, size);
-    if (padding == H5T_STR_SPACEPAD) return std::string(all.substr(0, all.find_last_not_of(' ') + 1));
-    if (padding == H5T_STR_NULLPAD) return std::string(all.substr(0, all.find_last_not_of('\0') + 1));
-    return std::string(all.substr(0, all.find('\0')));
-}
-
 /// Numbers or texts of a data set or of an attribute, by the same few steps.
 struct Source {
     const Hdf5File::Impl& impl;
@@ -58,8 +52,22 @@ struct Source {
 
     [[noreturn]] void refuse(std::string_view why) const { throw FileError(impl.path, text(what, ": ", why)); }
 
+    [[nodiscard]] std::vector<hsize_t> extents() const {
+        const int axes = impl.ok(H5Sget_simple_extent_ndims(space.get()), what, "be read");
+        std::vector<hsize_t> result(static_cast<std::size_t>(axes));
+        if (axes > 0) impl.ok(H5Sget_simple_extent_dims(space.get(), result.data(), nullptr), what, "be read");
+        return result;
+    }
+
+    /// The C library multiplies without looking for an overflow.
     [[nodiscard]] std::size_t count() const {
-        return static_cast<std::size_t>(impl.ok(H5Sget_simple_extent_npoints(space.get()), what, "be read"));
+        const auto points =
+            static_cast<std::size_t>(impl.ok(H5Sget_simple_extent_npoints(space.get()), what, "be read"));
+        double values = 1;
+        for (const hsize_t n : extents()) values *= static_cast<double>(n);
+        constexpr double most = 1e15;
+        if (values > most) refuse(text(values, " values do not fit into memory"));
+        return points;
     }
 
     template <class Value>
@@ -103,6 +111,7 @@ struct Source {
 
     [[nodiscard]] std::vector<std::string> strings() const {
         if (H5Tget_class(type.get()) != H5T_STRING) refuse("holds no texts");
+        if (detail::is_character_array(type.get(), static_cast<int>(extents().size()))) return character_array();
         std::vector<std::string> result = room<std::string>(count());
         if (H5Tis_variable_str(type.get()) > 0) {
             std::vector<char*> texts = room<char*>(result.size());
@@ -119,8 +128,20 @@ struct Source {
             std::vector<char> bytes = room<char>(size * result.size());
             impl.ok(read(type.get(), bytes.data()), what, "be read");
             const H5T_str_t padding = H5Tget_strpad(type.get());
-            for (std::size_t k = 0; k < result.size(); ++k) result[k] = trimmed(&bytes[k * size], size, padding);
+            for (std::size_t k = 0; k < result.size(); ++k)
+                result[k] = detail::text_of(&bytes[k * size], size, padding);
         }
+        return result;
+    }
+
+    /// Characters whose last axis runs over a text.
+    [[nodiscard]] std::vector<std::string> character_array() const {
+        const std::size_t total = count(), length = static_cast<std::size_t>(extents().back());
+        std::vector<char> bytes = room<char>(total);
+        impl.ok(read(type.get(), bytes.data()), what, "be read");
+        std::vector<std::string> result = room<std::string>(length == 0 ? 0 : total / length);
+        for (std::size_t k = 0; k < result.size(); ++k)
+            result[k] = detail::text_of(&bytes[k * length], length, H5T_STR_NULLPAD);
         return result;
     }
 };
@@ -160,10 +181,18 @@ void Hdf5File::Impl::fail(std::string_view object, std::string_view action) cons
 bool Hdf5File::Impl::exists(std::string_view name) const {
     const std::string full = absolute(name);
     if (full == "/") return true;
-    for (std::size_t end = full.find('/', 1);; end = full.find('/', end + 1)) {
-        if (H5Lexists(file, full.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    for (std::size_t end = full.find('/', 1), above = 0;; above = end, end = full.find('/', end + 1)) {
+        const htri_t found = H5Lexists(file, full.substr(0, end).c_str(), H5P_DEFAULT);
+        if (found < 0 && is_group(above == 0 ? "/" : full.substr(0, above))) fail(name, "be looked for");
+        if (found <= 0) return false;
         if (end == std::string::npos) return true;
     }
+}
+
+// What cannot be opened may be one: it is damaged.
+bool Hdf5File::Impl::is_group(const std::string& name) const {
+    const Handle object(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
+    return !object.valid() || H5Iget_type(object.get()) == H5I_GROUP;
 }
 
 Handle Hdf5File::Impl::open_object(std::string_view name) const {
@@ -261,7 +290,11 @@ std::vector<std::string> Hdf5File::children(std::string_view group) const {
 Shape Hdf5File::shape(std::string_view name) const {
     const Quiet quiet;
     const Impl& impl = readable();
-    return impl.shape(impl.open_dataset(name).get(), name);
+    const Handle dataset = impl.open_dataset(name);
+    Shape extents = impl.shape(dataset.get(), name);
+    const Handle type = impl.own(H5Dget_type(dataset.get()), H5Tclose, name, "be read");
+    if (detail::is_character_array(type.get(), static_cast<int>(extents.size()))) extents.pop_back();
+    return extents;
 }
 
 std::vector<double> Hdf5File::read_doubles(std::string_view name) const {

@@ -1,6 +1,7 @@
 #include "solvers/hdf5_history.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/text_file.hpp"
 #include "solvers/hdf5_history_impl.hpp"
 #include "solvers/hdf5_history_writer.hpp"
 
@@ -19,6 +20,11 @@ void check(const std::string& path, const std::vector<Channel>& channels) {
     for (const Channel& channel : channels) {
         if (channel.name.empty() || channel.units.empty() || channel.long_name.empty())
             throw InputError(path, "channel", text("'", channel.name, "'"), "name, units and long_name not empty");
+        for (const std::string* words :
+             {&channel.name, &channel.units, &channel.long_name, &channel.frame, &channel.point, &channel.alias})
+            if (!is_utf8(*words) || words->find('\0') != std::string::npos)
+                throw InputError(text(path, ": channel ", &channel - channels.data() + 1,
+                                      ": a text has the character NUL or is not UTF-8"));
         for (const std::string& name : {channel.name, channel.alias})
             if (!name.empty() && !seen.insert(name).second)
                 throw InputError(path, "name or alias of a channel", text("'", name, "', twice"), "unique");

@@ -14,7 +14,7 @@ namespace cardan::solvers::detail {
 
 /// What is found in the attribute `format` of the root.
 constexpr const char* history_format = "cardan history";
-constexpr int history_format_version = 1;
+constexpr int history_format_version = 2;
 
 /// Names of the variables that hold the channels: those of the channels as far as netCDF allows them.
 [[nodiscard]] std::vector<std::string> variable_names(const std::vector<Channel>& channels);

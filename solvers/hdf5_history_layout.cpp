@@ -1,6 +1,7 @@
 #include "mbs/error.hpp"
 #include "mbs/version.hpp"
 #include "solvers/hdf5_history_impl.hpp"
+#include "solvers/hdf5_structure.hpp"
 
 #include <hdf5.h>
 
@@ -16,6 +17,9 @@ constexpr unsigned deflate_level = 4;
 constexpr std::size_t longest_name = 200;  // bytes; netCDF allows 256
 // Attributes of a variable lie in its header up to this number, with an index of their own beyond it.
 constexpr unsigned compact_attributes = 32;
+
+/// Attribute `frame` of channels without a direction.
+constexpr const char* no_frame = "none";
 
 constexpr const char* description_name = "run/input_description";
 
@@ -69,14 +73,18 @@ std::string netcdf_name(std::string name) {
     return letter(static_cast<unsigned char>(name.front())) ? name : "_" + name;
 }
 
+// The version comes first: texts of version 1 lie in a heap without checksums.
 void check_format(const Hdf5File& file) {
-    if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != history_format)
-        throw FileError(file.path(), text("is an HDF5 file, but no history: it lacks the attribute format = \"",
-                                          history_format, "\""));
-    const std::int64_t version = file.int_attribute("/", "format_version");
+    const bool versioned = file.has_attribute("/", "format") && file.has_attribute("/", "format_version");
+    const std::int64_t version = versioned ? file.int_attribute("/", "format_version") : history_format_version;
     if (version != history_format_version)
         throw FileError(file.path(), text("is a history of format version ", version, "; this program reads version ",
-                                          history_format_version));
+                                          history_format_version,
+                                          "; h5py, xarray and ncdump read it, a new run makes "
+                                          "a new one"));
+    if (!versioned || file.string_attribute("/", "format") != history_format)
+        throw FileError(file.path(), text("is an HDF5 file, but no history: it lacks the attribute format = \"",
+                                          history_format, "\""));
 }
 
 std::size_t length_of(const Hdf5File& file, const std::string& name) {
@@ -140,7 +148,7 @@ void create_variables(Hdf5File& file, const std::vector<Channel>& channels, int 
         for (const auto& [attribute, value] : {std::pair{"units", c.units},
                                                {"long_name", c.long_name},
                                                {"channel", c.name},
-                                               {"frame", c.frame},
+                                               {"frame", c.frame.empty() ? no_frame : c.frame},
                                                {"point", c.point},
                                                {"alias", c.alias}})
             if (!value.empty()) file.set_attribute(names[i], {attribute, value});
@@ -167,6 +175,7 @@ StoredHistory read_frame(const Hdf5File& file) {
     info.version = attribute("version");
     info.finished = file.int_attribute("/", finished_attribute) != 0;
     info.rows = length_of(file, "time");
+    check_chunks(file, "time");
     stored.chunk = chunk_of(Hdf5File::Impl::of(file), "time");
     for (const std::string& name : file.children())
         if (name != "time" && file.has_attribute(name, "channel")) stored.variables.push_back(name);
@@ -180,11 +189,13 @@ StoredHistory read_frame(const Hdf5File& file) {
 Channel read_channel(const Hdf5File& file, const std::string& variable, std::size_t rows) {
     if (const std::size_t length = length_of(file, variable); length < rows)
         throw FileError(file.path(), text(variable, ": has ", length, " values, time has ", rows));
+    check_chunks(file, variable);
     const auto attribute = [&](const char* which) {
         return file.has_attribute(variable, which) ? file.string_attribute(variable, which) : std::string();
     };
-    return {attribute("channel"), attribute("units"), attribute("long_name"),
-            attribute("frame"),   attribute("point"), attribute("alias")};
+    const std::string frame = attribute("frame");
+    return {attribute("channel"),           attribute("units"), attribute("long_name"),
+            frame == no_frame ? "" : frame, attribute("point"), attribute("alias")};
 }
 
 StoredHistory read_stored(const Hdf5File& file) {

@@ -1,5 +1,6 @@
 #include "mbs/error.hpp"
 #include "solvers/hdf5_history_impl.hpp"
+#include "solvers/hdf5_structure.hpp"
 
 #include <hdf5.h>
 
@@ -11,6 +12,7 @@ namespace detail {
 Hdf5File open_journaled(const std::string& path, JournalLink& link) {
     const Quiet quiet;
     Hdf5File::Impl::check_readable(path);
+    check_beginning(path);
     auto impl = std::make_unique<Hdf5File::Impl>(path);
     impl->in_place = !link.reading;
     link.disk = &impl->disk;
@@ -18,6 +20,7 @@ Hdf5File open_journaled(const std::string& path, JournalLink& link) {
     impl->ok(access.get(), "", "be opened");
     impl->file = H5Fopen(path.c_str(), link.reading ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access.get());
     impl->ok(impl->file, "", "be opened as an HDF5 file");
+    impl->journal = link.file;
     return Hdf5File::Impl::wrap(std::move(impl));
 }
 

@@ -22,7 +22,7 @@ struct Field {
 };
 
 constexpr std::array<Field<Checkpoint, double>, 3> checkpoint_numbers{{
-    {"time", "s", "time of the checkpoint", &Checkpoint::time},
+    {"checkpoint_time", "s", "time of the checkpoint", &Checkpoint::time},  // "time" is the name of an axis
     {"kinetic_energy_at_start", "J", "kinetic energy when the works were zero", &Checkpoint::kinetic_at_start},
     {"potential_energy_at_start", "J", "potential energy when the works were zero", &Checkpoint::potential_at_start},
 }};
@@ -107,8 +107,13 @@ void put_checkpoint(Hdf5File& file, const Checkpoint& checkpoint, std::size_t ro
     put(file, group + "rows", static_cast<std::int64_t>(rows), {"1", "rows of the history up to the checkpoint"});
     for (const auto& f : checkpoint_numbers) put(file, group + f.name, checkpoint.*f.member, {f.units, f.long_name});
     for (const auto& f : works_numbers) put(file, group + f.name, checkpoint.works.*f.member, {f.units, f.long_name});
+    const bool first = !file.has(group + "q");
     put(file, group + "q", checkpoint.q, {"rad or m", "coordinates"});
     put(file, group + "qd", checkpoint.qd, {"rad s-1 or m s-1", "rates of the coordinates"});
+    if (first) {
+        file.make_index(group + "coordinate", static_cast<std::size_t>(checkpoint.q.size()), "index of the coordinate");
+        for (const char* name : {"q", "qd"}) file.attach(group + name, 0, group + "coordinate");
+    }
     for (const auto& [name, value] : checkpoint.notes)
         put(file, text(notes_group, "/", name), value, {"1", "note of the program for itself"});
     put_statistics(file, checkpoint.statistics);

@@ -15,6 +15,10 @@
 
 namespace cardan::solvers {
 
+namespace detail {
+class JournaledFile;
+}
+
 struct Hdf5File::Impl {
     explicit Impl(std::string file_path) : path(std::move(file_path)) {}
     Impl(const Impl&) = delete;
@@ -27,6 +31,7 @@ struct Hdf5File::Impl {
     std::optional<PendingFile> pending;  ///< only when writing
     bool in_place = false;               ///< written under its own name, by an owner who completes it
     detail::DiskState disk;
+    const detail::JournaledFile* journal = nullptr;  ///< of histories: the file beneath HDF5, while it is open
     hid_t file = -1;
     bool failed = false;  ///< a step of writing failed: what is on the disk cannot be trusted
 
@@ -66,7 +71,9 @@ struct Hdf5File::Impl {
     /// @throws FileError unless it is an ordinary file that may be read
     static void check_readable(const std::string& path);
 
+    /// @throws FileError if a group on the way is damaged
     [[nodiscard]] bool exists(std::string_view name) const;
+    [[nodiscard]] bool is_group(const std::string& name) const;
     [[nodiscard]] detail::Handle open_object(std::string_view name) const;
     [[nodiscard]] detail::Handle open_dataset(std::string_view name) const;
     [[nodiscard]] Shape shape(hid_t dataset, std::string_view name) const;

@@ -21,12 +21,16 @@ std::size_t count(Index n) {
     return static_cast<std::size_t>(n);
 }
 
+// The axis, "state" for the group "states", lies beside the group.
 void write_signals(Hdf5File& file, const std::string& group, const std::vector<Signal>& signals, const char* what) {
+    const std::string axis = group.substr(0, group.size() - 1);
+    file.make_index(axis, signals.size(), "index of the " + std::string(what));
     const auto column = [&](const char* name, std::string Signal::*field, const std::string& long_name) {
         std::vector<std::string> values;
         values.reserve(signals.size());
         for (const Signal& signal : signals) values.push_back(signal.*field);
         file.write(group + "/" + name, values, {values.size()}, long_name);
+        file.attach(group + "/" + name, 0, axis);
     };
     const std::string of = std::string(" of the ") + what;
     column("name", &Signal::name, "name" + of);
@@ -37,6 +41,7 @@ void write_signals(Hdf5File& file, const std::string& group, const std::vector<S
     blade.reserve(signals.size());
     for (const Signal& signal : signals) blade.push_back(signal.blade);
     file.write(group + "/blade", blade, {blade.size()}, {"1", "blade number, 0: none," + of});
+    file.attach(group + "/blade", 0, axis);
 }
 
 void write_all_signals(Hdf5File& file, const std::string& group, const std::vector<Signal>& states,
@@ -44,6 +49,7 @@ void write_all_signals(Hdf5File& file, const std::string& group, const std::vect
     write_signals(file, group + "states", states, "states, columns of A and C");
     write_signals(file, group + "inputs", inputs, "inputs, columns of B and D");
     write_signals(file, group + "outputs", outputs, "outputs, rows of C and D");
+    file.make_index(group + "derivative", states.size(), "index of the derivatives of the states, rows of A and B");
 }
 
 constexpr const char* mixed = "SI, by row and column";
@@ -51,9 +57,12 @@ constexpr const char* mixed = "SI, by row and column";
 struct NamedMatrix {
     const char* name;
     Matrix StateMatrices::*matrix;
+    const char *rows, *columns;  // axes
 };
-constexpr NamedMatrix matrices[] = {
-    {"A", &StateMatrices::A}, {"B", &StateMatrices::B}, {"C", &StateMatrices::C}, {"D", &StateMatrices::D}};
+constexpr NamedMatrix matrices[] = {{"A", &StateMatrices::A, "derivative", "state"},
+                                    {"B", &StateMatrices::B, "derivative", "input"},
+                                    {"C", &StateMatrices::C, "output", "state"},
+                                    {"D", &StateMatrices::D, "output", "input"}};
 
 template <class Items>
 void write_stack(Hdf5File& file, const std::string& group, const Items& items, const char* axis,
@@ -64,7 +73,9 @@ void write_stack(Hdf5File& file, const std::string& group, const Items& items, c
         const Matrix& first = items.front().*m.matrix;
         const std::string name = group + m.name;
         file.write(name, values, {items.size(), count(first.rows()), count(first.cols())}, {mixed, m.name + long_name});
-        if (*axis != '\0') file.attach(name, 0, axis);
+        file.attach(name, 0, axis);
+        file.attach(name, 1, m.rows);
+        file.attach(name, 2, m.columns);
     }
 }
 
@@ -79,22 +90,25 @@ void write_constant(Hdf5File& file, const NamedModel& named) {
         append(values, A);
         file.write(group + m.name, values, {count(A.rows()), count(A.cols())},
                    {mixed, std::string(m.name) + " of x' = A x + B u, y = C x + D u"});
+        file.attach(group + m.name, 0, group + m.rows);
+        file.attach(group + m.name, 1, group + m.columns);
     }
 }
 
 void write_operating_point(Hdf5File& file, const LinearModel& model) {
-    const auto rows = [&](const char* name, Vector LinearSample::*field, const char* long_name) {
+    const auto rows = [&](const char* name, Vector LinearSample::*field, const char* axis, const char* long_name) {
         std::vector<double> values;
         for (const LinearSample& sample : model.samples) append(values, (sample.*field).transpose());
         const std::string path = std::string("operating_point/") + name;
         file.write(path, values, {model.samples.size(), count((model.samples[0].*field).size())},
                    {"SI, by column", long_name});
         file.attach(path, 0, "azimuth");
+        file.attach(path, 1, axis);
     };
-    rows("x", &LinearSample::x, "states");
-    rows("xdot", &LinearSample::xdot, "derivatives of the states");
-    rows("u", &LinearSample::u, "inputs");
-    rows("y", &LinearSample::y, "outputs");
+    rows("x", &LinearSample::x, "state", "states");
+    rows("xdot", &LinearSample::xdot, "derivative", "derivatives of the states");
+    rows("u", &LinearSample::u, "input", "inputs");
+    rows("y", &LinearSample::y, "output", "outputs");
 }
 
 }  // namespace
@@ -102,16 +116,18 @@ void write_operating_point(Hdf5File& file, const LinearModel& model) {
 void write_hdf5(const LinearModel& model, const std::vector<NamedModel>& constant, const std::filesystem::path& path) {
     const std::vector<StateMatrices> series = fourier_coefficients(model);
     check_names(constant, "HDF5 file",
-                {"A", "B", "C", "D", "azimuth", "time", "states", "inputs", "outputs", "operating_point", "fourier"});
+                {"A", "B", "C", "D", "azimuth", "time", "states", "inputs", "outputs", "state", "input", "output",
+                 "derivative", "term", "input_description", "operating_point", "fourier"});
     Hdf5File file = Hdf5File::create(path);
     for (auto& [name, value] : Attributes{{"title", std::string("linear model of ") + model.machine},
                                           {"machine", model.machine},
-                                          {"description", model.description},
                                           {"cardan_version", std::string(version())},
                                           {"rotor_speed", model.rotor_speed},
                                           {"blades", std::int64_t{model.blades}},
                                           {"imbalance", model.imbalance}})
         file.set_attribute("/", {name, value});
+    file.write("input_description", std::vector<std::string>{model.description}, {},
+               "the machine as assembled, what it was read from, and the machine that was computed");
     std::vector<double> azimuth, time;
     for (const LinearSample& sample : model.samples) {
         azimuth.push_back(sample.azimuth);
@@ -120,16 +136,19 @@ void write_hdf5(const LinearModel& model, const std::vector<NamedModel>& constan
     file.write("azimuth", azimuth, {azimuth.size()}, {"rad", "azimuth of blade 1"});
     file.make_dimension("azimuth");
     file.write("time", time, {time.size()}, {"s", "time at which forces were evaluated"});
+    file.attach("time", 0, "azimuth");
     write_all_signals(file, "", model.states, model.inputs, model.outputs);
     const auto errors = [&](const char* name, const Vector& values) {
         file.write(std::string("outputs/") + name, std::vector<double>(values.begin(), values.end()),
                    {count(values.size())},
                    {"1", "estimated error of C and D over the largest difference of the output"});
+        file.attach(std::string("outputs/") + name, 0, "output");
     };
     errors("error", model.output_error);
     write_stack(file, "", model.samples, "azimuth", "(azimuth) of x' = A x + B u, y = C x + D u");
     write_operating_point(file, model);
-    write_stack(file, "fourier/", series, "",
+    file.make_index("term", series.size(), "of a Fourier series in the azimuth: mean, cosine 1, sine 1, cosine 2 ...");
+    write_stack(file, "fourier/", series, "term",
                 ": mean, cosine 1, sine 1, cosine 2 ... of its Fourier series in the azimuth");
     for (const NamedModel& named : constant) write_constant(file, named);
     file.finish();

@@ -211,7 +211,9 @@ std::string innermost_reason() {
 Handle writing_access(DiskState& state) {
     Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     const AccessInfo info{&state};
-    if (list.valid() && H5Pset_driver(list.get(), driver(), &info) < 0) list.close();
+    if (list.valid() && (H5Pset_driver(list.get(), driver(), &info) < 0 ||
+                         H5Pset_libver_bounds(list.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0))
+        list.close();
     return list;
 }
 

@@ -64,7 +64,8 @@ struct DiskState {
 /// File access list for a file to be written. A write that fails (full disk, quota, lost mount) is noted in `state` and
 /// reported to the C library as done: HDF5 1.10 does not survive a failed flush; it can neither close the file nor end
 /// the program without a crash. Whoever writes looks at `state` after each step. `state` outlives the file.
-/// The file is locked against other writers and readers as long as it is open.
+/// The file is locked against other writers and readers as long as it is open. Its format is that of HDF5 1.8, whose
+/// headers have checksums.
 [[nodiscard]] Handle writing_access(DiskState& state);
 
 }  // namespace cardan::solvers::detail

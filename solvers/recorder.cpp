@@ -50,7 +50,8 @@ void Recorder::add_states(const RecorderOptions& options, const Integrator& inte
         for (int k = 0; k < table.size(); ++k) {
             channels_.push_back({.name = table[k].name + suffix,
                                  .units = table[k].unit + per,
-                                 .long_name = text(what, " of the coordinate '", table[k].name, "'")});
+                                 .long_name = text(what, " of the coordinate '", table[k].name, "'"),
+                                 .frame = "axis of " + table[k].name});
             states_.push_back({vector, k});
         }
     };
@@ -62,7 +63,8 @@ void Recorder::add_states(const RecorderOptions& options, const Integrator& inte
         if (!integrator.is_driven(k)) continue;
         channels_.push_back({.name = table[k].name + " drive",
                              .units = table[k].unit == "rad" ? "N m" : "N",
-                             .long_name = text("force of the drive on the coordinate '", table[k].name, "'")});
+                             .long_name = text("force of the drive on the coordinate '", table[k].name, "'"),
+                             .frame = "axis of " + table[k].name});
         states_.push_back({&DynamicState::actuator, k});
     }
 }

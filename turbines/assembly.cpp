@@ -5,6 +5,7 @@
 #include "mbs/summary.hpp"
 #include "turbines/assembler.hpp"
 #include "turbines/assembly_settings.hpp"
+#include "turbines/description_yaml.hpp"
 
 namespace cardan::turbines {
 
@@ -96,6 +97,16 @@ void Turbine::finish(const Assembler& assembler, const std::string& name, std::s
         text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_);
 }
 
+namespace {
+
+// Last, so that it can be cut off and read again; what it was read from stands before it.
+std::string computed(TurbineDescription description) {
+    description.source.clear();
+    return text("\n\nthe machine that was computed\n", as_computed(description));
+}
+
+}  // namespace
+
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
     const PartDamping damping = part_damping(description, options);
     Assembler assembler(description, options, damping);
@@ -104,6 +115,7 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
     const bool told = options.platform && !options.platform->source.empty();
     turbine.finish(assembler, description.name,
                    description.source + (told ? "\n" + options.platform->source : std::string()), settings(options));
+    turbine.rotor_.description += computed(description);
     return turbine;
 }
 
@@ -113,6 +125,7 @@ Turbine isolated_blade(const TurbineDescription& description, const AssemblyOpti
     assembler.one_blade();
     Turbine turbine;
     turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(options));
+    turbine.rotor_.description += computed(description);
     return turbine;
 }
 
@@ -147,6 +160,7 @@ Turbine isolated_tower(const TurbineDescription& description, const AssemblyOpti
     Turbine turbine;
     turbine.finish(assembler, description.name + (with_top ? ", tower with a rigid top" : ", tower alone"),
                    description.source, settings(own));
+    turbine.rotor_.description += computed(description);
     return turbine;
 }
 

@@ -70,16 +70,19 @@ ChannelGroup rotor_channels(const Shared& source) {
     group.channels = {{.name = "rotor speed",
                        .units = "rad s-1",
                        .long_name = "angular velocity of the hub about the shaft relative to the nacelle",
+                       .frame = "rotor axis",
                        .alias = "RotSpeed"},
                       {.name = "rotor azimuth",
                        .units = "rad",
                        .long_name = "azimuth of blade 1, zero upward, 0 ... 2 pi",
+                       .frame = "rotor axis",
                        .alias = "Azimuth"}};
     const bool generator = source->layout().generator.has_value();
     if (generator) {
         group.channels.push_back({.name = "generator speed",
                                   .units = "rad s-1",
                                   .long_name = "speed of the generator behind the gearbox",
+                                  .frame = "axis of the generator shaft",
                                   .alias = "GenSpeed"});
         group.channels.push_back({.name = "main shaft torque",
                                   .units = "N m",
@@ -172,6 +175,7 @@ ChannelGroup tower_motion_channels(const Shared& source) {
                                   .units = "rad",
                                   .long_name = "yaw of the nacelle relative to the tower top, positive seen from "
                                                "above counterclockwise",
+                                  .frame = "yaw axis",
                                   .alias = "NacYaw"});
     group.sample = [source, yaw](const ChannelInput& in, double* values) {
         const MachineLayout& layout = source->layout();
@@ -234,6 +238,7 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
         group.channels.push_back({.name = blade + " pitch angle",
                                   .units = "rad",
                                   .long_name = "pitch of the blade root, positive toward feather",
+                                  .frame = blade + " pitch axis",
                                   .point = blade + " root",
                                   .alias = alias("BldPitch")});
     group.sample = [source, k, pitch](const ChannelInput& in, double* values) {

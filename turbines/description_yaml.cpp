@@ -1,145 +1,15 @@
 #include "turbines/description_yaml.hpp"
 
 #include "mbs/error.hpp"
-#include "mbs/pending_file.hpp"
 #include "mbs/text_file.hpp"
 #include "turbines/description_yaml_fields.hpp"
 #include "turbines/description_yaml_node.hpp"
 
-#include <charconv>
 #include <set>
 
 namespace cardan::turbines {
 
 namespace {
-
-constexpr int most = 1000;  // of what is counted
-
-// As the reader takes them.
-std::string digits(double value, const std::string& where, bool or_infinite = false) {
-    if (or_infinite && value == std::numeric_limits<double>::infinity()) return ".inf";
-    if (!std::isfinite(value)) throw InputError(where, "number", value, or_infinite ? "finite, or infinite" : "finite");
-    std::array<char, 40> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return std::string(buffer.data(), end);
-}
-
-std::string quoted(const std::string& words) {
-    constexpr auto hex = "0123456789abcdef";
-    std::string out = "\"";
-    for (char c : words) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            out += std::string("\\") + c;
-        else if (c == '\n')
-            out += "\\n";
-        else if (byte < 0x20 || byte == 0x7F)
-            out += std::string("\\x") + hex[byte >> 4] + hex[byte & 15];
-        else
-            out += c;
-    }
-    return out + "\"";
-}
-
-const char* name_of(Interpolation interpolation) {
-    return interpolation == Interpolation::linear ? "linear" : "log_linear_stiffness";
-}
-
-const char* name_of(LineShape shape) {
-    return shape == LineShape::spline ? "spline" : "polyline";
-}
-
-// Writes block by block, lists of numbers in one line.
-class Writer {
-public:
-    void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
-    void integer(const char* key, int value) {
-        if (value < 1 || value > most) throw InputError(key, "number", value, text("1 ... ", most));
-        entry(key, text(value));
-    }
-    void number(const char* key, double value) { entry(key, digits(value, key)); }
-    void spring(const char* key, const Spring& s) {
-        entry(key, text("{stiffness: ", digits(s.stiffness, key, true), ", damping: ", digits(s.damping, key), "}"));
-    }
-    void inertia(const char* key, const RigidInertia& i) {
-        group(key, [&] {
-            number("mass", i.mass);
-            entry("com", list(i.com));
-            entry("J", rows(i.J));
-            entry("reduced", i.reduced ? "true" : "false");
-        });
-    }
-    void damping(const char* key, const BeamDamping& d) {
-        group(key, [&] {
-            entry("time_constants", list(d.time_constants));
-            number("mass_proportional", d.mass_proportional);
-            entry("all", list(d.modal.all));
-            entry("bending_y", list(d.modal.bending_y));
-            entry("bending_z", list(d.modal.bending_z));
-            entry("torsion", list(d.modal.torsion));
-            entry("extension", list(d.modal.extension));
-        });
-    }
-    void line(const char* key, const BeamLine& l) {
-        const BeamTable* table = table_of(l);
-        if (table == nullptr)
-            throw InputError(l.name, "sections", "a function", "a table (beam_line(), or sampled() of the line)");
-        group(key, [&] { fields(*table); });
-    }
-    template <class Content>
-    void group(const char* key, const Content& content) {
-        out += text(indentation(), key, ":\n");
-        ++depth_;
-        content();
-        --depth_;
-    }
-    std::string out;
-
-private:
-    std::string indentation() const { return std::string(static_cast<std::size_t>(2 * depth_), ' '); }
-    void entry(const char* key, const std::string& value) { out += text(indentation(), key, ": ", value, "\n"); }
-    template <class Values>
-    std::string list(const Values& values, bool or_infinite = false) const {
-        std::string all;
-        for (double value : values) all += (all.empty() ? "" : ", ") + digits(value, "list", or_infinite);
-        return "[" + all + "]";
-    }
-    template <class M>
-    std::string rows(const M& m) const {
-        std::string all;
-        for (Eigen::Index i = 0; i < m.rows(); ++i)
-            all += (all.empty() ? "" : ", ") + list(std::vector<double>(m.row(i).begin(), m.row(i).end()));
-        return "[" + all + "]";
-    }
-    void fields(const BeamTable& table) {
-        word("name", table.name);
-        entry("stations", list(table.stations));
-        if (!table.sections.empty()) {
-            entry("interpolation", name_of(table.interpolation));
-            group("sections", [&] {
-                for (const SectionColumn& column : section_columns()) {
-                    std::vector<double> values;
-                    for (EngineeringSection section : table.sections) values.push_back(column.of(section));
-                    entry(column.name, list(values, column.may_be_infinite));
-                }
-            });
-        } else {
-            entry("beta", list(table.beta));
-            for (const auto& [key, matrix] : {std::pair{"stiffness", &SectionMatrices::stiffness},
-                                              std::pair{"mass_matrix", &SectionMatrices::mass}}) {
-                out += text(indentation(), key, ":\n");
-                for (const SectionMatrices& m : table.matrices)
-                    out += text(indentation(), "  - ", rows(m.*matrix), "\n");
-            }
-        }
-        if (table.points.empty()) return;
-        entry("shape", name_of(table.shape));
-        out += text(indentation(), "points:\n");
-        for (const Vec3& p : table.points) out += text(indentation(), "  - ", list(p), "\n");
-    }
-
-    int depth_ = 0;
-};
 
 // One level of the document: remembers which keys were asked for.
 class Level {
@@ -242,7 +112,7 @@ public:
             node.fail(text("version ", given, "; allowed: ", description_yaml_version));
     }
     void word(const char* key, std::string& value) { value = at()[key].word(); }
-    void integer(const char* key, int& value) { value = at()[key].integer(1, most); }
+    void integer(const char* key, int& value) { value = at()[key].integer(1, most_counted); }
     void number(const char* key, double& value) { value = at()[key].number(); }
     void spring(const char* key, Spring& s) {
         group(key, [&] {
@@ -295,18 +165,6 @@ private:
 };
 
 }  // namespace
-
-std::string to_yaml(const TurbineDescription& description) {
-    Writer writer;
-    writer.out = text("# A wind turbine, read by cardan. SI units, radians; axes and signs: docs/conventions.md.\n",
-                      "cardan_turbine: ", description_yaml_version, "\n");
-    description_fields(writer, description);
-    return writer.out;
-}
-
-void write_description(const TurbineDescription& description, const std::filesystem::path& path) {
-    write_file(path, to_yaml(description));
-}
 
 TurbineDescription parse_description(const std::string& text, const std::string& file) {
     Reader reader(YamlNode::parse(text, file));

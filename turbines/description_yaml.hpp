@@ -16,6 +16,9 @@ inline constexpr int description_yaml_version = 1;
 /// @throws InputError for a number that is not one and for beam lines that are no tables (see table_of(); sampled()
 /// makes one)
 std::string to_yaml(const TurbineDescription& description);
+/// The same for the record: lines that are no tables stand in it as sampled() has them, or by their names only.
+/// @throws InputError for a number that is not one
+std::string as_computed(const TurbineDescription& description);
 /// @throws FileError, InputError
 void write_description(const TurbineDescription& description, const std::filesystem::path& path);
 

@@ -9,6 +9,15 @@
 
 namespace cardan::turbines {
 
+inline constexpr int most_counted = 1000;
+
+inline const char* name_of(Interpolation interpolation) {
+    return interpolation == Interpolation::linear ? "linear" : "log_linear_stiffness";
+}
+inline const char* name_of(LineShape shape) {
+    return shape == LineShape::spline ? "spline" : "polyline";
+}
+
 /// Goes through the fields: `archive` writes them, or fills them.
 template <class Archive, class Description>
 void description_fields(Archive& archive, Description& d) {

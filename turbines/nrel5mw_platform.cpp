@@ -225,10 +225,12 @@ ChannelGroup drive_channels(const Nrel5mwPlatform& machine) {
         driven.push_back(a);
         group.channels.push_back({.name = table[a].name,
                                   .units = table[a].unit,
-                                  .long_name = text("position of the coordinate '", table[a].name, "'")});
+                                  .long_name = text("position of the coordinate '", table[a].name, "'"),
+                                  .frame = "axis of " + table[a].name});
         group.channels.push_back({.name = table[a].name + " drive",
                                   .units = table[a].unit == "rad" ? "N m" : "N",
-                                  .long_name = text("force of the drive on the coordinate '", table[a].name, "'")});
+                                  .long_name = text("force of the drive on the coordinate '", table[a].name, "'"),
+                                  .frame = "axis of " + table[a].name});
     }
     group.sample = [driven](const ChannelInput& at, double* values) {
         for (int a : driven) {

@@ -76,6 +76,32 @@ TEST_CASE("hdf5: arrays may be empty", "[property]") {
     CHECK(back.read_strings("s").empty());
 }
 
+TEST_CASE("hdf5: texts of all lengths come back, with more axes and as one", "[property]") {
+    const Folder folder;
+    const std::string long_text = std::string(100'000, 'x') + "\xC3\xA4", longest_attribute(70'000, 'y');
+    const std::vector<std::string> table{"a", "", "\xE2\x82\xAC", " b ", "\n", "cc"};
+    Hdf5File file = Hdf5File::create(folder / "a.h5");
+    file.write("g/string3", std::vector<double>{1}, {1}, {"1", "a name like that of a scale"});
+    file.write("g/long", std::vector<std::string>{long_text}, {}, "one text");
+    file.write("g/table", table, {3, 2}, "table");
+    file.write("g/again", table, {6}, "table", {{"note", longest_attribute}});
+    file.write("empty", std::vector<std::string>{"", ""}, {2}, "empty");
+    file.set_attribute("empty", {"nothing", ""});
+    CHECK(file.read_strings("g/table") == table);
+    file.finish();
+    const Hdf5File back = Hdf5File::open(folder / "a.h5");
+    CHECK(back.read_strings("g/long") == std::vector<std::string>{long_text});
+    CHECK(back.shape("g/long").empty());
+    CHECK(back.read_strings("g/table") == table);
+    CHECK(back.shape("g/table") == Shape{3, 2});
+    CHECK(back.dimension("g/table", 2) == back.dimension("g/again", 1));
+    CHECK(back.read_strings("empty") == std::vector<std::string>{"", ""});
+    CHECK(back.string_attribute("empty", "nothing").empty());
+    CHECK(back.string_attribute("g/again", "note") == longest_attribute);
+    CHECK_FALSE(back.has_attribute("g/again", "_Encoding"));
+    CHECK(back.string_attribute("g/long", "_Encoding") == "utf-8");
+}
+
 TEST_CASE("hdf5: big arrays are compressed and come back exactly", "[property]") {
     const Folder folder;
     const std::vector<double> values = ramp(300'000);
@@ -130,7 +156,7 @@ TEST_CASE("hdf5: an axis knows the dimension it runs over", "[property]") {
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     file.write("time", ramp(4), {4}, {"s", "time"});
-    file.write("mode", std::vector<std::string>{"a", "b"}, {2}, "mode");
+    file.write("mode", std::vector<int>{0, 1}, {2}, {"1", "mode"});
     file.make_dimension("time");
     file.make_dimension("mode");
     file.write("g/x", ramp(8), {4, 2}, {"m", "x"});
@@ -285,6 +311,13 @@ TEST_CASE("hdf5: misuse is refused and leaves the file as it was") {
                    file.write("y", V{1.0}, {2, 3}, {"m", "y"});
                }),
                Contains("y: 1 values do not fill a shape of 6"));
+    CHECK_THAT(refused([&] { file.write("y", std::vector<std::string>{"p"}, {2}, "y"); }),
+               Contains("y: 1 values do not fill a shape of 2"));
+    constexpr std::size_t large = std::size_t{1} << 32;  // large * large = 0 in 64 bits
+    CHECK_THAT(refused([&] {
+                   file.write("y", V{}, {large, large}, {"m", "y"});
+               }),
+               Contains("y: 0 values do not fill a shape of more than 2^64"));
     CHECK_THAT(refused([&] { file.write("x", V{1.0}, {1}, {"m", "y"}); }), Contains("x: exists already"));
     CHECK_THAT(refused([&] { file.write("x/y", V{1.0}, {1}, {"m", "y"}); }), Contains("x is a data set, not a group"));
     CHECK_THAT(refused([&] { file.make_group("x"); }), Contains("x is a data set, not a group"));
@@ -298,6 +331,12 @@ TEST_CASE("hdf5: misuse is refused and leaves the file as it was") {
     const std::string nul("a\0b", 3);
     CHECK_THAT(refused([&] { file.write("y", std::vector<std::string>{nul}, {1}, "y"); }), Contains("NUL"));
     CHECK_THAT(refused([&] { file.set_attribute("x", {"note", nul}); }), Contains("attribute note contains a NUL"));
+    CHECK_THAT(refused([&] { file.set_attribute("x", {"note", "\xFF"}); }), Contains("attribute note is not UTF-8"));
+    CHECK_THAT(refused([&] {
+                   file.write("y", std::vector<std::string>{"a", "\xC3"}, {2}, "y");
+               }),
+               Contains("y: text 1 is not UTF-8"));
+    CHECK_THAT(refused([&] { file.write("\xE4", V{1.0}, {1}, {"m", "y"}); }), Contains("is not a name"));
     CHECK_THAT(refused([&] { file.attach("x", 0, "t"); }), Contains("t: is not a dimension"));
     file.make_dimension("t");
     CHECK_THAT(refused([&] { file.make_dimension("t"); }), Contains("is a dimension already"));

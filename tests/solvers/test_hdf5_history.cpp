@@ -120,7 +120,8 @@ TEST_CASE("history: a file says what it holds", "[property]") {
     CHECK(file.dimension("blade 1_root: M_y", 0) == "/time");
     CHECK(file.string_attribute("blade 1_root: M_y", "channel") == "blade 1/root: M_y");
     CHECK(file.string_attribute("rotor speed", "point") == "hub");
-    CHECK_FALSE(file.has_attribute("rotor speed", "frame"));
+    CHECK(file.string_attribute("rotor speed", "frame") == "none");
+    CHECK(info.channels.at(0).frame.empty());
     CHECK(file.read_strings("run/input_description").front() == about.description);
     CHECK(file.string_attribute("run/statistics/last_step", "units") == "s");
 }
@@ -337,7 +338,9 @@ TEST_CASE("history: wrong channels and options are refused") {
     CHECK_THAT(refused({{"a", "", "x"}}), Contains("channel = 'a'"));
     CHECK_THAT(refused({{"a", "m", ""}}), Contains("channel = 'a'"));
     CHECK_THAT(refused({{"a", "m", "x"}, {"b", "m", "x", "", "", "a"}}), Contains("'a', twice"));
-    CHECK_THAT(refused({{std::string("a\0b", 3), "m", "x"}}), Contains("NUL"));
+    CHECK_THAT(refused({{std::string("a\0b", 3), "m", "x"}}), Contains("channel 1: a text has the character NUL"));
+    CHECK_THAT(refused({{"a", "m", "x"}, {"b\xC3", "m", "x"}}), Contains("channel 2: a text has"));
+    CHECK_THAT(refused({{"a", "m", "x", "", "\xFF"}}), Contains("channel 1: a text has"));
     CHECK_THAT(refused({}, {.chunk = 0}), Contains("samples of a chunk = 0; allowed: 1 ... 1048576"));
     CHECK_THAT(refused({}, {.flush_interval = no_value}), Contains("flush interval [s] = nan; allowed: >= 0"));
     CHECK(folder.files() == 0);

@@ -1,5 +1,6 @@
 // Channels of a turbine: loads against weights, first moments and springs by hand, deflections, names.
 #include "mbs/dynamics.hpp"
+#include "solvers/recorder.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
@@ -335,4 +336,28 @@ TEST_CASE("channels: an external wrench without a function or on the base is ref
             (void)channels(turbine, {{Tree::base(), [](const ForceInput&) { return Wrench{}; }}});
         },
         {"external wrench on the frame", "a frame of a body"});
+}
+
+TEST_CASE("channels: each says along or about which axes it is, unless it has no direction", "[property]") {
+    const Turbine turbine = wt600({.tower_elements = 1, .blade_elements = 1});
+    const auto nowhere = [](const std::string& units) {
+        return units == "J" || units == "W" || units == "1" || units == "s";
+    };
+    std::size_t count = 0;
+    for (const ChannelGroup& group : channels(turbine, {}))
+        for (const Channel& channel : group.channels) {
+            INFO(channel.name);
+            CHECK(channel.frame.empty() == nowhere(channel.units));
+            ++count;
+        }
+    CHECK(count > 60);
+    const Model& model = turbine.system().model;
+    const solvers::Integrator integrator(turbine.system(), {}, 0, Vector::Zero(model.size()),
+                                         Vector::Zero(model.size()));
+    const solvers::Recorder recorder(integrator, {}, {.accelerations = true});
+    for (const Channel& channel : recorder.channels()) {
+        INFO(channel.name);
+        CHECK(channel.frame.empty() == nowhere(channel.units));
+    }
+    CHECK(recorder.channels().front().frame == "axis of " + model.coordinates()[0].name);
 }

@@ -1,6 +1,7 @@
 // Our own YAML: what is written is read again bit for bit, and nothing else is read.
 #include "tests/support/catch.hpp"
 #include "tests/turbines/model_files.hpp"
+#include "turbines/assembly.hpp"
 #include "turbines/beam_table.hpp"
 #include "turbines/wt600.hpp"
 
@@ -139,4 +140,25 @@ TEST_CASE("description yaml: what the format does not have is refused with file,
     TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
     d.nacelle.tilt = std::numeric_limits<double>::quiet_NaN();
     CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("tilt: number = nan; allowed"));
+}
+
+TEST_CASE("description yaml: the record of a machine that was assembled is that machine, changes included",
+          "[property]") {
+    const auto recorded = [](const std::string& record) {
+        const std::size_t at = record.find("cardan_turbine: 1");
+        return parse_description(at == std::string::npos ? "" : record.substr(at), "record");
+    };
+    TurbineDescription d = wt600_description();
+    d.yaw.rotation.stiffness *= 2;
+    d.blade.cone += 0.01;
+    const Turbine turbine = assemble(d, {.tower_elements = 1, .blade_elements = 1});
+    const TurbineDescription read = recorded(turbine.rotor().description);
+    CHECK(read.yaw.rotation.stiffness == d.yaw.rotation.stiffness);
+    CHECK(read.blade.cone == d.blade.cone);
+    CHECK(read.name == d.name);
+    CHECK(test::difference(read.blade.line, d.blade.line) < 0.02);  // its sections are a function: sampled
+    CHECK(recorded(isolated_blade(d).rotor().description).blade.cone == d.blade.cone);
+    CHECK(recorded(isolated_tower(d).rotor().description).yaw.rotation.stiffness == d.yaw.rotation.stiffness);
+    const TurbineDescription tables = read_openfast(test::data_file("openfast/small.fst")).description;
+    CHECK(as_computed(tables) == to_yaml(tables));
 }
