@@ -22,8 +22,9 @@
 /// energy exactly: a blade that spins and is bent out of one plane shows real parts, of order 2 as well (1e-5 of the
 /// frequency with ten elements if it spins as fast as it flaps, more if faster); plane and resting beams none.
 ///
-/// Against eq. 7 as printed: the arm in the velocity equation is the distance of the element's centre (printed: x_i/2);
-/// V x P is kept, which eq. 7 drops because its reference line is the mass axis.
+/// Against eq. 7: the arm in the velocity equation is the distance of the element's centre (x_i/2 in the text at hand,
+/// which was read by machine). V x P is kept: eq. 7 is for the mass axis as reference line, where P = m V and V x P =
+/// 0.
 ///
 /// [D. Lee, D. H. Hodges, M. J. Patil, Wind Energy 5 (2002), eq. 1-7; D. H. Hodges, Int. J. Solids Structures 26 (1990)
 /// 1253-1273; D. H. Hodges, AIAA J. 41 (2003) 1131-1137]

@@ -8,8 +8,9 @@
 
 namespace cardan::turbines {
 
-/// As the paper has it: mass times 1.04536, twist, mass centres off the axis, five polynomials for each deflection and
-/// three sines for torsion over the whole length, inextensible, no rotary inertia of bending.
+/// As the paper has it: twist, mass centres off the axis, five polynomials for each deflection and three sines for
+/// torsion over the whole length, inextensible, no rotary inertia of bending. Inferred, because its frequencies come
+/// out with them: mass times 1.04536 and polynomials from (x/L)^2 on (NP = 2).
 /// @param tension  wrong_end reproduces its frequencies in rotation, which are wrong
 AssumedModesBlade nrel5mw_blade_of_2018(TensionIntegral tension = TensionIntegral::from_free_tip,
                                         const BeamLine& line = nrel5mw_blade().line);

@@ -1,5 +1,5 @@
 /// @file
-/// Mode shapes of the rotating blade over its length, as in Fig. 6 of the paper of 2018.
+/// Mode shapes of the rotating blade over its length, the subject of Fig. 6 of the paper of 2018.
 #pragma once
 
 #include "examples/nrel5mw_assumed_modes/frequencies.hpp"

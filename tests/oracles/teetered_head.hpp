@@ -47,7 +47,8 @@ struct TeeteredHead {
     /// What does not vanish at rest: the steady axial forces, if they differ.
     Eigen::Matrix<double, 8, 1> at_rest(double psi) const;
 
-    /// Appendix A as it is printed (terms that belong together but were torn apart by a bracket are read as written).
+    /// Appendix A as it is in the text at hand, read by machine (terms that belong together but were torn apart by a
+    /// bracket are read as written).
     struct Printed {
         Eigen::Matrix<double, 8, columns> terms;
         Eigen::Matrix<double, 8, 1> at_rest;

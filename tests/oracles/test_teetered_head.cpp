@@ -46,7 +46,7 @@ struct Correction {
     double right;
 };
 
-// What is wrong in print, and how it must read.
+// What is wrong in the text at hand (read by machine: some may be slips of that), and how it must read.
 std::vector<Correction> corrections(const TeeteredHead& h, const TeeteredHead::Printed& print, double psi) {
     const double s = std::sin(psi), c = std::cos(psi), W = h.Omega, axial = h.F_d - h.F_u;
     const double offset = h.c_h * h.m_h * (h.c_h - 1.5 * h.d_n2);
@@ -85,7 +85,7 @@ std::vector<Correction> corrections(const TeeteredHead& h, const TeeteredHead::P
 
 }  // namespace
 
-TEST_CASE("teetered head: Appendix A of the paper is Kane's equations linearised, but for slips of print and dampers",
+TEST_CASE("teetered head: Appendix A of the paper is Kane's equations linearised, but for slips and dampers",
           "[oracles][published]") {
     const TeeteredHead head = some_head();
     for (const double psi : {0.3, 1.1, 2.9, 4.4}) {

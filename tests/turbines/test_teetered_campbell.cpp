@@ -77,9 +77,9 @@ void check_rigid_motions(const Campbell& d, double growth_per_rev) {
     for (const auto& [name, sign] : {std::pair{growing, 1}, std::pair{decaying, -1}}) {
         const Branch& branch = d.branch(name);
         CHECK(per_rev(d, branch) == Approx(1).epsilon(1e-12));
-        CHECK(sign * d.mode(branch, 0)->mode.eigenvalue.real() / nominal == Approx(growth_per_rev).margin(1e-4));
+        CHECK(sign * d.mode(branch, 0)->mode.eigenvalue.real() / nominal == Approx(growth_per_rev).margin(1e-5));
     }
-    CHECK(d.points[0].stability_margin / nominal == Approx(-growth_per_rev).margin(1e-4));
+    CHECK(d.points[0].stability_margin / nominal == Approx(-growth_per_rev).margin(1e-5));
     CHECK_THAT(d.warning, Catch::Contains("unstable at 57.4"));
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("campbell of the teetered machine: three elements per part give names 
           "[published]") {
     const Campbell d = diagram_of(machine_of(3), {nominal}, 11);
     CHECK(check_rows(d, teetered_ratio_100, 11, 1e-2, 1e-2) == 6);
-    check_rigid_motions(d, 0.0453);
+    check_rigid_motions(d, 0.04525);
     CHECK(d.branches.size() == 10);
     CHECK(d.blades == 2);
 }
@@ -167,6 +167,6 @@ TEST_CASE("campbell of the teetered machine: six elements per part, all modes of
         const Campbell d = diagram_of(machine_of(6, rigid), {nominal}, 140);
         const auto& rows = rigid ? teetered_rigid : teetered_ratio_100;
         CHECK(check_rows(d, rows, 140, 3e-3, 1e-2) == static_cast<int>(rows.size()) - (rigid ? 0 : 1));
-        check_rigid_motions(d, rigid ? 0.0452 : 0.0453);
+        check_rigid_motions(d, 0.04525);
     }
 }
