@@ -1,5 +1,5 @@
 /// @file
-/// What the programs have in common: Ctrl-C, errors and exit codes, progress, a first look at the output files.
+/// What the programs have in common: signals, errors and exit codes, progress, a first look at the output files.
 #pragma once
 
 #include "mbs/error.hpp"
@@ -19,17 +19,27 @@
 
 namespace cardan::program {
 
-inline std::atomic<bool> interrupt{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+/// The signal that asked the program to stop; 0: none has.
+inline std::atomic<int> interrupt{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
-/// Was Ctrl-C pressed? Asked by the program where it can stop tidily.
+/// Ctrl-C, kill and the end of a batch job, a terminal that was closed: what was computed is saved after all of them.
+inline constexpr int stopping_signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+/// Was the program asked to stop? Asked by it where it can stop tidily.
 inline bool interrupted() {
-    return interrupt;
+    return interrupt != 0;
 }
 
-/// For a last part that is short: from here on Ctrl-C ends the program at once.
+/// What is ignored, as under nohup, stays ignored.
+inline void handle_signals(void (*handler)(int)) {
+    for (const int signal : stopping_signals)
+        if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+/// For a last part that is short: from here on such a signal ends the program at once.
 inline void stop_at_once() {
-    std::signal(SIGINT, SIG_DFL);
+    handle_signals(SIG_DFL);
 }
 
 /// For people only: nothing is written to files and pipes.
@@ -38,13 +48,19 @@ inline void progress(const std::string& what) {
     if (terminal) std::cerr << what << std::flush;
 }
 
-/// Files that cannot be written are found out before the work, not after it.
+/// Files that cannot be written are found out before the work, not after it, and what a run that was killed has left
+/// behind is named and removed.
 inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings) {
     const std::filesystem::path path(prefix), folder = path.parent_path();
     if (path.filename().empty()) throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
     if (!folder.empty() && !std::filesystem::is_directory(folder))
         throw FileError(prefix, text("the folder '", folder.string(), "' does not exist"));
-    for (const char* ending : endings) PendingFile(prefix + ending).discard();
+    for (const char* ending : endings) {
+        const PendingFile file(prefix + ending);
+        if (file.left_over())
+            std::cerr << "note: " << file.partial() << " was left behind by a run that was killed; it is removed\n";
+        file.discard();
+    }
 }
 
 /// Reads the command line.
@@ -61,16 +77,18 @@ inline int parse(CLI::App& app, int argc, char** argv) {
 
 /// The body of main().
 /// @param parse  fills the arguments; an exit code >= 0 ends the program there, -1 goes on
-/// @param run    does the work; Ctrl-C is caught from here on
-/// @return exit code; 1 after an error, which is printed with the name of the program
+/// @param run    does the work; signals are caught from here on; returns 130 if it was interrupted
+/// @return exit code; 1 after an error, which is printed with the name of the program; if it was interrupted 128 and
+///         the number of the signal: 130, 143 or 129
 template <class Arguments>
 int run_program(const char* name, int argc, char** argv, int (*parse)(int, char**, Arguments&),
                 int (*run)(const Arguments&)) {
     try {
         Arguments arguments;
         if (const int code = parse(argc, argv, arguments); code >= 0) return code;
-        std::signal(SIGINT, [](int) { interrupt = true; });
-        return run(arguments);
+        handle_signals([](int signal) { interrupt = signal; });
+        const int code = run(arguments);
+        return code == 130 && interrupted() ? 128 + interrupt : code;
     } catch (const Error& error) {
         std::cerr << name << ": " << error.what() << "\n";
     } catch (const std::exception& error) {

@@ -249,6 +249,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
     H5Pset_obj_track_times(list.get(), false);
     const Handle access = detail::writing_access(impl->disk);
     impl->ok(access.get(), "", "be created");
+    impl->pending->hand_over();
     impl->file = H5Fcreate(impl->pending->partial().c_str(), H5F_ACC_TRUNC, list.get(), access.get());
     impl->ok(impl->file, "", "be created");
     if (impl->disk.error != 0) impl->fail("", "be created");

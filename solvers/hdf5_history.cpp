@@ -8,7 +8,6 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <set>
 
 namespace cardan::solvers {
@@ -49,16 +48,6 @@ std::string difference(const std::vector<Channel>& stored, const std::vector<Cha
     return {};
 }
 
-/// @throws FileError if the file is there and must not be replaced, or somebody writes it
-void check_place(const std::string& path, bool replace) {
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(path, code)) return;  // PendingFile looks at the rest
-    if (!replace) throw FileError(path, "is there already; replace it only on purpose, or append to it");
-    detail::JournaledFile probe;
-    if (probe.open(path.c_str(), detail::JournaledFile::Mode::change) == EWOULDBLOCK)
-        throw FileError(path, "cannot be replaced: another program has it open");
-}
-
 Hdf5File create_journaled(const PendingFile& pending, detail::JournalLink& link) {
     const detail::Quiet quiet;
     auto impl = std::make_unique<Hdf5File::Impl>(pending.path());
@@ -67,6 +56,7 @@ Hdf5File create_journaled(const PendingFile& pending, detail::JournalLink& link)
     const detail::Handle list = detail::creation_list(*impl);
     const detail::Handle access = detail::journaled_access(link);
     impl->ok(access.get(), "", "be created");
+    pending.hand_over();
     impl->file = H5Fcreate(pending.partial().c_str(), H5F_ACC_TRUNC, list.get(), access.get());
     impl->ok(impl->file, "", "be created");
     return Hdf5File::Impl::wrap(std::move(impl));
@@ -99,17 +89,19 @@ HistoryWriter HistoryWriter::create(const std::filesystem::path& path, const std
     impl->path = path.string();
     check(impl->path, channels);
     check(impl->path, storage);
-    check_place(impl->path, storage.replace);
+    std::error_code code;
+    if (!storage.replace && std::filesystem::is_regular_file(path, code))
+        throw FileError(impl->path, "is there already; replace it only on purpose, or append to it");
     const PendingFile pending(path);
-    impl->file = create_journaled(pending, impl->link);
     try {
+        impl->file = create_journaled(pending, impl->link);
         detail::write_about(*impl->file, about);
         detail::create_variables(*impl->file, channels, storage.chunk);
         impl->channels = channels;
         impl->chunk = static_cast<std::size_t>(storage.chunk);
         impl->open_variables(detail::variable_names(channels));
         impl->begin_writing(storage);
-        pending.commit();
+        pending.commit(storage.replace);
     } catch (...) {
         impl.reset();
         pending.discard();

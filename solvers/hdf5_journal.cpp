@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <iterator>
+#include <string_view>
 #include <sys/file.h>
 #include <thread>
 #include <unistd.h>
@@ -19,6 +21,9 @@ struct Footer {
     std::uint64_t magic, blocks, start, end, checksum;
 };
 constexpr std::uint64_t magic = 0x314c4e4a4e445243;  // "CRDNJNL1", little-endian: a journal is for the same machine
+constexpr std::string_view mark =
+    "\x89"
+    "CRDNBSY";  // as long as HDF5's signature
 constexpr std::uint64_t record_size = sizeof(std::uint64_t) + JournaledFile::block_size;
 
 std::uint64_t whole_blocks(std::uint64_t address) {
@@ -51,6 +56,14 @@ int write_all(int fd, std::uint64_t address, std::span<const char> from) {
 
 int set_size(int fd, std::uint64_t size) {
     return ::ftruncate(fd, static_cast<off_t>(size)) == 0 ? 0 : errno;
+}
+
+// Others may hold a lock that long to see whether there is one.
+constexpr std::chrono::milliseconds glance{50};
+
+bool is_at(const char* path, const struct stat& file) {
+    struct stat now {};
+    return ::stat(path, &now) == 0 && now.st_dev == file.st_dev && now.st_ino == file.st_ino;
 }
 
 // The lock of live readers: a byte that readers share and a commit has for itself, and before it a gate that a waiting
@@ -107,14 +120,19 @@ int JournaledFile::open(const char* path, Mode mode) {
     if (fd_ < 0) return errno;
     if (const int reason = lock_for(mode); reason != 0) return reason;
     if (::fstat(fd_, &found_) != 0) return errno;
-    if (mode == Mode::create) return set_size(fd_, 0);
+    // The file may have got another name while this waited for its lock.
+    if (mode == Mode::create) return is_at(path, found_) ? set_size(fd_, 0) : EWOULDBLOCK;
     if (const int reason = find_journal(static_cast<std::uint64_t>(found_.st_size)); reason != 0) return reason;
     protected_ = whole_blocks(end_);
     return journal_found_ && mode == Mode::change ? apply(end_) : 0;
 }
 
 int JournaledFile::lock_for(Mode mode) {
-    const bool held = ::flock(fd_, (mode == Mode::read ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    const int kind = (mode == Mode::read ? LOCK_SH : LOCK_EX) | LOCK_NB;
+    const auto deadline = Clock::now() + glance;
+    bool held = false;
+    while ((held = ::flock(fd_, kind) != 0 && errno == EWOULDBLOCK) && mode == Mode::create && Clock::now() < deadline)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (!held) return 0;
     return mode == Mode::read ? wait_for_writer() : EWOULDBLOCK;
 }
@@ -247,6 +265,8 @@ int JournaledFile::commit(std::uint64_t end) {
 }
 
 int JournaledFile::write_journal(std::uint64_t end) {
+    if (const auto [first, made] = blocks_.try_emplace(0); made)
+        if (const int reason = read_disk(0, first->second); reason != 0) return fail(reason);
     const std::uint64_t start = whole_blocks(std::max(end, end_));
     int reason = set_size(fd_, start);
     if (reason == 0) reason = write_all(fd_, start, journal(start, end));
@@ -256,15 +276,28 @@ int JournaledFile::write_journal(std::uint64_t end) {
     return fail(reason);
 }
 
-int JournaledFile::apply(std::uint64_t end) {
-    const ReadersOff off(fd_);
+// In runs of neighbours, the first block last and its first bytes last of all; until then the mark stands in their
+// place.
+int JournaledFile::write_blocks() const {
+    const auto first = blocks_.find(0);  // journals of older versions need not have it
+    if (first != blocks_.end())
+        if (const int reason = write_all(fd_, 0, mark); reason != 0) return reason;
     std::vector<char> run;
-    for (auto it = blocks_.begin(); it != blocks_.end();) {
+    for (auto it = first == blocks_.end() ? blocks_.begin() : std::next(first); it != blocks_.end();) {
         const std::uint64_t start = it->first;
         for (run.clear(); it != blocks_.end() && it->first == start + run.size(); ++it)
             run.insert(run.end(), it->second.begin(), it->second.end());
-        if (const int reason = write_all(fd_, start, run); reason != 0) return fail(reason);
+        if (const int reason = write_all(fd_, start, run); reason != 0) return reason;
     }
+    if (first == blocks_.end()) return 0;
+    const std::span<const char> block = first->second;
+    const int reason = write_all(fd_, mark.size(), block.subspan(mark.size()));
+    return reason != 0 ? reason : write_all(fd_, 0, block.first(mark.size()));
+}
+
+int JournaledFile::apply(std::uint64_t end) {
+    const ReadersOff off(fd_);
+    if (const int reason = write_blocks(); reason != 0) return fail(reason);
     if (synchronise_ && ::fdatasync(fd_) != 0) return fail(errno);
     if (const int reason = set_size(fd_, end); reason != 0) return fail(reason);
     blocks_.clear();

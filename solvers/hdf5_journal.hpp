@@ -18,13 +18,15 @@ namespace cardan::solvers::detail {
 /// below their end is held back in memory, in blocks; what is written behind it goes there at once, where nobody looks.
 /// commit() then
 ///   1. writes the held-back blocks and a footer with a checksum, the journal, behind all that,
-///   2. writes the blocks to their places,
-///   3. cuts the journal off.
-/// Killed in 1: the footer is not there, the last commit stands. Killed in 2 or 3: whoever opens the file next finds
-/// footer and journal and has the new commit, a writer by doing 2 and 3 again, a reader in memory.
+///   2. overwrites the first bytes, in which a format has its signature, by a mark,
+///   3. writes the blocks to their places, those first bytes last,
+///   4. cuts the journal off.
+/// Killed in 1: the footer is not there, the last commit stands. Killed later: whoever opens the file next finds footer
+/// and journal and has the new commit, a writer by doing 2 to 4 again, a reader in memory. A program that knows nothing
+/// of journals finds no signature in what is neither the one nor the other, and refuses it.
 ///
 /// Two kinds of locks: a writer holds flock() exclusively as long as it has the file open, as HDF5 itself has it, so
-/// that there is one writer and no reader unawares. A reader that finds it held is `live`: it holds steps 2 and 3 off
+/// that there is one writer and no reader unawares. A reader that finds it held is `live`: it holds steps 2 to 4 off
 /// by a lock on bytes far behind any file's end, for two seconds at most; what it has read until then is one commit,
 /// what it read later must be thrown away (expired()). A writer waits longer than that and goes on in any case.
 ///
@@ -79,6 +81,7 @@ private:
     void check_place();
     int write_journal(std::uint64_t end);
     int apply(std::uint64_t end);
+    int write_blocks() const;
     int fail(int reason);
 
     int fd_ = -1;

@@ -57,6 +57,24 @@ bool readable_by_others(const std::string& path) {
     }
 }
 
+/// Does a program that knows nothing of journals take the file for healthy and read what is wrong, in rows or
+/// checkpoint?
+bool misread_by_others(const std::string& path) {
+    try {
+        const Hdf5File file = Hdf5File::open(path);
+        const std::size_t rows = file.read_doubles("time").size();
+        if (!readable_by_others(path)) return true;
+        if (!file.has("run/checkpoint/rows")) return rows > 0;
+        const auto safe = static_cast<std::size_t>(file.read_ints("run/checkpoint/rows").at(0));
+        const Checkpoint expected = checkpoint_of(safe - 1);
+        return safe != rows || file.read_doubles("run/checkpoint/time").at(0) != expected.time ||
+               file.read_doubles("run/checkpoint/q").at(0) != expected.q(0) ||
+               file.read_ints("run/statistics/steps").at(0) != expected.statistics.steps;
+    } catch (const FileError&) {
+        return false;
+    }
+}
+
 /// Everything that must hold of a history that was broken off after `flushed` rows were safe.
 void check_broken_off(const std::string& path, std::size_t flushed, std::size_t appended) {
     const HistoryInfo info = read_history_info(path);
@@ -68,6 +86,7 @@ void check_broken_off(const std::string& path, std::size_t flushed, std::size_t 
     if (info.rows > 0) CHECK(whole(info));
     if (info.rows > 0) CHECK(info.checkpoint_rows == info.rows);
     if (!info.needs_repair) CHECK(readable_by_others(path));
+    CHECK_FALSE(misread_by_others(path));
     CHECK(repair_history(path).changed() == info.needs_repair);
     CHECK_FALSE(repair_history(path).changed());
     CHECK(readable_by_others(path));
@@ -164,6 +183,54 @@ TEST_CASE("history: killed at any write, in the middle of it too, all flushed ro
     CAPTURE(calls, journals);
     CHECK(calls > 30);
     CHECK(journals > 3);
+}
+
+TEST_CASE("history: of programs that begin the same file at once the first has it, the others say who", "[property]") {
+    const Folder folder;
+    const std::string path = folder / "a.h5";
+    for (int round = 0; round < 10; ++round) {
+        const bool replace = round % 2 == 1;
+        if (!replace) fs::remove(path);
+        int told[2], go[2];
+        REQUIRE(::pipe(told) == 0);
+        REQUIRE(::pipe(go) == 0);
+        std::vector<pid_t> children;
+        for (int k = 0; k < 6; ++k) {
+            children.push_back(::fork());
+            if (children.back() != 0) continue;
+            ::close(go[1]);
+            char answer = 'f', end = 0;
+            try {
+                HistoryWriter writer =
+                    HistoryWriter::create(path, some_channels(), {}, {.replace = replace, .chunk = 8});
+                answer = 'w';
+                (void)!::write(told[1], &answer, 1);
+                (void)!::read(go[0], &end, 1);  // until all have tried
+                write_all(writer, 0, 20);
+                writer.finish();
+            } catch (const FileError& error) {
+                const std::string message = error.what();
+                if (message.find("has it open (process ") == std::string::npos &&
+                    message.find("is there already") == std::string::npos)
+                    answer = 'x';
+                (void)!::write(told[1], &answer, 1);
+            }
+            ::_exit(answer == 'w' ? 0 : 1);
+        }
+        ::close(go[0]);
+        std::string answers(children.size(), ' ');
+        for (char& answer : answers) REQUIRE(::read(told[0], &answer, 1) == 1);
+        ::close(go[1]);
+        for (const pid_t child : children) wait_for(child);
+        ::close(told[0]);
+        ::close(told[1]);
+        CAPTURE(round, answers);
+        CHECK(std::ranges::count(answers, 'w') == 1);
+        CHECK(std::ranges::count(answers, 'f') == 5);
+        CHECK(read_history(path).time.size() == 20);
+        CHECK(read_history_info(path).finished);
+        CHECK(folder.files() == 1);
+    }
 }
 
 TEST_CASE("history: a writer killed by SIGKILL loses what came after the last flush only", "[property]") {

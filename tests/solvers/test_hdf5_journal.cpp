@@ -49,6 +49,11 @@ std::string read_as(const std::string& path, Mode mode) {
     return bytes;
 }
 
+/// What stands in the place of a signature while blocks are written to their places.
+const std::string mark =
+    "\x89"
+    "CRDNBSY";
+
 /// A file and what it must hold, changed at random.
 struct Model {
     std::mt19937 random;
@@ -87,7 +92,11 @@ TEST_CASE("journal: broken off anywhere, a file has its last commit or the one b
         CHECK(bytes_of(copy) == bytes);  // a reader changes nothing
         const bool old = begins_with(found, model.committed), fresh = committing && found == model.wanted;
         if (!old && !fresh) FAIL("neither the last commit nor the one before");
-        if (begins_with(bytes, model.committed) || bytes == model.wanted) ++plain;
+        // A program that knows nothing of journals finds the one commit or the other, or no signature.
+        if (begins_with(bytes, model.committed) || (committing && begins_with(bytes, model.wanted)))
+            ++plain;
+        else
+            CHECK((bytes.compare(0, 2, mark, 0, 2) == 0 || bytes.compare(4, 4, mark, 4, 4) == 0));
         if (!old) ++completed;
         CHECK(read_as(copy, Mode::change) == found);
         if (fresh) CHECK(bytes_of(copy) == model.wanted);
@@ -119,7 +128,7 @@ TEST_CASE("journal: broken off anywhere, a file has its last commit or the one b
     }
     INFO(looked << " states, " << plain << " of them readable by anybody, " << completed << " as of the new commit");
     CHECK(looked > 150);
-    CHECK(plain > looked / 2);
+    CHECK(plain > 50);
     CHECK(completed > 10);
     CHECK(completed < looked);
 }
