@@ -1,11 +1,14 @@
 #include "elements/coordinate_force.hpp"
 
+#include "mbs/error.hpp"
+
 #include <utility>
 
 namespace cardan {
 
 UserForce coordinate_force(std::string name, BodyId coordinate,
                            std::function<CoordinateLaw(double, double, double)> law, bool elastic) {
+    if (!law) throw InputError(text("force '", name, "'"), "law", "empty function", "a callable one");
     UserForce force;
     force.name = std::move(name);
     force.elastic = elastic;

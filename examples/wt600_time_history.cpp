@@ -50,8 +50,11 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--tower-shadow", a.shadow, "share of the rotor load that is lost when a blade passes the tower")
         ->capture_default_str();
     program::add_motion_options(app, names, directions, a.motions);
-    app.add_flag("--resume", a.simulation.resume,
-                 "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration");
+    app.add_flag(
+        "--resume", a.simulation.resume,
+        "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration. The "
+        "rows are those of an uninterrupted run, bit for bit with dirk, erk and alpha, within the tolerance with "
+        "bdf and adams");
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
     program::check_simulation_options(a.simulation);
     require_positive("--pitch-rate", "value", a.pitch_rate);

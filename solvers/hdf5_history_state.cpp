@@ -31,6 +31,13 @@ constexpr std::array<Field<Works, double>, 3> works_numbers{{
     {"work_of_dissipation", "J", "time integral of the power of linear dampers since the start", &Works::dissipation},
     {"work_of_drives", "J", "work of the drives since the start", &Works::drives},
 }};
+constexpr const char* method_steps = "method_steps";
+constexpr const char* positions_at_start = "positions_at_start";
+constexpr std::array<Field<MethodState, double>, 3> method_numbers{{
+    {"method_time", "s", "time of the method's state", &MethodState::time},
+    {"method_horizon", "s", "time that was wanted next: a scale of a first step", &MethodState::horizon},
+    {"time_at_start", "s", "time of the first start", &MethodState::since},
+}};
 using Statistics = IntegrationStatistics;
 constexpr std::array<Field<Statistics, long>, 8> counts{{
     {"steps", "1", "accepted steps", &Statistics::steps},
@@ -67,9 +74,24 @@ void put(Hdf5File& file, const std::string& name, std::int64_t value, const Desc
     put<std::int64_t>(file, name, {&value, 1}, {}, H5T_NATIVE_INT64, about);
 }
 
-void put(Hdf5File& file, const std::string& name, const Vector& values, const Description& about) {
+// The axis that counts the entries of a vector; netCDF wants one for every data set.
+struct IndexAxis {
+    const char* name;
+    const char* long_name;
+};
+constexpr IndexAxis coordinate_axis{"coordinate", "index of the coordinate"};
+constexpr IndexAxis state_axis{"method_state_index", "index of the state"};
+constexpr IndexAxis memory_axis{"method_memory_index", "index of what is remembered"};
+
+void put(Hdf5File& file, const std::string& name, const Vector& values, const Description& about,
+         const IndexAxis& axis) {
     const auto n = static_cast<std::size_t>(values.size());
+    const bool first = !file.has(name);
     put<double>(file, name, {values.data(), n}, {n}, H5T_NATIVE_DOUBLE, about);
+    if (!first) return;
+    const std::string scale = std::string(checkpoint_group) + axis.name;
+    if (!file.has(scale)) file.make_index(scale, n, axis.long_name);
+    file.attach(name, 0, scale);
 }
 
 Vector vector_of(const Hdf5File& file, const std::string& name) {
@@ -87,6 +109,33 @@ IntegrationStatistics statistics_of(const Hdf5File& file) {
     return statistics;
 }
 
+// Of files that have it: written by versions that could go on from within a step.
+MethodState method_of(const Hdf5File& file) {
+    const std::string group = checkpoint_group;
+    MethodState method;
+    if (!file.has(group + method_steps)) return method;
+    for (const auto& f : method_numbers) method.*f.member = file.read_doubles(group + f.name).at(0);
+    if (file.has(group + positions_at_start)) method.positions = vector_of(file, group + positions_at_start);
+    method.steps = static_cast<long>(file.read_ints(group + method_steps).at(0));
+    if (method.steps < 0) return method;
+    method.x = vector_of(file, group + "method_state");
+    method.memory = vector_of(file, group + "method_memory");
+    return method;
+}
+
+void put_method(Hdf5File& file, const MethodState& method) {
+    const std::string group = checkpoint_group;
+    put(file, group + method_steps, std::int64_t{method.steps},
+        {"1", "steps of the method since its state here; -1: it starts anew from q, qd"});
+    for (const auto& f : method_numbers) put(file, group + f.name, method.*f.member, {f.units, f.long_name});
+    if (method.positions.size() > 0)
+        put(file, group + positions_at_start, method.positions, {"rad or m", "coordinates at the first start"},
+            coordinate_axis);
+    if (method.steps < 0) return;
+    put(file, group + "method_state", method.x, {"SI", "free coordinates and their rates"}, state_axis);
+    put(file, group + "method_memory", method.memory, {"SI", "what the method remembers besides"}, memory_axis);
+}
+
 Checkpoint checkpoint_of(const Hdf5File& file) {
     const std::string group = checkpoint_group;
     Checkpoint checkpoint;
@@ -94,6 +143,7 @@ Checkpoint checkpoint_of(const Hdf5File& file) {
     for (const auto& f : works_numbers) checkpoint.works.*f.member = file.read_doubles(group + f.name).at(0);
     checkpoint.q = vector_of(file, group + "q");
     checkpoint.qd = vector_of(file, group + "qd");
+    checkpoint.method = method_of(file);
     if (file.has(notes_group))
         for (const std::string& name : file.children(notes_group))
             checkpoint.notes[name] = file.read_doubles(text(notes_group, "/", name)).at(0);
@@ -107,13 +157,9 @@ void put_checkpoint(Hdf5File& file, const Checkpoint& checkpoint, std::size_t ro
     put(file, group + "rows", static_cast<std::int64_t>(rows), {"1", "rows of the history up to the checkpoint"});
     for (const auto& f : checkpoint_numbers) put(file, group + f.name, checkpoint.*f.member, {f.units, f.long_name});
     for (const auto& f : works_numbers) put(file, group + f.name, checkpoint.works.*f.member, {f.units, f.long_name});
-    const bool first = !file.has(group + "q");
-    put(file, group + "q", checkpoint.q, {"rad or m", "coordinates"});
-    put(file, group + "qd", checkpoint.qd, {"rad s-1 or m s-1", "rates of the coordinates"});
-    if (first) {
-        file.make_index(group + "coordinate", static_cast<std::size_t>(checkpoint.q.size()), "index of the coordinate");
-        for (const char* name : {"q", "qd"}) file.attach(group + name, 0, group + "coordinate");
-    }
+    put(file, group + "q", checkpoint.q, {"rad or m", "coordinates"}, coordinate_axis);
+    put(file, group + "qd", checkpoint.qd, {"rad s-1 or m s-1", "rates of the coordinates"}, coordinate_axis);
+    put_method(file, checkpoint.method);
     for (const auto& [name, value] : checkpoint.notes)
         put(file, text(notes_group, "/", name), value, {"1", "note of the program for itself"});
     put_statistics(file, checkpoint.statistics);

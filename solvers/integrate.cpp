@@ -14,10 +14,17 @@ namespace cardan::solvers {
 namespace {
 
 constexpr const char* place = "time integration";
+constexpr int watched_steps = 1000;
+constexpr double never = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Two times closer than this are one.
 double resolution(double time) {
     return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
+}
+
+// Less than this in the mean of a thousand steps is no progress.
+double shortest_step(double time) {
+    return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
 int sign(double value) {
@@ -40,10 +47,22 @@ std::unique_ptr<Stepper> make_stepper(EquationsOfMotion& equations, const Integr
 
 }  // namespace
 
+class Integrator::While {
+public:
+    While(Doing& doing, Doing now) : doing_(doing), before_(std::exchange(doing, now)) {}
+    ~While() { doing_ = before_; }
+    While(const While&) = delete;
+    While& operator=(const While&) = delete;
+
+private:
+    Doing& doing_;
+    Doing before_;
+};
+
 Integrator::Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
                        IntegrationOptions options)
     : options_(std::move(options)), equations_(system, std::move(drives), time, q, qd) {
-    check_options();
+    check_options(time);
     const Eigen::Index m = equations_.size();
     if (m == 0) throw InputError(place, "number of free coordinates", m, ">= 1");
     x_.resize(2 * m);
@@ -56,6 +75,9 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     values_.resize(options_.events.size());
     sides_.resize(options_.events.size());
     state_.time = time;
+    since_ = moved_ = time;
+    positions_ = q;
+    for (Vector* v : {&seen_end_, &now_}) v->setZero(m);
     find_breaks();
     begin_piece();
     if (!equations_.complete(time, x_.data(), state_))
@@ -67,24 +89,9 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     set_sides(-1);
 }
 
-Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
-                       IntegrationOptions options)
-    : Integrator(system, std::move(drives), from.time, from.q, from.qd, std::move(options)) {
-    go_on_from(from);
-}
-
 Integrator::~Integrator() = default;
 
-void Integrator::go_on_from(const Checkpoint& from) {
-    works_ = from.works;
-    kinetic_at_start_ = from.kinetic_at_start;
-    potential_at_start_ = from.potential_at_start;
-    notes_ = from.notes;
-    earlier_ = from.statistics;
-    ++earlier_.restarts;
-}
-
-void Integrator::check_options() const {
+void Integrator::check_options(double time) const {
     const Tolerances& tolerances = options_.tolerances;
     require_positive(place, "relative tolerance", tolerances.relative);
     for (double value : {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed})
@@ -92,6 +99,11 @@ void Integrator::check_options() const {
     require_not_negative(place, "largest step [s]", options_.max_step);
     require_not_negative(place, "first step [s]", options_.first_step);
     require_not_negative(place, "fixed step [s]", options_.fixed_step);
+    for (const auto& [name, step] :
+         {std::pair{"largest step [s]", options_.max_step}, std::pair{"first step [s]", options_.first_step},
+          std::pair{"fixed step [s]", options_.fixed_step}})
+        if (step > 0 && step < shortest_step(time))
+            throw InputError(place, name, step, text("0, or >= ", shortest_step(time), ", which the clock can tell"));
     if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
         throw InputError(place, "fixed step [s]", options_.fixed_step,
                          text("at most the largest step, ", options_.max_step));
@@ -100,8 +112,8 @@ void Integrator::check_options() const {
         throw InputError(place, "highest order", options_.max_order, text("0 ... ", highest, " with this method"));
     if (!(options_.spectral_radius >= 0 && options_.spectral_radius <= 1))
         throw InputError(place, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
-    for (double time : options_.breaks)
-        if (!std::isfinite(time)) throw InputError(place, "time of a break [s]", time, "finite");
+    for (double jump : options_.breaks)
+        if (!std::isfinite(jump)) throw InputError(place, "time of a break [s]", jump, "finite");
     for (const Event& event : options_.events) {
         if (!event.function) throw InputError(place, "event", event.name, "one with a function");
         if (event.direction < -1 || event.direction > 1)
@@ -122,6 +134,7 @@ void Integrator::begin_piece() {
     piece_end_ = next == breaks_.end() ? infinity : *next;
     equations_.set_piece(next == breaks_.end() ? now + 1 : (now + piece_end_) / 2);
     start_pending_ = true;
+    repeat_pending_ = false;
 }
 
 double Integrator::event_value(std::size_t event, double time) {
@@ -223,6 +236,7 @@ AfterEvent Integrator::act(int event) {
     const Event& happened = options_.events[static_cast<std::size_t>(event)];
     if (!equations_.complete(state_.time, x_.data(), state_))
         throw NumericalError(text(place, ": no state at the event '", happened.name, "': ", equations_.problem()));
+    const While acting(doing_, Doing::acting);
     return happened.action ? happened.action(*this) : AfterEvent::stop;
 }
 
@@ -243,9 +257,10 @@ bool Integrator::process(double to, Advance& result) {
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
     // An action that throws is due again when the run goes on.
-    const AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
+    AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
     set_sides(event);
     if (event < 0) return true;
+    if (after == AfterEvent::go_on && accelerations_changed()) after = AfterEvent::restart;
     if (after != AfterEvent::go_on) begin_piece();
     if (after != AfterEvent::stop) return true;
     result.end = Advance::End::event;
@@ -253,32 +268,77 @@ bool Integrator::process(double to, Advance& result) {
     return false;
 }
 
+// Those at the end of the step, once for each step that outputs lie in.
+void Integrator::note_accelerations() {
+    const double end = stepper_->time();
+    if (start_pending_ || !(end > state_.time) || end == seen_at_) return;
+    stepper_->state_at(end, x_between_.data());
+    if (equations_.accelerations(end, x_between_.data(), seen_end_.data())) seen_at_ = end;
+}
+
+// Have forces changed since the present state was completed, or since the method has stepped beyond it?
+bool Integrator::accelerations_changed() {
+    if (start_pending_) return false;
+    if (!equations_.accelerations(state_.time, x_.data(), now_.data())) return true;
+    for (Eigen::Index i = 0; i < now_.size(); ++i)
+        if (now_(i) != state_.qdd(equations_.unknowns()[static_cast<std::size_t>(i)])) return true;
+    if (seen_at_ != stepper_->time() || seen_at_ <= state_.time) return false;
+    stepper_->state_at(seen_at_, x_between_.data());
+    return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
+}
+
+// Nothing but tiny steps, one after the other.
+bool Integrator::stands_still() {
+    if (++steps_ < watched_steps) return false;
+    const bool still = stepper_->time() - moved_ < watched_steps * shortest_step(stepper_->time());
+    steps_ = 0;
+    moved_ = stepper_->time();
+    return still;
+}
+
+// One step of the method.  False: it ends here.
+bool Integrator::take_step(double horizon, Advance& result) {
+    if (options_.cancelled && options_.cancelled()) {
+        result.end = Advance::End::cancelled;
+        return false;
+    }
+    if (start_pending_) {
+        stepper_->start(state_.time, x_.data(), piece_end_);
+        ++starts_;
+        start_pending_ = false;
+        seen_at_ = never;
+    }
+    const bool done = stepper_->step(horizon), still = done && stands_still();
+    if (done && !still) {
+        if (options_.progress) options_.progress(stepper_->time(), statistics());
+        return true;
+    }
+    result.end = Advance::End::failed;
+    result.message =
+        !done ? stepper_->failure()
+              : text("no progress at ", state_.time, " s: ", watched_steps, " steps in less than ",
+                     watched_steps * shortest_step(state_.time),
+                     " s; look for forces or stiffnesses that are far too large, or take an implicit method");
+    start_pending_ = true;
+    return false;
+}
+
 Advance Integrator::advance(double target, bool one_step) try {
+    const While advancing(doing_, Doing::advancing);
     Advance result;
+    if (repeat_pending_)
+        repeat_steps();
+    else if (accelerations_changed())
+        begin_piece();
     bool stepped = false;
     while (one_step ? !stepped : state_.time < target) {
         if (state_.time >= piece_end_) begin_piece();
-        if (start_pending_ || stepper_->time() <= state_.time) {
-            if (options_.cancelled && options_.cancelled()) {
-                result.end = Advance::End::cancelled;
-                break;
-            }
-            if (start_pending_) {
-                stepper_->start(state_.time, x_.data(), piece_end_);
-                ++starts_;
-                start_pending_ = false;
-            }
-            if (!stepper_->step(one_step ? infinity : target)) {
-                result.end = Advance::End::failed;
-                result.message = stepper_->failure();
-                start_pending_ = true;
-                break;
-            }
-            if (options_.progress) options_.progress(stepper_->time(), statistics());
-        }
+        if ((start_pending_ || stepper_->time() <= state_.time) && !take_step(one_step ? infinity : target, result))
+            break;
         stepped = true;
         if (!process(one_step ? stepper_->time() : std::min(target, stepper_->time()), result)) break;
     }
+    note_accelerations();
     complete(result);
     return result;
 } catch (...) {
@@ -286,17 +346,28 @@ Advance Integrator::advance(double target, bool one_step) try {
     throw;
 }
 
+void Integrator::check_allowed(const char* what, Doing latest) const {
+    if (doing_ <= latest) return;
+    throw InputError(place, what,
+                     doing_ == Doing::acting ? "called in the action of an event" : "called within advance()",
+                     latest == Doing::nothing ? "after advance() has returned; an action may stop it"
+                                              : "between two calls of advance(), or in the action of an event");
+}
+
 Advance Integrator::advance(double time) {
+    check_allowed("advance()", Doing::nothing);
     if (!std::isfinite(time) || time < state_.time)
         throw InputError(place, "time to advance to [s]", time, text("finite and >= ", state_.time));
     return advance(time, false);
 }
 
 Advance Integrator::step() {
+    check_allowed("step()", Doing::nothing);
     return advance(infinity, true);
 }
 
 Advance Integrator::run(const std::vector<double>& times, const std::function<void(Integrator&)>& output) {
+    check_allowed("run()", Doing::nothing);
     Advance result;
     result.time = state_.time;
     for (double time : times) {
@@ -307,43 +378,21 @@ Advance Integrator::run(const std::vector<double>& times, const std::function<vo
     return result;
 }
 
-EnergyBalance Integrator::energy() {
-    if (!options_.works) throw InputError(place, "works", "off", "on, for a balance of energy");
-    EnergyBalance balance;
-    balance.kinetic = equations_.kinetic_energy(state_);
-    balance.potential = equations_.potential_energy(state_);
-    balance.dissipated = works_.dissipation;
-    balance.drives = works_.drives;
-    balance.loads = works_.forces + works_.dissipation + balance.potential - potential_at_start_;
-    balance.error = balance.kinetic - kinetic_at_start_ - works_.forces - works_.drives;
-    return balance;
-}
-
-IntegrationStatistics Integrator::statistics() const {
-    IntegrationStatistics own = stepper_->statistics();
-    own.restarts = std::max(0L, starts_ - 1);
-    return sum(earlier_, own);
-}
-
-Checkpoint Integrator::checkpoint() const {
-    return {state_.time, state_.q, state_.qd, works_, kinetic_at_start_, potential_at_start_, statistics(), notes_};
-}
-
-void Integrator::note(const std::string& name, double value) {
-    // A history keeps it under that name in a group of its own.
-    if (name.empty() || name == "." || name.find('/') != std::string::npos)
-        throw InputError(place, "name of a note", text("'", name, "'"), "neither empty nor '.', and without '/'");
-    notes_[name] = value;
-}
-
 void Integrator::set_motion(int coordinate, Motion motion) {
+    check_allowed("set_motion()", Doing::acting);
     equations_.set_motion(coordinate, std::move(motion), state_.time);
     find_breaks();
     begin_piece();
 }
 
 void Integrator::set_forces(const Forces* forces) {
+    check_allowed("set_forces()", Doing::acting);
     equations_.set_forces(forces);
+    begin_piece();
+}
+
+void Integrator::restart() {
+    check_allowed("restart()", Doing::acting);
     begin_piece();
 }
 

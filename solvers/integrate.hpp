@@ -4,6 +4,7 @@
 
 #include "solvers/equations_of_motion.hpp"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -110,8 +111,22 @@ struct [[nodiscard]] Advance {
     bool reached() const { return end == End::reached; }
 };
 
-/// All that is needed to go on from a moment, in another process if need be. A method of several steps starts anew
-/// there. Motions and forces that events have exchanged are the user's to exchange again; notes tell which.
+/// How a method of one step came to where it is: from where it started, or dropped its matrices and estimates last, it
+/// takes the very same steps again.
+struct MethodState {
+    long steps = -1;        ///< taken since; -1: nothing to repeat, it starts anew
+    double time = 0;        ///< s, there
+    double horizon = 0;     ///< s, the time that was wanted next: a scale of the first step
+    Vector x = {};          ///< unknowns there: positions, rates
+    Vector memory = {};     ///< of the step control there
+    double since = 0;       ///< s, the first start
+    Vector positions = {};  ///< then, of all coordinates: what is driven at a constant rate began there
+};
+
+/// All that is needed to go on from a moment, in another process if need be. A method of one step goes on bit for bit
+/// as if it had not stopped, if system, options, processor and library are the same; otherwise, and with a method of
+/// several steps, it starts anew there, and the results agree within the tolerances. Motions and forces that events
+/// have exchanged are the user's to exchange again; notes tell which.
 struct Checkpoint {
     double time = 0;
     Vector q, qd;  ///< size n
@@ -119,12 +134,17 @@ struct Checkpoint {
     double kinetic_at_start = 0, potential_at_start = 0;  ///< J, when the works were zero
     IntegrationStatistics statistics;
     std::map<std::string, double> notes = {};  ///< see Integrator::note()
+    MethodState method = {};
 };
 
 class Stepper;
 
 /// Integrates the equations of motion. At breaks of the motions it stops and starts, so that the method sees smooth
 /// functions only; outputs between steps come from the method's own interpolation.
+///
+/// Forces may change in the action of an event and between two calls of advance(), not in between. The method has
+/// stepped beyond the time of an output by then: where accelerations differ from what they were, at that time or at the
+/// end of the step, advance() starts anew from the output. restart() says so for a change that cannot be seen there.
 ///
 /// Exceptions of user functions pass through. After a failure or an exception the last accepted state stands.
 /// Steps allocate nothing but what user functions do. Keeps a reference to the system; one object per thread.
@@ -136,15 +156,18 @@ public:
     /// @throws InputError for values out of range
     Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
                IntegrationOptions options = {});
-    /// Goes on from a checkpoint of the same system: works, energies and statistics go on as well.
+    /// Goes on from a checkpoint of the same system: works, energies and statistics go on as well. Drives as they were
+    /// at the checkpoint; forces may be put back to what they were until the first advance().
     Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                IntegrationOptions options = {});
     ~Integrator();
     Integrator(const Integrator&) = delete;
     Integrator& operator=(const Integrator&) = delete;
 
-    /// To the time exactly, unless an event stops it, it is cancelled or fails.
-    /// @throws InputError if the time lies before the present one
+    /// To the time exactly, unless an event stops it, it is cancelled or fails. It fails as well if a thousand steps
+    /// have moved the clock by less than 1e-9 s, or by what the clock can tell.
+    /// @throws InputError if the time lies before the present one, or if it is called within advance(): from a force,
+    ///         the function or action of an event, `progress` or `cancelled`. So do step() and run().
     Advance advance(double time);
     /// To the end of the next step of the method, or to the next event that stops.
     Advance step();
@@ -171,14 +194,30 @@ public:
     void note(const std::string& name, double value);
     const std::map<std::string, double>& notes() const { return notes_; }
 
-    /// Another motion of a driven coordinate from now on; position and rate must not jump. The method starts anew.
+    /// @name Changes
+    /// Between two calls of advance() or in the action of an event, InputError elsewhere. The method starts anew.
+    ///@{
+    /// Another motion of a driven coordinate from now on; position and rate must not jump.
     void set_motion(int coordinate, Motion motion);
     /// Other forces from now on; nullptr: those of the system. They must live as long as the integrator uses them.
     void set_forces(const Forces* forces);
+    /// Forces have changed: what was computed beyond the present time is thrown away.
+    void restart();
+    ///@}
 
 private:
+    enum class Doing : std::uint8_t { nothing, acting, advancing };
+    /// What it does while this lives.
+    class While;
+
     void go_on_from(const Checkpoint& from);
-    void check_options() const;
+    void repeat_steps();
+    void check_options(double time) const;
+    void check_allowed(const char* what, Doing latest) const;
+    bool accelerations_changed();
+    bool take_step(double horizon, Advance& result);
+    void note_accelerations();
+    bool stands_still();
     void find_breaks();
     void begin_piece();
     Advance advance(double target, bool one_step);
@@ -197,16 +236,24 @@ private:
     std::unique_ptr<Stepper> stepper_;
     std::vector<double> breaks_;
     double piece_end_ = 0;
-    bool start_pending_ = true;
+    bool start_pending_ = true, repeat_pending_ = false;
     long starts_ = 0;
+    Doing doing_ = Doing::nothing;
+    long steps_ = 0;    ///< since `moved_`
+    double moved_ = 0;  ///< s
     Vector x_, x_between_;
-    std::vector<double> values_;  ///< of the event functions at the end of the stretch
-    std::vector<int> sides_;      ///< last sign of each event function that was not zero
+    double seen_at_ = std::numeric_limits<double>::quiet_NaN();  ///< s, end of the step of `seen_end_`
+    Vector seen_end_, now_;                                      ///< accelerations there; to compare
+    MethodState from_;                                           ///< to be repeated
+    std::vector<double> values_;                                 ///< of the event functions at the end of the stretch
+    std::vector<int> sides_;                                     ///< last sign of each event function that was not zero
     DynamicState state_;
     Works works_;
     double kinetic_at_start_ = 0, potential_at_start_ = 0;
     std::map<std::string, double> notes_;
-    IntegrationStatistics earlier_;  ///< up to the checkpoint it started from
+    IntegrationStatistics earlier_;  ///< up to the checkpoint it started from, less those that were repeated
+    double since_ = 0;               ///< s, of the first start
+    Vector positions_;               ///< then
 };
 
 }  // namespace cardan::solvers

@@ -135,6 +135,7 @@ std::vector<double> sample_times(double from, double to, double step) {
 }
 
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, const RecordRow& row) {
+    if (!row) throw InputError(place, "function that receives the rows", "empty", "a callable one");
     if (const auto falls = std::ranges::is_sorted_until(times); falls != times.end())
         throw InputError(place, "time of a sample [s]", *falls,
                          text("not before that of the sample before, ", falls[-1]));
@@ -147,7 +148,8 @@ Advance record(Integrator& integrator, Recorder& recorder, const std::vector<dou
     double last = -std::numeric_limits<double>::infinity();
     for (double time : times) {
         result = integrator.advance(time);
-        if (integrator.time() > last) hand_out();  // a time that comes twice is recorded once
+        if (result.end == Advance::End::cancelled) break;  // it may go on from there, as if nothing had been
+        if (integrator.time() > last) hand_out();          // a time that comes twice is recorded once
         last = integrator.time();
         if (!result.reached()) break;
     }

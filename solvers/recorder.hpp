@@ -59,8 +59,10 @@ std::vector<double> sample_times(double from, double to, double step);
 using RecordRow = std::function<void(double time, const std::vector<double>& values)>;
 
 /// Advances to one time after another and hands the values at each to `row`; a time that is the present one is not
-/// advanced to. Events that stop, failure and cancellation end it as they end Integrator::advance(); what was reached
-/// then is handed out as a last row if it lies after the row before.
+/// advanced to. Events that stop, failure and cancellation end it as they end Integrator::advance(). What an event or a
+/// failure has reached is handed out as a last row if it lies after the row before; a run that was cancelled has the
+/// rows at its times only, so that it may go on.
+/// @throws InputError for an empty function, falling times
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, const RecordRow& row);
 /// The same into memory, appended to what is there.
 /// @throws InputError if `into` has other channels

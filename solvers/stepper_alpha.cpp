@@ -32,13 +32,15 @@ class AlphaStepper : public Stepper {
 public:
     AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
-    void start(double time, const double* x, double stop) override;
-    bool step(double horizon) override;
     double time() const override { return time_; }
     void state_at(double time, double* x) override;
     IntegrationStatistics statistics() const override { return statistics_; }
 
 private:
+    void do_start(double time, const double* x, double stop) override;
+    bool do_step(double horizon) override;
+    void remember(double* memory) const override;
+    void do_resume(double time, const double* x, double stop, const double* memory) override;
     struct End {
         Vector x, qdd, a;
     };
@@ -75,7 +77,8 @@ private:
 };
 
 AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
-    : equations_(equations),
+    : Stepper(2 * equations.size(), step_memory(equations)),
+      equations_(equations),
       weights_(equations, options.tolerances),
       alpha_(options.spectral_radius),
       m_(equations.size()),
@@ -93,7 +96,7 @@ AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOption
     statistics_.order = 2;
 }
 
-void AlphaStepper::start(double time, const double* x, double stop) {
+void AlphaStepper::do_start(double time, const double* x, double stop) {
     time_ = begin_ = time;
     stop_ = stop;
     std::copy(x, x + 2 * m_, to_.x.data());
@@ -104,6 +107,28 @@ void AlphaStepper::start(double time, const double* x, double stop) {
     last_ = next_ = 0;
     has_jerk_ = false;
     matrix_step_ = 0;  // forces may have changed
+}
+
+// The step to come, the last one, whether there is a derivative of the accelerations; both accelerations and that.
+void AlphaStepper::remember(double* memory) const {
+    memory[0] = controlled() ? next_ : fixed_step_;
+    memory[1] = last_;
+    memory[2] = has_jerk_ ? 1 : 0;
+    Eigen::Map<Vector>(memory + 3, 3 * m_) << to_.qdd, to_.a, jerk_;
+}
+
+void AlphaStepper::do_resume(double time, const double* x, double stop, const double* memory) {
+    time_ = begin_ = time;
+    stop_ = stop;
+    std::copy(x, x + 2 * m_, to_.x.data());
+    next_ = memory[0];
+    last_ = memory[1];
+    has_jerk_ = memory[2] > 0;
+    const Eigen::Map<const Vector> accelerations(memory + 3, 3 * m_);
+    to_.qdd = accelerations.head(m_);
+    to_.a = accelerations.segment(m_, m_);
+    jerk_ = accelerations.tail(m_);
+    matrix_step_ = 0;
 }
 
 // So short that the acceleration moves nothing by more than the tolerance; it grows fast.
@@ -222,7 +247,7 @@ void AlphaStepper::propose(double h, double e) {
     next_ = next_ > h ? std::max(next_, next) : next;
 }
 
-bool AlphaStepper::step(double horizon) {
+bool AlphaStepper::do_step(double horizon) {
     equations_.forget_problem();
     from_.x = to_.x;
     from_.qdd = to_.qdd;
@@ -236,7 +261,7 @@ bool AlphaStepper::step(double horizon) {
         predict(h);
         const bool converged = iterate(h);
         const double e = converged && controlled() ? error(h) : 0;
-        const bool stands = controlled() && h != stop_ - begin_ && stands_still(begin_, begin_ + h);
+        const bool stands = h != stop_ - begin_ && stands_still(begin_, begin_ + h);
         if (converged && e <= 1 && !stands) {
             accept(h);
             if (controlled()) propose(h, e);
@@ -259,6 +284,10 @@ void AlphaStepper::state_at(double time, double* x) {
     Eigen::Map<Vector> out(x, 2 * m_);
     if (h <= 0 || time == time_) {
         out = to_.x;
+        return;
+    }
+    if (time == begin_) {
+        out = from_.x;
         return;
     }
     const double s = (time - begin_) / h, u = 1 - s;

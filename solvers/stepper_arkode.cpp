@@ -16,12 +16,17 @@ class ArkodeStepper : public SundialsStepper {
 public:
     ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
-    void start(double time, const double* x, double stop) override;
-    bool step(double horizon) override;
     double time() const override { return time_; }
     void state_at(double time, double* x) override;
 
 private:
+    void do_start(double time, const double* x, double stop) override { begin_at(time, x, stop, 0); }
+    bool do_step(double horizon) override;
+    void remember(double* memory) const override;
+    void do_resume(double time, const double* x, double stop, const double* memory) override {
+        begin_at(time, x, stop, memory[0]);
+    }
+    void begin_at(double time, const double* x, double stop, double next_step);
     static int linear_system(realtype t, N_Vector x, N_Vector, SUNMatrix, SUNMatrix, booleantype old_will_do,
                              booleantype* is_new, realtype c, void* user, N_Vector, N_Vector, N_Vector) {
         return static_cast<ArkodeStepper*>(static_cast<SundialsStepper*>(user))
@@ -47,7 +52,7 @@ private:
 };
 
 ArkodeStepper::ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
-    : SundialsStepper("ARKODE", equations, options),
+    : SundialsStepper("ARKODE", equations, options, step_memory(equations)),
       implicit_(options.method == Method::dirk),
       fixed_step_(options.fixed_step) {
     for (End* end : {&from_, &to_}) {
@@ -86,19 +91,31 @@ bool ArkodeStepper::set_up_newton(void* ark) {
     return ok;
 }
 
-void ArkodeStepper::start(double time, const double* x, double stop) {
+// The length of the next step; the step control starts afresh with it, within the bounds of steps that are not the
+// first.
+void ArkodeStepper::remember(double* memory) const {
+    memory[0] = fixed_step_;
+    if (fixed_step_ == 0 && ARKStepGetCurrentStep(arkode_.get(), memory) != 0)
+        throw NumericalError("SUNDIALS: ARKODE does not know its step");
+}
+
+// @param next_step  0: a start, where the library looks for the first step itself
+void ArkodeStepper::begin_at(double time, const double* x, double stop, double next_step) {
+    constexpr double largest_growth = 20;  // of the library, but for a first step
     begin(time, x, stop);
     to_.time = from_.time = time;
     to_.known = false;
     std::copy(x, x + weights_.size(), to_.x.data());
     void* ark = arkode_.get();
     bool ok = ARKStepReInit(ark, explicit_rates(), implicit_rates(), time, vector()) == 0;
-    if (fixed_step_ == 0) ok = ok && ARKStepSetInitStep(ark, std::min(first_step_, stop - time)) == 0;
+    if (fixed_step_ == 0)
+        ok = ok && ARKStepSetMaxFirstGrowth(ark, next_step > 0 ? largest_growth : 0) == 0 &&
+             ARKStepSetInitStep(ark, std::min(next_step > 0 ? next_step : first_step_, stop - time)) == 0;
     if (std::isfinite(stop)) ok = ok && ARKStepSetStopTime(ark, stop) == 0;
     if (!ok) throw NumericalError("SUNDIALS: ARKODE could not be started");
 }
 
-bool ArkodeStepper::step(double horizon) {
+bool ArkodeStepper::do_step(double horizon) {
     equations_.forget_problem();
     const double from = time_;
     const int flag = ARKStepEvolve(arkode_.get(), towards(horizon), vector(), &time_, ARK_ONE_STEP);
@@ -134,6 +151,10 @@ void ArkodeStepper::state_at(double time, double* x) {
     Eigen::Map<Vector> out(x, weights_.size());
     if (time == to_.time || to_.time <= from_.time) {
         out = to_.x;
+        return;
+    }
+    if (time == from_.time) {
+        out = from_.x;
         return;
     }
     complete_ends();

@@ -17,12 +17,12 @@ class CvodeStepper : public SundialsStepper {
 public:
     CvodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
-    void start(double time, const double* x, double stop) override;
-    bool step(double horizon) override;
     double time() const override { return time_; }
     void state_at(double time, double* x) override;
 
 private:
+    void do_start(double time, const double* x, double stop) override;
+    bool do_step(double horizon) override;
     static int linear_system(realtype t, N_Vector x, N_Vector, SUNMatrix, booleantype old_will_do, booleantype* is_new,
                              realtype c, void* user, N_Vector, N_Vector, N_Vector) {
         return static_cast<CvodeStepper*>(static_cast<SundialsStepper*>(user))
@@ -37,7 +37,7 @@ private:
 };
 
 CvodeStepper::CvodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
-    : SundialsStepper("CVODE", equations, options) {
+    : SundialsStepper("CVODE", equations, options, 0) {
     if (options.fixed_step > 0)
         throw InputError("time integration", "fixed step [s] with bdf or adams", options.fixed_step,
                          "0; dirk, erk and generalised_alpha have fixed steps");
@@ -66,7 +66,7 @@ void CvodeStepper::set_up(const IntegrationOptions& options) {
     if (!ok) throw NumericalError("SUNDIALS: CVODE could not be set up");
 }
 
-void CvodeStepper::start(double time, const double* x, double stop) {
+void CvodeStepper::do_start(double time, const double* x, double stop) {
     begin(time, x, stop);
     void* cv = cvode_.get();
     bool ok = CVodeReInit(cv, time, vector()) == 0 && CVodeSetInitStep(cv, std::min(first_step_, stop - time)) == 0;
@@ -74,7 +74,7 @@ void CvodeStepper::start(double time, const double* x, double stop) {
     if (!ok) throw NumericalError("SUNDIALS: CVODE could not be started");
 }
 
-bool CvodeStepper::step(double horizon) {
+bool CvodeStepper::do_step(double horizon) {
     equations_.forget_problem();
     const double from = time_;
     const int flag = CVode(cvode_.get(), towards(horizon), vector(), &time_, CV_ONE_STEP);

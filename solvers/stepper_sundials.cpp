@@ -8,8 +8,10 @@
 
 namespace cardan::solvers {
 
-SundialsStepper::SundialsStepper(const char* library, EquationsOfMotion& equations, const IntegrationOptions& options)
-    : equations_(equations),
+SundialsStepper::SundialsStepper(const char* library, EquationsOfMotion& equations, const IntegrationOptions& options,
+                                 int memory)
+    : Stepper(2 * equations.size(), memory),
+      equations_(equations),
       weights_(equations, options.tolerances),
       first_step_(options.first_step),
       library_(library),

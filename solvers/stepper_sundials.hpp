@@ -17,7 +17,7 @@ public:
     IntegrationStatistics statistics() const final { return sum(before_, since_start()); }
 
 protected:
-    SundialsStepper(const char* library, EquationsOfMotion& equations, const IntegrationOptions& options);
+    SundialsStepper(const char* library, EquationsOfMotion& equations, const IntegrationOptions& options, int memory);
 
     // Exceptions must not cross the C library: they are kept and rethrown outside. What only concerns a trial state
     // may be tried again with a shorter step.

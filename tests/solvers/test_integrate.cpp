@@ -95,6 +95,45 @@ TEST_CASE("integrate: generalised alpha with fixed steps is of second order", "[
     }
 }
 
+TEST_CASE("integrate: generalised alpha takes as many steps as its local errors ask for",
+          "[solvers][integrate][crosscheck]") {
+    // A double pendulum at the default tolerances; each fifth step again by small steps of a method of order five.
+    Tree tree;
+    ForceSet forces;
+    const Link upper =
+        add_joint(tree, {.name = "upper", .axis = Vec3::UnitY(), .inertia = {1, Vec3(0, 0, -1), Mat3::Zero()}});
+    const FrameId end = tree.add_frame(upper.axes, Placement::translation({0, 0, -1}), "end");
+    add_joint(tree,
+              {.name = "lower", .inboard = end, .axis = Vec3::UnitY(), .inertia = {1, Vec3(0, 0, -1), Mat3::Zero()}});
+    forces.set_gravity({0, 0, -gravity});
+    const System system(tree, forces);
+    IntegrationOptions options;
+    options.method = Method::generalised_alpha;
+    const Tolerances allowed = options.tolerances;
+    Integrator integrator(system, {}, 0, vector({2, 0.5}), vector({0, 0}), options);
+    REQUIRE(integrator.advance(0.5).reached());
+    std::vector<double> errors;
+    for (int k = 0; k < 1000; ++k) {
+        const DynamicState from = integrator.state();
+        REQUIRE(integrator.step().reached());
+        if (k % 5 != 0) continue;
+        Integrator again(system, {}, from.time, from.q, from.qd, with(Method::dirk, 1e-12, 1e-13));
+        REQUIRE(again.advance(integrator.time()).reached());
+        double square = 0;
+        for (int i = 0; i < 2; ++i) {
+            const double q = allowed.angle + allowed.relative * std::min(1.0, std::abs(from.q(i)));
+            const double qd = allowed.angular_rate + allowed.relative * std::abs(from.qd(i));
+            square += std::pow((integrator.state().q(i) - again.state().q(i)) / q, 2) +
+                      std::pow((integrator.state().qd(i) - again.state().qd(i)) / qd, 2);
+        }
+        errors.push_back(std::sqrt(square / 4));
+    }
+    std::ranges::sort(errors);
+    CAPTURE(errors.front(), errors[errors.size() / 2], errors.back());
+    CHECK(errors[errors.size() / 2] > 0.4);
+    CHECK(errors[errors.size() * 9 / 10] < 1.2);
+}
+
 TEST_CASE("integrate: Runge-Kutta methods with fixed steps are of order five", "[solvers][integrate][analytic]") {
     const System system = pendulum();
     const oracles::SwingingPendulum oracle(pendulum_omega, 1.5);

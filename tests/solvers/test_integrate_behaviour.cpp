@@ -173,7 +173,8 @@ TEST_CASE("integrate: from a checkpoint it goes on as if it had not stopped", "[
         CHECK(b.drives == Approx(a.drives).margin(100 * allowed(method)));
         CHECK(std::abs(b.error) < 100 * allowed(method));
         CHECK(second.statistics().steps > first.statistics().steps);
-        CHECK(second.statistics().restarts == 1);
+        const bool one_step = method != Method::bdf && method != Method::adams;
+        CHECK(second.statistics().restarts == (one_step ? 0 : 1));
     }
 }
 
@@ -211,7 +212,20 @@ TEST_CASE("integrate: bad input is refused", "[solvers][integrate]") {
     check_refused([&] { make({}, zero, {.max_step = -1}); }, {"largest step", "-1"});
     check_refused([&] { make({}, zero, {.method = Method::bdf, .max_order = 6}); }, {"highest order", "6", "0 ... 5"});
     check_refused([&] { make({}, zero, {.spectral_radius = 1.5}); }, {"spectral radius", "1.5"});
-    check_refused([&] { make({}, zero, {.tolerances = {.relative = 0}}); }, {"relative tolerance"});
+    for (double bad : {0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+        check_refused([&] { make({}, zero, {.tolerances = {.relative = bad}}); },
+                      {"relative tolerance", "allowed: finite and > 0"});
+        for (double Tolerances::*one :
+             {&Tolerances::angle, &Tolerances::length, &Tolerances::angular_rate, &Tolerances::speed}) {
+            IntegrationOptions options;
+            options.tolerances.*one = bad;
+            check_refused([&] { make({}, zero, options); }, {"absolute tolerance", "allowed: finite and > 0"});
+        }
+    }
+    check_refused([&] { make({}, zero, {.max_step = NAN}); }, {"largest step", "nan"});
+    check_refused([&] { make({}, zero, {.fixed_step = INFINITY}); }, {"fixed step", "inf"});
+    check_refused([&] { make({}, zero, {.breaks = {1, NAN}}); }, {"time of a break", "nan"});
+    check_refused([] { (void)Motion::function({}); }, {"motion of the user's own", "function"});
     check_refused([&] { make({}, zero, {.events = {{.name = "nothing"}}}); }, {"event", "nothing"});
     Integrator integrator(system, {}, 1, zero, zero);
     check_refused([&] { (void)integrator.advance(0.5); }, {"time to advance to", "0.5"});
