@@ -231,6 +231,24 @@ TEST_CASE("drive: power of the motor less heat of the damper is the work of the 
     CHECK(std::abs(drive.force(0.2, 0.1, 0.3) + 500 * 0.1 + 20 * 0.3) < 1e-12);
 }
 
+TEST_CASE("drive: an order between two calls of advance() is obeyed from then on", "[crosscheck]") {
+    // Position, rate and acceleration of the order go on smoothly, so that nothing shows at the time of the order
+    // itself.
+    const auto position = [](bool told) {
+        const auto order = std::make_shared<DriveOrder>(0, limits);
+        order->move_to(1.5, 0);
+        const System system = driven({.J = 2}, order);
+        solvers::Integrator integrator(system, {}, 0, one(0), one(0), accurate());
+        REQUIRE(integrator.advance(1).reached());
+        order->move_to(-0.4, 1);
+        if (told) integrator.restart();
+        REQUIRE(integrator.advance(1.4).reached());
+        CHECK(integrator.statistics().restarts == 1);
+        return integrator.state().q(0);
+    };
+    CHECK(position(false) == position(true));
+}
+
 TEST_CASE("drive: bad numbers are refused", "[property]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto order = std::make_shared<DriveOrder>(0, limits);
