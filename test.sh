@@ -8,7 +8,8 @@ usage: ./test.sh [--full] [--help]
 
   (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
   --full     the same, then clang build and tests, clang-tidy, tests under the address and undefined-behaviour
-             sanitizers, and the slow tests
+             sanitizers, two sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and
+             the slow tests
 
 Everything is written to build/. Missing Debian packages are installed (root or passwordless sudo); otherwise the
 command that installs them is printed. Environment: CARDAN_JOBS, number of parallel jobs (default: all processors);
@@ -116,6 +117,14 @@ if ((full)); then
 
     heading "Tests, sanitizers"
     ctest --preset sanitize --parallel "$jobs"
+
+    heading "Thread sanitizer"
+    build thread
+    build/thread/tests/two_sweeps
+
+    heading "Fuzzing"
+    build fuzz
+    tests/fuzz/run.sh 60
 
     heading "Slow tests"
     ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$'

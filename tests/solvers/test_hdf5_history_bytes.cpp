@@ -133,7 +133,7 @@ TEST_CASE("history: one changed byte is noticed or does not matter", "[property]
     check(campaign.run(changes), changes.size());
 }
 
-// Each bit of the byte by itself at 1 of 8 places, and all bits at once everywhere; an index of two levels, too.
+// All bits at once everywhere, and one bit, too, in the first of two files; the second one has an index of two levels.
 TEST_CASE("history: one changed byte is noticed or does not matter, everywhere", "[property][slow]") {
     const Folder folder;
     const auto [rows, chunk] = GENERATE(std::pair<std::size_t, int>{40, 16}, std::pair<std::size_t, int>{150, 2});
@@ -142,10 +142,10 @@ TEST_CASE("history: one changed byte is noticed or does not matter, everywhere",
     std::vector<Change> changes;
     for (std::size_t at = 0; at < campaign.size(); ++at) {
         changes.push_back({at, 0xFF});
-        changes.push_back({at, static_cast<unsigned char>(1U << (at % 8))});
+        if (chunk == 16) changes.push_back({at, static_cast<unsigned char>(1U << (at % 8))});
     }
     const Outcome outcome = campaign.run(changes);
     std::cout << changes.size() << " changes of one byte in " << campaign.size() << ": " << outcome.refused
-              << " refused, " << outcome.as_it_was << " without effect\n";
+              << " refused, " << outcome.as_it_was << " without effect" << std::endl;
     check(outcome, changes.size());
 }

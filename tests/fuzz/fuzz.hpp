@@ -1,0 +1,47 @@
+/// @file
+/// What a target of libFuzzer does with its input: anything may be refused by an Error; everything else that comes out
+/// of a reader (another exception, a report of the sanitizers, a crash, a hang) is a finding.
+#pragma once
+
+#include "mbs/error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <unistd.h>
+
+namespace cardan::fuzz {
+
+template <class Action>
+int try_it(Action action) {
+    try {
+        action();
+    } catch (const Error&) {  // is the answer to bad input
+    }
+    return 0;
+}
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
+
+/// A folder of this process, in memory where there is one.
+inline const std::filesystem::path& folder() {
+    static const std::filesystem::path path = [] {
+        const std::filesystem::path memory = "/dev/shm";
+        const auto place = std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+        const auto own = place / cardan::text("cardan_fuzz_", ::getpid());
+        std::filesystem::create_directories(own);
+        return own;
+    }();
+    return path;
+}
+
+inline void write(const std::filesystem::path& path, std::string_view bytes) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+}  // namespace cardan::fuzz

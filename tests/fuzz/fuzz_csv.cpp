@@ -1,0 +1,13 @@
+#include "tests/fuzz/fuzz.hpp"
+#include "turbines/csv.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace cardan;
+    using namespace cardan::turbines;
+    const std::string_view text = fuzz::text_of(data, size);
+    fuzz::try_it([&] {
+        const CsvTable table = CsvTable::parse(text, "a.csv");
+        for (const std::string& name : table.names()) (void)table.column(name);
+    });
+    return fuzz::try_it([&] { (void)CsvQuantities::parse(text, "a.csv").number("tilt", "deg"); });
+}

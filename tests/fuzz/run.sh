@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# tests/fuzz/run.sh [seconds] [target]...: runs the targets in build/fuzz one after the other, 60 s each. Seeds: those in
+# tests/fuzz/seeds, the models of tests/data, and what earlier runs found worth keeping (build/fuzz/corpus). The first
+# finding ends it: the input lies in build/fuzz/findings.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+seconds="${1:-60}"
+shift || true
+targets=("$@")
+if ((${#targets[@]} == 0)); then targets=(urdf csv openfast description windio checkpoint history); fi
+
+# The first byte of a seed of `openfast` says which file it replaces, in the order of fuzz_openfast.cpp.
+seeds_of_openfast() { # <folder>
+    local file digit=0
+    for file in small.fst small_ElastoDyn.dat small_Blade.dat small_Tower.dat small_BeamDyn.fst small_BeamDyn.dat \
+        small_BeamDyn_Blade.dat small_ServoDyn.dat; do
+        { printf '%d' "$digit" && cat "tests/data/openfast/$file"; } >"$1/$file"
+        digit=$((digit + 1))
+    done
+}
+
+mkdir -p build/fuzz/findings
+for target in "${targets[@]}"; do
+    seeds="build/fuzz/seeds/$target" corpus="build/fuzz/corpus/$target"
+    mkdir -p "$seeds" "$corpus"
+    case "$target" in
+        openfast) seeds_of_openfast "$seeds" ;;
+        windio) cp tests/data/windio/*.yaml "$seeds" ;;
+        urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
+        *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
+    esac
+    log="build/fuzz/$target.log"
+    if ! nice -n 19 "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
+        -max_len=16384 -artifact_prefix=build/fuzz/findings/ -print_final_stats=1 "$corpus" "$seeds" >"$log" 2>&1; then
+        tail -40 "$log" >&2
+        echo "fuzzing: $target has a finding, see build/fuzz/findings and $log" >&2
+        exit 1
+    fi
+    echo "$target: $(grep -o 'number_of_executed_units: .*' "$log" | grep -o '[0-9]*$') inputs, no finding"
+done
