@@ -86,16 +86,17 @@ void print_row(const solvers::Campbell& diagram, const OpenFast& reference, std:
 
 }  // namespace
 
-void print_comparison(const solvers::Campbell& diagram, std::span<const UnderGravity> gravity,
-                      solvers::NameStyle style) {
+void print_comparison(const solvers::Campbell& diagram, std::span<const UnderGravity> gravity, solvers::NameStyle style,
+                      bool yaw_locked) {
     for (const OpenFast& reference : openfast) {
         const auto point = point_at(diagram, reference.rpm);
         if (!point) continue;
         const auto heavy =
             std::find_if(gravity.begin(), gravity.end(), [&](const UnderGravity& g) { return g.point == *point; });
         const UnderGravity* own = heavy == gravity.end() ? nullptr : &*heavy;
-        std::cout << "\nbeside OpenFAST (which has gravity on), " << std::defaultfloat << std::setprecision(6)
-                  << reference.rpm << " rpm: natural frequency, Hz\n"
+        std::cout << "\nbeside OpenFAST (which has gravity on and the yaw bearing locked"
+                  << (yaw_locked ? "" : "; here it is on its spring, the same machine is --yaw locked") << "), "
+                  << std::defaultfloat << std::setprecision(6) << reference.rpm << " rpm: natural frequency, Hz\n"
                   << "  mode                              computed" << (own ? "    gravity" : "")
                   << "   ElastoDyn difference    BeamDyn difference\n";
         for (std::size_t mode = 0; mode < compared_modes.size(); ++mode)

@@ -11,8 +11,9 @@
 
 namespace cardan::nrel5mw_campbell {
 
-/// OpenFAST 5.0.0: linearisation with multi-blade transformation, gravity on, no aerodynamics, generator locked; Hz.
-/// BeamDyn's are corrected for terms of the rotating frame that this version lacks, confirmed by nonlinear decay.
+/// OpenFAST 5.0.0: linearisation with multi-blade transformation, gravity on, no aerodynamics, generator and yaw
+/// bearing locked (GenDOF, YawDOF = False); Hz. BeamDyn's are corrected for terms of the rotating frame that this
+/// version lacks, confirmed by nonlinear decay.
 struct OpenFast {
     double rpm;
     std::array<double, 11> elastodyn, beamdyn;  ///< in the order of compared_modes
@@ -40,7 +41,8 @@ std::optional<std::size_t> point_at(const solvers::Campbell& diagram, double rpm
 
 /// Prints computed frequencies, OpenFAST's, and the differences in per cent, for every reference speed in the diagram.
 /// @param gravity  as far as it was computed: these frequencies are compared then
-void print_comparison(const solvers::Campbell& diagram, std::span<const UnderGravity> gravity,
-                      solvers::NameStyle style);
+/// @param yaw_locked  in the diagram, as it is in OpenFAST's figures; else the difference is said
+void print_comparison(const solvers::Campbell& diagram, std::span<const UnderGravity> gravity, solvers::NameStyle style,
+                      bool yaw_locked);
 
 }  // namespace cardan::nrel5mw_campbell
