@@ -1,0 +1,15 @@
+/// @file
+/// What fragments in the documents may take as given: an HTML comment before the block names it,
+/// <!-- given: turbine, integrator -->
+#pragma once
+
+#include "solvers/recorder.hpp"
+#include "turbines/channels.hpp"
+#include "turbines/wt600.hpp"
+
+extern const cardan::turbines::Turbine turbine;
+extern std::vector<cardan::solvers::Drive> drives;
+extern cardan::solvers::IntegrationOptions options;
+extern cardan::solvers::Integrator integrator;
+extern cardan::solvers::Recorder recorder;
+extern cardan::solvers::History history;
