@@ -27,7 +27,8 @@ namespace {
 
 struct Arguments {
     double rotor_rpm = 27, max_frequency = 10;
-    int azimuths = 12, order = 16, harmonics = 8;
+    int azimuths = 12, order = 0, harmonics = 8;
+    double error = 5;
     bool gravity = false;
     program::GeneratorOption generator;
     std::string out = "wt600_linear_model", data;
@@ -40,8 +41,13 @@ int parse(int argc, char** argv, Arguments& a) {
         "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.");
     app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min")->capture_default_str();
     app.add_option("--azimuths", a.azimuths, "azimuths per revolution")->capture_default_str();
-    app.add_option("--order", a.order, "order of the balanced model")->capture_default_str();
-    app.add_option("--max-frequency", a.max_frequency, "modes up to this frequency are printed, Hz")
+    app.add_option("--error", a.error,
+                   "error of the balanced model, % of the largest response of every input and output up to the largest "
+                   "frequency; its order follows")
+        ->capture_default_str();
+    app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)")->capture_default_str();
+    app.add_option("--max-frequency", a.max_frequency,
+                   "modes are printed, and the balanced model is right, up to this frequency, Hz")
         ->capture_default_str();
     app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
     app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
@@ -147,22 +153,6 @@ Vector output_sizes(const solvers::ConstantModel& model) {
     return size;
 }
 
-// Of each input the largest response up to a frequency, in sizes of the outputs: of a model, or of the difference of
-// two.
-Vector largest_responses(const solvers::ConstantModel& model, const solvers::ConstantModel* less, double frequency) {
-    const Vector weight = output_sizes(model).cwiseInverse();
-    Vector largest = Vector::Zero(model.B.cols());
-    constexpr int steps = 400;
-    for (int i = 0; i <= steps; ++i) {
-        const Complex s(0, 2 * pi * 0.01 * std::pow(frequency / 0.01, static_cast<double>(i) / steps));
-        ComplexMatrix G = model.transfer(s);
-        if (less) G -= less->transfer(s);
-        const Matrix sizes = weight.asDiagonal() * G.cwiseAbs();
-        largest = largest.cwiseMax(sizes.colwise().maxCoeff().transpose());
-    }
-    return largest;
-}
-
 // Of inputs a tenth of what the machine has.
 double input_size(const solvers::Signal& input) {
     for (const auto& [name, size] :
@@ -175,6 +165,8 @@ double input_size(const solvers::Signal& input) {
 solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Arguments& a) {
     solvers::BalancedOptions options;
     options.order = a.order;
+    if (a.order == 0) options.error = a.error / 100;
+    options.max_frequency_hz = a.max_frequency;
     options.static_gain = solvers::StaticGain::kept;
     options.input_size.resize(fixed.B.cols());
     for (Eigen::Index i = 0; i < fixed.B.cols(); ++i)
@@ -183,19 +175,23 @@ solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Argum
     return solvers::balanced_truncation(fixed, options);
 }
 
-// A small model spends its states on the large responses: which inputs it serves is seen here.
+// Which inputs and outputs a small model serves is seen here.
 void print_errors(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency) {
-    const Vector largest = largest_responses(fixed, nullptr, max_frequency),
-                 error = largest_responses(fixed, &small, max_frequency);
-    std::printf("largest error up to %g Hz, of the largest response to the same input:\n", max_frequency);
-    for (Eigen::Index j = 0; j < error.size(); ++j)
-        std::printf("  %-34s %8.2f %%\n", fixed.inputs[static_cast<std::size_t>(j)].name.c_str(),
-                    100 * error(j) / largest(j));
+    const auto print = [](const std::vector<solvers::Signal>& signals, const Vector& error) {
+        for (std::size_t i = 0; i < signals.size(); ++i)
+            std::printf("  %-34s %8.2f %%\n", signals[i].name.c_str(), 100 * error(static_cast<Eigen::Index>(i)));
+    };
+    std::printf("largest error up to %g Hz, of the largest response to the same input (each output by its own size)\n",
+                max_frequency);
+    print(fixed.inputs, small.input_error);
+    std::printf("and of the largest response of the same output (each input by its own size)\n");
+    print(fixed.outputs, small.output_error);
 }
 
 int run(const Arguments& a) {
     if (!std::isfinite(a.rotor_rpm) || a.rotor_rpm < 0) throw InputError("--rpm", "value", a.rotor_rpm, ">= 0");
     require_positive("--max-frequency", "value [Hz]", a.max_frequency);
+    require_positive("--error", "value [%]", a.error);
     if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));

@@ -27,8 +27,15 @@ struct ModalOptions {
 ConstantModel modal_truncation(const ConstantModel& model, const ModalOptions& options);
 
 struct BalancedOptions {
-    int order = 0;                ///< of the stable part; 0: by `tolerance`
-    double tolerance = 1e-3;      ///< Hankel singular values below this times the largest are left out
+    int order = 0;            ///< of the stable part; 0: by `error` or `tolerance`
+    double tolerance = 1e-3;  ///< Hankel singular values below this times the largest are left out
+    /// Positive: the smallest order (found by bisection) at which no input and no output is further off than this, up
+    /// to `max_frequency_hz`: the largest |G - G_r| of the row or column, over the largest |G| of the same row or
+    /// column, G being the stable part. The sizes below are only where the scaling starts: it is balanced until every
+    /// input and every output has a largest response of one, so that none is left to be inaccurate. Modes above twice
+    /// (else four, eight times) the largest frequency go first, where that reaches the error; their static gain stays.
+    double error = 0;
+    double max_frequency_hz = 0;  ///< positive: errors are measured up to here, whatever says the order
     double stability_margin = 0;  ///< poles with real part above minus this are kept as they are, 1/s; 0: 1e-4
     /// Before balancing, units of inputs and outputs are put on a par by these factors (a size that matters of each,
     /// in its units); empty: ones. The error bound is of the model so scaled.
@@ -43,13 +50,15 @@ struct BalancedModel : ConstantModel {
     int order = 0;       ///< of the stable part, after reduction
     /// Largest singular value of G - G_r at any frequency (scaled): twice the sum of the Hankel values left out.
     double error_bound = 0;
+    /// With BalancedOptions::max_frequency_hz: what the error came out at, for every input and every output.
+    Vector input_error = {}, output_error = {};
 };
 
 /// Balanced truncation of the stable part by the square-root method.          [Moore 1981; Glover 1984; Laub et al.
 /// 1987; singular perturbation: Liu and Anderson 1989]
 /// States with Hankel values below 1e-10 of the largest are rounding and left out, also where `order` asks for them.
-/// @throws InputError for sizes, order or tolerance out of range, and for models as modal_truncation(); NumericalError
-/// if an iteration fails
+/// @throws InputError for sizes, order, tolerance, error or frequency out of range, and for models as
+/// modal_truncation(); NumericalError if an iteration fails or no order reaches the error
 BalancedModel balanced_truncation(const ConstantModel& model, const BalancedOptions& options = {});
 
 /// Solution of A X + X A^T + Q = 0 for stable A, by Schur's form of (A - sigma)^-1.   [after Bartels and Stewart 1972]

@@ -222,3 +222,89 @@ TEST_CASE("reduction: bad input is refused", "[property]") {
     check_refused([&] { (void)lyapunov(model.A, Matrix::Zero(1, 1)); }, {"sizes of A and Q"});
     CHECK_THROWS_AS(lyapunov(Matrix::Identity(2, 2), Matrix::Identity(2, 2)), NumericalError);
 }
+
+TEST_CASE("balanced truncation by error: no input and no output is further off than was asked, whatever its unit",
+          "[property]") {
+    for (unsigned seed : {3u, 4u}) {
+        ConstantModel model = flexible(seed, 9, 1, 3, 4, 3);  // 1 ... 1000 rad/s
+        // What is small in its unit would be lost beside the others.
+        model.B.col(1) *= 1e-5;
+        model.D.col(1) *= 1e-5;
+        model.C.row(2) *= 1e-4;
+        model.D.row(2) *= 1e-4;
+        constexpr double last = 60 / (2 * pi);  // Hz
+        int before = 0;
+        for (const double error : {0.3, 0.05, 0.001}) {
+            const BalancedModel reduced =
+                balanced_truncation(model, {.error = error, .max_frequency_hz = last, .static_gain = StaticGain::kept});
+            // Measured here on a grid of its own; the free motion is in both and cancels, so the scale is that of the
+            // model without it.
+            const ConstantModel rigid = modal_truncation(model, {.keep = {0.0}});
+            Matrix off = Matrix::Zero(4, 3), whole = off;
+            for (int i = 0; i <= 3000; ++i) {
+                const Complex s(0, 2 * pi * last * std::pow(1e-3, 1 - i / 3000.0));
+                const ComplexMatrix G = model.transfer(s);
+                off = off.cwiseMax((G - reduced.transfer(s)).cwiseAbs());
+                whole = whole.cwiseMax((G - rigid.transfer(s) + rigid.D).cwiseAbs());
+            }
+            const auto worst = [&](const Matrix& difference) {
+                // Inputs and outputs at sizes that give them a largest response of one.
+                Vector u = Vector::Ones(3), y = Vector::Ones(4);
+                for (int round = 0; round < 20; ++round) {
+                    y = (whole * u.asDiagonal()).rowwise().maxCoeff();
+                    u = (y.cwiseInverse().asDiagonal() * whole).colwise().maxCoeff().cwiseInverse();
+                }
+                const Matrix scaled = y.cwiseInverse().asDiagonal() * difference * u.asDiagonal(),
+                             all = y.cwiseInverse().asDiagonal() * whole * u.asDiagonal();
+                const Vector rows = scaled.rowwise().maxCoeff().cwiseQuotient(all.rowwise().maxCoeff());
+                const Vector columns =
+                    scaled.colwise().maxCoeff().transpose().cwiseQuotient(all.colwise().maxCoeff().transpose());
+                return std::max(rows.maxCoeff(), columns.maxCoeff());
+            };
+            CAPTURE(seed, error, reduced.order, worst(off));
+            CHECK(worst(off) < 1.02 * error);
+            CHECK(reduced.input_error.maxCoeff() <= error);
+            CHECK(reduced.output_error.maxCoeff() <= error);
+            CHECK(reduced.order > before);
+            before = reduced.order;
+            CHECK(reduced.order < 18);
+            const std::vector<Complex> poles = reduced.poles();
+            CHECK(std::all_of(poles.begin(), poles.end(), [](Complex p) { return p.real() < 1e-4; }));
+        }
+    }
+}
+
+TEST_CASE("balanced truncation by error: a response that is small in its unit is not what is left out", "[analytic]") {
+    // Two oscillators, each with an input and an output of its own, G_ii = gain / (s^2 + 2 zeta omega s + omega^2).
+    ConstantModel model;
+    model.A = Matrix::Zero(4, 4);
+    model.B = Matrix::Zero(4, 2);
+    model.C = Matrix::Zero(2, 4);
+    model.D = Matrix::Zero(2, 2);
+    const double omega[2] = {2, 3}, gain[2] = {1, 1e-6}, zeta = 0.02;
+    for (int i = 0; i < 2; ++i) {
+        const Eigen::Index k = 2 * i;
+        model.A.block<2, 2>(k, k) << 0, 1, -omega[i] * omega[i], -2 * zeta * omega[i];
+        model.B(k + 1, i) = 1;
+        model.C(i, k) = gain[i];
+        model.inputs.push_back({text("u", i), "1"});
+        model.outputs.push_back({text("y", i), "1"});
+    }
+    const BalancedModel by_size = balanced_truncation(model, {.tolerance = 1e-3, .max_frequency_hz = 1}),
+                        by_error = balanced_truncation(model, {.error = 0.05, .max_frequency_hz = 1});
+    CHECK(by_size.order == 2);
+    CHECK(by_size.output_error(0) < 1e-10);
+    CHECK(by_size.output_error(1) == Approx(1).epsilon(1e-10));  // nothing is left of it
+    CHECK(by_error.order == 4);
+    const Complex s(0, 3), G = gain[1] / (s * s + 2 * zeta * omega[1] * s + omega[1] * omega[1]);
+    CHECK(std::abs(by_error.transfer(s)(1, 1) - G) < 1e-9 * std::abs(G));
+}
+
+TEST_CASE("balanced truncation by error: what cannot be asked is refused", "[property]") {
+    const ConstantModel model = flexible(3, 4, 0, 1, 1, 2);
+    check_refused([&] { balanced_truncation(model, {.error = 0.1}); }, {"largest frequency [Hz] = 0"});
+    check_refused([&] { balanced_truncation(model, {.error = -1, .max_frequency_hz = 1}); }, {"error = -1"});
+    check_refused([&] { balanced_truncation(model, {.error = std::nan(""), .max_frequency_hz = 1}); }, {"error = nan"});
+    check_refused([&] { balanced_truncation(model, {.order = 3, .error = 0.1, .max_frequency_hz = 1}); }, {"order"});
+    CHECK_THROWS_AS(balanced_truncation(model, {.error = 1e-30, .max_frequency_hz = 1}), NumericalError);
+}
