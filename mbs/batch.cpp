@@ -53,13 +53,6 @@ private:
     std::atomic<bool>& flag_;
 };
 
-void require_size(std::string_view where, std::string_view quantity, MatrixIn matrix, Eigen::Index rows,
-                  Eigen::Index columns) {
-    if (matrix.rows() != rows || matrix.cols() != columns)
-        throw InputError(where, text("size of ", quantity), text(matrix.rows(), " x ", matrix.cols()),
-                         text(rows, " x ", columns));
-}
-
 }  // namespace
 
 struct Batch::Impl {
@@ -107,6 +100,7 @@ void Batch::for_each(int count, const Call& call) {
 
 bool Batch::for_each(int count, const Call& call, const std::stop_token& stop) {
     if (count < 0) throw InputError("batch", "number of states", count, ">= 0");
+    if (!call) throw InputError("batch: the function to be called for every state is empty");
     Impl& impl = *impl_;
     const InUse in_use(impl.in_use);
     Failure failure;

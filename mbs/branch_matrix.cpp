@@ -1,8 +1,7 @@
 #include "mbs/branch_matrix.hpp"
 
+#include "mbs/error.hpp"
 #include "mbs/path_twists.hpp"
-
-#include <cassert>
 
 namespace cardan {
 
@@ -13,24 +12,33 @@ BranchMatrixT<S>::BranchMatrixT(const Model& model) : model_(&model) {
         offset_.push_back(blocks);
         blocks += static_cast<std::size_t>(PathTwists<S>::blocks(link.depth));
     }
-    rows_.assign(blocks, Packed3<S>::zero());
-    columns_.assign(blocks, Packed3<S>::zero());
+    with_memory(
+        [&] {
+            return text("a matrix on the branches of ", model.size(), " bodies (",
+                        2e-9 * static_cast<double>(blocks * sizeof(Packed3<S>)), " GB)");
+        },
+        [&] {
+            rows_.assign(blocks, Packed3<S>::zero());
+            columns_.assign(blocks, Packed3<S>::zero());
+        });
 }
 
 template <class S>
 std::span<const S> BranchMatrixT<S>::row(int m) const {
-    return {numbers(rows_.data() + offset_[static_cast<std::size_t>(m)]),
-            static_cast<std::size_t>(model_->body(m).depth)};
+    const auto depth = static_cast<std::size_t>(model_->body(m).depth);
+    return {numbers(rows_.data() + offset_[static_cast<std::size_t>(m)]), depth};
 }
 
 template <class S>
 std::span<const S> BranchMatrixT<S>::column(int m) const {
-    return {numbers(columns_.data() + offset_[static_cast<std::size_t>(m)]),
-            static_cast<std::size_t>(model_->body(m).depth - 1)};
+    const auto depth = static_cast<std::size_t>(model_->body(m).depth);
+    return {numbers(columns_.data() + offset_[static_cast<std::size_t>(m)]), depth - 1};
 }
 
 template <class S>
 S BranchMatrixT<S>::operator()(int a, int b) const {
+    require_index("branch matrix", "row", a, size());
+    require_index("branch matrix", "column", b, size());
     if (model_->precedes(b, a)) return row(a)[static_cast<std::size_t>(model_->body(b).depth - 1)];
     if (model_->precedes(a, b)) return column(b)[static_cast<std::size_t>(model_->body(a).depth - 1)];
     return S(0);
@@ -38,8 +46,10 @@ S BranchMatrixT<S>::operator()(int a, int b) const {
 
 template <class S>
 void BranchMatrixT<S>::add(int a, int b, const S& value) {
+    require_index("branch matrix", "row", a, size());
     const bool left = model_->precedes(b, a);
-    assert(left || model_->precedes(a, b));
+    if (!left && !model_->precedes(a, b))
+        throw InputError("branch matrix", "entry", text("(", a, ", ", b, ")"), "both indices on one path");
     const int position = model_->body(left ? b : a).depth - 1;
     const std::size_t first = offset_[static_cast<std::size_t>(left ? a : b)];
     (left ? rows_ : columns_)[first + static_cast<std::size_t>(position / 4)].lanes[position % 4] += value;
@@ -48,12 +58,15 @@ void BranchMatrixT<S>::add(int a, int b, const S& value) {
 template <class S>
 void BranchMatrixT<S>::write(Eigen::Ref<MatrixT<S>> A) const {
     const int n = size();
+    require_size("branch matrix", "A", A, n, n);
     for (int m = 0; m < n; ++m)
         write_branch(model_->links().data(), n, m, row(m).data(), column(m).data(), A.data(), A.outerStride());
 }
 
 template <class S>
 void BranchMatrixT<S>::multiply(const Eigen::Ref<const VectorT<S>>& x, Eigen::Ref<VectorT<S>> y) const {
+    require_size("branch matrix", "x", x, size());
+    require_size("branch matrix", "y", y, size());
     y.setZero();
     for (int m = 0; m < size(); ++m) {
         const std::span<const S> left = row(m), above = column(m);

@@ -14,13 +14,16 @@ class Model;
 /// An n x n matrix A_ab that is zero unless a and b lie on one path from the base, as the metric, its derivatives and
 /// those of the recursions are. Stored by branches: for every coordinate m its row left of the diagonal, diagonal
 /// included, and its column above it. Memory and the cost of filling it grow like n d, d the depth of the tree.
+/// Functions throw InputError for indices that there are not and for arguments of another size.
 template <class S>
 class BranchMatrixT {
 public:
+    /// @throws MemoryError
     explicit BranchMatrixT(const Model& model);
     explicit BranchMatrixT(Model&&) = delete;  // the model must live longer
 
     int size() const { return static_cast<int>(offset_.size()); }
+    const Model& model() const { return *model_; }
     /// A_ab, any indices.
     S operator()(int a, int b) const;
     /// A_ma for a on the path from the base to m, m itself last: entry depth(a) - 1.

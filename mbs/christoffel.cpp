@@ -1,6 +1,7 @@
 #include "mbs/christoffel.hpp"
 
 #include "mbs/composites.hpp"
+#include "mbs/error.hpp"
 #include "mbs/path_twists.hpp"
 
 #include <algorithm>
@@ -8,17 +9,25 @@
 namespace cardan {
 
 Christoffel::Christoffel(const Model& model) : model_(&model) {
-    std::size_t values = 0;
+    std::size_t values = 0, on_paths = 0;
     for (int m = 0; m < model.size(); ++m) {
         const std::size_t d = static_cast<std::size_t>(model.body(m).depth);
         value_offset_.push_back(values);
-        path_offset_.push_back(paths_.size());
+        path_offset_.push_back(on_paths);
         values += d * stride(m) / 4;
+        on_paths += d;
         stored_ += d * d;
-        for (int a = m; a >= 0; a = model.body(a).parent) paths_.push_back(a);
-        std::reverse(paths_.end() - static_cast<std::ptrdiff_t>(d), paths_.end());
     }
-    values_.assign(values, Packed3<double>::zero());
+    const auto what = [&] { return text("the Christoffel symbols of ", model.size(), " bodies (", stored_, ")"); };
+    with_memory(what, [&] {
+        values_.assign(values, Packed3<double>::zero());
+        paths_.resize(on_paths);
+    });
+    for (int m = 0; m < model.size(); ++m) {
+        auto entry = paths_.begin() + static_cast<std::ptrdiff_t>(path_offset_[static_cast<std::size_t>(m)]);
+        entry += model.body(m).depth;
+        for (int a = m; a >= 0; a = model.body(a).parent) *--entry = a;
+    }
 }
 
 std::span<const double> Christoffel::table(int m) const {
@@ -31,11 +40,13 @@ std::size_t Christoffel::stride(int m) const {
 }
 
 std::span<const int> Christoffel::path(int m) const {
-    return {paths_.data() + path_offset_[static_cast<std::size_t>(m)], static_cast<std::size_t>(model_->body(m).depth)};
+    const auto depth = static_cast<std::size_t>(model_->body(m).depth);
+    return {paths_.data() + path_offset_[static_cast<std::size_t>(m)], depth};
 }
 
 double Christoffel::operator()(int a, int b, int c) const {
     if (b > c) std::swap(b, c);
+    for (const int index : {a, b, c}) require_index("Christoffel symbols", "index", index, model_->size());
     const int m = std::max(a, c);
     if (!model_->precedes(a, m) || !model_->precedes(b, m) || !model_->precedes(c, m)) return 0;
     const auto at = [&](int row, int column) {
@@ -121,7 +132,7 @@ CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Fr
 }  // namespace
 
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
-    assert(&kin.model() == gamma.model_);
+    require_model("Christoffel symbols", "table", gamma.model().serial(), kin.model().serial());
     composites(kin);
     Workspace& ws = kin.workspace();
     const Model& model = kin.model();

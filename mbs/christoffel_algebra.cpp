@@ -1,10 +1,14 @@
 // Contractions of the Christoffel symbols.
 #include "mbs/christoffel.hpp"
 #include "mbs/metric.hpp"
+#include "mbs/path_twists.hpp"
 
 namespace cardan {
 
 void Christoffel::fill_contraction(VectorIn x, VectorIn y, VectorOut& h) const {
+    require_size("Christoffel symbols", "x", x, model_->size());
+    require_size("Christoffel symbols", "y", y, model_->size());
+    require_size("Christoffel symbols", "h", h, model_->size());
     h.setZero();
     for (int m = 0; m < model_->size(); ++m) {
         const std::span<const int> on_path = path(m);
@@ -31,6 +35,8 @@ void Christoffel::fill_contraction(VectorIn x, VectorIn y, VectorOut& h) const {
 }
 
 void Christoffel::fill_along(VectorIn x, MatrixOut& X) const {
+    require_size("Christoffel symbols", "x", x, model_->size());
+    require_size("Christoffel symbols", "X", X, model_->size(), model_->size());
     X.setZero();
     for (int m = 0; m < model_->size(); ++m) {
         const std::span<const int> on_path = path(m);
@@ -66,7 +72,7 @@ struct Distal {
         : M(kin.workspace().composite[static_cast<std::size_t>(m)].M),
           C(kin.workspace().composite[static_cast<std::size_t>(m)].C.vector()),
           P(kin.workspace().composite[static_cast<std::size_t>(m)].P.matrix()),
-          own(twist_at(kin, m, C)) {}
+          own(own_twist_at(kin, m, C)) {}
 
     // For a row b: K_m(a, b) = v_a . f + w_a . t.
     PointTwist<S> column(const PointTwist<S>& b) const { return {cross<S>(P * b.w, own.w), M * cross<S>(b.w, own.v)}; }
@@ -88,21 +94,23 @@ S product(const PointTwist<S>& a, const PointTwist<S>& wrench) {
 
 template <class S>
 void christoffel_along(const KinematicsT<S>& kin, int s, MatrixOutT<S> X) {
-    composites(kin);
     const Model& model = kin.model();
+    require_index("Christoffel symbols", "coordinate", s, model.size());
+    require_size("Christoffel symbols", "X", X, model.size(), model.size());
+    composites(kin);
     X.setZero();
     const Distal<S> at_s(kin, s);
-    for (int b = s; b >= 0; b = model.body(b).parent) {  // Gamma_abs = K_s(a, b), zero for a = s
-        const PointTwist<S> column = at_s.column(twist_at(kin, b, at_s.C));
-        for (int a = model.body(s).parent; a >= 0; a = model.body(a).parent)
-            X(a, b) = product(twist_at(kin, a, at_s.C), column);
+    for (int b = s; b >= 0; b = own_parent(model, b)) {  // Gamma_abs = K_s(a, b), zero for a = s
+        const PointTwist<S> column = at_s.column(own_twist_at(kin, b, at_s.C));
+        for (int a = own_parent(model, s); a >= 0; a = own_parent(model, a))
+            X(a, b) = product(own_twist_at(kin, a, at_s.C), column);
     }
     for (int m = s + 1; m < model.body(s).subtree_end; ++m) {
         const Distal<S> at_m(kin, m);
-        const PointTwist<S> spin = twist_at(kin, s, at_m.C), column = at_m.column(spin);
+        const PointTwist<S> spin = own_twist_at(kin, s, at_m.C), column = at_m.column(spin);
         const Vec3T<S> row = at_m.row(spin);
-        for (int a = model.body(m).parent; a >= 0; a = model.body(a).parent) {
-            const PointTwist<S> t = twist_at(kin, a, at_m.C);
+        for (int a = own_parent(model, m); a >= 0; a = own_parent(model, a)) {
+            const PointTwist<S> t = own_twist_at(kin, a, at_m.C);
             const S K_as = product(t, column);
             X(a, m) = K_as;                                      // Gamma_ams = K_m(a, s)
             X(m, a) = a <= s ? S(-dot<S>(t.w, row)) : S(-K_as);  // Gamma_mas = -K_m(s, a) or -K_m(a, s)

@@ -2,6 +2,7 @@
 /// The table that says what every coordinate means. It travels with every result.
 #pragma once
 
+#include "mbs/sizes.hpp"
 #include "mbs/types.hpp"
 
 #include <cstdint>
@@ -28,7 +29,11 @@ public:
     explicit CoordinateTable(std::vector<CoordinateInfo> rows) : rows_(std::move(rows)) {}
 
     int size() const { return static_cast<int>(rows_.size()); }
-    const CoordinateInfo& operator[](int index) const { return rows_[static_cast<std::size_t>(index)]; }
+    /// @throws InputError for an index that there is not
+    const CoordinateInfo& operator[](int index) const {
+        require_index("table of coordinates", "index", index, size());
+        return rows_[static_cast<std::size_t>(index)];
+    }
     auto begin() const { return rows_.begin(); }
     auto end() const { return rows_.end(); }
 

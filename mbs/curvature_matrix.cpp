@@ -106,6 +106,7 @@ void Curvature::fill_row(int m, const VelocityField& velocity, MatrixOut R) {
 }
 
 void Curvature::matrix(VectorIn qd, MatrixOut R) {
+    require_size("curvature", "R", R, model_->size(), model_->size());
     load(qd, x_);
     normal(x_, x_, first_);
     gather_composites(x_.field, first_);

@@ -211,9 +211,12 @@ void run(const Arguments<Complex>& x, const Sink& by_q, const Sink& by_qd) {
     differentiate(x, by_q, by_qd);
 }
 
+constexpr const char* place = "derivatives of the inverse dynamics";
+
 template <class S>
 Arguments<S> arguments(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd) {
-    assert(qd.size() == kin.model().size() && qdd.size() == kin.model().size());
+    require_size(place, "qd", qd, kin.model().size());
+    require_size(place, "qdd", qdd, kin.model().size());
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     return {kin.model().size(), kin.model().links().data(),
@@ -230,7 +233,8 @@ template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
                                   MatrixOutT<S> dtau_dqd) {
     const Arguments<S> x = arguments<S>(kin, qd, qdd);
-    assert(dtau_dq.rows() == x.n && dtau_dq.cols() == x.n && dtau_dqd.rows() == x.n && dtau_dqd.cols() == x.n);
+    require_size(place, "dtau_dq", dtau_dq, x.n, x.n);
+    require_size(place, "dtau_dqd", dtau_dqd, x.n, x.n);
     const auto sink = [&](MatrixOutT<S>& A, int row) {
         return DenseSink<S>{x.links, x.n, A.data(), A.outerStride(), x.path.row(row), x.path.row(row + 1)};
     };
@@ -240,7 +244,8 @@ void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, Ve
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd,
                                   BranchMatrixT<S>& dtau_dq, BranchMatrixT<S>& dtau_dqd) {
-    assert(dtau_dq.size() == kin.model().size() && dtau_dqd.size() == kin.model().size());
+    require_model(place, "matrix dtau_dq", dtau_dq.model().serial(), kin.model().serial());
+    require_model(place, "matrix dtau_dqd", dtau_dqd.model().serial(), kin.model().serial());
     const auto sink = [](BranchMatrixT<S>& A) { return BranchSink<S>{A.rows(), A.columns(), A.offset()}; };
     run(arguments<S>(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
 }

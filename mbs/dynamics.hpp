@@ -13,6 +13,7 @@ namespace cardan {
 /// @param qd, qdd  joint rates and accelerations, size n
 /// @param tau      out, size n, N m or N; overwritten; must not alias the inputs
 /// Cost O(n), no allocation. Never singular.
+/// @throws InputError for vectors of another size, as all functions here do
 template <class S>
 void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, VectorOutT<S> tau);
 
@@ -37,9 +38,22 @@ public:
     /// @param qdd  in: accelerations of driven coordinates; out: of all coordinates
     /// @param actuator  out, size n: force that the drive adds to Q on each driven coordinate, zero on free ones
     /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.
+    /// @throws InputError for kinematics of another model and vectors of another size
     void solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator);
 
-    bool is_driven(int a) const { return driven_[static_cast<std::size_t>(a)] != 0; }
+    /// A free coordinate that has no inertia of its own: the recursion divides by the pivots of the metric of the free
+    /// coordinates, eliminated from the tips to the base. Named is the most distal of the coordinates that move in the
+    /// motion without inertia.
+    /// @return nullopt if every pivot exceeds 1e-12 of its scale, the sum of what was added up and cancelled in it: a
+    /// slender body that turns about its own axis, and two joints that do the same, leave nothing but rounding, which
+    /// is seen to be small only beside these. After a pivot the object must not solve at this q. Cost O(n) and, with
+    /// armatures over several coordinates, the cube of their number; allocates.
+    std::optional<SingularPivot> singular_pivot(const Kinematics& kin);
+
+    bool is_driven(int a) const {
+        require_index("forward dynamics", "coordinate", a, static_cast<std::ptrdiff_t>(driven_.size()));
+        return driven_[static_cast<std::size_t>(a)] != 0;
+    }
 
 private:
     /// Articulated inertia about the joint origin, base axes, [A C^T; C M] for [angular; linear]: a subtree whose free
@@ -69,6 +83,8 @@ private:
     static void forward_on_path(const Arrays& arrays, std::ptrdiff_t loads);
     void find_support(bool coupled);
     void find_path();
+    int most_distal(const Kinematics& kin, int at, double scale) const;
+    std::optional<SingularPivot> singular_pivot_of_support() const;
     void couple(const Arrays& arrays);
 
     const Model* model_;

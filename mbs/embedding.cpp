@@ -11,6 +11,18 @@ Vec3 axial(const Mat3& B) {
     return {B(1, 2) - B(2, 1), B(2, 0) - B(0, 2), B(0, 1) - B(1, 0)};
 }
 
+constexpr const char* place = "embedding";
+
+void require_field(const char* what, const VelocityField& field, std::size_t n) {
+    require_count(place, what, field.w.size(), n);
+    require_count(place, what, field.v.size(), n);
+}
+void require_field(const char* what, const AccelerationField& field, std::size_t n) {
+    require_count(place, what, field.a.size(), n);
+    require_count(place, what, field.A.size(), n);
+    require_size(place, what, field.beta, static_cast<Eigen::Index>(n));
+}
+
 }  // namespace
 
 Embedding::Embedding(const Model& model) : model_(&model) {
@@ -28,7 +40,7 @@ AccelerationField Embedding::acceleration_field() const {
 }
 
 void Embedding::update(const Kinematics& kin) {
-    assert(&kin.model() == model_);
+    require_model(place, "kinematics", kin.model().serial(), model_->serial());
     body_inertias(kin);
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -40,6 +52,8 @@ void Embedding::update(const Kinematics& kin) {
 }
 
 void Embedding::first(VectorIn x, VelocityField& out) const {
+    require_size(place, "x", x, model_->size());
+    require_field("velocity field", out, binet_.size());
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
         const Model::Body& body = model_->body(k);
@@ -58,6 +72,12 @@ void Embedding::first(VectorIn x, VelocityField& out) const {
 // alpha = d_y w^x in w^x x s, whose derivative along y is alpha x s + w^x x (w^y x s): A = alpha^ + w^x^ w^y^.
 void Embedding::second(VectorIn x, const VelocityField& dx, VectorIn y, const VelocityField& dy, VectorIn beta,
                        AccelerationField& out) {
+    require_size(place, "x", x, model_->size());
+    require_size(place, "y", y, model_->size());
+    require_size(place, "beta", beta, model_->size());
+    require_field("velocity field dx", dx, binet_.size());
+    require_field("velocity field dy", dy, binet_.size());
+    require_field("acceleration field", out, binet_.size());
     out.beta = beta;
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -81,6 +101,8 @@ void Embedding::second(VectorIn x, const VelocityField& dx, VectorIn y, const Ve
 }
 
 double Embedding::inner(const AccelerationField& F, const AccelerationField& G) const {
+    require_field("acceleration field F", F, binet_.size());
+    require_field("acceleration field G", G, binet_.size());
     double sum = 0;
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -102,6 +124,7 @@ double Embedding::inner(const AccelerationField& F, const AccelerationField& G) 
 
 // F = int rho F dV and N = int rho (x - o) x F dV of every body by itself.
 void Embedding::loads(const AccelerationField& field) {
+    require_field("acceleration field", field, binet_.size());
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
         const Vec3 c = places_.r[i] - places_.o[i];
@@ -111,6 +134,7 @@ void Embedding::loads(const AccelerationField& field) {
 }
 
 void Embedding::pull(const AccelerationField& field, VectorOut out) {
+    require_size(place, "out", out, model_->size());
     loads(field);
     for (int k = model_->size() - 1; k >= 0; --k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -126,6 +150,8 @@ void Embedding::pull(const AccelerationField& field, VectorOut out) {
 // r_a changes along z by e' x (x - o_a) + e x (v - v_o) or, prismatic, by e', with e' = w^z x e. X is the sum of
 // int rho (v - v_o) x F dV.
 void Embedding::pull_second(const VelocityField& dz, const AccelerationField& field, VectorOut out) {
+    require_field("velocity field dz", dz, binet_.size());
+    require_size(place, "out", out, model_->size());
     loads(field);
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);

@@ -56,7 +56,10 @@ public:
 
     const Model& model() const { return *model_; }
     /// Binet's tensor of body k about its centre of mass, base axes.
-    const Mat3& binet(int k) const { return binet_[static_cast<std::size_t>(k)]; }
+    const Mat3& binet(int k) const {
+        require_index("embedding", "body", k, static_cast<std::ptrdiff_t>(binet_.size()));
+        return binet_[static_cast<std::size_t>(k)];
+    }
     const Places& places() const { return places_; }
 
 private:

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <locale>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace cardan {
 
@@ -59,6 +61,31 @@ class FileError : public Error {
 public:
     FileError(std::string_view path, std::string_view message) : Error(text(path, ": ", message)) {}
 };
+
+/// Less memory than was asked for; the message says for what.
+class MemoryError : public Error {
+public:
+    using Error::Error;
+};
+
+/// Calls `make`; where memory runs out in it, a MemoryError names what it was for.
+/// @param what  "the matrix of ..."; a function without arguments, so that nothing is worded in vain, or a text
+template <class What, class Make>
+decltype(auto) with_memory(const What& what, Make&& make) {
+    const auto refuse = [&]() -> std::string {
+        if constexpr (std::is_invocable_v<const What&>)
+            return text("not enough memory for ", what());
+        else
+            return text("not enough memory for ", what);
+    };
+    try {
+        return make();
+    } catch (const std::bad_alloc&) {
+        throw MemoryError(refuse());
+    } catch (const std::length_error&) {  // more than the address space
+        throw MemoryError(refuse());
+    }
+}
 
 /// A computation that has no result: not converged, no constant steady state, singular pencil.
 class NumericalError : public Error {

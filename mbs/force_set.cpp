@@ -8,10 +8,13 @@ namespace cardan {
 
 namespace {
 
+constexpr double most = 1e100;  // squares and products stay numbers
+
 void require_semidefinite(const Matrix& A, std::size_t n, const std::string& where, std::string_view quantity) {
     if (A.rows() != static_cast<Eigen::Index>(n) || A.cols() != A.rows())
         throw InputError(where, text(quantity, " size"), text(A.rows(), " x ", A.cols()), text(n, " x ", n));
     if (!A.allFinite()) throw InputError(where, quantity, A, "finite");
+    if (!(A.cwiseAbs().maxCoeff() <= most)) throw InputError(where, quantity, A, "magnitudes up to 1e100");
     if ((A - A.transpose()).norm() > 1e-9 * A.norm()) throw InputError(where, quantity, A, "symmetric");
     // Scaled to unit diagonal first: entries of rotations and translations differ by many decades.
     Matrix unit = A;
@@ -50,6 +53,10 @@ void ForceSet::add_wrench(FrameLoad load) {
     if (!load.wrench.force.allFinite() || !load.wrench.moment.allFinite())
         throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
                          text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()), "finite");
+    if (!(load.wrench.force.cwiseAbs().maxCoeff() <= most && load.wrench.moment.cwiseAbs().maxCoeff() <= most))
+        throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
+                         text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()),
+                         "magnitudes up to 1e100");
     loads_.push_back(std::move(load));
 }
 
@@ -63,7 +70,8 @@ void ForceSet::set_gravity(const Vec3& g) {
     gravity_ = g;
 }
 
-Forces::Forces(const ForceSet& set, const Model& model) : loads_(set.loads()), gravity_(set.gravity()) {
+Forces::Forces(const ForceSet& set, const Model& model)
+    : loads_(set.loads()), gravity_(set.gravity()), model_(model.serial()), size_(model.size()) {
     for (const UserForce& force : set.users()) users_.push_back({force});
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
@@ -79,7 +87,22 @@ Forces::Forces(const ForceSet& set, const Model& model) : loads_(set.loads()), g
             throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
 }
 
+std::string Forces::stiffest_law(int coordinate) const {
+    require_index("forces", "coordinate", coordinate, size_);
+    std::string name;
+    double stiffest = 0;
+    for (const Law& law : laws_)
+        for (std::size_t i = 0; i < law.at.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            if (law.at[i] != coordinate || !(law.K(row, row) > stiffest)) continue;
+            stiffest = law.K(row, row);
+            name = law.name;
+        }
+    return name;
+}
+
 Forces Forces::with_gravity(const Vec3& g) const {
+    if (!g.allFinite()) throw InputError("gravity", "vector [m/s^2]", g.transpose(), "finite");
     Forces other = *this;
     other.gravity_ = g;
     return other;

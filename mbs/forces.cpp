@@ -1,6 +1,7 @@
 #include "mbs/forces.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/path_twists.hpp"
 
 #include <utility>
 
@@ -51,6 +52,13 @@ void difference(const UserForce& user, const ForceInput& at, MatrixOut by_q, Mat
 }  // namespace
 
 template <class S>
+void Forces::require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const {
+    require_model("forces", "kinematics", kin.model().serial(), model_);
+    require_size("forces", "q", q, size_);
+    require_size("forces", "qd", qd, size_);
+}
+
+template <class S>
 void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
     const auto n = static_cast<Eigen::Index>(law.at.size());
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -68,7 +76,7 @@ void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
     const Vec3T<S> g = gravity_.template cast<S>();
     for (int a = 0; a < kin.model().size(); ++a) {
         const auto& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
-        Q(a) += subtree.M * dot<S>(g, twist_at(kin, a, subtree.C.vector()).v);
+        Q(a) += subtree.M * dot<S>(g, own_twist_at(kin, a, subtree.C.vector()).v);
     }
 }
 
@@ -80,8 +88,8 @@ void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, Vector
         force = at.R * force;
         moment = at.R * moment;
     }
-    for (int a = kin.model().frame(load.frame).body; a >= 0; a = kin.model().body(a).parent) {
-        const PointTwist<S> t = twist_at(kin, a, at.p);
+    for (int a = kin.model().frame(load.frame).body; a >= 0; a = own_parent(kin.model(), a)) {
+        const PointTwist<S> t = own_twist_at(kin, a, at.p);
         Q(a) += dot<S>(force, t.v) + dot<S>(moment, t.w);
     }
 }
@@ -89,6 +97,8 @@ void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, Vector
 template <class S>
 void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
                                             VectorOutT<S> Q) const {
+    require_state<S>(kin, q, qd);
+    require_size("forces", "Q", Q, size_);
     Q.setZero();
     for (const Law& law : laws_) add_law<S>(law, q, qd, Q);
     if (has_gravity()) add_gravity<S>(kin, Q);
@@ -118,9 +128,9 @@ void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
     composites(kin);
     for (int a = 0; a < kin.model().size(); ++a) {
         const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
-        const Vec3 C = subtree.C.vector(), lift = twist_at(kin, a, C).v;
-        for (int b = a; b >= 0; b = kin.model().body(b).parent) {
-            const Vec3 w = twist_at(kin, b, C).w;
+        const Vec3 C = subtree.C.vector(), lift = own_twist_at(kin, a, C).v;
+        for (int b = a; b >= 0; b = own_parent(kin.model(), b)) {
+            const Vec3 w = own_twist_at(kin, b, C).w;
             const double dQ = subtree.M * gravity_.dot(cross<double>(w, lift));
             K(a, b) -= dQ;
             if (b != a) K(b, a) -= dQ;
@@ -140,9 +150,9 @@ void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matr
     const auto [force, moment] = at_frame(load, kin);
     const Model& model = kin.model();
     const int tip = model.frame(load.frame).body;
-    for (int a = tip; a >= 0; a = model.body(a).parent)
-        for (int b = tip; b >= 0; b = model.body(b).parent) {
-            const PointTwist<double> ta = twist_at(kin, a, at.p), tb = twist_at(kin, b, at.p);
+    for (int a = tip; a >= 0; a = own_parent(model, a))
+        for (int b = tip; b >= 0; b = own_parent(model, b)) {
+            const PointTwist<double> ta = own_twist_at(kin, a, at.p), tb = own_twist_at(kin, b, at.p);
             const bool b_proximal = b <= a;
             double dQ = force.dot(b_proximal ? cross<double>(tb.w, ta.v) : cross<double>(ta.w, tb.v));
             if (b_proximal) dQ += moment.dot(cross<double>(tb.w, ta.w));
@@ -176,6 +186,7 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
 
 void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                          ForceDerivatives& out) const {
+    require_state<double>(kin, q, qd);
     const Eigen::Index n = q.size();
     for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
     for (const Law& law : laws_)
@@ -191,6 +202,7 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
 }
 
 double Forces::dissipation(const Vector& qd) const {
+    require_size("dissipation", "qd", qd, size_);
     double power = 0;
     for (const Law& law : laws_)
         for (Eigen::Index j = 0; j < law.D.cols(); ++j)
@@ -208,6 +220,7 @@ double Forces::gravity_energy(const Kinematics& kin) const {
 }
 
 std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    require_state<double>(kin, q, qd);
     std::vector<ForceReport> reports;
     Vector Q = Vector::Zero(q.size());
     const auto power = [&] {

@@ -92,9 +92,11 @@ struct ForceDerivatives {
     Matrix damping;  ///< -dQ/dqd of all
 };
 
-/// A force set bound to a model: indices resolved, ready to evaluate.
+/// A force set bound to a model: indices resolved, ready to evaluate. All functions throw InputError for kinematics of
+/// another model and for vectors of another size.
 class Forces {
 public:
+    /// @throws InputError for bodies and frames that the model does not have
     Forces(const ForceSet& set, const Model& model);
 
     /// Q_a of all elements.
@@ -119,10 +121,14 @@ public:
     /// A load as it acts now: force and moment at the frame's origin, base axes.
     Wrench at_frame(const FrameLoad& load, const Kinematics& kin) const;
     const Vec3& gravity() const { return gravity_; }
+    /// Model::serial() of the model that it is bound to.
+    std::uint64_t model_serial() const { return model_; }
     bool has_gravity() const { return !gravity_.isZero(0); }
+    /// Name of the linear law that is stiffest on a coordinate; empty: there is none.
+    std::string stiffest_law(int coordinate) const;
     /// Power that the dampers of the linear laws take away, qd^T D qd, W.  Cost O(n), no allocation.
     double dissipation(const Vector& qd) const;
-    /// The same forces under another gravity.
+    /// The same forces under another gravity.  @throws InputError if it is not finite
     Forces with_gravity(const Vec3& g) const;
     /// The same forces with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian
     /// and energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
@@ -151,11 +157,15 @@ private:
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
+    template <class S>
+    void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;
 
     std::vector<Law> laws_;
     std::vector<FrameLoad> loads_;
     std::vector<User> users_;
     Vec3 gravity_;
+    std::uint64_t model_;  ///< Model::serial()
+    int size_;             ///< number of coordinates
 };
 
 }  // namespace cardan

@@ -277,10 +277,14 @@ void ForwardDynamics::couple(const Arrays& arrays) {
 }
 
 void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator) {
+    // (The size of qd is looked at by the inverse dynamics.)
     // What the motion needs without the accelerations of the free coordinates; the rest they produce from rest.
     Workspace& ws = kin.workspace();
     const Eigen::Index n = model_->size();
-    assert(&kin.model() == model_ && Q.size() == n && qdd.size() == n && actuator.size() == n);
+    require_model("forward dynamics", "kinematics", kin.model().serial(), model_->serial());
+    require_size("forward dynamics", "Q", Q, n);
+    require_size("forward dynamics", "qdd", qdd, n);
+    require_size("forward dynamics", "actuator", actuator, n);
     for (Eigen::Index k = 0; k < n; ++k)
         if (!driven_[static_cast<std::size_t>(k)]) qdd(k) = 0;
     inverse_dynamics<double>(kin, qd, qdd, residual_);

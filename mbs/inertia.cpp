@@ -26,6 +26,13 @@ void RigidInertia::check(std::string_view where) const {
     require_not_negative(where, "mass [kg]", mass);
     if (!com.allFinite()) throw InputError(where, "centre of mass [m]", com.transpose(), "finite");
     if (!J.allFinite()) throw InputError(where, "inertia tensor [kg m^2]", J, "finite");
+    if (mass != 0 && !(mass >= 1e-60 && mass <= 1e60))
+        throw InputError(where, "mass [kg]", mass, "0, or 1e-60 ... 1e60");
+    if (!(com.cwiseAbs().maxCoeff() <= 1e30))
+        throw InputError(where, "centre of mass [m]", com.transpose(), "within 1e30 of the origin");
+    const double largest = J.cwiseAbs().maxCoeff();
+    if (largest != 0 && !(largest >= 1e-100 && largest <= 1e100))
+        throw InputError(where, "largest entry of the inertia tensor [kg m^2]", largest, "0, or 1e-100 ... 1e100");
     const double size = J.norm();
     if ((J - J.transpose()).norm() > 1e-12 * size) throw InputError(where, "inertia tensor [kg m^2]", J, "symmetric");
     const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();

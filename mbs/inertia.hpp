@@ -22,7 +22,9 @@ struct RigidInertia {
     bool is_massless() const { return mass == 0 && J.isZero(0); }
 
     /// @throws InputError naming `where` if mass is negative, anything is not finite, J is not symmetric positive
-    /// semidefinite or (unless reduced) its principal moments violate A + B >= C by more than 1e-9 relative.
+    /// semidefinite or (unless reduced) its principal moments violate A + B >= C by more than 1e-9 relative; and for
+    /// magnitudes whose products leave the range of numbers: masses that are not zero below 1e-60 or above 1e60 kg,
+    /// a centre further than 1e30 m, moments of inertia that are not all zero below 1e-100 or above 1e100 kg m^2.
     void check(std::string_view where) const;
 };
 

@@ -85,7 +85,9 @@ template <class S>
 void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, VectorOutT<S> tau) {
     WorkspaceT<S>& ws = kin.workspace();
     const Model& model = kin.model();
-    assert(qd.size() == model.size() && qdd.size() == model.size() && tau.size() == model.size());
+    require_size("inverse dynamics", "qd", qd, model.size());
+    require_size("inverse dynamics", "qdd", qdd, model.size());
+    require_size("inverse dynamics", "tau", tau, model.size());
     sweeps(model.size(), model.links().data(), ws.frame.data(), qd.data(), qdd.data(), ws.motion.data(), ws.load.data(),
            tau.data());
     for (const Model::Spin& armature : model.armatures()) {

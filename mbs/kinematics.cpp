@@ -1,5 +1,6 @@
 #include "mbs/kinematics.hpp"
 
+#include "mbs/error.hpp"
 #include "mbs/path_twists.hpp"
 #include "mbs/sines.hpp"
 
@@ -8,7 +9,13 @@
 namespace cardan {
 
 template <class S>
-WorkspaceT<S>::WorkspaceT(const Model& model) {
+WorkspaceT<S>::WorkspaceT(const Model& model) : model_serial(model.serial()) {
+    with_memory([&] { return text("the workspace of a model of ", model.size(), " bodies"); },
+                [&] { allocate(model); });
+}
+
+template <class S>
+void WorkspaceT<S>::allocate(const Model& model) {
     const std::size_t n = static_cast<std::size_t>(model.size());
     frame.resize(n);
     J.resize(n);
@@ -65,8 +72,8 @@ void run(std::ptrdiff_t n, const Model::Link* links, const Complex* q, const Com
 
 template <class S>
 KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace) {
-    assert(q.size() == model.size());
-    assert(workspace.frame.size() == model.links().size() && "the workspace is another model's");
+    require_size("kinematics", "q", q, model.size());
+    require_model("kinematics", "workspace", workspace.model_serial, model.serial());
     ++workspace.generation;
     sines(q, workspace.sine, workspace.cosine);
     run(model.size(), model.links().data(), q.data(), workspace.sine.data(), workspace.cosine.data(),
@@ -76,6 +83,8 @@ KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>
 
 template <class S>
 BasisFunctions<S> basis_functions(const KinematicsT<S>& kin, int k, int a) {
+    require_index("basis functions", "body", k, kin.model().size());
+    require_index("basis functions", "coordinate", a, kin.model().size());
     BasisFunctions<S> basis{Vec3T<S>::Zero(), Vec3T<S>::Zero()};
     if (!kin.model().precedes(a, k)) return basis;
     const Mat3T<S> to_body = kin.rotation(k).transpose();
@@ -97,6 +106,7 @@ Pose<S> pose(const KinematicsT<S>& kin, FrameId frame) {
 
 template <class S>
 void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J) {
+    require_size("frame Jacobian", "J", J, 6, kin.model().size());
     J.setZero();
     const Vec3T<S> point = pose(kin, frame).p;
     for (int a = kin.model().frame(frame).body; a >= 0; a = kin.model().body(a).parent) {

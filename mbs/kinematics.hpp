@@ -25,9 +25,13 @@ public:
     Vec3T<S> axis(int k) const { return frame(k).E[2].vector(); }
     Vec3T<S> centre_of_mass(int k) const { return frame(k).r.vector(); }
 
-private:
-    const typename WorkspaceT<S>::Frame& frame(int k) const { return workspace().frame[static_cast<std::size_t>(k)]; }
+    /// All of these of one body, for kernels.  @throws InputError for a body that there is not, as the others do
+    const typename WorkspaceT<S>::Frame& frame(int k) const {
+        require_index("kinematics", "body", k, static_cast<std::ptrdiff_t>(workspace_->frame.size()));
+        return workspace().frame[static_cast<std::size_t>(k)];
+    }
 
+private:
     KinematicsT(const Model& model, WorkspaceT<S>& workspace)
         : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
     template <class T>
@@ -44,6 +48,7 @@ using Kinematics = KinematicsT<double>;
 /// Poses of all bodies.
 /// @param q  coordinates, size n, rad or m
 /// Cost O(n), no allocation.
+/// @throws InputError if q has another size or the workspace is another model's
 template <class S>
 KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace);
 inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspace) {
@@ -53,6 +58,7 @@ inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspac
 /// Kinematic basis functions of body k for coordinate a, in components of body k; both zero unless a precedes k.
 ///   velocity of the centre of mass  v_k = u_ka qd^a,  angular velocity  omega_k = Omega_ka qd^a.
 ///                                                                              [Zhao et al. 2007, eq. 6]
+/// @throws InputError for bodies that there are not
 template <class S>
 struct BasisFunctions {
     Vec3T<S> u;      ///< m/rad or 1
@@ -68,8 +74,9 @@ struct PointTwist {
 };
 template <class S>
 PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
-    const Vec3T<S> e = kin.axis(a);
-    if (kin.model().body(a).revolute) return {e, cross<S>(e, C - kin.origin(a))};
+    const typename WorkspaceT<S>::Frame& frame = kin.frame(a);
+    const Vec3T<S> e = frame.E[2].vector();
+    if (kin.model().links()[static_cast<std::size_t>(a)].revolute) return {e, cross<S>(e, C - frame.o.vector())};
     return {Vec3T<S>::Zero(), e};
 }
 
@@ -84,6 +91,7 @@ Pose<S> pose(const KinematicsT<S>& kin, FrameId frame);
 
 /// Jacobian of a frame: [angular velocity; velocity of its origin] = J qd, base axes.
 /// @param J  out, 6 x n, overwritten
+/// @throws InputError for another size or a frame that there is not
 template <class S>
 void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J);
 

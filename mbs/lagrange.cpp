@@ -7,6 +7,7 @@ namespace cardan::lagrange {
 template <class S>
 S metric(const KinematicsT<S>& kin, int a, int b) {
     const Model& model = kin.model();
+    for (const int index : {a, b}) require_index("metric", "index", index, model.size());
     S sum(0);
     for (int k = std::max(a, b); k < model.size(); ++k) {
         const BasisFunctions<S> at_a = basis_functions(kin, k, a), at_b = basis_functions(kin, k, b);
@@ -27,6 +28,7 @@ S metric(const KinematicsT<S>& kin, int a, int b) {
 template <class S>
 S christoffel_first_kind(const KinematicsT<S>& kin, int a, int b, int c) {
     const Model& model = kin.model();
+    for (const int index : {a, b, c}) require_index("Christoffel symbols", "index", index, model.size());
     if (b > c) std::swap(b, c);
     if (!model.precedes(b, c)) return S(0);
     S sum(0);
@@ -42,6 +44,7 @@ S christoffel_first_kind(const KinematicsT<S>& kin, int a, int b, int c) {
 }
 
 double generalised_force(const Kinematics& kin, std::span<const BodyLoad> loads, int a) {
+    require_count("generalised force", "loads", loads.size(), static_cast<std::size_t>(kin.model().size()));
     double sum = 0;
     for (int k = a; k < kin.model().body(a).subtree_end; ++k) {
         const BasisFunctions<double> basis = basis_functions(kin, k, a);

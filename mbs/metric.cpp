@@ -6,6 +6,7 @@ namespace cardan {
 
 template <class S>
 void add_armatures(const Model& model, MatrixOutT<S> g) {
+    require_size("metric", "g", g, model.size(), model.size());
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, sa] : armature.spin)
             for (const auto& [b, sb] : armature.spin) g(a, b) += armature.inertia * (sa * sb);
@@ -71,10 +72,10 @@ void run(int n, const Model::Link* links, const WorkspaceT<Complex>::Frame* fram
 
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
+    const Model& model = kin.model();
+    require_size("metric", "g", g, model.size(), model.size());
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
-    const Model& model = kin.model();
-    assert(g.rows() == model.size() && g.cols() == model.size());
     const PathTwists<S> path(ws.branch.data(), ws.stride);
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), path,
         DenseSink<S>{model.links().data(), model.size(), g.data(), g.outerStride(), path.row(0), path.row(0)});
@@ -83,10 +84,10 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
 
 template <class S>
 void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g) {
+    const Model& model = kin.model();
+    require_model("metric", "branch matrix", g.model().serial(), model.serial());
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
-    const Model& model = kin.model();
-    assert(g.size() == model.size());
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
         PathTwists<S>(ws.branch.data(), ws.stride), BranchSink<S>{g.rows(), g.columns(), g.offset()});
     for (const Model::Spin& armature : model.armatures())
@@ -96,6 +97,8 @@ void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g) {
 
 std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale) {
     const Eigen::Index n = g.rows();
+    require_size("singular pivot", "g", g, n, n);
+    require_size("singular pivot", "scale", scale, n);
     Matrix L = Matrix::Zero(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
         const double pivot = g(j, j) - L.row(j).head(j).squaredNorm();
@@ -106,24 +109,10 @@ std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale
     return std::nullopt;
 }
 
-Vector metric_scale(const Kinematics& kin) {
-    composites(kin);
-    const Model& model = kin.model();
-    Vector scale(model.size());
-    for (int a = 0; a < model.size(); ++a) {
-        const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
-        scale(a) = subtree.M;
-        if (model.body(a).revolute)
-            scale(a) = subtree.M * (subtree.C.vector() - kin.origin(a)).squaredNorm() + 2 * subtree.P.matrix().trace();
-    }
-    for (const Model::Spin& armature : model.armatures())
-        for (const auto& [a, s] : armature.spin) scale(a) += std::abs(armature.inertia) * s * s;
-    return scale;
-}
-
 double kinetic_energy(const Kinematics& kin, VectorIn qd) {
     Workspace& ws = kin.workspace();
     const Model& model = kin.model();
+    require_size("kinetic energy", "qd", qd, model.size());
     double twice = 0;
     for (int k = 0; k < model.size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);

@@ -13,6 +13,7 @@ namespace cardan {
 /// The sum over k collapses to one composite rigid body per pair, the subtree of the more distal coordinate.
 /// @param g  out, n x n, full and symmetric, kg m^2, kg m or kg; overwritten
 /// Cost O(n d), d the depth of the tree, and n^2 zeros; no allocation.
+/// @throws InputError if g has another size or is another model's, as all functions here do
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
 /// The same without the zeros between branches: in large trees they cost more than the numbers.
@@ -24,17 +25,12 @@ template <class S>
 void add_armatures(const Model& model, MatrixOutT<S> g);
 
 /// First pivot of a Cholesky factorisation of g that is below 1e-12 of its scale.
-/// @param scale  size n; a magnitude that does not vanish with g_aa itself, see metric_scale()
+/// @param scale  size n; a magnitude that does not vanish with g_aa itself
 struct SingularPivot {
     int index;
     double value, scale;
 };
 std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale);
-
-/// Upper bound of |g_aa| over all directions of axis a: what the subtree would weigh against the worst one. A diagonal
-/// element that is nothing but rounding (a slender body that turns about its own axis) is seen to be small only beside
-/// this.
-Vector metric_scale(const Kinematics& kin);
 
 /// Kinetic energy (1/2) g_ab qd^a qd^b in O(n), J.
 double kinetic_energy(const Kinematics& kin, VectorIn qd);

@@ -147,35 +147,38 @@ MetricFactor::MetricFactor(const Model& model, std::vector<bool> driven)
         std::reverse(paths_.begin() + begin, paths_.end());
         offset_.push_back(paths_.size());
     }
-    values_.assign(paths_.size(), 0.0);
+    with_memory("the factor of a metric", [&] { values_.assign(paths_.size(), 0.0); });
     inverse_pivot_.assign(static_cast<std::size_t>(n), 0.0);
     tile_.assign(static_cast<std::size_t>(n) * tile_width, 0.0);
 }
 
 std::span<const int> MetricFactor::path(int a) const {
+    require_index("metric factor", "coordinate", a, model_->size());
     const std::size_t i = static_cast<std::size_t>(a);
     return {paths_.data() + offset_[i], offset_[i + 1] - offset_[i]};
 }
 
 std::span<const double> MetricFactor::row(int a) const {
+    require_index("metric factor", "coordinate", a, model_->size());
     const std::size_t i = static_cast<std::size_t>(a);
     return {values_.data() + offset_[i], offset_[i + 1] - offset_[i]};
 }
 
 double MetricFactor::operator()(int a, int b) const {
+    require_index("metric factor", "coordinate", b, model_->size());
     const std::span<const int> on_path = path(a);
     const auto at = std::lower_bound(on_path.begin(), on_path.end(), b);
     return at != on_path.end() && *at == b ? row(a)[static_cast<std::size_t>(at - on_path.begin())] : 0.0;
 }
 
 PivotStatus MetricFactor::factorise(const Kinematics& kin) {
-    assert(&kin.model() == model_);
+    require_model("metric factor", "kinematics", kin.model().serial(), model_->serial());
     metric<double>(kin, g_);
     return factorise(g_);
 }
 
 PivotStatus MetricFactor::factorise(const BranchMatrix& g) {
-    assert(g.size() == model_->size());
+    require_model("metric factor", "matrix g", g.model().serial(), model_->serial());
     for (int a = 0; a < model_->size(); ++a) {
         double* entry = values_.data() + offset_[static_cast<std::size_t>(a)];
         const std::span<const double> row = g.row(a);
@@ -185,7 +188,7 @@ PivotStatus MetricFactor::factorise(const BranchMatrix& g) {
 }
 
 PivotStatus MetricFactor::factorise(MatrixIn g) {
-    assert(g.rows() == model_->size() && g.cols() == model_->size());
+    require_size("metric factor", "g", g, model_->size(), model_->size());
     for (int a = 0; a < model_->size(); ++a) {
         double* entry = values_.data() + offset_[static_cast<std::size_t>(a)];
         for (const int b : path(a)) *entry++ = g(b, a);
@@ -219,7 +222,7 @@ PivotStatus MetricFactor::eliminate() {
 template <class... Sweeps>
 void MetricFactor::apply(MatrixOut& x) {
     const Eigen::Index n = model_->size();
-    assert(x.rows() == n);
+    require_size("metric factor", "x", x, n, x.cols());
     const Rows rows{model_->size(), offset_.data(), paths_.data(), values_.data(), inverse_pivot_.data()};
     Eigen::Index column = 0;
     while (x.cols() - column >= tile_width / 4) {

@@ -30,7 +30,8 @@ struct [[nodiscard]] PivotStatus {
 /// Driven coordinates are left out: then g stands for the block g_ff of the free ones, and in all vectors the entries
 /// of driven coordinates are left as they are.
 ///
-/// Nothing allocates after construction. The object holds scratch memory, so it serves one thread.
+/// Nothing allocates after construction. The object holds scratch memory, so it serves one thread. Functions throw
+/// InputError for arguments of another size or model and for indices that there are not.
 class MetricFactor {
 public:
     /// @param driven  size n; true: left out. Default: the roles of the coordinate table.
@@ -71,7 +72,10 @@ public:
 
     const Model& model() const { return *model_; }
     const std::vector<bool>& driven() const { return driven_; }
-    bool is_driven(int a) const { return driven_[static_cast<std::size_t>(a)]; }
+    bool is_driven(int a) const {
+        require_index("metric factor", "coordinate", a, static_cast<std::ptrdiff_t>(driven_.size()));
+        return driven_[static_cast<std::size_t>(a)];
+    }
 
 private:
     PivotStatus eliminate();

@@ -1,14 +1,25 @@
 #include "mbs/model.hpp"
 
+#include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
-#include "mbs/metric.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 namespace cardan {
 
-Model::Model(const Tree& tree) {
+namespace {
+
+std::atomic<std::uint64_t> models = 0;
+
+}  // namespace
+
+Model::Model(const Tree& tree) : serial_(++models) {
+    with_memory([&] { return text("a model of ", tree.bodies().size(), " bodies"); }, [&] { make(tree); });
+}
+
+void Model::make(const Tree& tree) {
     sort(tree);
     for (const Tree::Frame& frame : tree.frames())
         frames_.push_back({frame.name, frame.body < 0 ? -1 : index(BodyId{frame.body}), frame.in_body, frame.parent});
@@ -117,27 +128,22 @@ double Model::mass() const {
     return sum;
 }
 
-// A massless leaf is legal if it is driven or carries an armature, and a body with mass can still be singular, so the
-// metric of the unknowns itself is factorised.
+// A massless leaf is legal if it is driven or carries an armature, and a body with mass can still be singular, so it is
+// the metric of the unknowns that is looked at.
 void Model::check_metric() const {
-    const std::vector<int> free = coordinates_.free();
     Workspace workspace(*this);
-    Matrix g(size(), size());
-    const Kinematics kin = kinematics(*this, Vector::Zero(size()), workspace);
-    metric(kin, g);
-    const Matrix g_free = g(free, free);
-    const Vector scale = metric_scale(kin)(free);
-    if (const auto pivot = singular_pivot(g_free, scale)) {
-        const int at = free[static_cast<std::size_t>(pivot->index)];
-        const bool negative = pivot->value < -1e-12 * pivot->scale;
-        throw InputError(text(negative ? "indefinite" : "singular", " metric: coordinate '", coordinates_[at].name,
-                              "' of body '", body(at).name, "' has ", negative ? "negative" : "no",
-                              " inertia of its own (pivot ", pivot->value, ", scale ", pivot->scale,
-                              "; allowed: pivot > 1e-12 scale). ",
-                              negative ? "A negative armature is larger than the inertia that it takes from"
-                                       : "Give the bodies that it carries mass or inertia about its axis, add an "
-                                         "armature, or drive it"));
-    }
+    ForwardDynamics dynamics(*this);
+    const auto pivot = dynamics.singular_pivot(kinematics(*this, workspace.zero, workspace));
+    if (!pivot) return;
+    const int at = pivot->index;
+    const bool negative = pivot->value < -1e-12 * pivot->scale;
+    throw InputError(text(negative ? "indefinite" : "singular", " metric: coordinate '", coordinates_[at].name,
+                          "' of body '", body(at).name, "' has ", negative ? "negative" : "no",
+                          " inertia of its own (pivot ", pivot->value, ", scale ", pivot->scale,
+                          "; allowed: pivot > 1e-12 scale). ",
+                          negative ? "A negative armature is larger than the inertia that it takes from"
+                                   : "Give the bodies that it carries mass or inertia about its axis, add an "
+                                     "armature, or drive it"));
 }
 
 }  // namespace cardan

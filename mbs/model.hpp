@@ -8,7 +8,8 @@
 namespace cardan {
 
 /// Bodies are sorted depth first, so that body index = coordinate index, every parent precedes its children and the
-/// subtree of body i is the index range [i, subtree_end(i)).
+/// subtree of body i is the index range [i, subtree_end(i)). Cost and memory are O(n) (n log n for names): matrices,
+/// dense or with the pattern of the branches, are made by those who need them.
 class Model {
 public:
     struct Body {
@@ -53,11 +54,16 @@ public:
     };
 
     /// @throws InputError if the metric of the free coordinates at q = 0 is singular (a pivot below 1e-12 of its
-    /// scale): the coordinate is named.
+    /// scale; see ForwardDynamics::singular_pivot()): the coordinate is named.
+    /// @throws MemoryError
     explicit Model(const Tree& tree);
 
     int size() const { return static_cast<int>(bodies_.size()); }
-    const Body& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
+    /// @throws InputError for an index that there is not
+    const Body& body(int index) const {
+        require_index("model", "body", index, size());
+        return bodies_[static_cast<std::size_t>(index)];
+    }
     const std::vector<Body>& bodies() const { return bodies_; }
     const std::vector<Link>& links() const { return links_; }
     /// Indices sorted by depth: in this order, too, every parent comes before its children.
@@ -70,13 +76,21 @@ public:
     int index(BodyId body) const;
     int index(std::string_view coordinate) const { return coordinates_.index(coordinate); }
     FrameId frame(std::string_view name) const;
-    const Frame& frame(FrameId id) const { return frames_[static_cast<std::size_t>(id.index)]; }
+    /// @throws InputError for a frame that there is not
+    const Frame& frame(FrameId id) const {
+        require_index("model", "frame", id.index, static_cast<std::ptrdiff_t>(frames_.size()));
+        return frames_[static_cast<std::size_t>(id.index)];
+    }
     /// True if a lies on the path from the base to b (or a == b).
     bool precedes(int a, int b) const { return a <= b && b < body(a).subtree_end; }
+    /// Number of this model: its copies have the same, every other model has another. What is bound to a model knows it
+    /// by this number.
+    std::uint64_t serial() const { return serial_; }
     /// Total mass, kg.
     double mass() const;
 
 private:
+    void make(const Tree& tree);
     void sort(const Tree& tree);
     void make_links();
     void check_metric() const;
@@ -88,6 +102,7 @@ private:
     std::vector<Spin> armatures_;
     CoordinateTable coordinates_;
     std::vector<int> index_of_tree_body_;
+    std::uint64_t serial_;
 };
 
 }  // namespace cardan

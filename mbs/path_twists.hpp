@@ -2,7 +2,7 @@
 /// The twists of a path from the base, laid out so that one loop over the path uses whole registers.
 #pragma once
 
-#include "mbs/workspace.hpp"
+#include "mbs/kinematics.hpp"
 
 namespace cardan {
 
@@ -47,6 +47,19 @@ private:
     Columns* data_;
     std::ptrdiff_t stride_;
 };
+
+/// twist_at() for loops over the model's own indices: they are not looked at.
+template <class S>
+CARDAN_INLINE PointTwist<S> own_twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
+    const typename WorkspaceT<S>::Frame& frame = kin.workspace().frame[static_cast<std::size_t>(a)];
+    const Vec3T<S> e = frame.E[2].vector();
+    if (kin.model().links()[static_cast<std::size_t>(a)].revolute) return {e, cross<S>(e, C - frame.o.vector())};
+    return {Vec3T<S>::Zero(), e};
+}
+/// Model::body(a).parent likewise.
+inline int own_parent(const Model& model, int a) {
+    return model.links()[static_cast<std::size_t>(a)].parent;
+}
 
 /// The numbers of a row, one by one.
 template <class S>

@@ -42,4 +42,7 @@ struct RotorMap {
     std::vector<Polyline> lines;
 };
 
+/// @throws InputError unless all coordinates and frames of the map are there in the model: its own, not another one's
+void check(const RotorMap& rotor, const Model& model);
+
 }  // namespace cardan

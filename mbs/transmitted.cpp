@@ -14,6 +14,7 @@ void add_at(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to,
 
 Transmission transmission(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd) {
     const Model& model = kin.model();
+    require_model("transmission", "set of forces", forces.model_serial(), model.serial());
     const Workspace& ws = kin.workspace();
     Vector tau(model.size());
     inverse_dynamics<double>(kin, qd, qdd, tau);

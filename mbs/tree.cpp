@@ -3,6 +3,7 @@
 #include "mbs/error.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cardan {
 
@@ -17,35 +18,43 @@ std::string known_names(const Range& range, NameOf name_of) {
     return count > 12 ? names + ", ..." : names;
 }
 
+void check(const Placement& placement, std::string_view where) {
+    if (!placement.is_valid())
+        throw InputError(where, "placement", text("R = [", placement.R, "], p = ", placement.p.transpose()),
+                         "finite, R a proper rotation");
+    if (!(placement.p.cwiseAbs().maxCoeff() <= 1e30))
+        throw InputError(where, "origin of the placement [m]", placement.p.transpose(), "within 1e30 of its carrier's");
+}
+
 }  // namespace
 
 Tree::Tree() {
     frames_.push_back({"base", -1, {}, -1});
+    frame_index_.emplace("base", 0);
 }
 
 BodyId Tree::add_body(BodySpec spec) {
     const std::string where = text("body '", spec.name, "'");
     if (spec.name.empty()) throw InputError("a body needs a name");
-    if (std::any_of(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.name == spec.name; }))
-        throw InputError(where, "name", spec.name, "a name not used before by a body or a frame");
+    require_new_frame(spec.name, where);
     if (spec.coordinate.name.empty()) spec.coordinate.name = spec.name;
-    if (std::any_of(bodies_.begin(), bodies_.end(),
-                    [&](const Body& b) { return b.spec.coordinate.name == spec.coordinate.name; }))
+    if (coordinate_names_.contains(spec.coordinate.name))
         throw InputError(where, "coordinate name", spec.coordinate.name, "a name not used before");
     require(spec.inboard, where);
-    if (!spec.placement.is_valid())
-        throw InputError(where, "placement", text("R = [", spec.placement.R, "], p = ", spec.placement.p.transpose()),
-                         "finite, R a proper rotation");
+    check(spec.placement, where);
     spec.inertia.check(where);
     spec.coordinate.unit = spec.joint == JointKind::revolute ? "rad" : "m";
 
-    const Frame& inboard = frames_[static_cast<std::size_t>(spec.inboard.index)];
+    const Frame inboard = frames_[static_cast<std::size_t>(spec.inboard.index)];
     const BodyId id{static_cast<int>(bodies_.size())};
     const FrameId own{static_cast<int>(frames_.size())};
     if (!spec.inertia.is_massless())
         pieces_.push_back({spec.coordinate.part.empty() ? spec.name : spec.coordinate.part, id.index, spec.inertia});
-    bodies_.push_back({spec, inboard.body, inboard.in_body * spec.placement, own});
+    frame_index_.emplace(spec.name, own.index);
+    coordinate_names_.insert(spec.coordinate.name);
     frames_.push_back({spec.name, id.index, {}, -1});
+    const Placement in_parent = inboard.in_body * spec.placement;
+    bodies_.push_back({std::move(spec), inboard.body, in_parent, own});
     return id;
 }
 
@@ -57,15 +66,14 @@ BodyId Tree::add_body(BodySpec spec, const DhParameters& dh) {
 FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string name) {
     const std::string where = text("frame '", name, "'");
     if (name.empty()) throw InputError("a frame needs a name");
-    if (std::any_of(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.name == name; }))
-        throw InputError(where, "name", name, "a name not used before by a body or a frame");
+    require_new_frame(name, where);
     require(parent, where);
-    if (!placement.is_valid())
-        throw InputError(where, "placement", text("R = [", placement.R, "], p = ", placement.p.transpose()),
-                         "finite, R a proper rotation");
-    const Frame& carrier = frames_[static_cast<std::size_t>(parent.index)];
+    check(placement, where);
+    const Frame carrier = frames_[static_cast<std::size_t>(parent.index)];
+    const FrameId id{static_cast<int>(frames_.size())};
+    frame_index_.emplace(name, id.index);
     frames_.push_back({std::move(name), carrier.body, carrier.in_body * placement, parent.index});
-    return FrameId{static_cast<int>(frames_.size()) - 1};
+    return id;
 }
 
 void Tree::weld(FrameId frame, const RigidInertia& inertia, std::string_view part) {
@@ -82,14 +90,15 @@ void Tree::add_armature(const Armature& armature) {
     const std::string where = text("armature '", armature.name, "'");
     if (!std::isfinite(armature.inertia)) throw InputError(where, "inertia", armature.inertia, "finite");
     if (armature.spin.empty()) throw InputError(where, "number of coordinates", 0, "at least one");
-    int distal = -1;
+    int distal = -1, proximal = std::numeric_limits<int>::max();
     for (const auto& [body, factor] : armature.spin) {
         require(body, where);
         if (!std::isfinite(factor)) throw InputError(where, "spin factor", factor, "finite");
         distal = std::max(distal, body.index);
+        proximal = std::min(proximal, body.index);
     }
     std::vector<int> branch;
-    for (int k = distal; k >= 0; k = bodies_[static_cast<std::size_t>(k)].parent) branch.push_back(k);
+    for (int k = distal; k >= proximal; k = bodies_[static_cast<std::size_t>(k)].parent) branch.push_back(k);
     for (const auto& [body, factor] : armature.spin)
         if (std::find(branch.begin(), branch.end(), body.index) == branch.end())
             throw InputError(text(where, ": the coordinates of its spin must lie on one branch of the tree"));
@@ -102,17 +111,23 @@ FrameId Tree::frame_of(BodyId body) const {
 }
 
 FrameId Tree::frame(std::string_view name) const {
-    for (std::size_t i = 0; i < frames_.size(); ++i)
-        if (frames_[i].name == name) return FrameId{static_cast<int>(i)};
+    if (const auto at = frame_index_.find(name); at != frame_index_.end()) return FrameId{at->second};
     throw InputError(
         text("unknown frame '", name, "'; the tree has ", known_names(frames_, [](const Frame& f) { return f.name; })));
 }
 
 BodyId Tree::body(std::string_view name) const {
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_[i].spec.name == name) return BodyId{static_cast<int>(i)};
+    if (const auto at = frame_index_.find(name); at != frame_index_.end()) {
+        const int body = frames_[static_cast<std::size_t>(at->second)].body;
+        if (body >= 0 && bodies_[static_cast<std::size_t>(body)].frame.index == at->second) return BodyId{body};
+    }
     throw InputError(text("unknown body '", name, "'; the tree has ",
                           known_names(bodies_, [](const Body& b) { return b.spec.name; })));
+}
+
+void Tree::require_new_frame(const std::string& name, std::string_view where) const {
+    if (frame_index_.contains(name))
+        throw InputError(where, "name", name, "a name not used before by a body or a frame");
 }
 
 void Tree::require(FrameId frame, std::string_view where) const {

@@ -6,6 +6,8 @@
 #include "mbs/dh.hpp"
 #include "mbs/inertia.hpp"
 
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -30,7 +32,9 @@ struct Armature {
 };
 
 /// A tree of bodies, each carried through one joint with one coordinate by a frame of another body or of the base.
-/// Everything is named; bad input throws InputError naming the body, the value and the allowed range.
+/// Everything is named; bad input throws InputError naming the body, the value and the allowed range. Ids are places in
+/// this tree: one of another tree is refused where it is out of range, and means another body where it is not.
+/// Cost of an addition: O(log n); memory O(n).
 class Tree {
 public:
     struct Body {
@@ -76,6 +80,7 @@ public:
     const std::vector<Piece>& pieces() const { return pieces_; }
 
 private:
+    void require_new_frame(const std::string& name, std::string_view where) const;
     void require(FrameId frame, std::string_view where) const;
     void require(BodyId body, std::string_view where) const;
 
@@ -83,6 +88,8 @@ private:
     std::vector<Frame> frames_;
     std::vector<Armature> armatures_;
     std::vector<Piece> pieces_;
+    std::map<std::string, int, std::less<>> frame_index_;  ///< of every name of a frame or body
+    std::set<std::string, std::less<>> coordinate_names_;
 };
 
 }  // namespace cardan

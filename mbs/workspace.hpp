@@ -13,6 +13,7 @@ namespace cardan {
 template <class S>
 class WorkspaceT {
 public:
+    /// @throws MemoryError
     explicit WorkspaceT(const Model& model);
 
     struct Frame {
@@ -44,6 +45,9 @@ public:
         Packed3<S> psi1_w, psi1_u, psi2_w, psi2_u;
     };
 
+    /// Model::serial() of the model that it was made for.
+    std::uint64_t model_serial;
+
     // Written by kinematics().
     std::uint64_t generation = 0;
     std::vector<Frame> frame;
@@ -63,6 +67,9 @@ public:
     std::ptrdiff_t stride;
     std::vector<Packed3<S>> branch;
     VectorT<S> zero;
+
+private:
+    void allocate(const Model& model);
 };
 
 using Workspace = WorkspaceT<double>;

@@ -31,8 +31,8 @@ void check(const LoadStabilityOptions& options) {
     if (!std::isfinite(options.from) || !std::isfinite(options.to) || !(options.from < options.to))
         throw InputError(where, "load factors from, to", text(options.from, ", ", options.to), "finite and rising");
     if (options.steps < 1) throw InputError(where, "number of steps", options.steps, ">= 1");
-    if (!(options.tolerance > 0)) throw InputError(where, "tolerance of the load factor", options.tolerance, "> 0");
-    if (!(options.growth > 0)) throw InputError(where, "growth", options.growth, "> 0");
+    require_positive(where, "tolerance of the load factor", options.tolerance);
+    require_positive(where, "growth", options.growth);
 }
 
 // The least stable mode about the equilibrium at a load factor.

@@ -157,8 +157,10 @@ void check_cases(std::span<const CampbellCase> cases, const std::string& paramet
 void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (!warning.empty()) return;
     Complex fastest = 0;
+    const double certain = highest_certain(point.modes);
     for (const CampbellMode& m : point.modes) {
         const Complex lambda = m.mode.eigenvalue;
+        if (std::abs(lambda) > certain) continue;
         const bool grows = m.kind() != FloquetKind::rigid && lambda.real() > 1e-6 * std::max(1.0, std::abs(lambda));
         if (grows && lambda.real() > fastest.real()) fastest = lambda;
     }

@@ -10,16 +10,37 @@ namespace cardan::solvers {
 
 namespace {
 
+// Eigenvalues of a full matrix take some 25 (2 n)^3 operations and eight matrices of (2 n)^2 numbers: with this many
+// unknowns minutes per point and 600 MB, with six times as many a day and 20 GB.
+constexpr std::size_t most_unknowns = 1500;
+
 std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
+    check(rotor, system.model);
     const std::size_t blades = rotor.blades.size();
     if (blades == 2 && options.method != CampbellMethod::floquet)
         throw InputError(rotor.machine, "number of blades", blades,
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
     const bool spin_is_unknown = options.spin == RotorSpin::free && blades > 1;
-    return system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
+    std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
+    if (unknowns.size() > most_unknowns)
+        throw InputError(rotor.machine, "number of unknowns", unknowns.size(),
+                         text("<= ", most_unknowns,
+                              " (all eigenvalues of a full matrix of twice the size are computed at every point: time "
+                              "grows with the cube); take fewer elements per part, their error is small long before"));
+    return unknowns;
 }
 
+// The coordinate alone, beside the lowest: ten times what no certain mode has.
+constexpr double rigid_ratio = 10 * most_certain_ratio;
+
 }  // namespace
+
+double highest_certain(const std::vector<CampbellMode>& modes) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : modes)
+        if (m.mode.oscillates()) lowest = std::min(lowest, std::abs(m.mode.eigenvalue));
+    return most_certain_ratio * lowest;
+}
 
 PointSolver::PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
     : system_(system),
@@ -46,6 +67,25 @@ void PointSolver::start() {
     if (!identification_) identify(lin_);
     restrict_to(lin_, unknowns_, rotor_.spin, other_);
     turned_ = steady_.at;
+    note_rigid_springs();
+}
+
+// A spring meant to be rigid: where its coordinate alone would vibrate beyond what eigenvalues can tell.
+void PointSolver::note_rigid_springs() {
+    Vector omega(other_.M.rows());
+    for (Eigen::Index i = 0; i < omega.size(); ++i) omega(i) = std::sqrt(other_.K_elastic(i, i) / other_.M(i, i));
+    double lowest = std::numeric_limits<double>::infinity();
+    for (double w : omega)
+        if (w > 0) lowest = std::min(lowest, w);
+    std::string names;
+    for (Eigen::Index i = 0; i < omega.size(); ++i)
+        if (const int k = unknowns_[static_cast<std::size_t>(i)]; omega(i) > rigid_ratio * lowest)
+            names += text(names.empty() ? "'" : ", '", system_.forces.stiffest_law(k), "' (", other_.K_elastic(i, i),
+                          " on the coordinate '", system_.model.coordinates()[k].name, "')");
+    if (!names.empty())
+        warning_ =
+            text("springs so stiff that growth and decay of their modes are rounding: ", names,
+                 "; such modes count for no stability margin. Drive the coordinate instead, or let it be softer");
 }
 
 void PointSolver::identify(const Linearisation& lin) {
@@ -55,7 +95,9 @@ void PointSolver::identify(const Linearisation& lin) {
 // Eigenvalues at a frozen azimuth tell nothing about stability.
 void PointSolver::set_margin(CampbellPoint& point) const {
     double growth = -std::numeric_limits<double>::infinity();
-    for (const CampbellMode& m : point.modes) growth = std::max(growth, m.mode.eigenvalue.real());
+    const double certain = highest_certain(point.modes);
+    for (const CampbellMode& m : point.modes)
+        if (std::abs(m.mode.eigenvalue) <= certain) growth = std::max(growth, m.mode.eigenvalue.real());
     const bool motions = method_ != CampbellMethod::frozen_azimuth || rotor_.blades.size() < 3;
     point.stability_margin = motions ? -growth : std::numeric_limits<double>::quiet_NaN();
 }
@@ -129,9 +171,10 @@ void PointSolver::average_if_periodic(double rotor_speed) {
         z.M += other_.M, z.C += other_.C, z.K += other_.K, z.K_elastic += other_.K_elastic;
     }
     z.M /= azimuths, z.C /= azimuths, z.K /= azimuths, z.K_elastic /= azimuths;
-    if (warning_.empty())
-        warning_ = text("the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,
-                        " (relative); its mean over the azimuth is used, which is an approximation");
+    if (warning_.find("not isotropic") == std::string::npos)
+        warning_ += text(warning_.empty() ? "" : "; ",
+                         "the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,
+                         " (relative); its mean over the azimuth is used, which is an approximation");
 }
 
 std::vector<std::string> PointSolver::row_names() const {

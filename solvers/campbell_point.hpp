@@ -64,6 +64,7 @@ private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
     void find_steady_state(double rotor_speed);
     void start();
+    void note_rigid_springs();
     void set_margin(CampbellPoint& point) const;
     void set_system(double rotor_speed);
     void set_other_azimuth(double psi, double rotor_speed);
@@ -89,6 +90,9 @@ private:
     SecondOrderSystem current_, other_;
     std::vector<CampbellMode> spare_;  // memory for modes beyond those of the last point
 };
+
+/// Largest |eigenvalue| that tells anything about growth and decay: above it they are rounding.
+double highest_certain(const std::vector<CampbellMode>& modes);
 
 /// The solver for the method of the options.
 /// @throws InputError as the solvers

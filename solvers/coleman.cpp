@@ -150,6 +150,7 @@ void ColemanTransform::congruence(double psi, Matrix& A) const {
 }
 
 Matrix ColemanTransform::matrix(double psi, int derivative) const {
+    if (derivative < 0) throw InputError("multi-blade transformation", "derivative", derivative, ">= 0");
     const auto n = static_cast<Eigen::Index>(rows_.size());
     Matrix T = Matrix::Identity(n, n);
     transform_columns(psi, T);
@@ -165,6 +166,9 @@ Matrix ColemanTransform::matrix(double psi, int derivative) const {
 }
 
 void ColemanTransform::transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const {
+    const auto size = static_cast<Eigen::Index>(rows_.size());
+    for (const Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic})
+        require_size("multi-blade transformation", "matrix of the system", *A, size, size);
     for (Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic}) congruence(psi, *A);
     for (const TurningPair& pair : pairs_) {
         const double n = pair.factor * rotor_speed;

@@ -1,5 +1,7 @@
 #include "solvers/dense.hpp"
 
+#include "mbs/sizes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -43,6 +45,8 @@ void solve_upper(const Matrix& A, Index from, Index to, double* b) {
 }  // namespace
 
 void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign) {
+    require_size("product", "B", B, A.cols(), B.cols());
+    require_size("product", "C", C, A.rows(), B.cols());
     for (Index k = 0; k < A.cols(); k += depth)
         for (Index j = 0; j < B.cols(); j += tile)
             for (Index i = 0; i < A.rows(); i += tile) {
@@ -72,6 +76,7 @@ void LuFactors::factorise() {
 }
 
 void LuFactors::solve(Vector& b) const {
+    require_size("solution of equations", "b", b, lu_.rows());
     for (Index k = 0; k < b.size(); ++k) std::swap(b(k), b(exchanges_[static_cast<std::size_t>(k)]));
     lu_.triangularView<Eigen::UnitLower>().solveInPlace(b);
     lu_.triangularView<Eigen::Upper>().solveInPlace(b);
@@ -79,6 +84,8 @@ void LuFactors::solve(Vector& b) const {
 
 void solve_in_place(Matrix& A, Matrix& B) {
     const Index n = A.rows();
+    require_size("solution of equations", "A", A, n, n);
+    require_size("solution of equations", "B", B, n, B.cols());
     const auto exchange = [&](Index k, Index pivot) {
         if (pivot != k) B.row(k).swap(B.row(pivot));
     };
@@ -98,6 +105,7 @@ void solve_in_place(Matrix& A, Matrix& B) {
 
 bool positive_definite(Matrix& A) {
     const Index n = A.rows();
+    require_size("positive definite", "A", A, n, n);
     for (Index k = 0; k < n; ++k) {
         if (!(A(k, k) > 0)) return false;
         A.col(k).tail(n - k) /= std::sqrt(A(k, k));

@@ -53,6 +53,7 @@ Vector ForcedResponse::at(double time, int derivative) const {
 ForcedResponse forced_response(const PeriodicSystem& system, const std::function<Vector(double)>& load, int harmonics,
                                int samples) {
     check(system, harmonics, samples);
+    if (!load) throw InputError(text(place, ": the function of the load is empty"));
     if (samples == 0) samples = 4 * (harmonics + 1);
     const Index n = system.rows(), terms = Index{2} * harmonics + 1;
     const double omega = system.frequency();

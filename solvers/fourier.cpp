@@ -1,10 +1,10 @@
 #include "solvers/fourier.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/sizes.hpp"
 #include "mbs/types.hpp"
 
 #include <bit>
-#include <cassert>
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
@@ -71,7 +71,8 @@ RealFourier::RealFourier(std::size_t size) : size_(size) {
 RealFourier::~RealFourier() = default;
 
 void RealFourier::transform(std::span<const double> x, std::span<Complex> X) {
-    assert(x.size() == size_ && X.size() == frequencies());
+    require_count("Fourier transform", "x", x.size(), size_);
+    require_count("Fourier transform", "X", X.size(), frequencies());
     if (size_ == 1)
         X[0] = x[0];  // Eigen has no memory for a factor of 1
     else if (plan_->chirp.empty())

@@ -107,6 +107,10 @@ double Share::total() const {
 Identification::Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                                const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
     : two_blades_(rotor.blades.size() == 2) {
+    check(rotor, model);
+    require_count("identification", "rows", rows.size(), coordinates.size());
+    require_size("identification", "elastic stiffness", lin.elastic, model.size(), model.size());
+    for (const int coordinate : coordinates) require_index("identification", "coordinate", coordinate, model.size());
     for (const PartAxes& part : rotor.parts) {
         Block block{};
         const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {

@@ -4,6 +4,7 @@
 #include "solvers/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cardan::solvers {
@@ -12,8 +13,23 @@ namespace {
 
 constexpr const char* place = "time integration";
 
+void check(const Checkpoint& from) {
+    for (const auto& [what, value] : {std::pair{"work of forces [J]", from.works.forces},
+                                      std::pair{"dissipated energy [J]", from.works.dissipation},
+                                      std::pair{"work of drives [J]", from.works.drives},
+                                      std::pair{"kinetic energy at the start [J]", from.kinetic_at_start},
+                                      std::pair{"potential energy at the start [J]", from.potential_at_start},
+                                      std::pair{"time of the first start [s]", from.method.since}})
+        if (!std::isfinite(value)) throw InputError("checkpoint", what, value, "finite");
+    for (const auto& [name, value] : from.notes)
+        if (!std::isfinite(value)) throw InputError("checkpoint", text("note '", name, "'"), value, "finite");
+    for (const double value : from.method.positions)
+        if (!std::isfinite(value)) throw InputError("checkpoint", "position at the first start", value, "finite");
+}
+
 // What its role drives at a constant rate goes on in the digits of the first start.
 std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from) {
+    check(from);
     const int n = system.model.size();
     if (from.method.positions.size() != n || from.qd.size() != n) return drives;
     for (int i = 0; i < n; ++i) {

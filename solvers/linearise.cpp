@@ -1,16 +1,40 @@
 #include "solvers/linearise.hpp"
 
 #include "mbs/derivatives.hpp"
+#include "mbs/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cardan::solvers {
+
+namespace {
+
+constexpr const char* place = "linearisation";
+
+void require_finite(const CoordinateTable& table, const char* what, const Vector& values) {
+    require_size(place, what, values, table.size());
+    if (values.allFinite()) return;
+    for (int i = 0; i < table.size(); ++i)
+        if (!std::isfinite(values(i)))
+            throw InputError(text(place, ": coordinate '", table[i].name, "'"), what, values(i), "finite");
+}
+
+void check(const CoordinateTable& table, const OperatingPoint& at) {
+    require_finite(table, "position", at.q);
+    require_finite(table, "rate", at.qd);
+    require_finite(table, "acceleration", at.qdd);
+    if (!std::isfinite(at.time)) throw InputError(place, "time [s]", at.time, "finite");
+}
+
+}  // namespace
 
 Lineariser::Lineariser(const System& system) : system_(system), workspace_(system.model) {}
 
 void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
     const Eigen::Index n = system_.model.size();
+    check(system_.model.coordinates(), at);
     const Kinematics kin = kinematics(system_.model, at.q, workspace_);
     out.at = at;
     out.coordinates = system_.model.coordinates();
@@ -28,12 +52,18 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
 
 Linearisation linearise(const System& system, const OperatingPoint& at) {
     Linearisation lin;
-    Lineariser(system).linearise(at, lin);
+    with_memory([&] { return text("the linearisation of ", system.model.size(), " coordinates"); },
+                [&] { Lineariser(system).linearise(at, lin); });
     return lin;
 }
 
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out) {
     const auto n = static_cast<Eigen::Index>(coordinates.size());
+    const Eigen::Index all = lin.mass.rows();
+    for (const Matrix* m :
+         {&lin.mass, &lin.damping, &lin.gyroscopic, &lin.elastic, &lin.gravity, &lin.loads, &lin.inertial})
+        require_size("restriction", "matrix of a linearisation", *m, all, all);
+    for (const int coordinate : coordinates) require_index("restriction", "coordinate", coordinate, all);
     out.coordinates = coordinates;
     out.cyclic = -1;
     for (Matrix* m : {&out.M, &out.C, &out.K, &out.K_elastic}) m->resize(n, n);

@@ -37,6 +37,7 @@ public:
 
     /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
     /// does so or is differenced.  Cost O(n^2).
+    /// @throws InputError for vectors of another size, and for values that are not finite, with the coordinate's name
     void linearise(const OperatingPoint& at, Linearisation& out);
 
 private:
@@ -45,7 +46,7 @@ private:
     ForceDerivatives forces_;
 };
 
-/// The same, once.
+/// The same, once.  @throws also MemoryError
 Linearisation linearise(const System& system, const OperatingPoint& at);
 
 /// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
@@ -57,6 +58,7 @@ struct SecondOrderSystem {
 
 /// The rows and columns of `coordinates`. The spin is cyclic if it is among them and no force depends on it.
 /// @param out  overwritten; allocates nothing if it has the right size already.  Cost O(n^2).
+/// @throws InputError for coordinates that there are not and matrices of different sizes
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out);
 SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin = -1);
 

@@ -24,12 +24,26 @@ double lowest_scale(const SecondOrderSystem& system) {
 
 }  // namespace
 
+namespace {
+
+void require_shape(const SecondOrderSystem& system, const Mode& mode) {
+    const Eigen::Index n = system.M.rows();
+    require_size("modes", "mass matrix", system.M, n, n);
+    require_size("modes", "elastic stiffness", system.K_elastic, n, n);
+    require_size("modes", "shape of a mode", mode.shape, n);
+}
+
+}  // namespace
+
 Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y) {
+    require_shape(system, x);
+    require_shape(system, y);
     return x.shape.dot(system.K_elastic * y.shape) +
            std::conj(x.eigenvalue) * y.eigenvalue * x.shape.dot(system.M * y.shape);
 }
 
 Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
+    require_shape(system, mode);
     const ComplexVector force = system.K_elastic * mode.shape;
     const Vector energy = (mode.shape.conjugate().array() * force.array()).real();
     const double total = energy.sum();
@@ -134,6 +148,7 @@ void ModeSolver::normalise(const SecondOrderSystem& system) {
 }
 
 void ModeSolver::copy(std::size_t mode, Mode& out) const {
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), static_cast<std::ptrdiff_t>(found_.size()));
     const Found& found = found_[mode];
     out.eigenvalue = found.eigenvalue;
     out.shape.resize(d_.size());
@@ -145,6 +160,7 @@ void ModeSolver::copy(std::size_t mode, Mode& out) const {
 }
 
 void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), static_cast<std::ptrdiff_t>(found_.size()));
     const Found& found = found_[mode];
     const Eigen::Index j = found.column;
     out = shapes_.col(j).cwiseProduct(elastic_.col(j));

@@ -19,6 +19,10 @@ struct Mode {
     double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
 };
 
+/// How many times the lowest frequency a mode may have before rounding is as large as what is computed of it: see
+/// ModeSolver.
+inline constexpr double most_certain_ratio = 1e7;
+
 /// All oscillating modes by natural frequency, then the aperiodic ones (real eigenvalues). Rigid-body modes (|lambda|
 /// below 1e-4 of the lowest single-coordinate frequency, as the zero pair of a free rotor) are left out. Low modes come
 /// out to working precision however stiff others are; a mode at r times the lowest frequency has an error of about

@@ -139,6 +139,9 @@ Motion Motion::harmonic(double mean, double amplitude, double period, double pha
     for (double value : {mean, amplitude, phase}) require_finite("harmonic motion", "mean, amplitude or phase", value);
     require_positive("harmonic motion", "period [s]", period);
     const double omega = 2 * pi / period;
+    if (!std::isfinite(omega * omega) || !std::isfinite(omega * omega * amplitude))
+        throw InputError("harmonic motion", "period [s]", period,
+                         "one whose accelerations, (2 pi / period)^2 amplitude, are numbers");
     const auto law = [=](double t, double) {
         const double s = amplitude * std::sin(omega * t + phase), c = amplitude * std::cos(omega * t + phase);
         return MotionState{mean + s, omega * c, -omega * omega * s};

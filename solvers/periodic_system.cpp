@@ -53,12 +53,14 @@ PeriodicSystem::PeriodicSystem(double period, Index rows) : period_(period), row
 }
 
 PeriodicSystem PeriodicSystem::second_order(double period, Index coordinates, SecondOrder at) {
+    if (!at) throw InputError("periodic system: the function of M, C and K is empty");
     PeriodicSystem system(period, coordinates);
     system.second_ = std::move(at);
     return system;
 }
 
 PeriodicSystem PeriodicSystem::first_order(double period, Index states, FirstOrder at) {
+    if (!at) throw InputError("periodic system: the function of E and A is empty");
     PeriodicSystem system(period, states);
     system.first_ = std::move(at);
     return system;

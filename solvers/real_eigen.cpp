@@ -1,5 +1,7 @@
 #include "solvers/real_eigen.hpp"
 
+#include "mbs/sizes.hpp"
+
 #include <Eigen/Householder>
 
 #include <algorithm>
@@ -44,6 +46,7 @@ void RealEigen::reduce_to_hessenberg(const Matrix& A) {
 
 bool RealEigen::compute(const Matrix& A) {
     const Index n = A.rows();
+    require_size("eigenvalues", "A", A, T_.rows(), T_.rows());
     values_.clear();
     if (n == 0) return true;
     reduce_to_hessenberg(A);

@@ -106,6 +106,12 @@ void Recorder::check_names() const {
 }
 
 void Recorder::sample(Integrator& integrator, double* values) {
+    require_model(place, "integrator", integrator.model().serial(), model_->serial());
+    for (const State& s : states_)
+        if (s.vector == &DynamicState::actuator && !integrator.is_driven(static_cast<int>(s.entry)))
+            throw InputError(place, "coordinate that is not driven in this integrator",
+                             model_->coordinates()[static_cast<int>(s.entry)].name,
+                             "the driven coordinates of the integrator that the recorder was made for");
     const DynamicState& state = integrator.state();
     for (const State& s : states_) *values++ = (state.*s.vector)(s.entry);
     if (energies_) values = std::ranges::copy(values_of(integrator.energy()), values).out;

@@ -30,6 +30,7 @@ public:
 
     const std::vector<Channel>& channels() const { return channels_; }
     /// @param values  out, one per channel.  Allocates.
+    /// @throws InputError for an integrator of another system, or with other driven coordinates
     void sample(Integrator& integrator, double* values);
 
 private:

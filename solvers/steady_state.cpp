@@ -185,6 +185,12 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
     if (options.initial.size() != 0 && options.initial.size() != coordinates_)
         throw InputError("steady state", "size of the starting point", options.initial.size(),
                          text(coordinates_, ", one per coordinate, or empty"));
+    for (Eigen::Index i = 0; i < options.initial.size(); ++i)
+        if (!std::isfinite(options.initial(i)))
+            throw InputError("steady state", text("coordinate number ", i, " of the starting point"),
+                             options.initial(i), "finite");
+    require_positive("steady state", "tolerance", options.tolerance);
+    if (options.iterations < 1) throw InputError("steady state", "limit of iterations", options.iterations, ">= 1");
 }
 
 // Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the

@@ -33,7 +33,8 @@ std::vector<double> ratios(OpenFastFile& file, std::initializer_list<const char*
 
 double factor(OpenFastFile& file, const char* keyword) {
     const double value = file.number(keyword);
-    if (!(value > 0)) file.fail(keyword, text(keyword, " = ", value, "; allowed: > 0"));
+    if (!(value >= 1e-30 && value <= 1e30))
+        file.fail(keyword, text(keyword, " = ", value, "; allowed: > 0 (1e-30 ... 1e30)"));
     return value;
 }
 

@@ -21,6 +21,7 @@ struct SmallRotorSpec {
     double mass = 3, arm = 4, offset = 0.5;   ///< kg, m, m
     RigidInertia hub = {10, Vec3::Zero(), Vec3(3, 3, 5).asDiagonal()};
     bool elastic_support = false;
+    double rigid_yaw = 0;  ///< a spring beside that of the support, N m/rad
     Vec3 gravity = Vec3::Zero();
 };
 
@@ -59,6 +60,7 @@ inline SmallRotor small_rotor(const SmallRotorSpec& spec = {}) {
                                           .inertia = {50, Vec3::Zero(), Vec3(90, 110, 60).asDiagonal()}});
         forces.add_spring("tilt", tilt.body, 9000, 5);
         forces.add_spring("yaw", yaw.body, 7000, 3);
+        if (spec.rigid_yaw > 0) forces.add_spring("rigid yaw", yaw.body, spec.rigid_yaw);
         at = tree.add_frame(yaw.axes, Placement::translation({0, 0, 1.2}), "shaft");
     }
     const Link spin = add_joint(tree, {.name = "spin", .inboard = at, .inertia = spec.hub});

@@ -17,7 +17,12 @@
 
 namespace {
 
-constinit thread_local std::size_t allocations = 0;
+constinit thread_local std::size_t allocations = 0, allocated = 0;
+
+[[maybe_unused]] void note(std::size_t size) {
+    ++allocations;
+    allocated += size;
+}
 
 }  // namespace
 
@@ -32,27 +37,27 @@ void* __libc_realloc(void* block, std::size_t size) noexcept;
 void* __libc_memalign(std::size_t alignment, std::size_t size) noexcept;
 
 void* malloc(std::size_t size) noexcept {
-    ++allocations;
+    note(size);
     return __libc_malloc(size);
 }
 void* calloc(std::size_t count, std::size_t size) noexcept {
-    ++allocations;
+    note(count * size);
     return __libc_calloc(count, size);
 }
 void* realloc(void* block, std::size_t size) noexcept {
-    ++allocations;
+    note(size);
     return __libc_realloc(block, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-    ++allocations;
+    note(size);
     return __libc_memalign(alignment, size);
 }
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
-    ++allocations;
+    note(size);
     return __libc_memalign(alignment, size);
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
-    ++allocations;
+    note(size);
     void* memory = __libc_memalign(alignment, size);
     if (memory == nullptr) return ENOMEM;
     *block = memory;
@@ -64,10 +69,14 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexce
 
 namespace cardan::testing {
 
-AllocationGuard::AllocationGuard() : before_(allocations) {}
+AllocationGuard::AllocationGuard() : before_(allocations), bytes_before_(allocated) {}
 
 std::size_t AllocationGuard::count() const {
     return allocations - before_;
+}
+
+std::size_t AllocationGuard::bytes() const {
+    return allocated - bytes_before_;
 }
 
 bool AllocationGuard::works() {

@@ -11,12 +11,14 @@ class AllocationGuard {
 public:
     AllocationGuard();
     std::size_t count() const;
+    /// Sum of the sizes asked for; what is freed meanwhile is not taken off.
+    std::size_t bytes() const;
 
     /// False where malloc is not ours to replace: other C libraries than glibc, address, thread and memory sanitizers.
     static bool works();
 
 private:
-    std::size_t before_;
+    std::size_t before_, bytes_before_;
 };
 
 }  // namespace cardan::testing
