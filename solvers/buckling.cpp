@@ -13,6 +13,62 @@ namespace cardan::solvers {
 
 namespace {
 
+// Sums of the magnitudes of the terms of which the stiffness of wrenches and gravity consists at a state: it is exact
+// to rounding of these, not of itself. The terms are d_b (v_a . F) = F . (w_b x v_a) + M . (w_b x w_a), b inboard of a,
+// with levers that are differences of places. What user forces are made of is not known.
+Matrix term_sizes(const System& system, const Vector& q, bool gravity) {
+    const Model& model = system.model;
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, q, workspace);
+    Matrix sizes = Matrix::Zero(model.size(), model.size());
+    const auto add = [&](const Vec3& at, int tip, double force, double moment) {
+        for (int a = tip; a >= 0; a = model.body(a).parent) {
+            const PointTwist<double> twist = twist_at(kin, a, at);
+            const double turns = twist.w.norm(), size = force * (twist.v.norm() + turns * at.norm()) + moment * turns;
+            for (int b = a; b >= 0; b = model.body(b).parent) sizes(a, b) = sizes(b, a) = sizes(b, a) + size;
+        }
+    };
+    for (const FrameLoad& load : system.forces.loads())
+        add(pose(kin, load.frame).p, model.frame(load.frame).body, load.wrench.force.norm(), load.wrench.moment.norm());
+    if (!gravity || !system.forces.has_gravity()) return sizes;
+    composites(kin);
+    for (int a = 0; a < model.size(); ++a) {
+        const auto& subtree = workspace.composite[static_cast<std::size_t>(a)];
+        const Vec3 C = subtree.C.vector();
+        const double size = subtree.M * system.forces.gravity().norm() * (twist_at(kin, a, C).v.norm() + C.norm());
+        for (int b = a; b >= 0; b = model.body(b).parent) sizes(a, b) = sizes(b, a) = sizes(b, a) + size;
+    }
+    return sizes;
+}
+
+// Without what is rounding of terms of these sizes.
+Matrix above_rounding(const Matrix& K, const Matrix& sizes) {
+    return (K.array().abs() > 1e-13 * sizes.array()).select(K, 0);
+}
+
+// Change of the elastic stiffness by the deflection under the loads, to first order in it: beams that are flexible in
+// shear measure their elongation with the square of the shear. Half the difference of the states on both sides has no
+// error for a law with a stiffness that is quadratic in the coordinates, whatever the step.
+Matrix prestress(const System& system, const Vector& q, const Vector& deflection) {
+    const double largest = deflection.cwiseAbs().maxCoeff(), step = 1e-3;
+    if (!(largest > 0)) return Matrix::Zero(q.size(), q.size());
+    const Vector zero = Vector::Zero(q.size()), d = step / largest * deflection;
+    const Matrix there = linearise(system, {q + d, zero, zero, 0}).elastic,
+                 back = linearise(system, {q - d, zero, zero, 0}).elastic;
+    return above_rounding(there - back, there.cwiseAbs() + back.cwiseAbs()) * (largest / (2 * step));
+}
+
+// Generalised forces of the loads alone.
+Vector load_forces(const System& system, const Vector& q, bool gravity) {
+    Workspace workspace(system.model);
+    const Kinematics kin = kinematics(system.model, q, workspace);
+    const Vector zero = Vector::Zero(q.size());
+    Vector loaded(q.size()), unloaded(q.size());
+    system.forces.generalised_forces(kin, 0, q, zero, loaded);
+    system.forces.with_load_factor(0, gravity).generalised_forces(kin, 0, q, zero, unloaded);
+    return loaded - unloaded;
+}
+
 void check_potential(const Matrix& loads) {
     const double skew = (loads - loads.transpose()).norm(), size = loads.norm();
     if (skew > 1e-7 * size)
@@ -82,15 +138,24 @@ std::vector<BucklingMode> linear_buckling(const System& system, const BucklingOp
                          text(n, " finite values, one per coordinate, or empty"));
     const std::vector<int> free = system.model.coordinates().free();
     if (free.empty()) return {};
-    const Vector zero = Vector::Zero(n);
-    const Linearisation lin = linearise(system, {options.at.size() > 0 ? options.at : zero, zero, zero, 0});
-    Matrix structure = lin.elastic(free, free), loads = lin.loads(free, free);
-    (options.gravity ? loads : structure) += lin.gravity(free, free);
+    const Vector zero = Vector::Zero(n), at = options.at.size() > 0 ? options.at : zero;
+    const Linearisation lin = linearise(system, {at, zero, zero, 0});
+    Matrix structure = lin.elastic(free, free), loads = lin.loads;
+    if (options.gravity)
+        loads += lin.gravity;
+    else
+        structure += lin.gravity(free, free);
+    loads = above_rounding(loads, term_sizes(system, at, options.gravity))(free, free).eval();
     check_potential(loads);
-    if (Eigen::LLT<Matrix>(structure).info() != Eigen::Success)
+    const Eigen::LLT<Matrix> cholesky(structure);
+    if (cholesky.info() != Eigen::Success)
         throw NumericalError(
             "linear buckling: the stiffness without the loads is not positive definite (a mechanism, or gravity has "
             "buckled the structure already); lock or support the free coordinates");
+    Vector deflection = zero;
+    const Vector forces = load_forces(system, at, options.gravity)(free), moved = cholesky.solve(forces);
+    deflection(free) = moved;
+    loads += prestress(system, at, deflection)(free, free);
 
     // (-K_loads) x = mu K x with mu = 1 / factor: the largest mu first.
     const Matrix destabilising = -(loads + loads.transpose()) / 2;

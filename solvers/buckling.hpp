@@ -21,9 +21,15 @@ struct BucklingMode {
 };
 
 /// Linear buckling at standstill: (K_elastic + factor K_loads) shape = 0 with both stiffnesses at one state, so that
-/// K_loads is the change of stiffness per unit load. In joint coordinates the elastic energy is quadratic and K_elastic
-/// constant; what is neglected is the change of K_loads through the deflection before buckling, of second order in the
-/// load. Dense symmetric eigenproblem over the free coordinates.
+/// K_loads is the change of stiffness per unit load: that of the loads themselves and, to first order, that of the
+/// elastic stiffness by the deflection under them. The elastic stiffness is constant in joint coordinates for beams
+/// that are rigid in shear; those that are not, with extension free, feel their axial force in it. What is neglected is
+/// the change of the loads' stiffness through the deflection before buckling, of second order in the load. Dense
+/// symmetric eigenproblem over the free coordinates.
+///
+/// What is rounding of the terms from which the stiffness of wrenches and gravity is summed up (1e-13 of their
+/// magnitude) counts as zero: loads that cannot buckle the structure have no factor, not one of 1e16. User forces do
+/// not tell their terms; of them a Jacobian that is zero should be an exact zero.
 /// @return the lowest positive factors in rising order; fewer than `count` (or none) if the loads have no more
 /// @throws InputError if count < 1, if `at` has a wrong size or is not finite, or if K_loads is not symmetric (1e-7 of
 /// its norm): follower forces and moments about fixed axes have no potential, may destabilise by flutter without any

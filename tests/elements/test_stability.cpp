@@ -130,6 +130,42 @@ TEST_CASE("column: the dynamic criterion and the load path lose stability at the
     CHECK(path.points.back().at.q.isZero(1e-12));              // the straight column is followed
 }
 
+TEST_CASE("linear buckling: loads that cannot buckle have no factor, whatever rounding leaves of their stiffness",
+          "[property]") {
+    // Load stiffness on a beam along an axis askew to the base, so that it consists of rounding.
+    const auto factors = [](const Vec3& force, double size, bool torsion) {
+        Tree tree;
+        ForceSet forces;
+        EngineeringSection section = slender(1, 1);
+        section.GJ = 1, section.j_flap = section.j_edge = 0.01, section.EA = 100;
+        CardanBeamOptions options = all_free(3);
+        options.torsion = options.extension = torsion;
+        const Mat3 R = rot_z(0.7) * rot_y(-0.4) * rot_x(1.1);
+        const FrameId root = tree.add_frame(Tree::base(), Placement::rotation(R), "root");
+        const CardanBeam beam = add_cardan_beam(tree, forces, root, uniform_beam(1, section), "beam", {"b"}, options);
+        forces.add_wrench({"tip load", beam.tip(), {size * R * force, Vec3::Zero()}, WrenchAxes::base});
+        return linear_buckling(System(tree, forces), {.count = 20});
+    };
+    for (const double size : {1e-12, 1.0, 1e12}) {
+        CAPTURE(size);
+        CHECK(factors({1, 0, 0}, size, false).empty());  // tension
+        CHECK(factors({1, 0, 0}, size, true).empty());
+        // Compression: as many factors as bending coordinates, none from the torsion and extension, and all of them
+        // in inverse proportion to the load.
+        const auto reference = factors({-1, 0, 0}, 1, true), found = factors({-1, 0, 0}, size, true);
+        CHECK(reference.size() == 12);
+        REQUIRE(found.size() == reference.size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+            CHECK(found[i].factor * size == Approx(reference[i].factor).epsilon(1e-9));
+    }
+    // A force across does nothing to a beam that does not twist.
+    for (const double size : {1e-12, 1.0, 1e12}) {
+        CAPTURE(size);
+        CHECK(factors({0, 1, 0}, size, false).empty());
+        CHECK(factors({0, 0.6, -0.8}, size, false).empty());
+    }
+}
+
 TEST_CASE("lateral buckling of a deep cantilever under a tip force: Prandtl's 4.0126 at second order", "[analytic]") {
     const double exact = lateral::tip_force();
     for (const auto& [delta, error] : {std::pair(sixth, 1e-5), std::pair(delta_gauss, 4e-4)}) {
