@@ -32,6 +32,39 @@ std::vector<double> element_ends(const BeamLine& line, const CardanBeamOptions& 
     return ends;
 }
 
+// What a place of the hinges costs that does not suit the partition; empty: nothing.
+std::string unsuited_delta(const CardanBeamOptions& options) {
+    const double delta = options.hinge_delta(), suited = suited_delta(options.partition);
+    if (places_hinges(options.partition) || std::abs(delta - suited) < 1e-4) return {};
+    const bool moments = options.partition == Partition::static_moment;
+    return text("hinges at delta = ", delta, " with ", partition_name(options.partition), ": ",
+                moments ? "rotating beams and buckling" : "bending",
+                " converge with the square of the element length instead of its fourth power; leave delta out (",
+                suited, ")", moments ? "" : " or take the static-moment partition for 1/6");
+}
+
+// Largest distance of the shear centre from the reference line, m.
+double shear_centre_offset(const BeamLine& line, const std::vector<double>& ends) {
+    double offset = 0;
+    for (std::size_t e = 0; e + 1 < ends.size(); ++e)
+        for (double t : {1e-9, 0.5, 1 - 1e-9}) {
+            const Mat6 S = line.section(ends[e] + t * (ends[e + 1] - ends[e])).compliance;
+            if (S(3, 3) > 0) offset = std::max(offset, std::hypot(S(3, 1), S(3, 2)) / S(3, 3));
+        }
+    return offset;
+}
+
+// EI / GA L^2 by the mean compliances.
+double shear_share(const BeamLine& line) {
+    const ElementLine whole(line, 0, line.length);
+    if (!is_flexible_in_shear(whole)) return 0;
+    const Eigen::Vector2d mean = whole.integral(0, 1, Eigen::Vector2d(Eigen::Vector2d::Zero()), [&](double s) {
+        const Mat6 S = line.section(s).compliance;
+        return Eigen::Vector2d(S(1, 1) + S(2, 2), S(4, 4) + S(5, 5));
+    });
+    return mean(1) > 0 ? mean(0) / (mean(1) * line.length * line.length) : 0;
+}
+
 // Adds the joints and bodies of one element.
 class ElementBuilder {
 public:
@@ -137,24 +170,23 @@ void add_armatures(Tree& tree, const CardanBeam::Element& element, const Element
     }
 }
 
-// Bends the beam as its options say: K q, or the gradient of a better energy.
+// Springs: K q, or the gradient of a better energy. Dampers act on the rates of the coordinates themselves.
 void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string& name) {
     const CardanBeamOptions& options = beam.options;
     std::vector<HingeLawElement> elements;
     for (std::size_t e = 0; e < beam.elements.size(); ++e) {
         const CardanBeam::Element& element = beam.elements[e];
         const auto n = static_cast<Eigen::Index>(element.bodies.size());
-        const bool linear = options.hinge_law.is_linear();
+        const bool linear = options.hinge_law.is_linear() && element.tilt.rotation.size() == 0;
         if (linear || !element.damping.isZero(0))
             forces.add_law({text(name, " element ", e + 1),
                             element.bodies,
                             linear ? element.stiffness : Matrix(Matrix::Zero(n, n)),
                             element.damping,
                             {}});
-        elements.push_back({element.bodies, element.kinds, element.stiffness});
+        if (!linear) elements.push_back({element.bodies, element.kinds, element.stiffness, element.tilt});
     }
-    if (!options.hinge_law.is_linear())
-        forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
+    if (!elements.empty()) forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
 }
 
 // Damping that is told by the modes of the beam alone: they are computed from a beam clamped at its root.
@@ -196,7 +228,8 @@ void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,
                            const PartLabel& label, const CardanBeamOptions& options) {
     line.check();
-    if (!(options.delta > 0 && options.delta < 0.5)) throw InputError(name, "delta", options.delta, "0 < delta < 0.5");
+    const double delta = options.hinge_delta();
+    if (!(delta > 0 && delta < 0.5)) throw InputError(name, "delta", delta, "0 < delta < 0.5");
     options.damping.check(name);
     const std::vector<double> ends = element_ends(line, options);
     CardanBeam beam;
@@ -214,6 +247,21 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
         beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", i)));
     };
     add_node(0);
+    if (const std::string unsuited = unsuited_delta(options); !unsuited.empty())
+        beam.warnings.push_back(text(name, ": ", unsuited));
+    if (!options.extension && shear_centre_offset(line, ends) > 2.5e-3 * line.length)
+        beam.warnings.push_back(text(name, ": the shear centre lies up to ", shear_centre_offset(line, ends),
+                                     " m off the reference line while extension is condensed out, so that the hinges "
+                                     "stay on the reference line: bodies between them are tilted by torsion, which "
+                                     "more elements do not remove; keep the extension free"));
+    if (const double share = options.extension ? 0 : shear_share(line); share > 5e-3)
+        beam.warnings.push_back(
+            text(name, ": EI / GA L^2 = ", share,
+                 " while extension is condensed out: under an axial "
+                 "force N the beam is as stiff in shear as GA + ",
+                 1 / (1 - 2 * delta),
+                 " N (N < 0 in compression), not GA, with any number of elements; keep the extension "
+                 "free where N is more than a few per cent of GA"));
     for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
         const std::string element_name = text(name, " element ", e + 1);
         const Vec3 hinge_line =
@@ -223,7 +271,7 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
             const double x = span.place(fraction);
             line.section(x).check(text(line.name, ", section at ", x, " m"));
         }
-        const ElementInertia inertia = partition_element(span, options.delta, options.partition);
+        const ElementInertia inertia = partition_element(span, delta, options.partition);
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         beam.mass += inertia.mass;
         const Mat6 flexibility = joint_flexibility(span, inertia.hinges, options.curved_flexibility);
@@ -243,6 +291,7 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     flexibility,
                                     joint_stiffness(flexibility, builder.kinds, element_name),
                                     {},
+                                    {},
                                     ends[e],
                                     span.chord(),
                                     ends[e + 1] - ends[e],
@@ -251,8 +300,10 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     {},
                                     inertia.hinges,
                                     inertia.body,
-                                    inertia.rotary_split};
+                                    inertia.rotary_split,
+                                    inertia.shape_share};
         element.damping = element_damping(line, element, options);
+        element.tilt = shear_tilt(span, inertia.hinges, options.curved_flexibility, builder.kinds, element.stiffness);
         std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
         add_armatures(tree, element, inertia, options, element_name);
         beam.elements.push_back(std::move(element));

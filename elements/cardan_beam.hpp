@@ -17,6 +17,8 @@
 #include "elements/timoshenko.hpp"
 #include "mbs/forces.hpp"
 
+#include <optional>
+
 namespace cardan {
 
 enum class CardanOrder : std::uint8_t { mirrored, same };
@@ -24,7 +26,9 @@ enum class CardanOrder : std::uint8_t { mirrored, same };
 struct CardanBeamOptions {
     int elements = 3;                     ///< equal lengths, unless `boundaries` is given
     std::vector<double> boundaries = {};  ///< element ends from 0 to the length of the beam, m
-    double delta = delta_gauss;           ///< 0 < delta < 0.5; not used by partitions that place the hinges themselves
+    /// Place of the hinges, 0 < delta < 0.5. Empty: suited_delta() of the partition; another place costs orders of
+    /// convergence and gives a warning. Not used by partitions that place the hinges themselves.
+    std::optional<double> delta = {};
     Partition partition = Partition::segment_masses;
     CardanOrder order = CardanOrder::mirrored;
     CurvedFlexibility curved_flexibility = CurvedFlexibility::curve;
@@ -37,6 +41,7 @@ struct CardanBeamOptions {
     /// the metric of the whole tree stays positive definite: the Model refuses it otherwise and names the coordinate.
     double bending_armature = 0;
     double torsion_armature = 0;  ///< on the torsion coordinate, times the polar inertia of the element
+    double hinge_delta() const { return delta.value_or(suited_delta(partition)); }
 };
 
 /// What was added to the tree.
@@ -52,6 +57,7 @@ struct CardanBeam {
         Mat6 flexibility;
         Matrix stiffness;      ///< over `bodies`
         Matrix damping;        ///< over `bodies`, without what is told by modes of the whole beam
+        ShearTilt tilt;        ///< over `bodies`; empty unless flexible in shear with extension free
         double start, length;  ///< m along the reference line; of the chord
         double arc;            ///< m along the reference line
         Vec3 hinge_line;       ///< (0, y, z) seen from the chord, element axes, m
@@ -59,7 +65,7 @@ struct CardanBeam {
         std::array<Segment, 4> segments;
         Hinges hinges;
         std::array<RigidInertia, 4> inertia;  ///< of B1 ... B4, element axes, origin at the inboard end
-        double rotary_split;                  ///< see ElementInertia
+        double rotary_split, shape_share;     ///< see ElementInertia
     };
     std::string name;
     std::vector<Element> elements;

@@ -1,5 +1,7 @@
 #include "elements/hinge_law.hpp"
 
+#include <algorithm>
+
 namespace cardan {
 
 namespace {
@@ -103,13 +105,67 @@ struct Response {
     Square stiffness;   // d2V/dq2
 };
 
+// The hinge angle of a kind grows by this multiple of psi_y or psi_z, whichever bends it.
+double tilt_sign(ElementCoordinate kind) {
+    using enum ElementCoordinate;
+    return kind == az1 || kind == ay2 ? 1 : kind == az2 || kind == ay1 ? -1 : 0;
+}
+Eigen::Index tilt_row(ElementCoordinate kind) {
+    return kind == ElementCoordinate::ay1 || kind == ElementCoordinate::ay2 ? 1 : 0;
+}
+
+// The springs by their arguments y: V = z^T K z / 2 with z of hinge_forces(), its gradient D^T p and second derivatives
+// D^T K D + p . d2z/dy2, D = dz/dy and p = K z.
+Response springs(const HingeLawElement& element, const Coordinates& y) {
+    const Matrix& K = element.stiffness;
+    const Eigen::Index n = y.size();
+    if (element.tilt.rotation.size() == 0) {
+        const Coordinates moment = K.lazyProduct(y);
+        return {y.dot(moment) / 2, moment, K};
+    }
+    // In six dimensions whatever their number, with zeros.
+    Mat6 stiffness = Mat6::Zero(), D = Mat6::Identity();
+    Eigen::Matrix<double, 2, 6> Psi = Eigen::Matrix<double, 2, 6>::Zero();
+    Vec6 z = Vec6::Zero();
+    stiffness.topLeftCorner(n, n) = K;
+    Psi.leftCols(n) = element.tilt.rotation;
+    z.head(n) = y;
+    const auto u = std::find(element.kinds.begin(), element.kinds.end(), ElementCoordinate::u) - element.kinds.begin();
+    const double d = element.tilt.distance, s = 1 + y(u) / d;
+    const Eigen::Vector2d psi = Psi * z;
+    const Vec6 along = Psi.transpose() * psi;
+    z(u) -= s * d * psi.squaredNorm() / 2;
+    D.row(u) -= s * d * along.transpose();
+    D(u, u) -= psi.squaredNorm() / 2;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const ElementCoordinate kind = element.kinds[static_cast<std::size_t>(i)];
+        const double sign = tilt_sign(kind);
+        if (sign == 0) continue;
+        const Eigen::Index row = tilt_row(kind);
+        z(i) += (s - 1) * sign * psi(row);
+        D.row(i) += (s - 1) * sign * Psi.row(row);
+        D(i, u) += sign * psi(row) / d;
+    }
+    const Vec6 p = stiffness * z;
+    Eigen::Vector2d sheared = Eigen::Vector2d::Zero();  // what does work on psi
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const ElementCoordinate kind = element.kinds[static_cast<std::size_t>(i)];
+        sheared(tilt_row(kind)) += tilt_sign(kind) * p(i);
+    }
+    const Vec6 with_u = Psi.transpose() * sheared / d - p(u) * along, gradient = D.transpose() * p;
+    Mat6 tangent = D.transpose() * stiffness * D - p(u) * s * d * Psi.transpose() * Psi;
+    tangent.col(u) += with_u;
+    tangent.row(u) += with_u.transpose();
+    return {z.dot(p) / 2, gradient.head(n), tangent.topLeftCorner(n, n)};
+}
+
 Response respond(const HingeLaw& law, const HingeLawElement& element, const Coordinates& q) {
+    if (law.is_linear()) return springs(element, q);
     Vec6 all = Vec6::Zero();
     for (std::size_t i = 0; i < element.kinds.size(); ++i)
         all(static_cast<Eigen::Index>(element.kinds[i])) = q(static_cast<Eigen::Index>(i));
     const std::array<Jet, 6> y = arguments(law, all);
     const auto n = q.size();
-    const Square K = element.stiffness;
     Coordinates values(n);
     Square Y(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -118,21 +174,31 @@ Response respond(const HingeLaw& law, const HingeLawElement& element, const Coor
         for (Eigen::Index j = 0; j < n; ++j)
             Y(i, j) = jet.gradient(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
     }
-    const Coordinates moment = K.lazyProduct(values);
-    Response r{values.dot(moment) / 2, Y.transpose().lazyProduct(moment),
-               Y.transpose().lazyProduct(Square(K.lazyProduct(Y)))};
+    const Response spring = springs(element, values);
+    Response r{spring.energy, Y.transpose().lazyProduct(spring.force),
+               Y.transpose().lazyProduct(Square(spring.stiffness.lazyProduct(Y)))};
     for (Eigen::Index k = 0; k < n; ++k) {
         const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(k)])];
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = 0; j < n; ++j)
-                r.stiffness(i, j) +=
-                    moment(k) * jet.hessian(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(i)]),
-                                            static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
+                r.stiffness(i, j) += spring.force(k) *
+                                     jet.hessian(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(i)]),
+                                                 static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
     }
     return r;
 }
 
 }  // namespace
+
+ShearTilt shear_tilt(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule,
+                     const std::vector<ElementCoordinate>& kinds, const Matrix& stiffness) {
+    if (std::find(kinds.begin(), kinds.end(), ElementCoordinate::u) == kinds.end()) return {};
+    if (!is_flexible_in_shear(element)) return {};
+    std::vector<int> free;
+    for (ElementCoordinate kind : kinds) free.push_back(static_cast<int>(kind));
+    return {shear_rotation(element, hinges, rule)(Eigen::all, free) * stiffness,
+            (hinges.second - hinges.first) * element.chord()};
+}
 
 Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const Vector& q) {
     return respond(law, element, q).force;

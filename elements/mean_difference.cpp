@@ -1,6 +1,6 @@
 #include "elements/mean_difference.hpp"
 
-#include "mbs/decompositions.hpp"
+#include "elements/static_shapes.hpp"
 
 namespace cardan {
 
@@ -125,29 +125,14 @@ private:
 }  // namespace
 
 HingeShapes hinge_shapes(const PlanarElement& element, const HingePlaces& hinges) {
-    const double d = hinges.second - hinges.first;
-    const Samples &x = element.x(), &c = element.bending(), &mu = element.mass();
-    const std::array<Samples, 2> N{(hinges.second - x) / d, (x - hinges.first) / d};
-    constexpr std::array<double, 2> sigma{1, -1};
-    const double sheared = element.integral(element.shear()) / (d * d);
-    const Samples shear = element.running(element.shear()) / d;
-    Eigen::Matrix2d F;
-    std::array<Samples, 2> psi;  // deflections by hinge moments
-    for (std::size_t i = 0; i < 2; ++i) {
-        for (std::size_t j = 0; j < 2; ++j)
-            F(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                element.integral(c * N[i] * N[j]) + sigma[i] * sigma[j] * sheared;
-        psi[i] = element.running(element.running(c * N[i])) + sigma[i] * shear;
-    }
-    const Eigen::Matrix2d K = F.inverse();
-    const Samples p2 = K(1, 0) * psi[0] + K(1, 1) * psi[1];
-    const Samples p1 = K(0, 0) * psi[0] + K(0, 1) * psi[1] - (x - hinges.first);
-    return {element.integral(mu * p2),
-            element.integral(mu * p1),
-            element.integral(mu * p2.square()),
-            element.integral(mu * p1.square()),
-            element.integral(mu * p2 * (x - hinges.second)),
-            element.integral(mu * p1 * (hinges.first - x))};
+    const StaticShapes p = static_shapes(element, hinges);
+    const Samples &x = element.x(), &mu = element.mass();
+    return {element.integral(mu * p.last),
+            element.integral(mu * p.first),
+            element.integral(mu * p.last.square()),
+            element.integral(mu * p.first.square()),
+            element.integral(mu * p.last * (x - hinges.second)),
+            element.integral(mu * p.first * (hinges.first - x))};
 }
 
 MeanDifference mean_difference(const PlanarElement& element) {

@@ -112,11 +112,13 @@ void place_at_compliance(const ElementLine& on, Partition partition, ElementIner
     const bool massless = !(plane.integral(plane.mass()) > 0);
     if (partition == Partition::compliance_gauss || massless) {
         set(partition == Partition::compliance_gauss ? compliance_gauss_points(plane) : mean_difference_points(plane));
+        element.shape_share = partition == Partition::mean_difference && plane.bending().maxCoeff() > 0 ? 1 : 0;
         return cut_at_hinges(on, element);
     }
     const MeanDifference planar = mean_difference(plane);
     set(planar.hinges);
     cut_at_hinges(on, element);
+    element.shape_share = planar.limiter;
     if (planar.limiter > 0) move_to_mean_difference(on, planar, element);
 }
 
@@ -148,6 +150,7 @@ ElementInertia partition_element(const ElementLine& on, double delta, Partition 
         element.hinges = Hinges::symmetric(delta);
         cut_at_hinges(on, element);
     }
+    if (partition == Partition::static_moment) element.shape_share = 1;
     if (partition == Partition::static_moment && element.mass > 0) move_to_static_moment(on, delta, element);
     const Mat3 left = rotary_inertia(on, 0, element.rotary_split), right = rotary_inertia(on, element.rotary_split, 1);
     element.body[0].J += left;

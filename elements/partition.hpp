@@ -21,6 +21,12 @@ enum class Partition : std::uint8_t {
                        ///< is closer); mind centrifugal_limit. [docs/partitions.md]
 };
 
+/// Where the hinges of a partition belong, as a fraction of the length; of those that place them themselves
+/// delta_gauss.
+constexpr double suited_delta(Partition partition) {
+    return partition == Partition::static_moment ? 1. / 6 : delta_gauss;
+}
+
 /// "segment masses", "static moments", "compliance Gauss points", "mean differences".
 std::string_view partition_name(Partition partition);
 /// Does the partition put the hinges where the element's compliance says, not at delta?
@@ -32,9 +38,11 @@ constexpr bool places_hinges(Partition partition) {
 struct ElementInertia {
     std::array<RigidInertia, 4> body;
     Hinges hinges = Hinges::symmetric(delta_gauss);
-    double mass = 0;            ///< of the element, kg
-    double polar_inertia = 0;   ///< int (Jxx + mu (y^2 + z^2)) dx about the hinge line, kg m^2
-    std::string warning = {};   ///< empty, or what is unsound about the partition here
+    double mass = 0;           ///< of the element, kg
+    double polar_inertia = 0;  ///< int (Jxx + mu (y^2 + z^2)) dx about the hinge line, kg m^2
+    std::string warning = {};  ///< empty, or what is unsound about the partition here
+    /// How far B1 and B4 have the first moments of the static shapes: 1 all the way, 0 those of the true segments.
+    double shape_share = 0;
     double rotary_split = 0.5;  ///< place, as a fraction of the length, inboard of which the sectional rotary inertia
                                 ///< is part of B1, beyond of B4
 };

@@ -21,8 +21,9 @@ std::vector<double> pieces(double length, const std::vector<double>& breaks) {
     return all;
 }
 
-double geometric_mean(const BeamSection& s, Eigen::Index first) {
+double mean_compliance(const BeamSection& s, Eigen::Index first, PlaneMean mean) {
     const Eigen::Matrix2d c = s.compliance.block<2, 2>(first, first);
+    if (mean == PlaneMean::arithmetic) return c.trace() / 2;
     return std::sqrt(std::max(0.0, c(0, 0) * c(1, 1) - c(0, 1) * c(1, 0)));
 }
 
@@ -56,10 +57,10 @@ PlanarElement::PlanarElement(double length, std::vector<double> breaks, std::fun
     }
 }
 
-PlanarElement::PlanarElement(const ElementLine& element)
-    : PlanarElement(element.end() - element.start(), breaks_inside(element), [&element](double x) {
+PlanarElement::PlanarElement(const ElementLine& element, PlaneMean mean)
+    : PlanarElement(element.end() - element.start(), breaks_inside(element), [&element, mean](double x) {
           const BeamSection s = element.line().section(element.start() + x);
-          return PlanarSection{s.mass, geometric_mean(s, 4), geometric_mean(s, 1)};
+          return PlanarSection{s.mass, mean_compliance(s, 4, mean), mean_compliance(s, 1, mean)};
       }) {}
 
 PlanarElement::Samples PlanarElement::running(const Samples& f) const {

@@ -14,6 +14,10 @@ struct PlanarSection {
     double shear = 0;    ///< 1/GA, 1/N
 };
 
+/// How the compliances of both planes make one: sqrt(det) of the 2 x 2 compliance of the section, which is
+/// 1/sqrt(EI_y EI_z) in whatever axes; or half the trace.
+enum class PlaneMean : std::uint8_t { geometric, arithmetic };
+
 class PlanarElement {
 public:
     using Samples = Eigen::ArrayXd;
@@ -21,15 +25,18 @@ public:
     /// @param sections  at 0 <= x <= length
     /// @param breaks    where they have kinks or jumps, ascending, m
     PlanarElement(double length, std::vector<double> breaks, std::function<PlanarSection(double x)> sections);
-    /// Of an element that bends both ways, the bodies of which serve both: compliance sqrt(det) of the 2 x 2 compliance
-    /// of the section, which is 1/sqrt(EI_y EI_z) in whatever axes, for shear alike. Lengths are those along the line.
-    explicit PlanarElement(const ElementLine& element);
+    /// Of an element that bends both ways, the bodies of which serve both: mean compliance, for shear alike. Lengths
+    /// are those along the line.
+    explicit PlanarElement(const ElementLine& element, PlaneMean mean = PlaneMean::geometric);
 
     double length() const { return length_; }
     const Samples& x() const { return x_; }
     const Samples& mass() const { return mass_; }
     const Samples& bending() const { return bending_; }
     const Samples& shear() const { return shear_; }
+
+    /// Of the samples in an integral along the element, m.
+    const Samples& weight() const { return weight_; }
 
     double integral(const Samples& f) const { return (weight_ * f).sum(); }
     /// Integrals from 0 to every sample.

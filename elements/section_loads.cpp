@@ -169,8 +169,9 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
         x(i) = q(at);
         v(i) = qd(at);
     }
-    const Vector p = hinge_forces(beam.options.hinge_law, {element.bodies, element.kinds, element.stiffness}, x) +
-                     element.damping * v;
+    const Vector p =
+        hinge_forces(beam.options.hinge_law, {element.bodies, element.kinds, element.stiffness, element.tilt}, x) +
+        element.damping * v;
     Vec6 angles = Vec6::Zero(), forces = Vec6::Zero();  // in the order of ElementCoordinate
     for (std::size_t i = 0; i < element.kinds.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(i), kind = static_cast<Eigen::Index>(element.kinds[i]);

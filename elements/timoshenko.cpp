@@ -47,18 +47,65 @@ Vec3 shear_centre(const ElementLine& element) {
     return centre.norm() > 1e-12 * element.chord() ? centre : Vec3::Zero();  // rounding is no offset
 }
 
-Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule) {
+namespace {
+
+// Integral over the element of f(strains of the hinge line by joint forces, section forces by joint forces at the hinge
+// line), both 6 x 6.
+template <class T, class F>
+T over_sections(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule, const T& zero, const F& f) {
     const double L = element.chord(), straight = L / (element.end() - element.start());
     const bool on_chord = rule == CurvedFlexibility::chord;
-    const Mat6 F = element.integral(0, 1, Mat6(Mat6::Zero()), [&](double s) {
+    const T sum = element.integral(0, 1, zero, [&](double s) {
         const Placement at =
             on_chord ? Placement::translation(Vec3((s - element.start()) * straight, 0, 0) - element.hinge_line())
                      : element.pose(s);
-        const Mat6 H = to_section(at) * section_forces_by_joint_forces(at.p(0), L, hinges);
-        return Mat6(H.transpose() * element.line().section(s).compliance * H);
+        const Mat6 X = to_section(at), H = section_forces_by_joint_forces(at.p(0), L, hinges);
+        return f(Mat6(X.transpose() * element.line().section(s).compliance * X * H), H);
     });
-    return on_chord ? Mat6(F * straight) : F;
+    return on_chord ? T(sum * straight) : sum;
 }
+
+}  // namespace
+
+Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule) {
+    return over_sections(element, hinges, rule, Mat6(Mat6::Zero()),
+                         [](const Mat6& strain, const Mat6& H) { return Mat6(H.transpose() * strain); });
+}
+
+bool is_flexible_in_shear(const ElementLine& element) {
+    // Of the shear compliance, all of it and what is left of it at zero twist.
+    const Eigen::Vector2d shear = element.integral(0, 1, Eigen::Vector2d(Eigen::Vector2d::Zero()), [&](double s) {
+        const Mat6 S = element.line().section(s).compliance;
+        const double all = S(1, 1) + S(2, 2), by_twist = S(3, 1) * S(3, 1) + S(3, 2) * S(3, 2);
+        return Eigen::Vector2d(all, S(3, 3) > 0 ? all - by_twist / S(3, 3) : all);
+    });
+    return shear(1) > 1e-9 * shear(0);
+}
+
+Eigen::Matrix<double, 2, 6> shear_rotation(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule) {
+    using Rows = Eigen::Matrix<double, 2, 6>;
+    const double d = (hinges.second - hinges.first) * element.chord();
+    return over_sections(element, hinges, rule, Rows(Rows::Zero()),
+                         [d](const Mat6& strain, const Mat6&) { return Rows(strain.middleRows<2>(1) / d); });
+}
+
+namespace {
+
+// A coordinate that nothing gives way in, and what to do about it.
+void refuse_rigid(const Mat6& flexibility, ElementCoordinate kind, const std::string& where) {
+    const auto i = static_cast<Eigen::Index>(kind);
+    if (flexibility(i, i) > 0) return;
+    constexpr std::array<const char*, 6> name{"extension (u)",    "torsion (phi)",    "bending y1 (ay1)",
+                                              "bending y2 (ay2)", "bending z1 (az1)", "bending z2 (az2)"};
+    constexpr std::array<const char*, 3> remedy{
+        "> 0: a rigid direction must be locked, with `extension = false` in the options of the beam, or EA given",
+        "> 0: a rigid direction must be locked, with `torsion = false` in the options of the beam, or GJ given",
+        "> 0: bending cannot be locked, EI must be finite"};
+    throw InputError(where, text("flexibility of ", name.at(static_cast<std::size_t>(i))), flexibility(i, i),
+                     remedy.at(static_cast<std::size_t>(std::min<Eigen::Index>(i, 2))));
+}
+
+}  // namespace
 
 Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,
                        const std::string& where) {
@@ -67,12 +114,13 @@ Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordin
     Matrix f(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) f(i, j) = flexibility(at(i), at(j));
+    for (ElementCoordinate kind : coordinates) refuse_rigid(flexibility, kind, where);
     // Scaled to unit diagonal: metres and radians differ by decades.
     const Vector scale = f.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::LLT<Matrix> cholesky(scale.asDiagonal() * f * scale.asDiagonal());
-    if (cholesky.info() != Eigen::Success || !(f.diagonal().minCoeff() > 0))
-        throw InputError(where, "flexibility of the free joint coordinates", f.diagonal().transpose(),
-                         "positive definite (a rigid direction must be locked)");
+    if (cholesky.info() != Eigen::Success)
+        throw InputError(where, "flexibility of the free joint coordinates (diagonal)", f.diagonal().transpose(),
+                         "positive definite: the section's compliance is indefinite or singular");
     Matrix K = scale.asDiagonal() * cholesky.solve(Matrix(scale.asDiagonal()));
     return (K + K.transpose()) / 2;
 }

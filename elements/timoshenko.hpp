@@ -49,9 +49,20 @@ Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges,
 /// The element [x0, x0 + L] of a line, hinges at delta L and (1 - delta) L.
 Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
 
+/// Does any section of the element give way in shear? Torsion about a shear centre off the line, which shears the line,
+/// does not count.
+bool is_flexible_in_shear(const ElementLine& element);
+
+/// The part (psi_y, psi_z) of the rotation of the bodies between the hinges that is shear, rad, by the joint forces in
+/// the order of ElementCoordinate: psi = int gamma ds / d, toward y and toward z, gamma the shear strain of the hinge
+/// line by the sections' compliance and d the distance of the hinges. The sections do not turn by it.
+Eigen::Matrix<double, 2, 6> shear_rotation(const ElementLine& element, const Hinges& hinges,
+                                           CurvedFlexibility rule = CurvedFlexibility::curve);
+
 /// Joint stiffness over the chosen coordinates: the inverse of the flexibility without the rows and columns of those
 /// that are locked (condensed at zero force, not clamped).
-/// @throws InputError if the flexibility is singular there (a free direction of a rigid section).
+/// @throws InputError if the flexibility is singular there: a free direction of a rigid section, with the coordinate
+/// and the option that locks it.
 Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,
                        const std::string& where);
 

@@ -292,7 +292,7 @@ int run(const Arguments& a) {
                   << " rpm at which this discretisation loses its stiffness to the centrifugal force; take more "
                      "elements or another partition\n";
     std::cout << isolated.rotor.machine << ": " << isolated.beam.elements.size() << " elements, ";
-    if (!places_hinges(options.partition)) std::cout << "delta " << options.delta << ", ";
+    if (!places_hinges(options.partition)) std::cout << "delta " << options.hinge_delta() << ", ";
     std::cout << partition_name(options.partition) << ", extension " << (options.extension ? "free" : "condensed")
               << "\nends, m from the root:";
     for (const CardanBeam::Element& e : isolated.beam.elements) std::cout << " " << e.start;

@@ -23,7 +23,7 @@ struct ShaftBeam {
 struct AssemblyOptions {
     int tower_elements = 3;
     int blade_elements = 3;
-    double delta = delta_gauss;  ///< of tower and blades; see CardanBeamOptions
+    std::optional<double> delta = {};  ///< of tower and blades; empty: what suits the partition; see CardanBeamOptions
     Partition partition = Partition::segment_masses;
     double pitch = 0;                ///< of all blades, leading edge upwind positive, rad
     Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2

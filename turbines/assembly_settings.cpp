@@ -11,7 +11,8 @@ namespace {
 std::string in_words(const CardanBeamOptions& b) {
     const std::size_t elements =
         b.boundaries.empty() ? static_cast<std::size_t>(std::max(b.elements, 0)) : b.boundaries.size() - 1;
-    return text(elements, " elements, ", places_hinges(b.partition) ? std::string() : text("delta ", b.delta, ", "),
+    return text(elements, " elements, ",
+                places_hinges(b.partition) ? std::string() : text("delta ", b.hinge_delta(), ", "),
                 partition_name(b.partition), b.extension ? ", extension free" : ", extension condensed",
                 b.torsion ? ", torsion free" : ", torsion condensed");
 }
@@ -23,7 +24,8 @@ std::string parts_in_words(const AssemblyOptions& o) {
     words += o.blade_beam ? text("blades of ", in_words(*o.blade_beam), ", ")
                           : text(o.blade_elements, " elements per blade, ");
     if (o.tower_beam && o.blade_beam) return words;
-    return words + text(places_hinges(o.partition) ? std::string() : text("delta ", o.delta, ", "),
+    return words + text(places_hinges(o.partition) ? std::string()
+                                                   : text("delta ", o.delta.value_or(suited_delta(o.partition)), ", "),
                         partition_name(o.partition), ", ");
 }
 

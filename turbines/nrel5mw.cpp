@@ -81,7 +81,6 @@ CardanBeamOptions nrel5mw_blade_elements(int elements, Partition partition) {
     options.extension = true;
     options.partition = partition;
     if (partition != Partition::static_moment) return options;
-    options.delta = 1.0 / 6;
     if (elements < 2) return options;
     constexpr double length = 61.5, last = 1;
     for (int i = 0; i < elements; ++i) options.boundaries.push_back((length - last) * i / (elements - 1));
@@ -113,7 +112,7 @@ Nrel5mwIsolatedBlade isolated_blade(const Nrel5mwBlade& blade, const CardanBeamO
 
     RotorMap& rotor = isolated.rotor;
     rotor.machine = "NREL 5 MW blade, isolated";
-    const std::string delta = places_hinges(elements.partition) ? "" : text("delta ", elements.delta, ", ");
+    const std::string delta = places_hinges(elements.partition) ? "" : text("delta ", elements.hinge_delta(), ", ");
     rotor.description = text(isolated.beam.elements.size(), " elements, ", delta, partition_name(elements.partition),
                              ", extension ", elements.extension ? "free" : "condensed", ", mass ", isolated.beam.mass,
                              " kg\n\nread from (before changes made in a program)\n", blade.source);

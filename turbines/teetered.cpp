@@ -297,9 +297,10 @@ namespace {
 
 std::string beam_settings(const CardanBeamOptions& o) {
     return text(o.boundaries.empty() ? o.elements : static_cast<int>(o.boundaries.size()) - 1, " elements (",
-                places_hinges(o.partition) ? std::string() : text("delta ", o.delta, ", "), partition_name(o.partition),
-                ", extension ", o.extension ? "free" : "condensed", ", torsion ", o.torsion ? "free" : "condensed",
-                ", armatures bending ", o.bending_armature, ", torsion ", o.torsion_armature, ")");
+                places_hinges(o.partition) ? std::string() : text("delta ", o.hinge_delta(), ", "),
+                partition_name(o.partition), ", extension ", o.extension ? "free" : "condensed", ", torsion ",
+                o.torsion ? "free" : "condensed", ", armatures bending ", o.bending_armature, ", torsion ",
+                o.torsion_armature, ")");
 }
 
 // The options of an assembly in words.

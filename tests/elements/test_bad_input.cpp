@@ -104,8 +104,11 @@ TEST_CASE("beam: a negative damping ratio, or one at no frequency, is refused", 
 }
 
 TEST_CASE("beam: a free direction of a rigid section is refused with the element named", "[property]") {
-    check_beam_refused([](L&, O& o) { o.torsion = true; }, {"spar element 1", "a rigid direction must be locked"});
-    check_beam_refused([](L&, O& o) { o.extension = true; }, {"spar element 1", "a rigid direction must be locked"});
+    check_beam_refused([](L&, O& o) { o.torsion = true; }, {"spar element 1: flexibility of torsion (phi) = 0",
+                                                            "a rigid direction must be locked", "`torsion = false`"});
+    check_beam_refused([](L&, O& o) { o.extension = true; },
+                       {"spar element 1: flexibility of extension (u) = 0", "a rigid direction must be locked",
+                        "`extension = false`"});
 }
 
 TEST_CASE("beam: a negative armature that leaves a coordinate no inertia is refused by the model, which names it",

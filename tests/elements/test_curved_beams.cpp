@@ -210,10 +210,11 @@ TEST_CASE("curved beam: the distance of that rod from the Cosserat rod is propor
         CHECK((of_elements(GA / 4, GJ) / 4 - gap).norm() < 0.01 * gap.norm());
         CHECK((of_limit(GA / 10, GJ, {0, 0, 600}) / 10 - limit).norm() < 0.01 * limit.norm());
     }
-    // Bent in its plane it turns about neither of the tilted axes: nothing to first order.
+    // Bent in its plane it turns about neither of the tilted axes, and the springs measure the elongation of the rod:
+    // what is left is of the third order in the shear strain.
     for (const Vec3& force : {Vec3(0, -600, 0), Vec3(600, 0, 0)}) {
-        CHECK(of_limit(GA, Bend{}.GJ, force).norm() < 1e-6);
-        CHECK(of_limit(GA / 10, Bend{}.GJ, force).norm() > 50 * of_limit(GA, Bend{}.GJ, force).norm());
+        CHECK(of_limit(GA, Bend{}.GJ, force).norm() < 2e-6);
+        CHECK(of_limit(GA / 10, Bend{}.GJ, force).norm() < 2e-5);
     }
 }
 

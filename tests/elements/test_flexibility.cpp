@@ -2,6 +2,7 @@
 #include "elements/cardan_beam.hpp"
 #include "elements/quadrature.hpp"
 #include "mbs/decompositions.hpp"
+#include "tests/elements/cantilever.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 
@@ -126,9 +127,31 @@ TEST_CASE("element: a condensed extension with an offset tension centre is warne
     ForceSet forces;
     CardanBeamOptions options;
     options.elements = 2;
-    CHECK(add_cardan_beam(tree, forces, Tree::base(), coupled_line(1), "a", {"a"}, options).warnings.size() == 2);
+    const auto warnings = add_cardan_beam(tree, forces, Tree::base(), coupled_line(1), "a", {"a"}, options).warnings;
+    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
+              return warning.find("tension centre lies off the reference line") != std::string::npos;
+          }) == 2);
     options.extension = true;
     CHECK(add_cardan_beam(tree, forces, Tree::base(), coupled_line(1), "b", {"b"}, options).warnings.empty());
+}
+
+TEST_CASE("element: a condensed extension with an offset shear centre is warned about, once per beam", "[property]") {
+    const auto warnings = [](const SectionOffset& shear_centre, bool extension) {
+        EngineeringSection section = slender(2, 3);
+        section.GJ = 1, section.j_flap = section.j_edge = 0.01, section.EA = 100;
+        section.shear_centre = shear_centre;
+        CardanBeamOptions options;
+        options.extension = extension;
+        Tree tree;
+        ForceSet forces;
+        return add_cardan_beam(tree, forces, Tree::base(), uniform_beam(10, section), "a", {"a"}, options).warnings;
+    };
+    CHECK(warnings({}, false).empty());
+    CHECK(warnings({0.03, -0.04}, true).empty());
+    const auto found = warnings({0.03, -0.04}, false);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].find("the shear centre lies up to 0.05 m off the reference line") != std::string::npos);
+    CHECK(found[0].find("keep the extension free") != std::string::npos);
 }
 
 TEST_CASE("spring constants: eq. (15), (16) and the interchanged (17), (18) are the uniform element's law",

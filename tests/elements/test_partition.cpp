@@ -134,3 +134,36 @@ TEST_CASE("cardan order: mirrored joints do not twist a beam that is bent diagon
     CHECK(mirrored < 0.05 * same);
     CHECK(same / twist(CardanOrder::same, 8) == Approx(2).margin(0.2));
 }
+
+TEST_CASE(
+    "partition: the place of the hinges follows from it unless asked otherwise, and another place is warned about",
+    "[property]") {
+    const auto made = [](Partition partition, std::optional<double> delta) {
+        CardanBeamOptions options = bending_only(2);
+        options.partition = partition;
+        options.delta = delta;
+        Tree tree;
+        ForceSet forces;
+        return add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, slender(1, 1)), "spar", {"b"}, options);
+    };
+    const auto hinge = [&](Partition partition, std::optional<double> delta) {
+        const CardanBeam beam = made(partition, delta);
+        CHECK(beam.warnings.empty());
+        return beam.elements[0].hinges.first;
+    };
+    CHECK(hinge(Partition::segment_masses, {}) == delta_gauss);
+    CHECK(hinge(Partition::static_moment, {}) == sixth);
+    CHECK(hinge(Partition::segment_masses, 0.2113) == 0.2113);
+    CHECK(hinge(Partition::mean_difference, {}) == Approx(sixth).epsilon(1e-12));
+    CHECK(hinge(Partition::compliance_gauss, {}) == Approx(delta_gauss).epsilon(1e-12));
+    const auto warning = [&](Partition partition, double delta) {
+        const auto warnings = made(partition, delta).warnings;
+        REQUIRE(warnings.size() == 1);
+        return warnings[0];
+    };
+    CHECK(warning(Partition::segment_masses, sixth).find("bending converge with the square") != std::string::npos);
+    CHECK(warning(Partition::static_moment, 0.15).find("rotating beams and buckling") != std::string::npos);
+    // Not "too tapered": the element is uniform.
+    check_refused([&] { (void)made(Partition::static_moment, delta_gauss); },
+                  {"delta = 0.2113248654 leaves them none", "if delta is left out"});
+}

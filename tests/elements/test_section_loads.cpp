@@ -122,7 +122,7 @@ TEST_CASE("section loads: in any motion the loads at a hinge, along its axis, ar
     for (const CardanBeam::Element& element : b.beam.elements) {
         Vector q(6);
         for (Eigen::Index i = 0; i < 6; ++i) q(i) = b.at.q(model.index(element.bodies[static_cast<std::size_t>(i)]));
-        const Vector springs = element.stiffness * q;
+        const Vector springs = hinge_forces({}, {element.bodies, element.kinds, element.stiffness, element.tilt}, q);
         for (std::size_t i = 0; i < 6; ++i) {
             const int a = model.index(element.bodies[i]);
             const Wrench& joint = carried.joint[static_cast<std::size_t>(a)];

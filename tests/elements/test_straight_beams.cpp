@@ -1,6 +1,7 @@
 // Frequencies of straight beams by the cardanic element: "discrete" values were computed by an independent
 // implementation of the same formulas (docs/verification.md), exact ones are analytic.
 #include "tests/elements/cantilever.hpp"
+#include "tests/oracles/euler_bernoulli.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace cardan;
@@ -93,6 +94,53 @@ TEST_CASE("Euler-Bernoulli cantilever: orders of convergence from 8 to 16 elemen
     check(bending_only(8), 4.14, 4.65);
     check(bending_only(8, .25), 2.00, 1.97);
     check(bending_only(8, 1. / 6, Partition::static_moment), 4.00, 4.03);
+}
+
+namespace {
+
+// -int w w'' / (beta^2 int w^2) of a clamped-free mode: 1 for waves far from ends and between hinges.
+double end_factor(int mode) {
+    namespace eb = oracles::euler_bernoulli;
+    constexpr int n = 4000;
+    const double h = 1.0 / n, beta = eb::cantilever_wave_number(mode);
+    double slopes = 0, squares = 0.5;  // trapezoidal, w(0) = 0 and w(1) = 1
+    for (int i = 0; i < n; ++i) {
+        const double a = eb::cantilever_shape(mode, i * h), b = eb::cantilever_shape(mode, (i + 1) * h);
+        slopes += (b - a) * (b - a) / h;
+        if (i > 0) squares += a * a;
+    }
+    const double tip = (3 - 4 * eb::cantilever_shape(mode, 1 - h) + eb::cantilever_shape(mode, 1 - 2 * h)) / (2 * h);
+    return (slopes - tip) / (beta * beta * squares * h);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Euler-Bernoulli cantilever: the error of segment masses is c1 times the factor of its ends; fourth order at "
+    "the Gauss points without one",
+    "[analytic]") {
+    const BeamLine line = uniform_beam(1, slender(1, 1));
+    // (omega^2 / exact - 1) / kappa^power, extrapolated in kappa^2 from 16 and 32 elements.
+    const auto coefficient = [&](double delta, int mode, int power) {
+        const double beta = oracles::euler_bernoulli::cantilever_wave_number(mode);
+        const auto at = [&](int elements) {
+            const double omega = bending(clamped_frequencies(line, bending_only(elements, delta)), mode);
+            return (std::pow(omega / (beta * beta), 2) - 1) / std::pow(beta / elements, power);
+        };
+        return (4 * at(32) - at(16)) / 3;
+    };
+    CHECK(end_factor(1) == Approx(-0.244).margin(5e-4));
+    CHECK(coefficient(0.1, 1, 2) == Approx(-0.0187).margin(5e-5));
+    for (const double delta : {0.1, 1. / 6, 0.25})
+        for (const int mode : {1, 2, 3}) {
+            CAPTURE(delta, mode);
+            CHECK(coefficient(delta, mode, 2) ==
+                  Approx((delta * delta - delta + 1. / 6) * end_factor(mode)).epsilon(5e-3));
+        }
+    for (const int mode : {1, 2, 3}) {
+        CAPTURE(mode);
+        CHECK(coefficient(delta_gauss, mode, 4) == Approx(17. / 2160 - std::sqrt(3.) / 216).epsilon(0.02));
+    }
 }
 
 TEST_CASE("Euler-Bernoulli cantilever: a negative armature of M L^2 / 360 lifts partition S to sixth order",
