@@ -106,7 +106,11 @@ private:
         joint(JointKind::revolute, axis, kind, what);
     }
     void joint(JointKind joint, Axis axis, ElementCoordinate kind, const char* what) {
-        const JointedFrame added = add_joint(tree_, at_, joint, axis, name_ + " " + what, label_, Vec3(step_, 0, 0));
+        using enum ElementCoordinate;
+        const bool held =
+            (options_.held_y && (kind == ay1 || kind == ay2)) || (options_.held_z && (kind == az1 || kind == az2));
+        const JointedFrame added = add_joint(tree_, at_, joint, axis, name_ + " " + what, label_, Vec3(step_, 0, 0),
+                                             held ? CoordinateRole::driven : CoordinateRole::free);
         at_ = added.frame;
         step_ = 0;
         kinds.push_back(kind);

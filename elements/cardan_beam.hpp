@@ -36,6 +36,8 @@ struct CardanBeamOptions {
     bool extension = false;  ///< free, else condensed out of the flexibility. To be freed where shear or tension
                              ///< centre lie off the reference line and the axial force is large
     bool torsion = true;     ///< free, else condensed
+    /// Bending about y or z of the beam is held: its coordinates are driven, at zero, whatever its flexibility.
+    bool held_y = false, held_z = false;
     BeamDamping damping = {};
     /// On each bending coordinate, times M L^2 of the element. May be negative (docs/theory.md, accuracy) as long as
     /// the metric of the whole tree stays positive definite: the Model refuses it otherwise and names the coordinate.

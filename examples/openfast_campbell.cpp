@@ -8,12 +8,16 @@
 // printed as notes. Frames, signs, and what is read: docs/coming_from_openfast.md.
 #include "mbs/error.hpp"
 #include "mbs/text_file.hpp"
+#include "solvers/campbell_difference.hpp"
 #include "turbines/assembly.hpp"
 #include "turbines/description_yaml.hpp"
 #include "turbines/openfast.hpp"
 #include "turbines/windio.hpp"
 
 #include "examples/campbell_program.hpp"
+#include <algorithm>
+#include <array>
+#include <iomanip>
 #include <iostream>
 #include <optional>
 
@@ -22,7 +26,7 @@ using namespace cardan;
 namespace {
 
 struct Arguments {
-    std::string model, rpm, out = "openfast_campbell", save;
+    std::string model, rpm, out = "openfast_campbell", save, generator, yaw;
     int blade_elements = 6, tower_elements = 4;
     bool gravity = false, notes = false, undamped = false, summary = false;
     double max_frequency = 5, generator_inertia = 0;
@@ -41,6 +45,15 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
     app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
     app.add_option("--pitch", a.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
+    const CLI::IsMember free_or_locked({"free", "locked"});
+    app.add_option("--generator", a.generator,
+                   "free: the rotor turns freely; locked: at its speed, whatever happens (default: the model's, GenDOF "
+                   "of ElastoDyn; else free)")
+        ->check(free_or_locked);
+    app.add_option("--yaw", a.yaw,
+                   "yaw bearing: free on the spring of the yaw drive, or locked (default: the model's, YawDOF of "
+                   "ElastoDyn)")
+        ->check(free_or_locked);
     app.add_option("--generator-inertia", a.generator_inertia,
                    "inertia of the generator on its own shaft, kg m^2, for models that do not give it");
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
@@ -94,6 +107,28 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
     return options;
 }
 
+// What was asked for in the place of what the files say.
+void set_freedoms(const Arguments& a, turbines::TurbineFile& model) {
+    turbines::Spring& yaw = model.description.yaw.rotation;
+    if (!a.generator.empty()) model.freedoms.generator = a.generator == "free";
+    if (a.yaw == "locked") yaw = turbines::rigid_joint;
+    if (a.yaw != "free" || !yaw.is_rigid()) return;
+    if (model.yaw_drive.is_rigid())
+        throw InputError("--yaw", "value", "free", "locked: the model gives no spring of a yaw drive");
+    yaw = model.yaw_drive;
+}
+
+std::string freedoms_in_words(const turbines::TurbineFile& model) {
+    const turbines::FileFreedoms& f = model.freedoms;
+    std::string locked = f.generator ? "" : ", generator locked";
+    if (model.description.yaw.rotation.is_rigid()) locked += ", yaw bearing locked";
+    if (model.description.drive_train.main_shaft.is_rigid()) locked += ", main shaft rigid";
+    if (!f.tower_fore_aft) locked += ", tower rigid fore-aft";
+    if (!f.tower_side_side) locked += ", tower rigid side-side";
+    if (!f.blades) locked += ", blades rigid";
+    return locked.empty() ? "generator and yaw bearing free" : locked.substr(2);
+}
+
 turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::TurbineFile& model) {
     turbines::AssemblyOptions o;
     o.pitch = a.pitch ? *a.pitch * pi / 180 : model.pitch;
@@ -101,6 +136,9 @@ turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::T
     if (a.undamped) o.structural_damping = o.joint_damping = false;
     o.blade_beam = beam_options(model.description.blade.line, a.blade_elements, true);
     o.tower_beam = beam_options(model.description.tower.line, a.tower_elements, false);
+    o.tower_beam->held_y = !model.freedoms.tower_side_side;
+    o.tower_beam->held_z = !model.freedoms.tower_fore_aft;
+    o.blade_beam->held_y = o.blade_beam->held_z = !model.freedoms.blades;
     return o;
 }
 
@@ -119,14 +157,54 @@ void save(const Arguments& a, const turbines::TurbineFile& model) {
     if (std::filesystem::equivalent(a.save, a.model, error))
         throw InputError("--save", "file", a.save, "another one than the model");
     turbines::write_description(model.description, a.save);
-    if (model.pitch != 0 || model.rotor_speed != 0)
+    const turbines::FileFreedoms& f = model.freedoms;
+    if (model.pitch != 0 || model.rotor_speed != 0 || !f.generator)
         std::cout << "note: " << a.save << " holds the machine, not how it runs: --pitch " << model.pitch * 180 / pi
-                  << ", " << model.rotor_speed * 30 / pi << " rpm\n";
+                  << ", " << model.rotor_speed * 30 / pi << " rpm" << (f.generator ? "" : ", --generator locked")
+                  << "\n";
+    if (!f.tower_fore_aft || !f.tower_side_side || !f.blades)
+        std::cout << "note: " << a.save
+                  << " holds tower and blades with their stiffness, not that they are rigid here\n";
+}
+
+// At standstill, where it costs least: the same modes with twice as many elements.
+void print_mesh_error(const Arguments& a, const turbines::TurbineFile& model, solvers::CampbellOptions options) {
+    options.keep_shapes = false;
+    options.progress = {};
+    const auto at_rest = [&](int times) {
+        Arguments b = a;
+        b.blade_elements *= times;
+        b.tower_elements *= times;
+        const turbines::Turbine turbine = turbines::assemble(model.description, assembly_options(b, model));
+        const std::array standstill{0.0};
+        return solvers::campbell(turbine.system(), turbine.rotor(), standstill, options);
+    };
+    const solvers::Campbell coarse = at_rest(1), fine = at_rest(2);
+    if (coarse.points.empty() || fine.points.empty()) return;
+    std::vector<std::pair<double, std::string>> changes;
+    for (const solvers::BranchDifference& one : solvers::differences(coarse, fine)) {
+        const solvers::Branch &branch = coarse.branch(one.name), &other = fine.branch(one.name);
+        if (branch.doubtful[0] || other.doubtful[0] || !(fine.damped_hz(other, 0) > 0)) continue;
+        changes.emplace_back(100 * one.frequency_hz[0] / fine.damped_hz(other, 0), one.name);
+    }
+    if (changes.empty()) return;
+    const auto larger = [](const auto& x, const auto& y) { return std::abs(x.first) > std::abs(y.first); };
+    std::sort(changes.begin(), changes.end(), larger);
+    std::cout << "\nmesh: at standstill " << a.blade_elements << " elements per blade and " << a.tower_elements
+              << " of the tower are off from twice as many by\n"
+              << std::showpos << std::fixed << std::setprecision(2);
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, changes.size()); ++i)
+        std::cout << "  " << std::setw(7) << changes[i].first << " %  " << changes[i].second << "\n";
+    std::cout << std::noshowpos << "(of " << changes.size()
+              << " modes with a name beyond doubt these are off most; --blade-elements, --tower-elements)\n"
+              << std::defaultfloat;
 }
 
 int run(const Arguments& a) {
     turbines::TurbineFile model = read(a.model);
     print(model.notes, a.notes);
+    set_freedoms(a, model);
+    std::cout << "freedoms: " << freedoms_in_words(model) << "\n";
     if (a.generator_inertia != 0) model.description.drive_train.generator_inertia = a.generator_inertia;
     if (!a.save.empty()) save(a, model);
     const std::vector<double> speeds = rotor_speeds(a.rpm, model.rotor_speed);
@@ -136,10 +214,12 @@ int run(const Arguments& a) {
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
     solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.method = method_for(a, model.description);
+    options.spin = model.freedoms.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     program::stop_at_once();
     program::print_table(diagram);
     if (diagram.points.empty()) return 130;
+    if (diagram.complete) print_mesh_error(a, model, options);
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = a.max_frequency;
     program::write_files(diagram, a.out, picture);

@@ -47,7 +47,7 @@ public:
         read_drive_train();
         read_hub();
         read_blade();
-        note_freedoms();
+        read_freedoms();
         note_states();
         for (FileNote& note : file_.notes(groups())) out_.notes.push_back(std::move(note));
         return std::move(out_);
@@ -91,8 +91,8 @@ private:
 
     void read_yaw() {
         d_.yaw.translation = rigid_joint;
-        d_.yaw.rotation = rigid_joint;
-        if (file_.flag("YawDOF")) d_.yaw.rotation = context_.yaw;
+        out_.yaw_drive = context_.yaw;
+        d_.yaw.rotation = file_.flag("YawDOF") ? context_.yaw : rigid_joint;
         if (file_.flag("YawDOF") && context_.yaw.is_rigid())
             file_.note("YawDOF", "stiffness and damping of the yaw drive are in the ServoDyn file: rigid without it");
     }
@@ -130,12 +130,8 @@ private:
         t.high_speed_shaft = rigid_joint;
         t.main_shaft = {not_negative("DTTorSpr"), not_negative("DTTorDmp")};
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
-        if (!file_.flag("DrTrDOF")) {
-            t.main_shaft = rigid_joint;
-            file_.note("DrTrDOF", "the drive train is rigid");
-        }
-        if (!file_.flag("GenDOF"))
-            file_.note("GenDOF", "the speed of the generator is fixed by an option of the solvers here");
+        if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
+        out_.freedoms.generator = file_.flag("GenDOF");
         file_.note_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
@@ -200,11 +196,28 @@ private:
         file_.note_unless(numbered(file_, "BlPIner", k), 0, "inertia of the pitch drive: not part of the model");
     }
 
-    void note_freedoms() {
-        for (const char* keyword : {"FlapDOF1", "FlapDOF2", "EdgeDOF"})
-            if (!file_.flag_or(keyword, true)) file_.note(keyword, "blades bend in all directions here");
-        for (const char* keyword : {"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"})
-            if (!file_.flag_or(keyword, true)) file_.note(keyword, "the tower bends in all directions here");
+    // A beam that bends has all its modes: it can be made rigid where all of its flags are False, but not lose one
+    // mode.
+    bool bends(std::initializer_list<const char*> keywords, const char* what) {
+        std::vector<const char*> off;
+        for (const char* keyword : keywords)
+            if (!file_.flag_or(keyword, true)) off.push_back(keyword);
+        if (off.size() == keywords.size()) return false;
+        for (const char* keyword : off) file_.note(keyword, text("one mode cannot be switched off: ", what));
+        return true;
+    }
+
+    void read_freedoms() {
+        FileFreedoms& f = out_.freedoms;
+        if (context_.blade) {
+            for (const char* keyword : {"FlapDOF1", "FlapDOF2", "EdgeDOF"})
+                if (!file_.flag_or(keyword, true)) file_.note(keyword, "of ElastoDyn's blades: BeamDyn's bend");
+        } else {
+            f.blades = bends({"FlapDOF1", "FlapDOF2", "EdgeDOF"}, "the blades are beams and bend with all theirs");
+        }
+        f.tower_fore_aft = bends({"TwFADOF1", "TwFADOF2"}, "the tower is a beam and bends with all its fore-aft modes");
+        f.tower_side_side =
+            bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
         if (file_.flag_or("TeetDOF", false) && d_.blades == 2)
             file_.note("TeetDOF", "the hub is rigid: no teetering here");
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})

@@ -22,9 +22,20 @@ struct FileNote {
 /// "file:12: NacYaw = 3: the nacelle points into the wind here"
 std::string to_text(const FileNote& note);
 
+/// Freedoms of the machine that a file may switch off (ElastoDyn's flags); the description does not tell them.
+struct FileFreedoms {
+    bool generator = true;  ///< false: the rotor turns at its speed, whatever happens (RotorSpin::prescribed)
+    /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, both of the blades).
+    bool tower_fore_aft = true, tower_side_side = true, blades = true;
+};
+
 /// A machine read from files.
 struct TurbineFile {
     TurbineDescription description;
+    FileFreedoms freedoms = {};
+    /// Of the yaw drive, also where the files have the yaw bearing locked and the description has it rigid; rigid: they
+    /// give no spring.
+    Spring yaw_drive = rigid_joint;
     std::vector<FileNote> notes;
     double rotor_speed = 0;  ///< rated or initial rotor speed, rad/s; 0: the files name none
     double pitch = 0;        ///< pitch setting of the blades, leading edge upwind, rad

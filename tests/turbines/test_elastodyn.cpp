@@ -1,4 +1,5 @@
 // ElastoDyn files: numbers, signs, frames, factors, notes.
+#include "solvers/campbell.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/model_files.hpp"
 #include "turbines/assembly.hpp"
@@ -7,6 +8,8 @@
 #include "turbines/elastodyn.hpp"
 #include "turbines/embedded_data.hpp"
 #include "turbines/nrel5mw.hpp"
+
+#include <array>
 
 using namespace cardan;
 using namespace cardan::turbines;
@@ -150,7 +153,7 @@ TEST_CASE("elastodyn: everything that is not in the description is noted, with f
     CHECK(noted("PreCone(3)", "cone of the first"));
     CHECK(noted("PtfmMass", "platform"));
     CHECK(noted("GBoxEff", "losses"));
-    CHECK(noted("TwSSDOF2", "all directions"));
+    CHECK(noted("TwSSDOF2", "one mode cannot be switched off"));
     CHECK(noted("YawDOF", "rigid without"));
     CHECK(noted("YawBrMass", "part of the nacelle"));
     CHECK(noted("FlStTunr(2)", "stiffness of one mode"));
@@ -163,6 +166,88 @@ TEST_CASE("elastodyn: everything that is not in the description is noted, with f
         CHECK(note.why.find("not known") == std::string::npos);
         if (note.keyword == "NacYaw") CHECK_THAT(to_text(note), Contains("small_ElastoDyn.dat:34: NacYaw = 15: "));
     }
+}
+
+TEST_CASE("elastodyn: freedoms that are switched off in the file are taken from the machine", "[property]") {
+    const auto changed = [](std::initializer_list<const char*> off, const char* main = "small_ElastoDyn.dat") {
+        const test::ModelFolder model("openfast");
+        for (const char* keyword : off)
+            model.replace("small_ElastoDyn.dat", text("          True   ", keyword, " "),
+                          text("         False   ", keyword, " "));
+        return read_openfast(model / main);
+    };
+    const TurbineFile as_it_is = changed({}, "small.fst");
+    CHECK(as_it_is.freedoms.generator);
+    CHECK(as_it_is.freedoms.tower_fore_aft);
+    CHECK(as_it_is.freedoms.tower_side_side);  // one of two
+    CHECK(as_it_is.freedoms.blades);
+    CHECK(as_it_is.yaw_drive.stiffness == 2e7);
+    CHECK(!changed({"GenDOF"}).freedoms.generator);
+    CHECK(changed({"DrTrDOF"}).description.drive_train.main_shaft.is_rigid());
+    const TurbineFile yaw = changed({"YawDOF"}, "small.fst");
+    CHECK(yaw.description.yaw.rotation.is_rigid());
+    CHECK(yaw.yaw_drive.stiffness == 2e7);  // for who wants it free
+    const TurbineFile one = changed({"TwFADOF2"});
+    CHECK(one.freedoms.tower_fore_aft);
+    CHECK(test::has_note(one.notes, "TwFADOF2", "one mode cannot be switched off"));
+    const TurbineFile fore_aft = changed({"TwFADOF1", "TwFADOF2"});
+    CHECK(!fore_aft.freedoms.tower_fore_aft);
+    CHECK(fore_aft.freedoms.tower_side_side);
+    CHECK(!test::has_note(fore_aft.notes, "TwFADOF", ""));
+    CHECK(!changed({"TwSSDOF1"}).freedoms.tower_side_side);
+    CHECK(changed({"FlapDOF1", "FlapDOF2"}).freedoms.blades);
+    CHECK(!changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).freedoms.blades);
+}
+
+TEST_CASE("beams that are held in bending: the machine moves as with an infinitely stiff one", "[crosscheck]") {
+    const TurbineFile file = read_elastodyn(test::data_file("openfast/small_ElastoDyn.dat"));
+    AssemblyOptions options;
+    CardanBeamOptions beam;
+    beam.elements = 3;
+    beam.torsion = false;
+    options.blade_beam = options.tower_beam = beam;
+    const auto frequencies = [](const Turbine& machine) {
+        solvers::CampbellOptions sweep;
+        sweep.spin = solvers::RotorSpin::prescribed;
+        sweep.keep_shapes = false;
+        const std::array speed{45 * pi / 30};
+        std::vector<double> all;
+        const solvers::Campbell d = solvers::campbell(machine.system(), machine.rotor(), speed, sweep);
+        for (const solvers::CampbellMode& m : d.points[0].modes) all.push_back(m.mode.natural_hz());
+        return all;
+    };
+    // Rows and columns of the compliance that stand for bending about y or z, a ten-thousandth as flexible.
+    const auto stiff = [](BeamLine line, bool y, bool z) {
+        line.section = [own = line.section, y, z](double x) {
+            BeamSection s = own(x);
+            Vec6 scale = Vec6::Ones();
+            if (y) scale(4) = 0.01;
+            if (z) scale(5) = 0.01;
+            s.compliance = (scale.asDiagonal() * s.compliance * scale.asDiagonal()).eval();
+            return s;
+        };
+        return line;
+    };
+    const auto compare = [&](const TurbineDescription& stiffened) {
+        AssemblyOptions free = options;
+        for (auto* b : {&*free.tower_beam, &*free.blade_beam}) b->held_y = b->held_z = false;
+        const std::vector<double> held = frequencies(assemble(file.description, options)),
+                                  expected = frequencies(assemble(stiffened, free));
+        REQUIRE(held.size() >= 4);
+        for (std::size_t i = 0; i < 4; ++i) CHECK(held[i] == Approx(expected.at(i)).epsilon(5e-4));
+    };
+    TurbineDescription d = file.description;
+    options.tower_beam->held_z = true;  // fore-aft
+    d.tower.line = stiff(file.description.tower.line, false, true);
+    compare(d);
+    options.tower_beam->held_y = true;
+    d.tower.line = stiff(file.description.tower.line, true, true);
+    compare(d);
+    options.tower_beam->held_y = options.tower_beam->held_z = false;
+    options.blade_beam->held_y = options.blade_beam->held_z = true;
+    d = file.description;
+    d.blade.line = stiff(file.description.blade.line, true, true);
+    compare(d);
 }
 
 TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring holds the yaw joint", "[property]") {
