@@ -24,10 +24,11 @@ struct Polyline {
     std::vector<FrameId> points;
 };
 
-/// Two coordinates of a rotating isotropic part that are the y and z components of one vector (shaft bending).
+/// Two coordinates of an isotropic part that are the y and z components of one vector (shaft bending).
 struct RotatingPair {
     int y, z;
-    double sense;  ///< +1: the part's x axis points along the rotor axis, -1: against it
+    double sense;       ///< +1: the part's x axis points along the rotor axis, -1: against it
+    bool turns = true;  ///< with the rotor; false: the part stands still (a bearing, a shaft before the spin joint)
 };
 
 /// Rotor, blades, parts and lines of a machine, in indices of its model.
@@ -37,6 +38,8 @@ struct RotorMap {
     int spin = -1;                         ///< coordinate that carries the rotor speed; -1: no rotor
     FrameId hub;                           ///< rotating frame: z along the rotor axis, x along blade 1 at azimuth 0
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order
+    /// Those that turn are seen from the fixed frame. A rotor without blades (a disc on a shaft) whirls in them: the
+    /// modes of their parts are named backward and forward.
     std::vector<RotatingPair> rotating_pairs = {};
     std::vector<PartAxes> parts;
     std::vector<Polyline> lines;

@@ -12,6 +12,7 @@ namespace cardan::solvers {
 namespace {
 
 constexpr double sure_mac = 0.6;      // below: the link is doubtful
+constexpr double sure_pattern = 0.4;  // of the energy in its component: below it the pattern is doubtful
 constexpr double least_share = 0.05;  // of the energy on average: below it a branch is not named so
 
 // What a branch may be named after: a component mode with a pattern, or a coordinate (several branches may be).
@@ -29,6 +30,11 @@ std::vector<Label> component_labels(const Identification& identification, bool w
                        second = whirl ? RotorPattern::forward : RotorPattern::sine;
     for (std::size_t i = 0; i < components.size(); ++i) {
         const int c = static_cast<int>(i);
+        if (components[i].whirls) {
+            labels.push_back({c, first});
+            labels.push_back({c, second});
+            continue;
+        }
         if (!components[i].of_blades) {
             labels.push_back({c, RotorPattern::none});
             continue;
@@ -122,6 +128,7 @@ private:
     Label strongest(std::size_t point, const CampbellMode& mode, const Label& own) const;
     std::string label_name(const Label& label, const CampbellMode& mode) const;
     void set(Branch& branch, const Label& label) const;
+    double own_pattern(const CampbellMode& mode, const Label& label) const;
     const char* tendency(const Branch& branch) const;
     static void name_others(std::vector<Branch>& branches, const std::vector<std::size_t>& others);
     void name_motions(std::vector<Branch>& branches) const;
@@ -177,6 +184,15 @@ std::string Naming::label_name(const Label& label, const CampbellMode& mode) con
     return motion_name(rows_[static_cast<std::size_t>(label.row)], mode.kind_name(), "", "");
 }
 
+// Of the energy of a label's component, the part that has its pattern (at standstill: that of its pair). A motion that
+// is at home in one blade of three has a third of each.
+double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
+    if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
+    const Share& share = mode.shares[static_cast<std::size_t>(label.component)];
+    const double total = share.total();
+    return total > 0 ? share.of(label.pattern, label.harmonic) / total : 1;
+}
+
 void Naming::set(Branch& branch, const Label& label) const {
     branch.component = label.component;
     branch.pattern = label.pattern;
@@ -194,8 +210,9 @@ void Naming::set(Branch& branch, const Label& label) const {
         const CampbellMode* m = mode(branch, i);
         if (!m) continue;
         const Label best = strongest(i, *m, label);
-        branch.doubtful.back() =
-            branch.mac[i] < sure_mac || held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best);
+        branch.doubtful.back() = branch.mac[i] < sure_mac ||
+                                 held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
+                                 (points_[i].rotor_speed != 0 && own_pattern(*m, label) < sure_pattern);
         branch.mostly.back() = label_name(best, *m);
     }
 }
@@ -225,6 +242,9 @@ void Naming::name_others(std::vector<Branch>& branches, const std::vector<std::s
             name.insert(name.size() - 1, ", " + which);
         else
             name += " (" + which + ")";
+        // Named after what it holds most of, which another branch is.
+        std::vector<bool>& doubtful = branches[b].doubtful;
+        for (std::size_t i = 0; i < doubtful.size(); ++i) doubtful[i] = branches[b].mode[i] >= 0;
     }
 }
 

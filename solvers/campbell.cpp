@@ -155,13 +155,14 @@ void check_cases(std::span<const CampbellCase> cases, const std::string& paramet
 
 // A growing motion is no vibration to design for; it must not hide behind the oscillating branches.
 void warn_of_instability(const CampbellPoint& point, std::string& warning) {
-    if (!warning.empty()) return;
+    if (!warning.empty() || !(point.stability_margin < 0)) return;
     Complex fastest = 0;
-    const double certain = highest_certain(point.modes);
+    const double lowest = lowest_vibration(point.modes);
     for (const CampbellMode& m : point.modes) {
         const Complex lambda = m.mode.eigenvalue;
-        if (std::abs(lambda) > certain) continue;
-        const bool grows = m.kind() != FloquetKind::rigid && lambda.real() > 1e-6 * std::max(1.0, std::abs(lambda));
+        if (std::abs(lambda) > most_certain_ratio * lowest) continue;
+        const double scale = std::isfinite(lowest) ? std::max(lowest, std::abs(lambda)) : std::abs(lambda);
+        const bool grows = m.kind() != FloquetKind::rigid && lambda.real() > 1e-6 * scale;
         if (grows && lambda.real() > fastest.real()) fastest = lambda;
     }
     if (fastest.real() == 0) return;
@@ -178,20 +179,21 @@ void append(std::string& warning, const std::string& more) {
 
 std::string method_name(CampbellMethod method, std::size_t blades) {
     const char* rotating = "rotating frame of the blade";
+    if (blades == 0 && method == CampbellMethod::coleman) return "fixed frame";
     switch (method) {
         case CampbellMethod::coleman:
-            return blades < 2 ? rotating : "Coleman (fixed frame)";
+            return blades == 1 ? rotating : "Coleman (fixed frame)";
         case CampbellMethod::frozen_azimuth:
-            return blades < 2 ? rotating : "frozen azimuth";
+            return blades == 1 ? rotating : "frozen azimuth";
         case CampbellMethod::floquet:
             return text("Floquet (principal frequencies, ",
-                        blades > 2    ? "fixed frame"
-                        : blades == 2 ? "blade modes in the rotating frame"
-                                      : "rotating frame of the blade",
+                        blades != 2 && blades != 1 ? "fixed frame"
+                        : blades == 2              ? "blade modes in the rotating frame"
+                                                   : "rotating frame of the blade",
                         ")");
         case CampbellMethod::averaged:
-            return blades < 2 ? text(rotating, ", mean over the azimuth")
-                              : "Coleman (fixed frame), mean over the azimuth about the periodic steady state";
+            return blades == 1 ? text(rotating, ", mean over the azimuth")
+                               : "Coleman (fixed frame), mean over the azimuth about the periodic steady state";
     }
     return {};
 }

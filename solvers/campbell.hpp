@@ -95,10 +95,12 @@ struct Branch {
     int component = -1;  ///< of Campbell::components; -1: named after a coordinate
     int row = -1;        ///< of Campbell::rows, for motions without elastic energy
     RotorPattern pattern = RotorPattern::none;
-    int harmonic = 1;                 ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
-    std::vector<int> mode;            ///< at every point the index in CampbellPoint::modes, -1: none
-    std::vector<double> mac;          ///< complex energy MAC with the point before, 1 at the first
-    std::vector<bool> doubtful;       ///< tracked with MAC below 0.6, or another name holds clearly more energy there
+    int harmonic = 1;         ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
+    std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
+    std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
+    /// Tracked with MAC below 0.6, or another name holds clearly more energy there, or the blades do not move in the
+    /// pattern, or another branch has the name ("another").
+    std::vector<bool> doubtful;
     std::vector<std::string> mostly;  ///< the name that holds most elastic energy at the point; empty without a mode
 };
 
@@ -152,7 +154,7 @@ struct Campbell {
 
 /// Modes at every rotor speed: steady state, linearisation, Coleman transformation, eigenvalues; then identification
 /// and tracking by optimal assignment on the complex energy MAC. A rotor with one blade, the isolated blade, is taken
-/// in its rotating frame.
+/// in its rotating frame; a rotor without blades, a disc on a shaft, in the fixed frame, where it whirls.
 ///
 /// By Floquet's theory the steady state is periodic and begun from that of the speed before; modes are named after the
 /// elastic energy of all harmonics, and the MAC is that of all harmonics, which may have moved by multiples of the

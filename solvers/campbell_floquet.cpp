@@ -19,8 +19,12 @@ constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
 constexpr double rigid_limit = 1e-4;
+// The same of the free spin in the mean over the azimuth, where gravity on bent blades makes a weak pendulum of it.
+constexpr double free_spin_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
+// Of the blades, over the diagonals: more is no rounding.
+constexpr double small_difference = 1e-4;
 // Harmonics at the ends that hold less are left out.
 constexpr double negligible = 1e-12;
 
@@ -66,6 +70,13 @@ void leave_out_ends(FloquetMode& mode) {
     mode.first_harmonic += static_cast<int>(first);
 }
 
+double lowest_elastic(const CampbellPoint& point) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : point.modes)
+        if (m.row < 0 && m.mode.oscillates()) lowest = std::min(lowest, std::abs(m.mode.eigenvalue));
+    return std::isfinite(lowest) ? lowest : 0;
+}
+
 }  // namespace
 
 int naming_row(const SecondOrderSystem& system, const Mode& mode) {
@@ -94,6 +105,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
         standstill_.solve(0, point);
         mean_ = standstill_.system();
         for (CampbellMode& m : point.modes) m.row = naming_row(mean_, m.mode);
+        if (options_.method == CampbellMethod::averaged) leave_out_free_spin(lowest_elastic(point), point);
         return;
     }
     find_steady_state(rotor_speed);
@@ -104,10 +116,13 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     point.at = state_->at(0);
     point.periodic = state_;
     point.modes.clear();
-    if (options_.method == CampbellMethod::averaged)
+    if (options_.method == CampbellMethod::averaged) {
+        warn_of_differing_blades(periodic);
         set_mean_modes(point);
-    else
+    } else {
         set_floquet_modes(periodic, point);
+    }
+    set_stability_margin(point);
 }
 
 void PeriodicPointSolver::find_steady_state(double rotor_speed) {
@@ -149,16 +164,32 @@ void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
     mean_ = mean_over_period(periodic, samples);
 }
 
-// x(t + T/Q) in multi-blade rows: there equal blades look alike, but for signs. None if the blades differ.
-BladeSymmetry PeriodicPointSolver::symmetry(const PeriodicSystem& periodic) const {
+// x(t + T/Q) in multi-blade rows: there equal blades look alike, but for signs.
+BladeSymmetry PeriodicPointSolver::renumbering() const {
     const ColemanTransform* T = standstill_.coleman();
-    if (!T) return {};
+    if (!T || rotor_.blades.empty()) return {};
     std::vector<int> odd = options_.floquet.odd;
     std::erase_if(odd, [&](int i) { return std::find(unknowns().begin(), unknowns().end(), i) == unknowns().end(); });
     BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
     found.P = (T->matrix(0).transpose() * found.P * T->matrix(2 * pi / found.parts)).eval();
     found.P = found.P.unaryExpr([](double p) { return std::abs(p - std::round(p)) < 1e-12 ? std::round(p) : p; });
+    return found;
+}
+
+// None if the blades differ.
+BladeSymmetry PeriodicPointSolver::symmetry(const PeriodicSystem& periodic) const {
+    BladeSymmetry found = renumbering();
     return asymmetry(periodic, found) < 1e-8 ? found : BladeSymmetry{};
+}
+
+// A mode that is at home in one blade has no frequency in the fixed frame: the mean invents one.
+void PeriodicPointSolver::warn_of_differing_blades(const PeriodicSystem& periodic) {
+    const double difference = asymmetry(periodic, renumbering());
+    if (difference > small_difference)
+        warn(text("at ", state_->rotor_speed * 30 / pi,
+                  " rpm the rotor is not the same when its blades are renumbered (", difference,
+                  " of the diagonals): blades or hub differ, and the mean over the azimuth may have "
+                  "frequencies that no motion of the machine has. Take CampbellMethod::floquet"));
 }
 
 FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& periodic) const {
@@ -179,16 +210,13 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
     Floquet result = floquet(periodic, floquet_options(periodic));
     if (!result.message.empty()) warn(text("at ", state_->rotor_speed * 30 / pi, " rpm ", result.message));
-    double growth = -std::numeric_limits<double>::infinity();
     for (FloquetMode& mode : result.modes) {
         const bool slow = std::abs(mode.exponent) < rigid_limit * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;
         if (slow) mode.kind = FloquetKind::rigid;
-        if (mode.kind != FloquetKind::rigid) growth = std::max(growth, mode.growth());
         if (slow && pair) point.modes.push_back(make(FloquetMode(mode)));
         point.modes.push_back(make(std::move(mode)));
     }
-    point.stability_margin = -growth;
     std::stable_sort(point.modes.begin(), point.modes.end(), [](const CampbellMode& a, const CampbellMode& b) {
         return a.mode.natural_hz() < b.mode.natural_hz();
     });
@@ -228,16 +256,26 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
 }
 
 void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) const {
-    double growth = -std::numeric_limits<double>::infinity();
     for (Mode& mode : modes(mean_)) {
         if (std::abs(mode.eigenvalue) < rigid_limit * std::abs(state_->rotor_speed)) continue;
         CampbellMode& m = point.modes.emplace_back();
-        growth = std::max(growth, mode.eigenvalue.real());
+        if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
+            m.row = naming_row(mean_, mode);
         m.row_shares = energy_by_row(mean_, mode);
         m.shares = identification()->shares(mode);
         m.mode = std::move(mode);
     }
-    point.stability_margin = -growth;
+    leave_out_free_spin(std::abs(state_->rotor_speed), point);
+}
+
+// Gravity on bent blades keeps it from being exactly zero.
+void PeriodicPointSolver::leave_out_free_spin(double scale, CampbellPoint& point) const {
+    std::erase_if(point.modes, [&](const CampbellMode& m) {
+        if (std::abs(m.mode.eigenvalue) >= free_spin_limit * scale) return false;
+        const int row = largest(kinetic_by_row(mean_, m.mode.shape, m.mode.eigenvalue));
+        return unknowns()[static_cast<std::size_t>(row)] == rotor_.spin;
+    });
+    set_stability_margin(point);
 }
 
 std::unique_ptr<PointMethod> point_method(const System& system, const RotorMap& rotor, const CampbellOptions& options) {

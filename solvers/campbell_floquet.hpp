@@ -30,10 +30,13 @@ private:
     void find_steady_state(double rotor_speed);
     PeriodicSystem multi_blade_system() const;
     void set_mean(const PeriodicSystem& periodic);
+    BladeSymmetry renumbering() const;
+    void warn_of_differing_blades(const PeriodicSystem& periodic);
     BladeSymmetry symmetry(const PeriodicSystem& periodic) const;
     FloquetOptions floquet_options(const PeriodicSystem& periodic) const;
     void set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point);
     void set_mean_modes(CampbellPoint& point) const;
+    void leave_out_free_spin(double scale, CampbellPoint& point) const;
     CampbellMode make(FloquetMode&& found) const;
     void warn(const std::string& what);
 

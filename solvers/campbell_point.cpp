@@ -20,7 +20,7 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
     if (blades == 2 && options.method != CampbellMethod::floquet)
         throw InputError(rotor.machine, "number of blades", blades,
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
-    const bool spin_is_unknown = options.spin == RotorSpin::free && blades > 1;
+    const bool spin_is_unknown = options.spin == RotorSpin::free && blades != 1;
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
     if (unknowns.size() > most_unknowns)
         throw InputError(rotor.machine, "number of unknowns", unknowns.size(),
@@ -35,11 +35,24 @@ constexpr double rigid_ratio = 10 * most_certain_ratio;
 
 }  // namespace
 
-double highest_certain(const std::vector<CampbellMode>& modes) {
+double lowest_vibration(const std::vector<CampbellMode>& modes) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const CampbellMode& m : modes)
-        if (m.mode.oscillates()) lowest = std::min(lowest, std::abs(m.mode.eigenvalue));
-    return most_certain_ratio * lowest;
+        if (m.kind() != FloquetKind::rigid && m.mode.oscillates())
+            lowest = std::min(lowest, std::abs(m.mode.eigenvalue));
+    return lowest;
+}
+
+void set_stability_margin(CampbellPoint& point) {
+    const double lowest = lowest_vibration(point.modes);
+    double growth = -std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : point.modes) {
+        const double size = std::abs(m.mode.eigenvalue), own = m.mode.eigenvalue.real();
+        if (m.kind() == FloquetKind::rigid || size > most_certain_ratio * lowest) continue;
+        const double scale = std::isfinite(lowest) ? std::max(size, lowest) : size;
+        growth = std::max(growth, std::abs(own) < 1e-8 * scale ? 0 : own);
+    }
+    point.stability_margin = growth == 0 ? 0 : -growth;
 }
 
 PointSolver::PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
@@ -51,7 +64,8 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       steady_solver_(system, rotor.spin),
       lineariser_(system),
       mode_solver_(static_cast<Eigen::Index>(unknowns_.size())) {
-    if (rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
+    const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
+    if (disc || rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
 }
 
 void PointSolver::find_steady_state(double rotor_speed) {
@@ -94,12 +108,11 @@ void PointSolver::identify(const Linearisation& lin) {
 
 // Eigenvalues at a frozen azimuth tell nothing about stability.
 void PointSolver::set_margin(CampbellPoint& point) const {
-    double growth = -std::numeric_limits<double>::infinity();
-    const double certain = highest_certain(point.modes);
-    for (const CampbellMode& m : point.modes)
-        if (std::abs(m.mode.eigenvalue) <= certain) growth = std::max(growth, m.mode.eigenvalue.real());
     const bool motions = method_ != CampbellMethod::frozen_azimuth || rotor_.blades.size() < 3;
-    point.stability_margin = motions ? -growth : std::numeric_limits<double>::quiet_NaN();
+    if (motions)
+        set_stability_margin(point);
+    else
+        point.stability_margin = std::numeric_limits<double>::quiet_NaN();
 }
 
 void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
@@ -181,7 +194,7 @@ std::vector<std::string> PointSolver::row_names() const {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
         const MultiBladeRow& row = rows()[i];
-        const bool blade = row.kind != MultiBlade::none;
+        const bool blade = row.blade_coordinate >= 0;
         const int coordinate = blade ? rotor_.blades[0][static_cast<std::size_t>(row.blade_coordinate)] : unknowns_[i];
         const std::string& name = system_.model.coordinates()[coordinate].name;
         names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);

@@ -34,6 +34,11 @@ public:
     virtual const std::string& warning() const = 0;
 };
 
+/// CampbellPoint::stability_margin by its modes, rigid ones left out. A growth or decay that is no more than rounding
+/// counts as none: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above
+/// most_certain_ratio times the lowest do not count.
+void set_stability_margin(CampbellPoint& point);
+
 /// Steady state, linearisation, Coleman transformation, modes and their shares of energy at one rotor speed after the
 /// other. Its memory, some twenty matrices over the coordinates, is made with the first point. Keeps references to
 /// system and machine; one per thread.
@@ -91,8 +96,9 @@ private:
     std::vector<CampbellMode> spare_;  // memory for modes beyond those of the last point
 };
 
-/// Largest |eigenvalue| that tells anything about growth and decay: above it they are rounding.
-double highest_certain(const std::vector<CampbellMode>& modes);
+/// Smallest |eigenvalue| of those that oscillate, rigid ones left out; infinite without any. Growth and decay above
+/// most_certain_ratio times as much are rounding.
+double lowest_vibration(const std::vector<CampbellMode>& modes);
 
 /// The solver for the method of the options.
 /// @throws InputError as the solvers

@@ -103,8 +103,7 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
     std::ostringstream out;
     out << "\n" << std::left << std::setw(width) << "stability margin, 1/s" << std::right << std::setprecision(4);
     for (std::size_t i : shown) {
-        const double margin = diagram.points[i].stability_margin;
-        out << std::setw(19) << (std::abs(margin) < 1e-9 ? 0 : margin) << "  ";  // rounding of undamped motions
+        out << std::setw(19) << diagram.points[i].stability_margin << "  ";
     }
     out << "\n";
     return out.str();

@@ -61,7 +61,7 @@ std::string multi_blade_name(const MultiBladeRow& row) {
 
 ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
-    if (blades_ < 2)
+    if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))
         throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
     if (blades_ > most_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", most_blades));
     for (const std::vector<int>& blade : rotor.blades)
@@ -69,7 +69,7 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
             throw InputError(rotor.machine, "coordinates of a blade", blade.size(),
                              text(rotor.blades[0].size(), ", as blade 1 has"));
     blade_block_ = block_at_zero(blades_);
-    for (std::size_t i = 0; i < rotor.blades[0].size(); ++i) {
+    for (std::size_t i = 0; blades_ > 0 && i < rotor.blades[0].size(); ++i) {
         std::vector<int> rows;
         for (const std::vector<int>& blade : rotor.blades) rows.push_back(row_of(coordinates, blade[i]));
         if (std::all_of(rows.begin(), rows.end(), [](int r) { return r < 0; })) continue;
@@ -87,7 +87,12 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     // A vector fixed in space, seen from a part that turns by sense * psi about its x axis.
     for (const RotatingPair& pair : rotor.rotating_pairs) {
         const int y = row_of(coordinates, pair.y), z = row_of(coordinates, pair.z);
-        if (y >= 0 && z >= 0) pairs_.push_back({y, z, pair.sense});
+        if (y < 0 || z < 0) continue;
+        if (pair.turns) pairs_.push_back({y, z, pair.sense});
+        if (blades_ > 0) continue;
+        rows_[static_cast<std::size_t>(y)].kind = pair.sense > 0 ? MultiBlade::cosine : MultiBlade::sine;
+        rows_[static_cast<std::size_t>(z)].kind = pair.sense > 0 ? MultiBlade::sine : MultiBlade::cosine;
+        for (const int row : {y, z}) rows_[static_cast<std::size_t>(row)].harmonic = 1;
     }
 }
 

@@ -14,7 +14,8 @@ enum class MultiBlade : std::uint8_t { none, collective, cosine, sine, different
 struct MultiBladeRow {
     MultiBlade kind = MultiBlade::none;
     int harmonic = 0;           ///< of cosine and sine: 1 ... (B - 1) / 2
-    int blade_coordinate = -1;  ///< place in RotorMap::blades[k]; -1: not a blade coordinate
+    int blade_coordinate = -1;  ///< place in RotorMap::blades[k]; -1: not a blade coordinate (without blades cosine and
+                                ///< sine are the members of a rotating pair, in the order in which forward is + i)
 };
 
 /// "collective", "cosine 1", "sine 1", "differential"; empty for a coordinate itself.
@@ -29,8 +30,8 @@ class ColemanTransform {
 public:
     /// Of two blades there are the collective and the differential row, T is constant and the system stays periodic
     /// (see floquet()).
-    /// @throws InputError if there are fewer than two blades or more than 32, or if they differ in their number of
-    /// coordinates.
+    /// Without blades rotating pairs are all there is to turn.
+    /// @throws InputError if there is one blade or more than 32, or if they differ in their number of coordinates.
     ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
 
     /// T, dT/dpsi or its second derivative at azimuth psi, as a full matrix.

@@ -112,7 +112,8 @@ Identification::Identification(const Linearisation& lin, const Model& model, con
     require_size("identification", "elastic stiffness", lin.elastic, model.size(), model.size());
     for (const int coordinate : coordinates) require_index("identification", "coordinate", coordinate, model.size());
     for (const PartAxes& part : rotor.parts) {
-        Block block{};
+        Block block{}, shaft{};
+        std::vector<int> own_plane;  // of rotating pairs: the one plane tells the component modes of both
         const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {
             harmonics_ = std::max(harmonics_, harmonic);
             lists.resize(std::max(lists.size(), static_cast<std::size_t>(harmonic)));
@@ -124,6 +125,12 @@ Identification::Identification(const Linearisation& lin, const Model& model, con
             const CoordinateInfo& info = lin.coordinates[coordinates[i]];
             if (info.part != part.part) continue;
             const int row = static_cast<int>(i);
+            if (rows[i].blade_coordinate < 0 && rows[i].kind != MultiBlade::none) {
+                const bool cosine = rows[i].kind == MultiBlade::cosine;
+                at_harmonic(cosine ? shaft.cosine : shaft.sine, 1).push_back(row);
+                if (cosine) own_plane.push_back(coordinates[i]);
+                continue;
+            }
             switch (rows[i].kind) {
                 case MultiBlade::none:
                     block.collective.push_back(row);
@@ -146,6 +153,7 @@ Identification::Identification(const Linearisation& lin, const Model& model, con
                 own.push_back(coordinates[i]);
         }
         if (!own.empty()) add_part(lin, model, part, blades, own, std::move(block));
+        if (!own_plane.empty()) add_part(lin, model, part, false, own_plane, std::move(shaft));
     }
 }
 
@@ -154,11 +162,12 @@ void Identification::add_part(const Linearisation& lin, const Model& model, cons
     const Matrix K = lin.elastic(own, own), M = lin.mass(own, own);
     const std::vector<std::string> families = coordinate_families(model, part, own);
     const ComponentModes modes = component_modes(K, M, part.part);
+    const bool whirls = !blades && !block.cosine.empty();
     block.first_component = static_cast<int>(components_.size());
     std::map<std::string, int> count;
     for (Eigen::Index i = 0; i < modes.shapes.cols(); ++i) {
         const std::string family = family_of(modes.shapes.col(i), K, families);
-        components_.push_back({part.part, family, ++count[family], modes.omega(i) / (2 * pi), blades});
+        components_.push_back({part.part, family, ++count[family], modes.omega(i) / (2 * pi), blades, whirls});
     }
     block.weights = K * modes.shapes;
     blocks_.push_back(std::move(block));

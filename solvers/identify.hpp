@@ -37,6 +37,7 @@ struct Component {
     int ordinal = 1;     ///< within its family, by frequency
     double clamped_hz = 0;
     bool of_blades = false;
+    bool whirls = false;  ///< in two planes alike, as a shaft with a disc does: backward and forward, nothing else
 };
 
 /// Energy of a whirling pair of one harmonic n of the azimuth.

@@ -22,6 +22,27 @@ double lowest_scale(const SecondOrderSystem& system) {
     return std::isfinite(lowest) ? lowest : 1.0;
 }
 
+// Size of (lambda^2 M + lambda C + K) x beside that of its terms, rows weighed by `d`.
+template <class Shape>
+double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda, const Shape& shape) {
+    double rest = 0, terms = 0;
+    for (Eigen::Index i = 0; i < d.size(); ++i) {
+        Complex inertial = 0, damping = 0, stiffness = 0;
+        for (Eigen::Index j = 0; j < d.size(); ++j) {
+            const Complex x = shape(j);
+            inertial += system.M(i, j) * x, damping += system.C(i, j) * x, stiffness += system.K(i, j) * x;
+        }
+        inertial *= lambda * lambda, damping *= lambda;
+        const double weight = d(i) * d(i);
+        rest += weight * std::norm(inertial + damping + stiffness);
+        terms += weight * (std::norm(inertial) + std::norm(damping) + std::norm(stiffness));
+    }
+    return std::sqrt(rest / terms);
+}
+
+constexpr double high = 1e6;           // times the lowest frequency: what is above may be rounding
+constexpr double largest_rest = 0.01;  // of the equations' terms
+
 }  // namespace
 
 namespace {
@@ -81,6 +102,14 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
     set_state_matrix(system, scale, s);
     if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
     collect(scale, s, 1e-3 * sigma);
+    std::erase_if(found_, [&](const Found& found) {
+        if (std::abs(found.eigenvalue) < high * scale) return false;
+        const bool complex = found.eigenvalue.imag() != 0;
+        const auto shape = [&](Eigen::Index j) {
+            return Complex(shapes_(j, found.column), complex ? shapes_(j, found.column + 1) : 0.0);
+        };
+        return !(residual(system, d_, found.eigenvalue, shape) < largest_rest);
+    });
     normalise(system);
     return found_.size();
 }

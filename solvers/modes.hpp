@@ -26,7 +26,8 @@ inline constexpr double most_certain_ratio = 1e7;
 /// All oscillating modes by natural frequency, then the aperiodic ones (real eigenvalues). Rigid-body modes (|lambda|
 /// below 1e-4 of the lowest single-coordinate frequency, as the zero pair of a free rotor) are left out. Low modes come
 /// out to working precision however stiff others are; a mode at r times the lowest frequency has an error of about
-/// 1e-16 r^2: above 1e6 times the lowest frequency nothing should be concluded from it.
+/// 1e-16 r^2. Above 1e6 times the lowest frequency (a coordinate almost without mass) one that does not satisfy the
+/// equations to a hundredth is rounding and left out.
 ///
 /// Made once for a number of rows: the memory is kept from one system to the next, nothing else is. One per thread.
 class ModeSolver {
