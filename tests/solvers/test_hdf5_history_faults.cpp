@@ -67,7 +67,7 @@ bool misread_by_others(const std::string& path) {
         if (!file.has("run/checkpoint/rows")) return rows > 0;
         const auto safe = static_cast<std::size_t>(file.read_ints("run/checkpoint/rows").at(0));
         const Checkpoint expected = checkpoint_of(safe - 1);
-        return safe != rows || file.read_doubles("run/checkpoint/time").at(0) != expected.time ||
+        return safe != rows || file.read_doubles("run/checkpoint/checkpoint_time").at(0) != expected.time ||
                file.read_doubles("run/checkpoint/q").at(0) != expected.q(0) ||
                file.read_ints("run/statistics/steps").at(0) != expected.statistics.steps;
     } catch (const FileError&) {
