@@ -201,9 +201,11 @@ private:
 void check_beginning(const std::string& path) {
     constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
     std::array<char, 9> start{};
+    const auto has_signature = [&] { return std::string_view(start.data(), signature.size()) == signature; };
     std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-    if (std::string_view(start.data(), signature.size()) != signature)
-        throw FileError(path, "cannot be opened as an HDF5 file: file signature not found");
+    if (JournaledFile journal; !has_signature() && journal.open(path.c_str(), JournaledFile::Mode::read) == 0)
+        if (journal.read(0, start) != 0) start.fill('\0');  // a flush goes on, or was broken off
+    if (!has_signature()) throw FileError(path, "cannot be opened as an HDF5 file: file signature not found");
     if (const int version = start.back(); version != 2)
         throw FileError(path, text("is an HDF5 file, but no history: its format has the version ", version,
                                    "; that of histories has 2"));
