@@ -1,13 +1,12 @@
 // What a large tree costs: memory in proportion to its bodies, no recursion, and an error where memory runs out.
 #include "mbs/christoffel.hpp"
 #include "mbs/curvature.hpp"
+#include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/system.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <sys/resource.h>
 
