@@ -79,7 +79,8 @@ check_package() {
     cmake --install build/release --prefix "$prefix" >/dev/null
     cmake -S tests/packaging -B "$consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
     cmake --build "$consumer" --parallel "$jobs"
-    (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./consumer_sanitized)
+    (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
+        ./consumer_sanitized)
 }
 
 check_tidy() {
