@@ -85,7 +85,8 @@ check_package() {
 
 check_tidy() {
     # The library and the programs; what cmake generates and the tests are left out.
-    run-clang-tidy -quiet -j "$jobs" -p build/clang "^$PWD/(mbs|elements|turbines|solvers|examples)/.*\.cpp\$" 2>&1 |
+    cmake --preset tidy >/dev/null
+    run-clang-tidy -quiet -j "$jobs" -p build/tidy "^$PWD/(mbs|elements|turbines|solvers|examples)/.*\.cpp\$" 2>&1 |
         { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 

@@ -120,8 +120,9 @@ TEST_CASE("model files: damaged windIO and own YAML files give an error or a mac
         TurbineDescription d = read_openfast(test::data_file("openfast/small_BeamDyn.fst")).description;
         d.source = "";
         check(to_yaml(d), [](const std::string& text) {
-            TurbineDescription read = parse_description(text, "machine.yaml");
-            return test::state({read, {}, 0, 0});
+            TurbineFile read;
+            read.description = parse_description(text, "machine.yaml");
+            return test::state(read);
         });
     }
 }
