@@ -181,7 +181,7 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
     for (std::size_t e = 0; e < beam.elements.size(); ++e) {
         const CardanBeam::Element& element = beam.elements[e];
         const auto n = static_cast<Eigen::Index>(element.bodies.size());
-        const bool linear = options.hinge_law.is_linear() && element.tilt.rotation.size() == 0;
+        const bool linear = options.hinge_law.is_linear() && element.tilt.products.empty();
         if (linear || !element.damping.isZero(0))
             forces.add_law({text(name, " element ", e + 1),
                             element.bodies,
@@ -307,7 +307,9 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                     inertia.rotary_split,
                                     inertia.shape_share};
         element.damping = element_damping(line, element, options);
-        element.tilt = shear_tilt(span, inertia.hinges, options.curved_flexibility, builder.kinds, element.stiffness);
+        if (options.hinge_law.rod_strains)
+            element.tilt = shear_tilt(span, inertia.hinges, options.curved_flexibility, builder.kinds,
+                                      element.stiffness, options.order == CardanOrder::mirrored);
         std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
         add_armatures(tree, element, inertia, options, element_name);
         beam.elements.push_back(std::move(element));

@@ -105,57 +105,41 @@ struct Response {
     Square stiffness;   // d2V/dq2
 };
 
-// The hinge angle of a kind grows by this multiple of psi_y or psi_z, whichever bends it.
-double tilt_sign(ElementCoordinate kind) {
-    using enum ElementCoordinate;
-    return kind == az1 || kind == ay2 ? 1 : kind == az2 || kind == ay1 ? -1 : 0;
-}
-Eigen::Index tilt_row(ElementCoordinate kind) {
-    return kind == ElementCoordinate::ay1 || kind == ElementCoordinate::ay2 ? 1 : 0;
-}
-
 // The springs by their arguments y: V = z^T K z / 2 with z of hinge_forces(), its gradient D^T p and second derivatives
 // D^T K D + p . d2z/dy2, D = dz/dy and p = K z.
 Response springs(const HingeLawElement& element, const Coordinates& y) {
     const Matrix& K = element.stiffness;
     const Eigen::Index n = y.size();
-    if (element.tilt.rotation.size() == 0) {
+    const ShearTilt& tilt = element.tilt;
+    if (tilt.products.empty()) {
         const Coordinates moment = K.lazyProduct(y);
         return {y.dot(moment) / 2, moment, K};
     }
     // In six dimensions whatever their number, with zeros.
     Mat6 stiffness = Mat6::Zero(), D = Mat6::Identity();
-    Eigen::Matrix<double, 2, 6> Psi = Eigen::Matrix<double, 2, 6>::Zero();
-    Vec6 z = Vec6::Zero();
+    Vec6 all = Vec6::Zero();
     stiffness.topLeftCorner(n, n) = K;
-    Psi.leftCols(n) = element.tilt.rotation;
-    z.head(n) = y;
-    const auto u = std::find(element.kinds.begin(), element.kinds.end(), ElementCoordinate::u) - element.kinds.begin();
-    const double d = element.tilt.distance, s = 1 + y(u) / d;
-    const Eigen::Vector2d psi = Psi * z;
-    const Vec6 along = Psi.transpose() * psi;
-    z(u) -= s * d * psi.squaredNorm() / 2;
-    D.row(u) -= s * d * along.transpose();
+    all.head(n) = y;
+    Vec6 z = all;
+    for (const ShearTilt::Product& x : tilt.products) {
+        const double a = x.factor * x.a.dot(all), b = x.factor * x.b.dot(all);
+        z(x.spring) += a * x.b.dot(all);
+        D.row(x.spring) += (a * x.b + b * x.a).transpose();
+    }
+    // The one term of third order, -u |psi|^2 / 2.
+    const Eigen::Index u = tilt.extension;
+    const Eigen::Vector2d psi = tilt.rotation * all;
+    const Vec6 along = tilt.rotation.transpose() * psi;
+    z(u) -= all(u) * psi.squaredNorm() / 2;
+    D.row(u) -= all(u) * along.transpose();
     D(u, u) -= psi.squaredNorm() / 2;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const ElementCoordinate kind = element.kinds[static_cast<std::size_t>(i)];
-        const double sign = tilt_sign(kind);
-        if (sign == 0) continue;
-        const Eigen::Index row = tilt_row(kind);
-        z(i) += (s - 1) * sign * psi(row);
-        D.row(i) += (s - 1) * sign * Psi.row(row);
-        D(i, u) += sign * psi(row) / d;
-    }
-    const Vec6 p = stiffness * z;
-    Eigen::Vector2d sheared = Eigen::Vector2d::Zero();  // what does work on psi
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const ElementCoordinate kind = element.kinds[static_cast<std::size_t>(i)];
-        sheared(tilt_row(kind)) += tilt_sign(kind) * p(i);
-    }
-    const Vec6 with_u = Psi.transpose() * sheared / d - p(u) * along, gradient = D.transpose() * p;
-    Mat6 tangent = D.transpose() * stiffness * D - p(u) * s * d * Psi.transpose() * Psi;
-    tangent.col(u) += with_u;
-    tangent.row(u) += with_u.transpose();
+
+    const Vec6 p = stiffness * z, gradient = D.transpose() * p;
+    Mat6 tangent = D.transpose() * stiffness * D - p(u) * all(u) * tilt.rotation.transpose() * tilt.rotation;
+    tangent.col(u) -= p(u) * along;
+    tangent.row(u) -= p(u) * along.transpose();
+    for (const ShearTilt::Product& x : tilt.products)
+        tangent += p(x.spring) * x.factor * (x.a * x.b.transpose() + x.b * x.a.transpose());
     return {z.dot(p) / 2, gradient.head(n), tangent.topLeftCorner(n, n)};
 }
 
@@ -191,13 +175,37 @@ Response respond(const HingeLaw& law, const HingeLawElement& element, const Coor
 }  // namespace
 
 ShearTilt shear_tilt(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule,
-                     const std::vector<ElementCoordinate>& kinds, const Matrix& stiffness) {
-    if (std::find(kinds.begin(), kinds.end(), ElementCoordinate::u) == kinds.end()) return {};
-    if (!is_flexible_in_shear(element)) return {};
+                     const std::vector<ElementCoordinate>& kinds, const Matrix& stiffness, bool mirrored) {
+    using enum ElementCoordinate;
+    const auto place = [&](ElementCoordinate kind) -> Eigen::Index {
+        return std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
+    };
+    const auto unit = [&](ElementCoordinate kind) { return Vec6(Vec6::Unit(place(kind))); };
+    const auto is_free = [&](ElementCoordinate kind) { return place(kind) < std::ssize(kinds); };
+    if (!is_free(u) || !is_flexible_in_shear(element)) return {};
     std::vector<int> free;
     for (ElementCoordinate kind : kinds) free.push_back(static_cast<int>(kind));
-    return {shear_rotation(element, hinges, rule)(Eigen::all, free) * stiffness,
-            (hinges.second - hinges.first) * element.chord()};
+
+    ShearTilt tilt;
+    tilt.rotation.setZero();
+    tilt.rotation.leftCols(std::ssize(kinds)) = shear_rotation(element, hinges, rule)(Eigen::all, free) * stiffness;
+    tilt.extension = place(u);
+    const double d = (hinges.second - hinges.first) * element.chord();
+    const Vec6 psi_y = tilt.rotation.row(0), psi_z = tilt.rotation.row(1);
+    const auto add = [&](ElementCoordinate spring, double factor, const Vec6& a, const Vec6& b) {
+        if (is_free(spring)) tilt.products.push_back({place(spring), factor, a, b});
+    };
+    for (const Vec6& psi : {psi_y, psi_z}) add(u, -d / 2, psi, psi);
+    add(az1, 1 / d, unit(u), psi_y);
+    add(az2, -1 / d, unit(u), psi_y);
+    add(ay1, -1 / d, unit(u), psi_z);
+    add(ay2, 1 / d, unit(u), psi_z);
+    if (!mirrored || !is_free(phi)) return tilt;
+    for (ElementCoordinate spring : {ay1, ay2}) add(spring, 0.5, unit(phi), psi_y);
+    for (ElementCoordinate spring : {az1, az2}) add(spring, 0.5, unit(phi), psi_z);
+    for (ElementCoordinate angle : {az1, az2})
+        if (is_free(angle)) add(phi, -1, psi_z, unit(angle));
+    return tilt;
 }
 
 Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const Vector& q) {

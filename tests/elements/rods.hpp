@@ -35,13 +35,12 @@ inline BeamLine line_of(const oracles::TwistedRod& rod) {
 }
 
 /// What becomes of a chain of cardanic elements of vanishing length. A shear strain tilts the middle body against the
-/// terminal ones, which carry the section axes, by a = c gamma, c = 1 / (1 - 2 delta); the torsion turns about the
-/// tilted axis d and the bending about z about an axis that has followed the tilt about y:
-///     1 + Gamma = 2 delta e1 + (1 / c + eps) d,   d = Ry(ay) Rz(az) e1,
-///     kappa = kappa_x d + kappa_y e2 + kappa_z Ry(ay) e3,   ay = -c gamma_z, az = c gamma_y.
-/// Over g = (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z) the springs measure
-///     m = (eps - s c |gamma|^2 / 2, s gamma_y, s gamma_z, kappa_x, kappa_y, kappa_z),   s = 1 + c eps,
-/// and the law is C^-1 m = (dm/dg)^-T ((dGamma/dg)^T n + (dkappa/dg)^T m).
+/// terminal ones, which carry the section axes, by a = gamma / (1 - 2 delta); the torsion turns about the tilted axis d
+/// and the bending about z about an axis that has followed the tilt about y:
+///     1 + Gamma = 2 delta e1 + (1 - 2 delta + eps) d,   d = Ry(ay) Rz(az) e1,
+///     kappa = kappa_x d + kappa_y e2 + kappa_z Ry(ay) e3,   ay = -gamma_z / (1 - 2 delta), az = gamma_y / (1 - 2
+///     delta).
+/// The law is C^-1 g = (dGamma/dg)^T n + (dkappa/dg)^T m over g = (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z).
 inline oracles::CosseratRod limit_of_elements(oracles::CosseratRod rod, double delta) {
     const auto law = rod.strain;
     rod.strain = [law, c = 1 / (1 - 2 * delta)](double s, const Vec6& forces) {
@@ -65,29 +64,14 @@ inline oracles::CosseratRod limit_of_elements(oracles::CosseratRod rod, double d
                 g(3) * d + g(4) * Vec3::UnitY() + g(5) * e3;
             return strain;
         };
-        const auto measured = [c](const Vec6& g, Mat6& J) {
-            const double stretch = 1 + c * g(0), square = g(1) * g(1) + g(2) * g(2);
-            Vec6 m = g;
-            m(0) -= stretch * c * square / 2;
-            J.setIdentity();
-            J(0, 0) -= c * c * square / 2;
-            for (int i : {1, 2}) {
-                m(i) *= stretch;
-                J(i, i) = stretch;
-                J(i, 0) = c * g(i);
-                J(0, i) = -stretch * c * g(i);
-            }
-            return m;
-        };
         Vec6 g = law(s, forces), strain;
-        Mat6 D, J;
+        Mat6 D;
         for (int i = 0; i < 40; ++i) {
             strain = strains(g, D);
-            const Vec6 m = measured(g, J);
-            const Vec6 along = D.transpose() * forces;
-            const Vec6 step = J.inverse() * (law(s, Vec6(J.transpose().inverse() * along)) - m);
-            g += step;
-            if (step.norm() < 1e-16) break;
+            const Vec6 next = law(s, Vec6(D.transpose() * forces));
+            const double change = (next - g).norm();
+            g = next;
+            if (change < 1e-16) break;
         }
         return strains(g, D);
     };

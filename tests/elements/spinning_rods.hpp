@@ -17,6 +17,7 @@ struct SpinningRod {
     double beta_root, beta_tip;
     Eigen::Vector2d curvature = Eigen::Vector2d::Zero();  // positive about z: tip toward +y, about y: toward -z
     Vec3 load = Vec3::Zero();                             // dead, per length
+    double taper = 0;                                     // height and width fall by this share to the tip
 
     oracles::RodLoad loads() const {
         oracles::RodLoad loads;
@@ -25,11 +26,19 @@ struct SpinningRod {
     }
     /// Root axes in those of the hub, for the elements.
     Placement root() const { return Placement::rotation(rot_y(-cone)) * Placement::translation({hub_radius, 0, 0}); }
+    oracles::RodSection section_at(double s) const {
+        const double k = 1 - taper * s / length, area = k * k, second = area * area;
+        oracles::RodSection at = section;
+        for (double* x : {&at.mass, &at.EA, &at.GA_y, &at.GA_z}) *x *= area;
+        for (double* x : {&at.GJ, &at.EI_y, &at.EI_z, &at.j_y, &at.j_z}) *x *= second;
+        for (Eigen::Vector2d* x : {&at.mass_centre, &at.shear_centre, &at.tension_centre}) *x *= k;
+        return at;
+    }
     // The root axes written out: x outward and up by the cone.
     oracles::TwistedRod rod() const {
         const double c = std::cos(cone), s = std::sin(cone);
         oracles::TwistedRod rod{.length = length,
-                                .section = [section = section](double) { return section; },
+                                .section = [*this](double at) { return section_at(at); },
                                 .beta_root = beta_root,
                                 .beta_rate = (beta_tip - beta_root) / length,
                                 .curvature = curvature,

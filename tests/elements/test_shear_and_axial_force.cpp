@@ -112,7 +112,7 @@ TEST_CASE("column flexible in shear: a beam rigid in shear keeps its linear law"
         EngineeringSection section = soft(GA);
         const CardanBeam beam =
             add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, section), "column", {"c"}, options);
-        CHECK((beam.elements[0].tilt.rotation.size() == 0) == forces.users().empty());
+        CHECK((beam.elements[0].tilt.products.empty()) == forces.users().empty());
         return forces.users().size();
     };
     CHECK(users(rigid, true) == 0);
