@@ -8,7 +8,7 @@
 /// Frequency of the lowest mode of the 600 kW machine at standstill, Hz; negative: an error.
 extern "C" double lowest_frequency_of_wt600() {
     try {
-        const cardan::turbines::Turbine turbine = cardan::turbines::wt600({.blade_elements = 1, .tower_elements = 1});
+        const cardan::turbines::Turbine turbine = cardan::turbines::wt600({.tower_elements = 1, .blade_elements = 1});
         const cardan::solvers::Campbell diagram =
             cardan::solvers::campbell(turbine.system(), turbine.rotor(), std::vector<double>{0});
         return diagram.points[0].modes[0].mode.natural_hz();
