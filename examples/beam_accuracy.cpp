@@ -60,7 +60,7 @@ int run(const Arguments& a) {
         for (const Case& c : cases()) std::cout << c.name << ": " << c.what << "\n";
         return 0;
     }
-    if (!std::filesystem::is_directory(a.out))
+    if (std::error_code code; !std::filesystem::is_directory(a.out, code))
         throw FileError(a.out.string(), text("the folder '", a.out.string(), "' does not exist"));
     std::vector<Result> results;
     int failures = 0;

@@ -51,10 +51,8 @@ inline void progress(const std::string& what) {
 /// Files that cannot be written are found out before the work, not after it, and what a run that was killed has left
 /// behind is named and removed.
 inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings) {
-    const std::filesystem::path path(prefix), folder = path.parent_path();
-    if (path.filename().empty()) throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw FileError(prefix, text("the folder '", folder.string(), "' does not exist"));
+    if (std::filesystem::path(prefix).filename().empty())
+        throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
     for (const char* ending : endings) {
         const PendingFile file(prefix + ending);
         if (file.left_over())

@@ -89,8 +89,8 @@ PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, code)) {
         const bool missing = !code || code == std::errc::no_such_file_or_directory;
-        throw FileError(path_, missing ? text("the folder ", folder.string(), " does not exist")
-                                       : text("the folder ", folder.string(), ": ", code.message()));
+        throw FileError(path_, missing ? text("the folder '", folder.string(), "' does not exist")
+                                       : text("the folder '", folder.string(), "': ", code.message()));
     }
     if (!path.has_filename()) throw FileError(path_, "a file name is needed");
     if (fs::exists(there) && !fs::is_regular_file(there)) {

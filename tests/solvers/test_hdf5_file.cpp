@@ -225,7 +225,7 @@ TEST_CASE("hdf5: a path that cannot be written is an error that says why") {
     const Folder folder;
     const auto reason = [](const std::string& path) { return message_of([&] { (void)Hdf5File::create(path); }); };
     CHECK(reason(folder / "none/a.h5") ==
-          (folder / "none/a.h5") + ": the folder " + (folder / "none") + " does not exist");
+          (folder / "none/a.h5") + ": the folder '" + (folder / "none") + "' does not exist");
     CHECK(reason(folder.path.string()) == folder.path.string() + ": is a folder, not a file");
     CHECK_THAT(reason(folder / ""), Contains("is a folder"));
     CHECK_THAT(reason(""), Contains("a file name is needed"));

@@ -290,5 +290,7 @@ TEST_CASE("elastodyn: figures that make no machine are refused with the line", "
     CHECK_THAT(blade("  0.7   BldFlDmp(2)", " -0.7   BldFlDmp(2)"), Contains("BldFlDmp(2) = -0.7; allowed: >= 0"));
     CHECK_THAT(blade("     6   NBlInpSt", "     5   NBlInpSt"),
                Contains("small_Blade.dat:22: one more row than the 5"));
+    CHECK_THAT(message("small_Tower.dat", "   0.97   AdjSSSt", "1e-320   AdjSSSt"),
+               Contains("small_Tower.dat:16: ") && Contains("allowed: > 0 (1e-30 ... 1e30)"));
     CHECK_THAT(blade("StrcTwst", "Twist"), Contains("no column 'StrcTwst'; there are: BlFract, PitchAxis, Twist"));
 }
