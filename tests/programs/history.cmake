@@ -19,7 +19,7 @@ add_example_test(example_history_no_file history 1 "no/such.h5: cannot be opened
 add_example_test(example_history_no_history history 1 "cannot be opened as an HDF5 file" repair ${CMAKE_CURRENT_LIST_FILE})
 add_example_test(example_history_channel history 1 "'hinge 9'; allowed: one of 'hinge 1'" export history_finished.h5 --csv
                  history.csv --channel "hinge 9")
-add_example_test(example_history_unwritable history 1 "the folder no/such does not exist" export history_finished.h5 --csv
+add_example_test(example_history_unwritable history 1 "the folder 'no/such' does not exist" export history_finished.h5 --csv
                  no/such/x.csv)
 set_tests_properties(
     example_history_info

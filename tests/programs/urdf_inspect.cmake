@@ -14,4 +14,4 @@ add_example_test(example_inspect_not_urdf urdf_inspect 1 "[.]cmake:.*is not XML"
 add_example_test(example_inspect_coordinate urdf_inspect 1 "unknown coordinate 'knee'" --q knee=1)
 add_example_test(example_inspect_value urdf_inspect 1 "--q: value = elbow=x; allowed: COORDINATE=NUMBER" --q elbow=x)
 add_example_test(example_inspect_stiffness urdf_inspect 1 "'elbow spring'.*-1" --stiffness=elbow=-1)
-add_example_test(example_inspect_unwritable urdf_inspect 1 "the folder no/such does not exist" --write no/such/x.urdf)
+add_example_test(example_inspect_unwritable urdf_inspect 1 "the folder 'no/such' does not exist" --write no/such/x.urdf)
