@@ -253,8 +253,8 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
     add_node(0);
     if (const std::string unsuited = unsuited_delta(options); !unsuited.empty())
         beam.warnings.push_back(text(name, ": ", unsuited));
-    if (!options.extension && shear_centre_offset(line, ends) > 2.5e-3 * line.length)
-        beam.warnings.push_back(text(name, ": the shear centre lies up to ", shear_centre_offset(line, ends),
+    if (const double offset = options.extension ? 0 : shear_centre_offset(line, ends); offset > 2.5e-3 * line.length)
+        beam.warnings.push_back(text(name, ": the shear centre lies up to ", offset,
                                      " m off the reference line while extension is condensed out, so that the hinges "
                                      "stay on the reference line: bodies between them are tilted by torsion, which "
                                      "more elements do not remove; keep the extension free"));

@@ -40,6 +40,19 @@ CardanBeamOptions with(int elements, Partition partition) {
     return options;
 }
 
+// The same with four elements and without the load.
+struct BareColumn {
+    BareColumn(double GA, bool extension) {
+        CardanBeamOptions options = with(4, Partition::segment_masses);
+        options.torsion = false;
+        options.extension = extension;
+        Tree tree;
+        beam = add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, soft(GA)), "column", {"c"}, options);
+    }
+    ForceSet forces;
+    CardanBeam beam;
+};
+
 // Haringx (1942), Reissner (1972): P (1 + P / GA) = pi^2 EI / 4 L^2 for a clamped-free column that does not yield along
 // its axis. The column follows the slopes of its sections: the other reading, Engesser's, has P / (1 - P / GA).
 double haringx(double GA) {
@@ -80,15 +93,7 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
 }
 
 TEST_CASE("column flexible in shear: under tension and compression with extension condensed it is told", "[property]") {
-    const auto warnings = [](double GA, bool extension) {
-        CardanBeamOptions options = with(4, Partition::segment_masses);
-        options.torsion = false;
-        options.extension = extension;
-        Tree tree;
-        ForceSet forces;
-        return add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, soft(GA)), "column", {"c"}, options)
-            .warnings;
-    };
+    const auto warnings = [](double GA, bool extension) { return BareColumn(GA, extension).beam.warnings; };
     CHECK(warnings(20, true).empty());
     CHECK(warnings(rigid, false).empty());
     CHECK(warnings(1e4, false).empty());  // EI / GA L^2 = 1e-4: nothing to speak of
@@ -104,16 +109,9 @@ TEST_CASE("column flexible in shear: under tension and compression with extensio
 
 TEST_CASE("column flexible in shear: a beam rigid in shear keeps its linear law", "[property]") {
     const auto users = [](double GA, bool extension) {
-        CardanBeamOptions options = with(4, Partition::segment_masses);
-        options.torsion = false;
-        options.extension = extension;
-        Tree tree;
-        ForceSet forces;
-        EngineeringSection section = soft(GA);
-        const CardanBeam beam =
-            add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, section), "column", {"c"}, options);
-        CHECK((beam.elements[0].tilt.products.empty()) == forces.users().empty());
-        return forces.users().size();
+        const BareColumn column(GA, extension);
+        CHECK(column.beam.elements[0].tilt.products.empty() == column.forces.users().empty());
+        return column.forces.users().size();
     };
     CHECK(users(rigid, true) == 0);
     CHECK(users(20, false) == 0);

@@ -8,28 +8,15 @@
 #include "mbs/forward_derivatives.hpp"
 #include "mbs/lagrange.hpp"
 #include "mbs/transmitted.hpp"
+#include "tests/support/doors.hpp"
 #include "tests/support/random_tree.hpp"
-#include "tests/support/refusal.hpp"
 
-#include <functional>
 #include <limits>
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-struct Door {
-    std::string name;
-    std::function<void()> knock;
-};
-
-void check_all_refused(const std::vector<Door>& doors, const std::string& part) {
-    for (const Door& door : doors) {
-        CAPTURE(door.name, part);
-        check_refused(door.knock, {part});
-    }
-}
 
 // A system of n coordinates with everything that a kernel can be given, all of the right size.
 struct Fixture {

@@ -11,7 +11,7 @@
 #include "solvers/periodic_system.hpp"
 #include "solvers/recorder.hpp"
 #include "tests/solvers/small_rotor.hpp"
-#include "tests/support/refusal.hpp"
+#include "tests/support/doors.hpp"
 
 #include <functional>
 #include <limits>
@@ -24,18 +24,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Door {
-    std::string name;
-    std::function<void()> knock;
-};
-
-void check_all_refused(const std::vector<Door>& doors, const std::string& part) {
-    for (const Door& door : doors) {
-        CAPTURE(door.name, part);
-        check_refused(door.knock, {part});
-    }
-}
 
 }  // namespace
 

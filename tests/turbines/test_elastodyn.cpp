@@ -50,6 +50,15 @@ double trapezoid(const std::vector<double>& x, const std::vector<double>& y) {
     return sum;
 }
 
+AssemblyOptions bending_only() {
+    CardanBeamOptions beam;
+    beam.elements = 3;
+    beam.torsion = false;
+    AssemblyOptions options;
+    options.blade_beam = options.tower_beam = beam;
+    return options;
+}
+
 }  // namespace
 
 TEST_CASE("elastodyn: a blade file with the data of the NREL 5 MW machine is the built-in blade", "[crosscheck]") {
@@ -125,12 +134,7 @@ TEST_CASE("elastodyn: factors multiply the distributed properties; twist is agai
 
 TEST_CASE("elastodyn: the machine has the masses of the files, summed by hand", "[analytic]") {
     const TurbineFile file = read_elastodyn(test::data_file("openfast/small_ElastoDyn.dat"));
-    AssemblyOptions options;
-    CardanBeamOptions beam;
-    beam.elements = 3;
-    beam.torsion = false;
-    options.blade_beam = options.tower_beam = beam;
-    const Turbine turbine = assemble(file.description, options);
+    const Turbine turbine = assemble(file.description, bending_only());
     const double blade = 1.05 * trapezoid({0, 0.5, 2, 5, 8, 10}, {60, 55, 40, 28, 16, 8});
     const double tower = 1.01 * trapezoid({0, 9.6, 16.8, 24}, {500, 420, 360, 300});
     CHECK(turbine.layout().blades[1].mass == Approx(blade).epsilon(1e-12));
@@ -201,11 +205,7 @@ TEST_CASE("elastodyn: freedoms that are switched off in the file are taken from 
 
 TEST_CASE("beams that are held in bending: the machine moves as with an infinitely stiff one", "[crosscheck]") {
     const TurbineFile file = read_elastodyn(test::data_file("openfast/small_ElastoDyn.dat"));
-    AssemblyOptions options;
-    CardanBeamOptions beam;
-    beam.elements = 3;
-    beam.torsion = false;
-    options.blade_beam = options.tower_beam = beam;
+    AssemblyOptions options = bending_only();
     const auto frequencies = [](const Turbine& machine) {
         solvers::CampbellOptions sweep;
         sweep.spin = solvers::RotorSpin::prescribed;
