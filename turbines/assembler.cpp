@@ -6,12 +6,6 @@ namespace cardan::turbines {
 
 namespace {
 
-// Hub axes in shaft axes (x downwind along the shaft, z up): z along the shaft, x up.
-const Mat3& hub_axes() {
-    static const Mat3 R = (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
-    return R;
-}
-
 CardanBeamOptions beam_options(const AssemblyOptions& options, int elements,
                                const std::optional<CardanBeamOptions>& full, const BeamDamping& damping) {
     CardanBeamOptions beam;

@@ -1,13 +1,12 @@
 #include "turbines/beamdyn.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "turbines/matrix_blade.hpp"
 
 namespace cardan::turbines {
 
 namespace {
-
-constexpr double degree = pi / 180;
 
 // Reference line and twist.
 MatrixBlade key_points(OpenFastFile& file) {
@@ -27,7 +26,7 @@ MatrixBlade key_points(OpenFastFile& file) {
         if (i == 0 && !blade.points[0].isZero(0)) t.fail(0, "first key point; allowed: the blade root (0, 0, 0)");
         if (i > 0 && !(z[i] > z[i - 1])) t.fail(i, text("kp_zr = ", z[i], " after ", z[i - 1], "; allowed: larger"));
         if (std::abs(twist[i]) > 180) t.fail(i, text("initial_twist = ", twist[i], "; allowed: -180 ... 180 degrees"));
-        blade.twist.push_back(twist[i] * degree);
+        blade.twist.push_back(twist[i] * units::degree);
     }
     return blade;
 }
@@ -101,7 +100,7 @@ BeamDamping damping(OpenFastFile& file) {
     return BeamDamping::of_modes(ratios);
 }
 
-const std::vector<KeywordGroup>& groups() {
+const std::vector<KeywordGroup>& ignored_by_beamdyn() {
     static const std::vector<KeywordGroup> all{
         {{"Echo",     "analysis_type", "QuasiStaticInit", "rhoinf",   "quadrature", "refine",    "n_fact",
           "DTBeam",   "load_retries",  "NRMax",           "stop_tol", "tngt_stf_*", "RotStates", "order_elem",
@@ -134,7 +133,7 @@ BeamDynBlade read_beamdyn(const std::filesystem::path& path) {
         file.note_unless("PitchJ", 0, "inertia of the pitch drive: not part of the model");
     }
     for (OpenFastFile* each : {&file, &blade})
-        for (FileNote& note : each->notes(groups())) out.beam.notes.push_back(std::move(note));
+        for (FileNote& note : each->notes(ignored_by_beamdyn())) out.beam.notes.push_back(std::move(note));
     out.beam.source = text(file.text(), "\n# ", blade_path.string(), "\n", blade.text());
     return out;
 }

@@ -268,6 +268,15 @@ std::vector<double> CsvQuantities::numbers(std::string_view quantity, std::strin
     return values;
 }
 
+std::vector<double> CsvQuantities::numbers(std::string_view quantity, std::string_view expected_unit,
+                                           std::size_t count) const {
+    std::vector<double> values = numbers(quantity, expected_unit);
+    if (values.size() != count)
+        throw InputError(cardan::text(file_, ", ", quantity), "number of values", values.size(),
+                         cardan::text(count, ", separated by /"));
+    return values;
+}
+
 const std::string& CsvQuantities::text(std::string_view quantity) const {
     return known(quantity).value;
 }

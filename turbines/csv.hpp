@@ -68,6 +68,9 @@ public:
     [[nodiscard]] double number(std::string_view quantity, std::string_view expected_unit) const;
     /// The numbers of "2.5e4/1.0e5/1.0e5"; a single number is a list of one.
     [[nodiscard]] std::vector<double> numbers(std::string_view quantity, std::string_view expected_unit) const;
+    /// As above; throws InputError, too, when there are more or fewer of them.
+    [[nodiscard]] std::vector<double> numbers(std::string_view quantity, std::string_view expected_unit,
+                                              std::size_t count) const;
     /// The value as it is written.
     [[nodiscard]] const std::string& text(std::string_view quantity) const;
     [[nodiscard]] const std::string& unit(std::string_view quantity) const;

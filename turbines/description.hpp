@@ -53,6 +53,12 @@ struct HubDescription {
     double radius = 0;     ///< blade roots, m
 };
 
+/// Rotation from hub axes, z along the shaft (downwind) and x along blade 1, to those of the shaft, x downwind along it
+/// and z up at azimuth 0.
+inline Mat3 hub_axes() {
+    return (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
+}
+
 struct BladeDescription {
     BeamLine line;                  ///< from the root out; x radial, y to the leading edge, z downwind
     Spring pitch;                   ///< pitch mechanism

@@ -37,13 +37,13 @@ std::string quoted(const std::string& words) {
     return out + "\"";
 }
 
-// Lines that are no tables are refused, or told by a table that comes near.
-enum class Lines { exact, near };
+// Beam lines that are no tables are refused, or told by a table that comes near.
+enum class BeamLines { exact, near };
 
 // Writes block by block, lists of numbers in one line.
 class Writer {
 public:
-    explicit Writer(Lines lines) : lines_(lines) {}
+    explicit Writer(BeamLines lines) : lines_(lines) {}
     void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
     void integer(const char* key, int value) {
         if (value < 1 || value > most_counted) throw InputError(key, "number", value, text("1 ... ", most_counted));
@@ -75,7 +75,7 @@ public:
     void line(const char* key, const BeamLine& l) {
         if (const BeamTable* table = table_of(l)) {
             group(key, [&] { fields(*table); });
-        } else if (lines_ == Lines::near) {
+        } else if (lines_ == BeamLines::near) {
             sampled_line(key, l);
         } else {
             throw InputError(l.name, "sections", "a function", "a table (beam_line(), or sampled() of the line)");
@@ -143,7 +143,7 @@ private:
         for (const Vec3& p : table.points) out += text(indentation(), "  - ", list(p), "\n");
     }
 
-    Lines lines_;
+    BeamLines lines_;
     int depth_ = 0;
 };
 
@@ -151,7 +151,7 @@ private:
 
 namespace {
 
-std::string written(const TurbineDescription& description, Lines lines) {
+std::string written(const TurbineDescription& description, BeamLines lines) {
     Writer writer(lines);
     writer.out = text("# A wind turbine, read by cardan. SI units, radians; axes and signs: docs/conventions.md.\n",
                       "cardan_turbine: ", description_yaml_version, "\n");
@@ -162,11 +162,11 @@ std::string written(const TurbineDescription& description, Lines lines) {
 }  // namespace
 
 std::string to_yaml(const TurbineDescription& description) {
-    return written(description, Lines::exact);
+    return written(description, BeamLines::exact);
 }
 
 std::string as_computed(const TurbineDescription& description) {
-    return written(description, Lines::near);
+    return written(description, BeamLines::near);
 }
 
 void write_description(const TurbineDescription& description, const std::filesystem::path& path) {

@@ -101,9 +101,9 @@ BeamTable table(Level level) {
     return t;
 }
 
-class Reader {
+class DescriptionReader {
 public:
-    explicit Reader(YamlNode root) { levels_.emplace_back(std::move(root)); }
+    explicit DescriptionReader(YamlNode root) { levels_.emplace_back(std::move(root)); }
 
     void version() {
         const YamlNode node = at()["cardan_turbine"];
@@ -167,7 +167,7 @@ private:
 }  // namespace
 
 TurbineDescription parse_description(const std::string& text, const std::string& file) {
-    Reader reader(YamlNode::parse(text, file));
+    DescriptionReader reader(YamlNode::parse(text, file));
     TurbineDescription description;
     reader.version();
     description_fields(reader, description);

@@ -1,15 +1,13 @@
 #include "turbines/elastodyn.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 
 namespace cardan::turbines {
 
 namespace {
 
-constexpr double degree = pi / 180;
-constexpr double rpm = pi / 30;
-
-const std::vector<KeywordGroup>& groups() {
+const std::vector<KeywordGroup>& ignored_by_elastodyn() {
     static const std::vector<KeywordGroup> all{
         {{"Echo",    "Method",   "DT",        "BldNodes", "TwrNodes",  "SumPrint",  "OutFile",  "TabDelim",
           "OutFmt",  "TStart",   "DecFact",   "NTwGages", "TwrGagNd",  "NBlGages",  "BldGagNd", "OutList",
@@ -49,7 +47,7 @@ public:
         read_blade();
         read_freedoms();
         note_states();
-        for (FileNote& note : file_.notes(groups())) out_.notes.push_back(std::move(note));
+        for (FileNote& note : file_.notes(ignored_by_elastodyn())) out_.notes.push_back(std::move(note));
         return std::move(out_);
     }
 
@@ -68,7 +66,7 @@ private:
         const double value = file_.number(keyword);
         if (std::abs(value) > limit)
             file_.fail(keyword, text(keyword, " = ", value, "; allowed: ", -limit, " ... ", limit, " degrees"));
-        return value * degree;
+        return value * units::degree;
     }
     void add_source(const std::string& name, const std::string& content) {
         d_.source += text("# ", name, "\n", content, content.ends_with('\n') ? "" : "\n");
@@ -230,7 +228,7 @@ private:
     void note_states() {
         const double speed = file_.number("RotSpeed");
         if (speed < 0) file_.fail("RotSpeed", text("RotSpeed = ", speed, "; allowed: >= 0"));
-        out_.rotor_speed = speed * rpm;
+        out_.rotor_speed = speed * units::rpm;
         file_.note_unless("NacYaw", 0, "the nacelle points into the wind here");
         for (const char* keyword : {"OoPDefl", "IPDefl", "TTDspFA", "TTDspSS", "PtfmSurge", "PtfmSway", "PtfmHeave",
                                     "PtfmRoll", "PtfmPitch", "PtfmYaw", "Azimuth", "TeetDefl"})

@@ -1,5 +1,6 @@
 // Blade and tower files of ElastoDyn and FAST 7.
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "turbines/beam_table.hpp"
 #include "turbines/elastodyn.hpp"
 
@@ -9,9 +10,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
-const std::vector<KeywordGroup>& groups() {
+const std::vector<KeywordGroup>& ignored_for_beams() {
     static const std::vector<KeywordGroup> all{
         {{"BldFl1Sh*", "BldFl2Sh*", "BldEdgSh*", "TwFAM1Sh*", "TwFAM2Sh*", "TwSSM1Sh*", "TwSSM2Sh*"},
          "mode shapes: blades and tower are beams here and find their own"},
@@ -132,7 +131,7 @@ std::size_t rows_of(OpenFastFile& file, const char* keyword) {
 }
 
 void finish(ElastoDynBeam& beam, const OpenFastFile& file) {
-    for (FileNote& note : file.notes(groups())) beam.notes.push_back(std::move(note));
+    for (FileNote& note : file.notes(ignored_for_beams())) beam.notes.push_back(std::move(note));
     beam.source = file.text();
 }
 
@@ -161,7 +160,7 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
         s.j_flap = j_flap.not_negative(i);
         s.j_edge = j_edge.not_negative(i);
         if (std::abs(twist[i]) > 180) t.fail(i, text("StrcTwst = ", twist[i], "; allowed: -180 ... 180 degrees"));
-        s.beta = -twist[i] * degree;
+        s.beta = -twist[i] * units::degree;
         // Given toward the trailing edge and toward the suction side.
         if (t.has("EdgcgOf") || t.has("FlpcgOf")) s.mass_centre = {-edge_cg[i], flap_cg[i]};
         table.sections.push_back(s);

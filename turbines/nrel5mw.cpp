@@ -3,6 +3,7 @@
 #include "elements/quadrature.hpp"
 #include "mbs/error.hpp"
 #include "mbs/text_file.hpp"
+#include "mbs/units.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
@@ -10,7 +11,6 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double degree = pi / 180;
 constexpr auto blade_table = "nrel5mw_blade.csv";
 
 void check(const Nrel5mwBladeOptions& o) {
@@ -40,7 +40,7 @@ Nrel5mwBlade read_blade(const CsvTable& t, const Nrel5mwBladeOptions& options) {
         section.GJ = GJ[i];
         if (options.axial) section.EA = EA[i];
         section.GA_y = section.GA_z = options.shear_ratio * EA[i];
-        section.beta = -twist[i] * degree;
+        section.beta = -twist[i] * units::degree;
         if (options.mass_offset) section.mass_centre.y = -cg[i];  // given toward the trailing edge
         sections.push_back(section);
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "elements/assumed_modes_blade.hpp"
+#include "mbs/units.hpp"
 #include "turbines/nrel5mw.hpp"
 
 namespace cardan::turbines {
@@ -35,6 +36,6 @@ struct Nrel5mwMotion {
 };
 /// Of the root of the blade, axes e1 (along the blade), e2 (to the leading edge), e3 (downwind).
 /// @param gravity  m/s^2, downward
-HubMotion nrel5mw_blade_root(const Nrel5mwMotion& motion, double gravity = 9.80665);
+HubMotion nrel5mw_blade_root(const Nrel5mwMotion& motion, double gravity = units::standard_gravity);
 
 }  // namespace cardan::turbines

@@ -2,6 +2,7 @@
 
 #include "mbs/error.hpp"
 #include "mbs/text_file.hpp"
+#include "mbs/units.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
@@ -9,8 +10,8 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double degree = pi / 180, percent = 0.01;
-constexpr auto blade_table = "nrel5mw_blade.csv", turbine_table = "nrel5mw_turbine.csv";
+constexpr double percent = 0.01;
+constexpr auto turbine_table = "nrel5mw_turbine.csv";
 
 const char* tower_table(const Nrel5mwOptions& options) {
     return options.tower == Nrel5mwTower::land_based ? "nrel5mw_tower.csv" : "oc3_hywind_tower.csv";
@@ -39,7 +40,7 @@ BeamLine tower_line(const CsvTable& t) {
     return SectionTable("NREL 5 MW tower", {height.begin(), height.end()}, sections, Interpolation::linear).line();
 }
 
-NacelleDescription nacelle(const CsvQuantities& q) {
+NacelleDescription describe_nacelle(const CsvQuantities& q) {
     NacelleDescription n;
     n.inertia.mass = q.number("nacelle_mass", "kg");
     n.inertia.com = {q.number("nacelle_cm_downwind_of_tower_axis", "m"), 0,
@@ -49,13 +50,13 @@ NacelleDescription nacelle(const CsvQuantities& q) {
         q.number("nacelle_inertia_about_yaw_axis", "kg m^2") - n.inertia.mass * std::pow(n.inertia.com.x(), 2);
     n.inertia.reduced = true;
     n.shaft_height = q.number("tower_top_to_shaft_vertical", "m");
-    n.tilt = -q.number("shaft_tilt", "deg") * degree;  // FAST: negative, upwind end up
-    n.overhang = -q.number("overhang", "m");           // FAST: negative, upwind
+    n.tilt = -q.number("shaft_tilt", "deg") * units::degree;  // FAST: negative, upwind end up
+    n.overhang = -q.number("overhang", "m");                  // FAST: negative, upwind
     n.tilt_bearing = rigid_joint;
     return n;
 }
 
-DriveTrainDescription drive_train(const CsvQuantities& q) {
+DriveTrainDescription describe_drive_train(const CsvQuantities& q) {
     DriveTrainDescription t;
     t.gear_ratio = q.number("gearbox_ratio", "-");
     t.generator_inertia = q.number("generator_inertia_about_HSS", "kg m^2");
@@ -79,8 +80,8 @@ TurbineDescription describe(const Nrel5mwBlade& blade, const CsvTable& tower, co
     d.tower.damping = BeamDamping::of_modes(tower_modes);
     d.yaw.rotation = {q.number("nacelle_yaw_spring", "N m/rad"), q.number("nacelle_yaw_damping", "N m s/rad")};
     d.yaw.translation = rigid_joint;
-    d.nacelle = nacelle(q);
-    d.drive_train = drive_train(q);
+    d.nacelle = describe_nacelle(q);
+    d.drive_train = describe_drive_train(q);
 
     d.hub.inertia.mass = q.number("hub_mass", "kg");
     d.hub.inertia.com.z() = q.number("hub_cm_from_apex", "m");
@@ -89,7 +90,7 @@ TurbineDescription describe(const Nrel5mwBlade& blade, const CsvTable& tower, co
     d.hub.radius = q.number("hub_radius", "m");
 
     d.blade.line = blade.line;
-    d.blade.cone = q.number("precone", "deg") * degree;  // negative: tips upwind, there and here
+    d.blade.cone = q.number("precone", "deg") * units::degree;  // negative: tips upwind, there and here
     d.blade.pitch = rigid_joint;
     if (options.pitch_actuator)
         d.blade.pitch = {q.number("blade_pitch_actuator_spring", "N m/rad"),
@@ -126,9 +127,10 @@ Nrel5mwOptions nrel5mw_options(Nrel5mwVariant variant) {
 
 TurbineDescription nrel5mw_description(const Nrel5mwOptions& options) {
     const char* const tower = tower_table(options);
-    TurbineDescription d = describe(nrel5mw_blade(options.blade), CsvTable::parse(embedded_data(tower), tower),
+    const Nrel5mwBlade blade = nrel5mw_blade(options.blade);
+    TurbineDescription d = describe(blade, CsvTable::parse(embedded_data(tower), tower),
                                     CsvQuantities::parse(embedded_data(turbine_table), turbine_table), options);
-    d.source = text(embedded_data(turbine_table), "\n", embedded_data(tower), "\n", embedded_data(blade_table));
+    d.source = text(embedded_data(turbine_table), "\n", embedded_data(tower), "\n", blade.source);
     return d;
 }
 

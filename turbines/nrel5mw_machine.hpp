@@ -6,6 +6,7 @@
 /// (turbines/data/nrel5mw_*.csv). docs/nrel5mw.md has its modes beside those of OpenFAST.
 #pragma once
 
+#include "mbs/units.hpp"
 #include "turbines/assembly.hpp"
 #include "turbines/nrel5mw.hpp"
 
@@ -15,7 +16,7 @@
 namespace cardan::turbines {
 
 /// Gravity of the FAST input files on ground axes, m/s^2.
-inline const Vec3 nrel5mw_gravity{0, 0, -9.80665};
+inline const Vec3 nrel5mw_gravity{0, 0, -units::standard_gravity};
 
 /// Which description of the machine: the report and two input files differ.
 enum class Nrel5mwVariant : std::uint8_t {

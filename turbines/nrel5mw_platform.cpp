@@ -1,34 +1,21 @@
 #include "turbines/nrel5mw_platform.hpp"
 
 #include "mbs/error.hpp"
-#include "turbines/csv.hpp"
-#include "turbines/embedded_data.hpp"
+#include "turbines/description.hpp"
+#include "turbines/nrel5mw_geometry.hpp"
 
 namespace cardan::turbines {
 
 namespace {
 
-constexpr double degree = pi / 180;
-constexpr auto name = "NREL 5 MW machine on a platform";
-
-// Lengths in m, angles in rad, in the signs of the library.
-struct Geometry {
-    double tower_height, shaft_above_tower, overhang, tilt, cone;
-};
-
-Geometry geometry() {
-    constexpr auto table = "nrel5mw_turbine.csv";
-    const CsvQuantities q = CsvQuantities::parse(embedded_data(table), table);
-    // FAST counts tilt and overhang negative for an upwind rotor, the cone like this library.
-    return {q.number("tower_height", "m"), q.number("tower_top_to_shaft_vertical", "m"), -q.number("overhang", "m"),
-            -q.number("shaft_tilt", "deg") * degree, q.number("precone", "deg") * degree};
-}
+constexpr auto machine_name = "NREL 5 MW machine on a platform";
 
 void check(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options) {
-    if (options.blades < 1 || options.blades > 3) throw InputError(name, "number of blades", options.blades, "1 ... 3");
-    if (!std::isfinite(options.pitch)) throw InputError(name, "pitch [rad]", options.pitch, "finite");
+    if (options.blades < 1 || options.blades > 3)
+        throw InputError(machine_name, "number of blades", options.blades, "1 ... 3");
+    if (!std::isfinite(options.pitch)) throw InputError(machine_name, "pitch [rad]", options.pitch, "finite");
     if (!options.gravity.allFinite())
-        throw InputError(name, "gravity [m/s^2]", text(options.gravity.transpose()), "finite");
+        throw InputError(machine_name, "gravity [m/s^2]", text(options.gravity.transpose()), "finite");
     if (options.elements.elements > 1000)
         throw InputError(blade.line.name, "number of elements", options.elements.elements, "1 ... 1000");
     if (options.elements.extension && !(blade.line.section(0).compliance(0, 0) > 0))
@@ -76,9 +63,7 @@ private:
         const Vec3 upwind(-geometry_.overhang, 0, 0);
         const JointedFrame spin = driven(shaft, Axis::x, "spin", {"rotor"}, upwind);
         machine_.spin = spin.body;
-        // z along the shaft, x up at azimuth zero.
-        const Mat3 hub = (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
-        machine_.apex = tree_.add_frame(spin.frame, Placement::rotation(hub), "hub");
+        machine_.apex = tree_.add_frame(spin.frame, Placement::rotation(hub_axes()), "hub");
     }
 
     void add_blade(int number) {
@@ -98,7 +83,7 @@ private:
     void fill_rotor_map(FrameId shaft) {
         const Model& model = machine_.system->model;
         RotorMap& rotor = machine_.rotor;
-        rotor.machine = name;
+        rotor.machine = machine_name;
         rotor.description = text(options_.blades, " blade(s) of ", machine_.blades[0].beam.elements.size(),
                                  " elements, everything else rigid and driven\n\nread from (before changes made in a "
                                  "program)\n",
@@ -124,7 +109,7 @@ private:
     const Nrel5mwBlade& blade_;
     const Nrel5mwPlatformOptions& options_;
     Nrel5mwPlatform& machine_;
-    Geometry geometry_ = geometry();
+    const Nrel5mwGeometry& geometry_ = nrel5mw_geometry();
     Tree tree_;
     ForceSet forces_;
 };

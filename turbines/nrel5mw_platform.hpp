@@ -13,6 +13,7 @@
 
 #include "elements/moving_base.hpp"
 #include "mbs/channel.hpp"
+#include "mbs/units.hpp"
 #include "turbines/nrel5mw.hpp"
 
 namespace cardan::turbines {
@@ -28,8 +29,8 @@ Nrel5mwBlade nrel5mw_platform_blade();
 struct Nrel5mwPlatformOptions {
     int blades = 1;  ///< 1 ... 3; blade k stands 120 degrees ahead of blade k - 1
     CardanBeamOptions elements = nrel5mw_platform_elements();
-    double pitch = 0;              ///< setting of all blades, leading edge upwind positive, rad
-    Vec3 gravity{0, 0, -9.80665};  ///< ground axes, m/s^2
+    double pitch = 0;                              ///< setting of all blades, leading edge upwind positive, rad
+    Vec3 gravity{0, 0, -units::standard_gravity};  ///< ground axes, m/s^2
 };
 
 /// Heights, overhang, tilt (5 degrees), cone (2.5 degrees, tips upwind) are those of nrel5mw_turbine.csv. All bodies

@@ -11,7 +11,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr auto table = "oc3_hywind_platform.csv";
+constexpr auto spar_table = "oc3_hywind_platform.csv";
 
 void set_pair(Mat6& A, Eigen::Index i, Eigen::Index j, double value) {
     A(i, j) = A(j, i) = value;
@@ -51,7 +51,7 @@ void check_volume(const CsvQuantities& q, const std::vector<HullStation>& statio
                          text("that of the hull, ", of_hull, ", within 1e-4"));
 }
 
-PlatformDescription describe(const CsvQuantities& q) {
+PlatformDescription describe_spar(const CsvQuantities& q) {
     PlatformDescription p;
     const std::vector<HullStation> stations = hull(q);
     p.name = "OC3-Hywind spar";
@@ -77,14 +77,14 @@ PlatformDescription describe(const CsvQuantities& q) {
 }  // namespace
 
 PlatformDescription oc3_hywind() {
-    PlatformDescription p = describe(CsvQuantities::parse(embedded_data(table), table));
-    p.source = embedded_data(table);
+    PlatformDescription p = describe_spar(CsvQuantities::parse(embedded_data(spar_table), spar_table));
+    p.source = embedded_data(spar_table);
     return p;
 }
 
 PlatformDescription oc3_hywind(const std::filesystem::path& folder) {
-    const auto path = folder / table;
-    PlatformDescription p = describe(CsvQuantities::read(path));
+    const auto path = folder / spar_table;
+    PlatformDescription p = describe_spar(CsvQuantities::read(path));
     p.source = text_file(path);
     return p;
 }

@@ -1,13 +1,12 @@
 #include "turbines/openfast.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "turbines/beamdyn.hpp"
 
 namespace cardan::turbines {
 
 namespace {
-
-constexpr double rpm = pi / 30;
 
 void append(std::vector<FileNote>& notes, std::vector<FileNote> more) {
     for (FileNote& note : more) notes.push_back(std::move(note));
@@ -35,7 +34,7 @@ Servo read_servodyn(const std::filesystem::path& path) {
         servo.yaw = rigid_joint;
     }
     file.note_unless("YawNeut", 0, "the nacelle points into the wind here");
-    if (file.number("VSContrl") == 1) servo.rated_generator_speed = file.number("VS_RtGnSp") * rpm;
+    if (file.number("VSContrl") == 1) servo.rated_generator_speed = file.number("VS_RtGnSp") * units::rpm;
     for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
         file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
     for (const char* keyword : {"CompNTMD", "CompTTMD"})

@@ -14,7 +14,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+constexpr std::array coordinate_names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
 // Rows and columns over the roots of the diagonal: entries of translations and rotations differ by many decades.
 Matrix to_unit_diagonal(const Matrix& A) {
@@ -33,17 +33,17 @@ void require_symmetric(const std::string& where, const char* quantity, const Mat
     if ((unit - unit.transpose()).cwiseAbs().maxCoeff(&i, &j) <= 1e-9 * std::max(1.0, unit.cwiseAbs().maxCoeff()))
         return;
     if (i > j) std::swap(i, j);
-    throw InputError(
-        where,
-        text(quantity, ", ", names.at(static_cast<std::size_t>(i)), " by ", names.at(static_cast<std::size_t>(j))),
-        A(i, j), text("symmetric; the opposite entry is ", A(j, i)));
+    throw InputError(where,
+                     text(quantity, ", ", coordinate_names.at(static_cast<std::size_t>(i)), " by ",
+                          coordinate_names.at(static_cast<std::size_t>(j))),
+                     A(i, j), text("symmetric; the opposite entry is ", A(j, i)));
 }
 
 void require_semidefinite(const std::string& where, const char* quantity, const Mat6& A) {
     require_symmetric(where, quantity, A);
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < coordinate_names.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);
-        if (A(k, k) < 0) throw InputError(where, text(quantity, ", ", names.at(i)), A(k, k), ">= 0");
+        if (A(k, k) < 0) throw InputError(where, text(quantity, ", ", coordinate_names.at(i)), A(k, k), ">= 0");
     }
     const double lowest = lowest_scaled_eigenvalue(A);
     if (lowest < -1e-9)
@@ -57,7 +57,7 @@ void add_added_mass(Tree& tree, const MovingBase& base, Mat6 A) {
         const double d = A(k, k);
         if (d <= 1e-12 * size(k)) continue;
         Armature armature;
-        armature.name = text("added mass ", names.at(static_cast<std::size_t>(k)));
+        armature.name = text("added mass ", coordinate_names.at(static_cast<std::size_t>(k)));
         armature.inertia = d;
         const Vec6 column = A.col(k);
         for (Eigen::Index i = k; i < 6; ++i)

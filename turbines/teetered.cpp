@@ -3,6 +3,7 @@
 #include "mbs/error.hpp"
 #include "mbs/summary.hpp"
 #include "mbs/text_file.hpp"
+#include "mbs/units.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
@@ -12,16 +13,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr auto table = "teetered.csv";
-constexpr double degree = pi / 180;
-
-std::vector<double> several(const CsvQuantities& q, const char* name, std::size_t count) {
-    std::vector<double> values = q.numbers(name, "kg m^2");
-    if (values.size() != count)
-        throw InputError(text(q.file(), ", ", name), "number of values", values.size(),
-                         text(count, ", separated by /"));
-    return values;
-}
+constexpr auto teetered_table = "teetered.csv";
 
 RigidInertia on_shaft(const CsvQuantities& q, const char* mass, const char* centre, const Vec3& along,
                       const Vec3& moments) {
@@ -32,7 +24,7 @@ RigidInertia on_shaft(const CsvQuantities& q, const char* mass, const char* cent
     return body;
 }
 
-TeeteredDescription describe(const CsvQuantities& q) {
+TeeteredDescription describe_teetered(const CsvQuantities& q) {
     TeeteredDescription d;
     d.name = "two-bladed teetered machine (Lee, Hodges, Patil 2002)";
     d.rotor_speed = q.number("rotor_speed", "rad/s");
@@ -47,23 +39,23 @@ TeeteredDescription describe(const CsvQuantities& q) {
     t.j_flap = q.number("tower_inertia_lateral", "kg m");
     t.j_edge = q.number("tower_inertia_fore_aft", "kg m");
 
-    const auto nacelle = several(q, "nacelle_inertia_roll_nod_yaw", 3),
-               shaft = several(q, "shaft_inertia_axial_lateral", 2),
-               hub = several(q, "hub_inertia_teeter_shaft_spanwise", 3);
+    const auto nacelle = q.numbers("nacelle_inertia_roll_nod_yaw", "kg m^2", 3),
+               shaft = q.numbers("shaft_inertia_axial_lateral", "kg m^2", 2),
+               hub = q.numbers("hub_inertia_teeter_shaft_spanwise", "kg m^2", 3);
     d.yaw = {q.number("yaw_stiffness", "N m/rad"), q.number("yaw_damping", "N m s/rad")};
     d.nacelle = on_shaft(q, "nacelle_mass", "nacelle_centre_from_yaw_axis", Vec3::UnitX(),
                          {nacelle[0], nacelle[1], nacelle[2]});
     d.nacelle.reduced = true;  // yaw only
     d.shaft_height = q.number("shaft_height", "m");
-    d.tilt = q.number("tilt", "deg") * degree;
+    d.tilt = q.number("tilt", "deg") * units::degree;
     d.overhang = -q.number("yaw_axis_to_teeter_axis", "m");
     d.shaft = on_shaft(q, "shaft_mass", "shaft_centre_from_yaw_axis", Vec3::UnitX(), {shaft[0], shaft[1], shaft[1]});
 
     d.hub.inertia = on_shaft(q, "hub_mass", "hub_centre_from_teeter_axis", Vec3::UnitZ(), {hub[2], hub[0], hub[1]});
     d.hub.root_arm = q.number("root_arm", "m");
     d.hub.undersling = q.number("undersling", "m");
-    d.hub.delta3 = q.number("delta3", "deg") * degree;
-    d.hub.cone = q.number("cone", "deg") * degree;
+    d.hub.delta3 = q.number("delta3", "deg") * units::degree;
+    d.hub.cone = q.number("cone", "deg") * units::degree;
     d.hub.teeter = {q.number("teeter_stiffness", "N m/rad"), q.number("teeter_damping", "N m s/rad")};
 
     EngineeringSection& b = d.blade.section;
@@ -80,14 +72,14 @@ TeeteredDescription describe(const CsvQuantities& q) {
 }  // namespace
 
 TeeteredDescription teetered_description() {
-    TeeteredDescription d = describe(CsvQuantities::parse(embedded_data(table), table));
-    d.source = embedded_data(table);
+    TeeteredDescription d = describe_teetered(CsvQuantities::parse(embedded_data(teetered_table), teetered_table));
+    d.source = embedded_data(teetered_table);
     return d;
 }
 
 TeeteredDescription teetered_description(const std::filesystem::path& folder) {
-    const std::filesystem::path path = folder / table;
-    TeeteredDescription d = describe(CsvQuantities::read(path));
+    const std::filesystem::path path = folder / teetered_table;
+    TeeteredDescription d = describe_teetered(CsvQuantities::read(path));
     d.source = text_file(path);
     return d;
 }
@@ -99,16 +91,6 @@ TeeteredDescription with_tower_rigidity(TeeteredDescription d, double ratio) {
     d.tower.section.GJ = ratio * d.blade.section.GJ;
     return d;
 }
-
-namespace {
-
-// Hub axes in shaft axes (x downwind along the shaft, z up): z along the shaft, x up.
-const Mat3& hub_axes() {
-    static const Mat3 R = (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
-    return R;
-}
-
-}  // namespace
 
 // Builds the tree from the ground up and remembers what the rotor map needs.
 class TeeteredAssembler {

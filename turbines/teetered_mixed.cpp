@@ -9,18 +9,11 @@ namespace cardan::turbines {
 
 namespace {
 
-using Field = MixedField;
 using Eigen::Index;
-
-enum Body { nacelle = 0, shaft = 1, hub = 2 };
 
 MixedBeam mixed(const PrismaticBeam& beam, const char* name, int elements) {
     if (elements > 1000) throw InputError(name, "number of elements", elements, "1 ... 1000");
     return {uniform_beam(beam.length, beam.section, name), elements};
-}
-
-Mat3 hub_axes() {  // in shaft axes: z along the shaft, x up
-    return (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
 }
 
 // Rotation by an angle about a unit vector.
@@ -119,7 +112,7 @@ VectorT<S> TeeteredMixed::residual(const VectorT<S>& x, const VectorT<S>& xdot, 
 
     // The frame "tower top" on the end section of the tower: ground axes where the tower is straight.
     const Seat<S> upright{axis_rotation(Axis::y).transpose().cast<S>(), Vec3T<S>::Zero()};
-    const Vec6T<S> top = tower_ ? upright.carried(six(x, tower_->tip() + Field::V)) : Vec6T<S>(Vec6T<S>::Zero());
+    const Vec6T<S> top = tower_ ? upright.carried(six(x, tower_->tip() + MixedField::V)) : Vec6T<S>(Vec6T<S>::Zero());
     Vec6T<S> nacelle_motion = rotor.on_tower.carried(top);
     nacelle_motion(5) += xdot(yaw());
     Vec6T<S> shaft_motion = rotor.on_nacelle.carried(six(x, body_unknowns(nacelle)));
@@ -140,9 +133,9 @@ VectorT<S> TeeteredMixed::residual(const VectorT<S>& x, const VectorT<S>& xdot, 
         carrier.v = motion.template head<3>();
         carrier.omega = motion.template tail<3>();
         r.segment(first, own) = blade_.residual<S>(xb, xb_dot, carrier);
-        r.template segment<6>(first + own) = xb.template head<6>();                                // clamped
-        r.template segment<6>(first + own + 6) = xb.template segment<6>(blade_.tip() + Field::F);  // free
-        reaction -= root.handed_on(six(xb, Field::F));
+        r.template segment<6>(first + own) = xb.template head<6>();                                     // clamped
+        r.template segment<6>(first + own + 6) = xb.template segment<6>(blade_.tip() + MixedField::F);  // free
+        reaction -= root.handed_on(six(xb, MixedField::F));
     }
     const Vec3T<S> at_teeter = reaction.template tail<3>();
     r(teeter()) = dot<S>(rotor.teeter_axis, at_teeter) + d_.hub.teeter.stiffness * x(teeter()) +
@@ -157,7 +150,7 @@ VectorT<S> TeeteredMixed::residual(const VectorT<S>& x, const VectorT<S>& xdot, 
     r.head(own) = tower_->residual<S>(xt, xt_dot, {});
     r.template segment<6>(own) = xt.template head<6>();
     r.template segment<6>(own + 6) =
-        six(xt, tower_->tip() + Field::F) + upright.handed_on(rotor.on_tower.handed_on(reaction));
+        six(xt, tower_->tip() + MixedField::F) + upright.handed_on(rotor.on_tower.handed_on(reaction));
     return r;
 }
 

@@ -6,6 +6,7 @@
 #include "elements/mixed_beam.hpp"
 #include "turbines/teetered.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace cardan::turbines {
@@ -25,7 +26,8 @@ public:
     const std::optional<MixedBeam>& tower() const { return tower_; }
     const MixedBeam& blade() const { return blade_; }
     Eigen::Index unknowns() const { return teeter() + 1; }
-    /// First unknown of the tower; of blade 1 or 2; of nacelle, shaft, hub (0, 1, 2).
+    enum Body : std::uint8_t { nacelle, shaft, hub };
+    /// First unknown of the tower; of blade 1 or 2; of a Body.
     static Eigen::Index tower_unknowns() { return 0; }
     Eigen::Index blade_unknowns(int number) const { return tower_size_ + (number - 1) * blade_.unknowns(); }
     Eigen::Index body_unknowns(int body) const { return tower_size_ + 2 * blade_.unknowns() + 6 * Eigen::Index{body}; }

@@ -2,6 +2,7 @@
 
 #include "mbs/error.hpp"
 #include "mbs/text_file.hpp"
+#include "mbs/units.hpp"
 #include "turbines/windio_beams.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ WindioFile::WindioFile(YamlNode root) : root_(std::move(root)) {
     if (!version.starts_with("1") && !version.starts_with("2"))
         given->fail(text("version ", version, "; allowed: 1.x and 2.x"));
     version_ = version[0] - '0';
-    if (version_ == 2) angle_ = pi / 180;
+    if (version_ == 2) angle_ = units::degree;
 }
 
 std::optional<YamlNode> WindioFile::find(std::initializer_list<const char*> paths) const {
@@ -99,7 +100,7 @@ double positive(const YamlNode& node) {
     return value;
 }
 
-Vec3 vector(const YamlNode& node) {
+Vec3 padded_vector(const YamlNode& node) {
     if (!node.is_list()) return {node.number(), 0, 0};
     const std::vector<double> v = node.numbers();
     if (v.empty() || v.size() > 3) node.fail(text(v.size(), " numbers; allowed: 1 ... 3"));
@@ -108,9 +109,9 @@ Vec3 vector(const YamlNode& node) {
     return out;
 }
 
-class Reader {
+class WindioReader {
 public:
-    explicit Reader(YamlNode root) : file_(std::move(root)) {}
+    explicit WindioReader(YamlNode root) : file_(std::move(root)) {}
 
     TurbineFile read() {
         d_.name = file_.get({"name"}).word();
@@ -165,7 +166,7 @@ private:
             hub.J = tensor(*J);
         if (const auto place = file_.find({"components.hub.elastic_properties.location",
                                            "components.hub.elastic_properties_mb.system_center_mass"}))
-            hub.com = vector(*place);
+            hub.com = padded_vector(*place);
         hub.reduced = true;
         d_.hub.inertia = hub.in(Placement::rotation(beamdyn_axes()));  // x downwind along the shaft, z up
     }
@@ -189,7 +190,7 @@ private:
             {"components.drivetrain.elastic_properties.mass", "components.nacelle.elastic_properties_mb.system_mass"}));
         if (const auto place = file_.find({"components.drivetrain.elastic_properties.location",
                                            "components.nacelle.elastic_properties_mb.system_center_mass"}))
-            i.com = vector(*place);
+            i.com = padded_vector(*place);
         const auto own = file_.find({"components.drivetrain.elastic_properties.inertia",
                                      "components.nacelle.elastic_properties_mb.system_inertia"});
         if (own)
@@ -237,7 +238,7 @@ private:
 }  // namespace
 
 TurbineFile parse_windio(const std::string& text, const std::string& file) {
-    TurbineFile out = Reader(YamlNode::parse(text, file)).read();
+    TurbineFile out = WindioReader(YamlNode::parse(text, file)).read();
     out.description.source = text;
     return out;
 }

@@ -2,6 +2,7 @@
 /// Blade and tower of a windIO file. Inside of windio: not installed.
 #pragma once
 
+#include "mbs/units.hpp"
 #include "turbines/beam_table.hpp"
 #include "turbines/description_yaml_node.hpp"
 #include "turbines/turbine_file.hpp"
@@ -19,7 +20,7 @@ public:
         return version_ == 1 ? "version 1 counts in rad" : "version 2 counts in degrees";
     }
     /// rad/s per unit of rotor speed: version 1 counts in rad/s, version 2 in rev/min.
-    double rotor_speed() const { return version_ == 2 ? pi / 30 : 1; }
+    double rotor_speed() const { return version_ == 2 ? units::rpm : 1; }
     /// The first of several paths ("components.hub.diameter") that is there; none.
     std::optional<YamlNode> find(std::initializer_list<const char*> paths) const;
     /// @throws ParseError naming the paths, where the first one ends

@@ -2,22 +2,13 @@
 
 #include "mbs/error.hpp"
 #include "mbs/text_file.hpp"
+#include "mbs/units.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
 namespace cardan::turbines {
 
 namespace {
-
-constexpr double degree = pi / 180;
-
-std::vector<double> several(const CsvQuantities& q, const char* name, const char* unit, std::size_t count) {
-    std::vector<double> values = q.numbers(name, unit);
-    if (values.size() != count)
-        throw InputError(text(q.file(), ", ", name), "number of values", values.size(),
-                         text(count, ", separated by /"));
-    return values;
-}
 
 BeamLine blade_line(const CsvTable& t, double length) {
     const auto s = t.column("span_fraction", "-"), mass = t.column("mass_per_length", "kg/m"),
@@ -35,7 +26,7 @@ BeamLine blade_line(const CsvTable& t, double length) {
         section.GJ = GJ[i];
         section.EI_flap = flap[i];
         section.EI_edge = edge[i];
-        section.beta = -twist[i] * degree;
+        section.beta = -twist[i] * units::degree;
         section.mass_centre.y = -cg[i];  // given toward the trailing edge
         section.shear_centre.y = -shear[i];
         section.j_edge = polar[i];
@@ -77,13 +68,13 @@ TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     d.yaw.translation = {q.number("yaw_stiffness_translation", "N/m"), q.number("yaw_damping_translation", "N s/m")};
 
     NacelleDescription& n = d.nacelle;
-    const auto J = several(q, "nacelle_inertia_roll_pitch_yaw", "kg m^2", 3);
+    const auto J = q.numbers("nacelle_inertia_roll_pitch_yaw", "kg m^2", 3);
     n.inertia.mass = q.number("nacelle_mass", "kg");
     n.inertia.com = {q.number("nacelle_cm_downwind_of_tower_axis", "m"), 0,
                      q.number("nacelle_cm_above_tower_top", "m")};
     n.inertia.J = Vec3(J[0], J[1], J[2]).asDiagonal();
     n.shaft_height = q.number("tower_top_to_shaft", "m");
-    n.tilt = q.number("tilt", "deg") * degree;
+    n.tilt = q.number("tilt", "deg") * units::degree;
     n.overhang = q.number("overhang", "m");
     n.tilt_bearing = spring("main_frame_tilt_stiffness", "main_frame_tilt_damping");
 
@@ -94,14 +85,14 @@ TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     t.high_speed_shaft = spring("high_speed_shaft_stiffness", "high_speed_shaft_damping");
     t.main_shaft = spring("main_shaft_torsional_stiffness", "main_shaft_damping");
 
-    const auto hub = several(q, "hub_inertia_axial_lateral", "kg m^2", 2);
+    const auto hub = q.numbers("hub_inertia_axial_lateral", "kg m^2", 2);
     d.hub.inertia.mass = q.number("hub_mass", "kg");
     d.hub.inertia.J = Vec3(hub[1], hub[1], hub[0]).asDiagonal();
     d.hub.radius = q.number("hub_radius", "m");
 
     d.blade.line = blade_line(blade, q.number("rotor_radius", "m") - d.hub.radius);
     d.blade.pitch = spring("pitch_bearing_stiffness", "pitch_bearing_damping");
-    d.blade.cone = q.number("cone", "deg") * degree;
+    d.blade.cone = q.number("cone", "deg") * units::degree;
     d.blade.first_flap_damping = q.number("structural_damping_ratio_blade_first_flap", "-");
     return d;
 }

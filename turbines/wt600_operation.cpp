@@ -1,6 +1,7 @@
 #include "turbines/wt600_operation.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
@@ -11,14 +12,13 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double rpm = pi / 30, degree = pi / 180;
 constexpr double gear_ratio = 50;  // of the data set; the torque table is that of this machine
 // The paper's Table 1; at its tip speed ratio the nominal wind gives the speed of rated operation.
 constexpr double rated_power = 600e3, rated_wind = 11.86, tip_speed_ratio = 6.25, radius = 21.5;
 constexpr double rated_speed = tip_speed_ratio * rated_wind / radius;
 
 InductionMachine induction_machine(const CsvQuantities& q) {
-    return {q.number("generator_sync_speed", "rpm") * rpm, q.number("generator_breakdown_torque", "N m"),
+    return {q.number("generator_sync_speed", "rpm") * units::rpm, q.number("generator_breakdown_torque", "N m"),
             q.number("generator_breakdown_slip", "-")};
 }
 
@@ -88,10 +88,10 @@ TorqueTable wt600_torque_table() {
     const auto best = [&](double speed) {
         return curve.torque(speed * curve.radius / curve.tip_speed_ratio, pi, speed, 0.0);
     };
-    std::vector<double> speeds{19 * rpm * gear_ratio}, torques{0};
+    std::vector<double> speeds{19 * units::rpm * gear_ratio}, torques{0};
     for (double n : {20.0, 22.0, 24.0, 26.0, 28.0, 30.0, 32.0}) {
-        speeds.push_back(n * rpm * gear_ratio);
-        torques.push_back(best(n * rpm) / gear_ratio);
+        speeds.push_back(n * units::rpm * gear_ratio);
+        torques.push_back(best(n * units::rpm) / gear_ratio);
     }
     speeds.push_back(rated_speed * gear_ratio);
     torques.push_back(rated_power / (rated_speed * gear_ratio));
@@ -106,14 +106,15 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
     const Turbine bare = assemble(description, options.assembly);
     const MachineLayout& layout = bare.layout();
 
-    Wt600Operation machine{.turbine = bare,
-                           .grid = std::make_shared<Switch>(options.at_grid),
-                           .brake_valve = std::make_shared<Switch>(false),
-                           .pitch = std::make_shared<DriveOrder>(options.pitch, TravelLimits{8 * degree, 15 * degree}),
-                           .generator = {},
-                           .brake = {},
-                           .rotor = {},
-                           .channels = {}};
+    Wt600Operation machine{
+        .turbine = bare,
+        .grid = std::make_shared<Switch>(options.at_grid),
+        .brake_valve = std::make_shared<Switch>(false),
+        .pitch = std::make_shared<DriveOrder>(options.pitch, TravelLimits{8 * units::degree, 15 * units::degree}),
+        .generator = {},
+        .brake = {},
+        .rotor = {},
+        .channels = {}};
     machine.generator = generator_of(options, layout, machine.grid);
     machine.brake = brake_of(layout, machine.brake_valve);
     machine.rotor = rotor_load_of(options, layout);

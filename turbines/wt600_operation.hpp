@@ -8,6 +8,7 @@
 #include "elements/drive.hpp"
 #include "elements/generator.hpp"
 #include "elements/rotor_load.hpp"
+#include "mbs/units.hpp"
 #include "turbines/channels.hpp"
 #include "turbines/wt600.hpp"
 
@@ -32,7 +33,7 @@ TorqueTable wt600_torque_table();
 RotorCurve wt600_rotor_curve();
 
 struct Wt600OperationOptions {
-    AssemblyOptions assembly = {.gravity = Vec3(0, 0, -9.80665)};
+    AssemblyOptions assembly = {.gravity = Vec3(0, 0, -units::standard_gravity)};
     std::filesystem::path data = {};  ///< folder of the data set; empty: built in
     Wt600Generator generator = Wt600Generator::induction;
     bool at_grid = true;      ///< the generator's contact at the start

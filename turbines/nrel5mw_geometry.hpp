@@ -1,0 +1,20 @@
+/// @file
+/// Where the parts of the NREL 5 MW machine are: turbines/data/nrel5mw_turbine.csv.
+#pragma once
+
+namespace cardan::turbines {
+
+/// In m and rad, with the signs of this library.
+struct Nrel5mwGeometry {
+    double tower_height;
+    double shaft_above_tower;  ///< where the shaft axis meets the tower axis, above the tower top
+    double overhang;           ///< from the tower axis to the rotor centre along the shaft, upwind
+    double tilt;               ///< upwind end of the shaft up
+    double cone;               ///< tips downwind positive
+    double hub_radius;
+};
+
+/// Read once.
+const Nrel5mwGeometry& nrel5mw_geometry();
+
+}  // namespace cardan::turbines
