@@ -6,7 +6,7 @@
 
 namespace cardan::testing {
 
-inline constexpr double rigid = oracles::RodSection::rigid;
+inline constexpr double shear_rigid = oracles::RodSection::rigid;
 
 inline EngineeringSection engineering(const oracles::RodSection& rod, double beta = 0) {
     EngineeringSection s;

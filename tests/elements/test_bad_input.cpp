@@ -1,15 +1,12 @@
 // Beams that must be refused: what, where, the value, what is allowed.
 #include "elements/cardan_beam.hpp"
 #include "tests/elements/cantilever.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::bad_input {
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 template <class Change>
 void check_beam_refused(Change change, std::initializer_list<std::string> parts) {
@@ -222,3 +219,5 @@ TEST_CASE("tube: walls thicker than the radius, missing walls, dimensions that a
     check_tube_refused([](T& t) { t.density = infinite; }, {"tower: density [kg/m^3] = inf"});
     check_tube_refused([](T& t) { t.shear_factor = 0; }, {"tower: shear factor = 0"});
 }
+
+}  // namespace cardan::testing::bad_input

@@ -4,6 +4,7 @@
 #include "mbs/decompositions.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -12,7 +13,6 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 enum Direction : std::size_t { extension, torsion, bending_y, bending_z };
 
 // Four families of frequencies well apart from each other.

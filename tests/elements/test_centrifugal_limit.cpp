@@ -11,7 +11,7 @@ namespace {
 
 constexpr double rated = 27 * pi / 30;  // of the 600 kW machine, rad/s
 
-CardanBeamOptions with(int elements, Partition partition = Partition::mean_difference) {
+CardanBeamOptions bending_at_gauss(int elements, Partition partition = Partition::mean_difference) {
     return bending_only(elements, delta_gauss, partition);
 }
 
@@ -51,8 +51,10 @@ double divergence(const RotatingBeam& rotor, double from, double to) {
 TEST_CASE("centrifugal limit: true segments and a uniform beam have none", "[property]") {
     for (int elements : {1, 2, 3}) {
         for (const Partition p : {Partition::segment_masses, Partition::compliance_gauss})
-            CHECK(std::isinf(centrifugal_limit(RotatingBeam(straight_blade(), with(elements, p), 1.5).beam, 1.5)));
-        CHECK(std::isinf(centrifugal_limit(RotatingBeam(uniform_beam(1, slender(1, 1)), with(elements), 0).beam, 0)));
+            CHECK(std::isinf(
+                centrifugal_limit(RotatingBeam(straight_blade(), bending_at_gauss(elements, p), 1.5).beam, 1.5)));
+        CHECK(std::isinf(
+            centrifugal_limit(RotatingBeam(uniform_beam(1, slender(1, 1)), bending_at_gauss(elements), 0).beam, 0)));
     }
 }
 
@@ -62,7 +64,7 @@ TEST_CASE("centrifugal limit: 600 kW blade, within 2.5 % of the speed at which t
     // first.
     for (const auto& [elements, expected] :
          std::vector<std::pair<int, double>>{{1, 2.440}, {2, 4.294}, {3, 7.205}, {4, 10.668}, {8, 30.384}}) {
-        const RotatingBeam rotor(straight_blade(), with(elements), 1.5);
+        const RotatingBeam rotor(straight_blade(), bending_at_gauss(elements), 1.5);
         const double limit = centrifugal_limit(rotor.beam, 1.5), exact = divergence(rotor, 0, 1.1 * limit);
         CAPTURE(elements, limit / rated);
         CHECK(exact / rated == Approx(expected).margin(6e-4));
@@ -74,11 +76,11 @@ TEST_CASE("centrifugal limit: beams alike in both planes give way in the plane o
           "[crosscheck]") {
     const auto in_first_frequencies = [](std::function<EngineeringSection(double)> section) {
         const BeamLine line{1, {}, [section](double x) { return section(x).section(); }};
-        const RotatingBeam rotor(line, with(2), 0);
+        const RotatingBeam rotor(line, bending_at_gauss(2), 0);
         const double limit = centrifugal_limit(rotor.beam, 0), exact = divergence(rotor, 0, 1.1 * limit);
         CHECK(limit > 1.015 * exact);
         CHECK(limit < 1.05 * exact);
-        return exact / clamped_frequencies(line, with(2))[0];
+        return exact / clamped_frequencies(line, bending_at_gauss(2))[0];
     };
     const auto exponential = [](double k) {
         return [k](double x) { return slender(std::pow(10, -k * x), std::pow(10, -k * x / 2)); };
@@ -97,7 +99,7 @@ TEST_CASE("centrifugal limit: does not depend on where the axes of the section p
                                 s.beta = beta;
                                 return s.section();
                             }};
-        return centrifugal_limit(RotatingBeam(line, with(3), 0.2).beam, 0.2);
+        return centrifugal_limit(RotatingBeam(line, bending_at_gauss(3), 0.2).beam, 0.2);
     };
     CHECK(limit(0.6) == Approx(limit(0)).epsilon(1e-10));
 }

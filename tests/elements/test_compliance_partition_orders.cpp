@@ -8,8 +8,7 @@
 #include "tests/oracles/elastica.hpp"
 #include "tests/oracles/straight_beam_ritz.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::compliance_orders {
 
 namespace {
 
@@ -213,3 +212,5 @@ TEST_CASE("four partitions on the uniform beam and the wedge with 2, 3, 4 and 8 
         }
     }
 }
+
+}  // namespace cardan::testing::compliance_orders

@@ -11,7 +11,7 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr std::array both{Partition::compliance_gauss, Partition::mean_difference};
+constexpr std::array both_partitions{Partition::compliance_gauss, Partition::mean_difference};
 
 // A blade-like beam: taper, 40 degrees of twist, mass off the axis, sectional inertia.
 EngineeringSection blade_section(double x) {
@@ -119,7 +119,7 @@ TEST_CASE("partitions by compliance: the polar inertia is cut at the centroid of
                             return own.section();
                         }};
     const double cut = (1. / 2 + 1. / 3) / (1 + 1. / 2);
-    for (const Partition partition : both) {
+    for (const Partition partition : both_partitions) {
         const ElementInertia e = partition_element(line, 0, 1, 0.2, partition);
         CHECK(e.rotary_split == Approx(cut).epsilon(1e-12));
         CHECK(e.body[0].J(0, 0) == Approx(0.3 * cut).epsilon(1e-11));
@@ -150,7 +150,7 @@ TEST_CASE("partitions by compliance: bodies of random twisted beams with offsets
         }
         const BeamLine line = SectionTable("random", x, sections, Interpolation::log_linear_stiffness).line();
         for (const auto& [x0, L] : {std::pair(0.0, 10.0), {0.0, 3.3}, {6.0, 4.0}})
-            for (const Partition partition : both) {
+            for (const Partition partition : both_partitions) {
                 const ElementInertia e = partition_element(line, x0, L, delta_gauss, partition);
                 CAPTURE(trial, x0, L, partition_name(partition));
                 double mass = 0;
@@ -166,7 +166,7 @@ TEST_CASE("partitions by compliance: bodies of random twisted beams with offsets
 
 TEST_CASE("partitions by compliance: elements without mass, partly without mass or rigid are no trouble",
           "[property]") {
-    for (const Partition partition : both) {
+    for (const Partition partition : both_partitions) {
         CAPTURE(partition_name(partition));
         const ElementInertia none = partition_element(uniform_beam(1, slender(1, 0)), 0, 1, 0.2, partition);
         CHECK(none.mass == 0);
@@ -198,7 +198,7 @@ TEST_CASE("partitions by compliance: on a curve mass and first moment are kept, 
     BeamLine line = blade();
     line.length = 2 * pi;
     line.axis = [](double s) { return Placement{rot_y(-s / 4), {4 * std::sin(s / 4), 0, 4 * (1 - std::cos(s / 4))}}; };
-    for (const Partition partition : both) {
+    for (const Partition partition : both_partitions) {
         const ElementLine on(line, 1, 5);
         const ElementInertia e = partition_element(on, delta_gauss, partition),
                              n = partition_element(on, delta_gauss, Partition::segment_masses);

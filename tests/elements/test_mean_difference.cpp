@@ -7,7 +7,7 @@
 
 #include <random>
 
-using namespace cardan;
+namespace cardan::testing::mean_differences {
 
 namespace {
 
@@ -251,3 +251,5 @@ TEST_CASE("mean differences: any taper gives positive masses and inertias, centr
     CHECK(limited > 100);  // both ways of the limiter are met
     CHECK(kept > 100);
 }
+
+}  // namespace cardan::testing::mean_differences

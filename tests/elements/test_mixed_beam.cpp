@@ -23,7 +23,7 @@ BeamLine teetered_blade() {
     return uniform_beam(blade_length, s, "blade");
 }
 
-MixedSetting spinning(double omega, double hub_radius) {
+MixedSetting turning(double omega, double hub_radius) {
     MixedSetting setting;
     setting.omega = {0, 0, omega};
     setting.root_position = {hub_radius, 0, 0};
@@ -33,7 +33,7 @@ MixedSetting spinning(double omega, double hub_radius) {
 // Antisymmetric flapping: each blade turns about the teeter axis with half of the hub (50, 50, 5 kg m^2 lateral,
 // spanwise, about the shaft).
 MixedSetting teetering() {
-    MixedSetting setting = spinning(rotor_speed, root_radius);
+    MixedSetting setting = turning(rotor_speed, root_radius);
     setting.pin = MixedPin{{0, 1, 0}, {-root_radius, 0, 0}, {}};
     setting.pin->body.J = Vec3(25, 25, 2.5).asDiagonal();
     return setting;
@@ -80,7 +80,7 @@ TEST_CASE("mixed beam: the blade of Lee, Hodges and Patil (2002), Table I, per r
                            {8, 3.4146, 3.2570, 10.415, 43.978},
                            {16, 3.4048, 3.2468, 10.228, 43.872}}) {
         CAPTURE(row.elements);
-        const auto clamped = frequencies(teetered_blade(), row.elements, spinning(rotor_speed, root_radius));
+        const auto clamped = frequencies(teetered_blade(), row.elements, turning(rotor_speed, root_radius));
         const auto teetered = frequencies(teetered_blade(), row.elements, teetering());
         CHECK(clamped.flap[0] / rotor_speed == Approx(row.flap).epsilon(0).margin(1e-4));
         CHECK(clamped.lag[0] / rotor_speed == Approx(row.lag).epsilon(0).margin(1e-4));
@@ -95,8 +95,8 @@ TEST_CASE("mixed beam: flap of the spinning blade converges with order 2 to the 
     const double unit = std::sqrt(1e7 / 67.5772) / (blade_length * blade_length);
     const oracles::RotatingBeamSeries series{.eta = rotor_speed / unit, .hub_radius = root_radius / blade_length};
     const auto exact = series.flap(2);
-    const auto n8 = frequencies(teetered_blade(), 8, spinning(rotor_speed, root_radius));
-    const auto n16 = frequencies(teetered_blade(), 16, spinning(rotor_speed, root_radius));
+    const auto n8 = frequencies(teetered_blade(), 8, turning(rotor_speed, root_radius));
+    const auto n16 = frequencies(teetered_blade(), 16, turning(rotor_speed, root_radius));
     CHECK(exact[0] * unit / rotor_speed == Approx(3.4015).epsilon(0).margin(1e-4));
     CHECK(order(n8.flap[0], n16.flap[0], exact[0] * unit) == Approx(2).margin(0.05));
     CHECK(order(n8.flap[1], n16.flap[1], exact[1] * unit) == Approx(2).margin(0.1));
@@ -108,7 +108,7 @@ TEST_CASE("mixed beam: torsion has the box scheme's own closed form", "[elements
     // Clamped-free rod by the box scheme: sin becomes tan, omega_k = (2/h) c tan((2k - 1) pi/(4n)), c^2 = GJ/I1. Spin
     // adds the flattening (I3 - I2)/I1 Omega^2.
     for (int n : {2, 3, 5}) {
-        const auto result = frequencies(teetered_blade(), n, spinning(rotor_speed, root_radius));
+        const auto result = frequencies(teetered_blade(), n, turning(rotor_speed, root_radius));
         const double h = blade_length / n, c = std::sqrt(1e7 / 5);
         for (int k = 1; k <= n; ++k) {
             const double still = 2 / h * c * std::tan((2 * k - 1) * pi / (4 * n));
@@ -184,7 +184,7 @@ TEST_CASE("mixed beam: a tapered, twisted, spinning blade with offsets converges
         s.j_flap = station.polar_inertia - s.j_edge;
         return s.section();
     };
-    const MixedSetting setting = spinning(2.5, 1.5);
+    const MixedSetting setting = turning(2.5, 1.5);
     const auto exact = oracles::RotatingBlade(blade, 1.5, 8).modes(2.5, 4);
     const auto solve = [&](int n) {
         const MixedBeam beam(line, n);

@@ -1,6 +1,7 @@
 // Statics, derivatives and refusals of the mixed beam of Lee, Hodges and Patil (2002).
 #include "elements/mixed_beam.hpp"
 #include "tests/elements/cantilever.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -8,8 +9,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Tip {
     Vec3 u, theta;

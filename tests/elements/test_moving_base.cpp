@@ -8,8 +8,8 @@
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::moving_base {
+
 using oracles::Jet;
 
 namespace {
@@ -223,3 +223,5 @@ TEST_CASE("moving base: bad directions and orders are refused", "[property]") {
     (void)add_moving_base(tree, Tree::base(), "raft");
     check_refused([&] { (void)add_moving_base(tree, Tree::base(), "raft"); }, {"raft surge", "not used before"});
 }
+
+}  // namespace cardan::testing::moving_base

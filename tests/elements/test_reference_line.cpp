@@ -2,6 +2,7 @@
 #include "elements/element_line.hpp"
 #include "elements/reference_line.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <Eigen/Geometry>
@@ -10,8 +11,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Helix {  // about the z axis
     double a = 2, b = 0.7;
@@ -36,7 +35,7 @@ Vec3 blade_slope(double x) {
 }
 
 // Length by Gauss' rule of 5 points on many pieces, apart from the library's.
-double blade_length(double x) {
+double length_to(double x) {
     const double u = std::sqrt(5 - 2 * std::sqrt(10. / 7)) / 3, v = std::sqrt(5 + 2 * std::sqrt(10. / 7)) / 3;
     const double wu = (322 + 13 * std::sqrt(70.0)) / 900, wv = (322 - 13 * std::sqrt(70.0)) / 900;
     double sum = 0;
@@ -136,7 +135,7 @@ TEST_CASE("reference line: a polyline is straight between its points and turns a
 
 TEST_CASE("reference line: a spline passes through its points and converges to the curve that they lie on",
           "[analytic]") {
-    const double exact = blade_length(30);
+    const double exact = length_to(30);
     const ReferenceLine reference = ReferenceLine::curve(blade_axis, blade_slope, 0, 30);
     CHECK(reference.length() == Approx(exact).epsilon(1e-13));
     std::vector<double> length_error, position_error, frame_error;
@@ -183,7 +182,7 @@ TEST_CASE("reference line: a spline through points of a cubic is that cubic, end
 TEST_CASE("reference line: prebend and sweep tilt the section axes as the slopes say", "[analytic]") {
     const ReferenceLine line = ReferenceLine::curve(blade_axis, blade_slope, 0, 30);
     for (double x : {0.0, 4.0, 17.0, 30.0}) {
-        const Placement at = line.pose(blade_length(x));
+        const Placement at = line.pose(length_to(x));
         const Vec3 slope = blade_slope(x);
         CAPTURE(x);
         CHECK((at.p - blade_axis(x)).norm() < 1e-11);

@@ -20,7 +20,7 @@ EngineeringSection stout() {
     return s;
 }
 
-const std::vector<double> places{0, 0.1, 0.3, 0.5, 0.75, 1.0, 1.1, 1.4, 1.7, 2.0};
+const std::vector<double> all_places{0, 0.1, 0.3, 0.5, 0.75, 1.0, 1.1, 1.4, 1.7, 2.0};
 
 }  // namespace
 
@@ -30,7 +30,7 @@ TEST_CASE("section loads: a small tip wrench gives N, V, T and M of statics at e
     Loaded b = clamped(uniform_beam(L, stout()), all_free(3));
     b.forces.add_wrench({"tip", b.beam.tip(), {F, M}, WrenchAxes::base});
     b.settle();
-    for (double s : places) {
+    for (double s : all_places) {
         const Vec3 moment = M + cross<double>(Vec3(L - s, 0, 0), F);
         const Vec6 exact = (Vec6() << F, moment).finished();
         CAPTURE(s);
@@ -46,7 +46,7 @@ TEST_CASE("section loads: a distributed load, forces and moments, is in equilibr
     Loaded b = clamped(uniform_beam(L, stout()), all_free(2));
     add_distributed_load(b.tree, b.forces, b.beam, {"wind", [&](double) { return Wrench{f, m}; }});
     b.settle();
-    for (double s : places) {
+    for (double s : all_places) {
         const double l = L - s;
         // Inside a rigid segment the load sits at its Gauss points: hinges, nodes and tip are exact.
         if (std::abs(std::remainder(s, 1.0)) > 1e-9) continue;
@@ -82,7 +82,7 @@ TEST_CASE("section loads: a rotating beam carries the centrifugal force of what 
         b.beam = add_cardan_beam(b.tree, b.forces, root, uniform_beam(L, stout()), "beam", {"beam"}, options);
         b.tree.weld(b.beam.tip(), {0.7, Vec3::Zero(), 1e-3 * Mat3::Identity()}, "tip mass");
         b.settle(0, Omega);
-        for (double s : places) {
+        for (double s : all_places) {
             const double N = Omega * Omega * (3 * (L - s) * (r0 + (L + s) / 2) + 0.7 * (r0 + L));
             CAPTURE(extension, s);
             // The extension, 3e-5, moves the masses outward.

@@ -2,14 +2,13 @@
 #include "elements/section.hpp"
 #include "mbs/decompositions.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 EngineeringSection some_section() {
     EngineeringSection s;

@@ -32,7 +32,7 @@ double critical(const BeamLine& line, const CardanBeamOptions& options) {
     return found[0].factor;
 }
 
-CardanBeamOptions with(int elements, Partition partition) {
+CardanBeamOptions extensible(int elements, Partition partition) {
     CardanBeamOptions options;
     options.elements = elements;
     options.partition = partition;
@@ -43,7 +43,7 @@ CardanBeamOptions with(int elements, Partition partition) {
 // The same with four elements and without the load.
 struct BareColumn {
     BareColumn(double GA, bool extension) {
-        CardanBeamOptions options = with(4, Partition::segment_masses);
+        CardanBeamOptions options = extensible(4, Partition::segment_masses);
         options.torsion = false;
         options.extension = extension;
         Tree tree;
@@ -68,8 +68,8 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
         CHECK(exact == Approx(GA == 20 ? 2.22080 : 2.04798).margin(5e-6));
         for (const Partition partition : {Partition::segment_masses, Partition::compliance_gauss,
                                           Partition::static_moment, Partition::mean_difference}) {
-            const double n8 = critical(uniform_beam(1, soft(GA)), with(8, partition)),
-                         n16 = critical(uniform_beam(1, soft(GA)), with(16, partition));
+            const double n8 = critical(uniform_beam(1, soft(GA)), extensible(8, partition)),
+                         n16 = critical(uniform_beam(1, soft(GA)), extensible(16, partition));
             CAPTURE(GA, partition_name(partition), n8, n16, exact);
             CHECK(order(n8, n16, exact) == Approx(2).margin(0.1));
             CHECK(n16 == Approx(exact).epsilon(3e-4));
@@ -77,7 +77,7 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
     }
     // Discrete values of another implementation (planar, energy Hessian).
     const auto discrete = [](double GA, int elements) {
-        return critical(uniform_beam(1, soft(GA)), with(elements, Partition::segment_masses));
+        return critical(uniform_beam(1, soft(GA)), extensible(elements, Partition::segment_masses));
     };
     CHECK(discrete(20, 4) == Approx(2.21392).margin(2e-5));
     CHECK(discrete(20, 8) == Approx(2.21911).margin(2e-5));
@@ -87,7 +87,8 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
     solvers::LoadPathOptions path;
     path.factors = {0, 2, 2.5};
     path.stability_tolerance = 1e-7;
-    const auto found = solvers::load_path(column(uniform_beam(1, soft(20)), with(8, Partition::segment_masses)), path);
+    const auto found =
+        solvers::load_path(column(uniform_beam(1, soft(20)), extensible(8, Partition::segment_masses)), path);
     REQUIRE(found.stability_change);
     CHECK(found.stability_change->factor() == Approx(discrete(20, 8)).epsilon(2e-5));
 }
@@ -95,14 +96,14 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
 TEST_CASE("column flexible in shear: under tension and compression with extension condensed it is told", "[property]") {
     const auto warnings = [](double GA, bool extension) { return BareColumn(GA, extension).beam.warnings; };
     CHECK(warnings(20, true).empty());
-    CHECK(warnings(rigid, false).empty());
+    CHECK(warnings(shear_rigid, false).empty());
     CHECK(warnings(1e4, false).empty());  // EI / GA L^2 = 1e-4: nothing to speak of
     const auto found = warnings(20, false);
     REQUIRE(found.size() == 1);
     CHECK(found[0].find("GA + 1.732050808 N") != std::string::npos);
     CHECK(found[0].find("keep the extension free") != std::string::npos);
     // What it says: the plain law has that limit, P (1 + P / (GA - P / (1 - 2 delta))) to first order.
-    CardanBeamOptions condensed = with(32, Partition::segment_masses);
+    CardanBeamOptions condensed = extensible(32, Partition::segment_masses);
     condensed.extension = false;
     CHECK(critical(uniform_beam(1, soft(20)), condensed) == Approx(2.176).margin(1e-3));
 }
@@ -113,7 +114,7 @@ TEST_CASE("column flexible in shear: a beam rigid in shear keeps its linear law"
         CHECK(column.beam.elements[0].tilt.products.empty() == column.forces.users().empty());
         return column.forces.users().size();
     };
-    CHECK(users(rigid, true) == 0);
+    CHECK(users(shear_rigid, true) == 0);
     CHECK(users(20, false) == 0);
     CHECK(users(20, true) == 1);
 }

@@ -8,19 +8,18 @@
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/planar_rod.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 
 #include <algorithm>
-#include <limits>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::spin_up {
+
+using namespace solvers;
 
 namespace {
 
 constexpr double length = 10, mass = 1.2, rotary_inertia = 6e-4, EA = 2.8e7, GA = 1e7, EI = 1.4e4;
 constexpr double speed = 6, duration = 15;
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // psi = (6/15) (t^2/2 + (15 / 2 pi)^2 (cos(2 pi t / 15) - 1)) up to 15 s, then 6 t - 45.
 MotionState hub_angle(double t) {
@@ -182,3 +181,5 @@ TEST_CASE("spin-up: the whole manoeuvre with stretch follows the geometrically e
     const auto sheared = Manoeuvre(8, Stretching::axial_and_shear).tips(Method::dirk, 1e-7, {6.75});
     CHECK(-sheared[0].y() == Approx(0.57379).margin(1e-4).epsilon(0));
 }
+
+}  // namespace cardan::testing::spin_up

@@ -2,13 +2,10 @@
 #pragma once
 
 #include "mbs/system.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 
 namespace cardan::testing {
-
-inline double scaled(const Matrix& difference, const Matrix& reference) {
-    return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
-}
 
 /// A random tree of 8 bodies at a random state under some forces.
 class ForcedTree {

@@ -19,7 +19,7 @@ RigidInertia wheel(double m, const Vec3& moments) {
     return {m, Vec3::Zero(), moments.asDiagonal()};
 }
 
-constexpr CoordinateRole driven = CoordinateRole::driven;
+constexpr CoordinateRole driven_role = CoordinateRole::driven;
 constexpr CoordinateRole free_role = CoordinateRole::free;
 
 }  // namespace
@@ -29,7 +29,7 @@ TEST_CASE("sliding mass: on a rod that turns steadily r'' = (omega cos beta)^2 r
     const double m = 1.4, omega = 2.0, r0 = 0.3, v0 = 0.2;
     for (const double beta : {0.0, 0.7}) {  // cone angle of the rod
         Tree tree;
-        const Link spin = add_joint(tree, {.name = "spin", .role = driven});
+        const Link spin = add_joint(tree, {.name = "spin", .role = driven_role});
         add_joint(tree, {.name = "slide",
                          .inboard = spin.axes,
                          .kind = JointKind::prismatic,
@@ -74,7 +74,7 @@ TEST_CASE("sliding mass: on a rod that turns freely the angular momentum about t
 TEST_CASE("turntable: a mass without friction runs straight in space, whatever the table does", "[analytic]") {
     Tree tree;
     const FrameId ground = tree.add_frame(Tree::base(), {rot_x(0.3), Vec3(1, 2, 3)}, "ground");
-    const Link table = add_joint(tree, {.name = "table", .inboard = ground, .role = driven});
+    const Link table = add_joint(tree, {.name = "table", .inboard = ground, .role = driven_role});
     const Link x =
         add_joint(tree, {.name = "x", .inboard = table.axes, .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
     const Link y = add_joint(
@@ -235,7 +235,7 @@ TEST_CASE("gears: torsion of a free drive train has omega^2 = k (1 / I_rotor + 1
 
 TEST_CASE("gears: a driven twist loads the hub through the armature, its drive exerts the row of the metric",
           "[analytic]") {
-    const DriveTrain train(3.0, driven);
+    const DriveTrain train(3.0, driven_role);
     const Eigen::Matrix2d M = train.metric_by_hand();
     ForwardDynamics forward(train.system.model);
     Workspace workspace(train.system.model);
@@ -256,7 +256,7 @@ TEST_CASE("drive: an unbalanced rotor with prescribed angle needs J psi'' + m g 
     Tree tree;
     RigidInertia rotor = wheel(m, {J, J, J});
     rotor.com = Vec3(s, 0, 0);
-    add_joint(tree, {.name = "rotor", .axis = -Vec3::UnitY(), .inertia = rotor, .role = driven});  // lifts x to z
+    add_joint(tree, {.name = "rotor", .axis = -Vec3::UnitY(), .inertia = rotor, .role = driven_role});  // lifts x to z
     ForceSet set;
     set.set_gravity(Vec3(0, 0, -gravity));
     const System system(tree, set);
@@ -275,13 +275,14 @@ TEST_CASE("drive: yawing a spinning two-bladed rotor takes gyroscopic torques ab
     // L = J(psi) (omega, 0, Omega) in yawing axes and dL/dt + Omega z x L = torque:
     const double C = 9, B = 1.5, A = 8, omega = 3, Omega = 0.4;
     Tree tree;
-    const Link yaw = add_joint(tree, {.name = "yaw", .role = driven});
-    const Link tilt = add_joint(tree, {.name = "tilt", .inboard = yaw.axes, .axis = Vec3::UnitY(), .role = driven});
+    const Link yaw = add_joint(tree, {.name = "yaw", .role = driven_role});
+    const Link tilt =
+        add_joint(tree, {.name = "tilt", .inboard = yaw.axes, .axis = Vec3::UnitY(), .role = driven_role});
     add_joint(tree, {.name = "spin",
                      .inboard = tilt.axes,
                      .axis = Vec3::UnitX(),
                      .inertia = wheel(100, {C, B, A}),
-                     .role = driven});
+                     .role = driven_role});
     const System system(tree, {});
     for (const double psi : {0.0, 0.3, 1.2, 2.9}) {
         Simulation motion(system, Vec3(0.7, 0, psi), Vec3(Omega, 0, omega));

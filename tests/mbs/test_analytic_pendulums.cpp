@@ -3,12 +3,12 @@
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/pendulum.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/point_masses.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/simulation.hpp"
 #include "tests/support/tree_tools.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::pendulums {
 
 namespace {
 
@@ -18,10 +18,6 @@ ForceSet weight() {
     ForceSet set;
     set.set_gravity(Vec3(0, 0, -gravity));
     return set;
-}
-
-RigidInertia point_mass(double m, const Vec3& at) {
-    return {m, at, Mat3::Zero()};
 }
 
 // A rigid body on an axis that is inclined to the horizontal by `tilt`.
@@ -187,3 +183,5 @@ TEST_CASE("double pendulum: small oscillations of equal links have omega^2 = (2 
     CHECK(squares(0) == Approx((2 - std::sqrt(2)) * gravity / length).epsilon(1e-13));
     CHECK(squares(1) == Approx((2 + std::sqrt(2)) * gravity / length).epsilon(1e-13));
 }
+
+}  // namespace cardan::testing::pendulums

@@ -2,26 +2,22 @@
 // is legal is accepted.
 #include "mbs/dynamics.hpp"
 #include "mbs/system.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
-
-#include <limits>
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 RigidInertia inertia(double mass, const Vec3& moments, bool reduced = false) {
     return {mass, Vec3::Zero(), moments.asDiagonal(), reduced};
 }
 
-const RigidInertia ball = inertia(2, {1, 1, 1});
+const RigidInertia solid_ball = inertia(2, {1, 1, 1});
 
-BodySpec body(std::string name, const RigidInertia& of_body = ball) {
+BodySpec body(std::string name, const RigidInertia& of_body = solid_ball) {
     BodySpec spec;
     spec.name = std::move(name);
     spec.inertia = of_body;
@@ -41,7 +37,7 @@ void check_body_refused(const BodySpec& spec, std::initializer_list<std::string>
 TEST_CASE("bad input: a mass that is negative, not a number or infinite", "[property]") {
     check_body_refused(body("hub", inertia(-3.5, {1, 1, 1})), {"body 'hub'", "mass [kg] = -3.5", ">= 0"});
     check_body_refused(body("hub", inertia(not_a_number, {1, 1, 1})), {"body 'hub'", "mass [kg] = nan", "finite"});
-    check_body_refused(body("hub", inertia(infinity, {1, 1, 1})), {"body 'hub'", "mass [kg] = inf"});
+    check_body_refused(body("hub", inertia(infinite, {1, 1, 1})), {"body 'hub'", "mass [kg] = inf"});
     CHECK(add(body("hub", inertia(0, {1, 1, 1}))) == "(accepted)");
     CHECK(add(body("hub", {})) == "(accepted)");
 }
@@ -90,7 +86,7 @@ TEST_CASE("bad input: a part that is welded on is checked like a body", "[proper
             tree.weld(Tree::base(), inertia(not_a_number, {1, 1, 1}), "foundation");
         },
         {"foundation", "nan"});
-    check_refused([&] { tree.weld(FrameId{9}, ball, "spinner"); }, {"spinner", "frame = 9", "0 ... 1"});
+    check_refused([&] { tree.weld(FrameId{9}, solid_ball, "spinner"); }, {"spinner", "frame = 9", "0 ... 1"});
     CHECK(tree.bodies()[0].spec.inertia.mass == 2);  // nothing was added
     tree.weld(hub, inertia(1, {0, 0, 5}, true), "nacelle");
     CHECK(tree.bodies()[0].spec.inertia.reduced);
@@ -178,7 +174,7 @@ TEST_CASE("bad input: armatures that are not finite, empty, off one branch or on
         return [&tree, armature = Armature{"gear", J, std::move(spin)}] { tree.add_armature(armature); };
     };
     check_refused(gear(not_a_number, {{left, 1}}), {"armature 'gear'", "inertia = nan", "finite"});
-    check_refused(gear(infinity, {{left, 1}}), {"armature 'gear'", "inertia = inf"});
+    check_refused(gear(infinite, {{left, 1}}), {"armature 'gear'", "inertia = inf"});
     check_refused(gear(1, {{left, not_a_number}}), {"armature 'gear'", "spin factor = nan"});
     check_refused(gear(1, {}), {"armature 'gear'", "number of coordinates = 0"});
     check_refused(gear(1, {{BodyId{8}, 1}}), {"armature 'gear'", "body = 8", "0 ... 2"});
@@ -265,7 +261,7 @@ TEST_CASE("singular metric: two joints that do the same are found behind one ano
     const BodySpec first = joint_spec("first", Tree::base(), JointKind::prismatic, Vec3(1, 2, 2) / 3);
     const FrameId at = tree.frame_of(tree.add_body(first));
     BodySpec second = joint_spec("second", at, JointKind::prismatic, Vec3::UnitZ());
-    second.inertia = ball;
+    second.inertia = solid_ball;
     tree.add_body(second);
     check_refused([&] { Model{tree}; }, {"singular metric", "coordinate 'second'"});
 }
@@ -363,7 +359,7 @@ TEST_CASE("bad input: loads, gravity and user forces", "[property]") {
     check_refused([&] { forces.set_gravity(Vec3(0, 0, not_a_number)); }, {"gravity", "0   0 nan", "finite"});
     CHECK(forces.gravity() == Vec3::Zero());
     FrameLoad load{.name = "thrust"};
-    load.wrench.force(1) = infinity;
+    load.wrench.force(1) = infinite;
     check_refused([&] { forces.add_wrench(load); }, {"load 'thrust'", "inf", "finite"});
     load.wrench.force.setZero();
     load.wrench.moment(0) = not_a_number;

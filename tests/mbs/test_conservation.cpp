@@ -1,6 +1,7 @@
 // Conservation laws and symmetries of space and time: energy, momentum, moving bases, gravity as acceleration.
 #include "mbs/error.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/simulation.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -11,10 +12,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-double scaled(const Matrix& difference, const Matrix& reference) {
-    return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
-}
 
 Simulation started(const System& system, Random& random, double speed, Simulation::Drive drive = {}) {
     const int n = system.model.size();

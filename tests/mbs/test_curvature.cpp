@@ -6,13 +6,12 @@
 #include "tests/mbs/riemann_oracle.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double h = 1e-40;  // complex step
 
 double quadrilinear(const RiemannOracle& R, const std::vector<int>& at, const Vector& x, const Vector& y,
                     const Vector& z, const Vector& w) {
@@ -84,12 +83,12 @@ TEST_CASE("curvature: the matrix from composite bodies equals its columns and th
         Matrix by_q(s.n, s.n), by_qd(s.n, s.n);
         inverse_dynamics_derivatives<double>(s.kin, s.qd, qdd, by_q, by_qd);
         WorkspaceT<Complex> workspace(s.model);
-        const ComplexVector q = s.q.cast<Complex>() + Complex(0, h) * s.qd.cast<Complex>(),
-                            qd = s.qd.cast<Complex>() + Complex(0, h) * qdd.cast<Complex>(),
+        const ComplexVector q = s.q.cast<Complex>() + Complex(0, complex_step) * s.qd.cast<Complex>(),
+                            qd = s.qd.cast<Complex>() + Complex(0, complex_step) * qdd.cast<Complex>(),
                             zero = ComplexVector::Zero(s.n);
         ComplexMatrix unused(s.n, s.n), twice_C(s.n, s.n);
         inverse_dynamics_derivatives<Complex>(kinematics<Complex>(s.model, q, workspace), qd, zero, unused, twice_C);
-        const Matrix C = by_qd / 2, C_rate = twice_C.imag() / (2 * h);
+        const Matrix C = by_qd / 2, C_rate = twice_C.imag() / (2 * complex_step);
         const Matrix flow = by_q - C_rate + C.transpose() * s.g().llt().solve(C);
         CAPTURE(seed);
         REQUIRE(largest(R - flow) < 1e-10 * (scale + largest(by_q)));
@@ -152,9 +151,9 @@ TEST_CASE("connection: symbols without a table, covariant derivative compatible 
         const Matrix g = s.g();
         WorkspaceT<Complex> workspace(s.model);
         ComplexMatrix shifted(s.n, s.n);
-        const ComplexVector q = s.q.cast<Complex>() + Complex(0, h) * s.qd.cast<Complex>();
+        const ComplexVector q = s.q.cast<Complex>() + Complex(0, complex_step) * s.qd.cast<Complex>();
         metric(kinematics<Complex>(s.model, q, workspace), shifted);
-        const Matrix g_rate = shifted.imag() / h;
+        const Matrix g_rate = shifted.imag() / complex_step;
         const double rate = V_rate.dot(g * W) + V.dot(g * W_rate) + V.dot(g_rate * W);
         CHECK(rate == Approx(DV.dot(g * W) + V.dot(g * DW)).epsilon(1e-9).margin(1e-9));
     }

@@ -4,16 +4,13 @@
 #include "mbs/error.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/point_masses.hpp"
 #include "tests/support/tree_tools.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-RigidInertia point_mass(double m, const Vec3& at) {
-    return {.mass = m, .com = at, .J = Mat3::Zero()};
-}
 
 // One configuration of a tree with its geometry.
 struct Space {
@@ -85,7 +82,7 @@ Tree gimballed(const Vec3& moments) {
 }
 
 // Rates that turn the last body about the axes of its frame `name` with unit speed, as columns.
-Matrix body_rates(const Space& space, const Kinematics& kin, std::string_view name) {
+Matrix rates_about_axes(const Space& space, const Kinematics& kin, std::string_view name) {
     const FrameId frame = space.model.frame(name);
     Matrix J(6, 3);
     frame_jacobian<double>(kin, frame, J);
@@ -207,7 +204,7 @@ TEST_CASE("curvature: the rotation group of a rigid body, 1 / (4 I) in every pla
     for (const Vec3& I : {Vec3(1, 1.5, 2), Vec3(1, 1, 0.1), Vec3(2, 3, 4.9)}) {
         Space body(gimballed(I), q);
         Workspace workspace(body.model);
-        const Matrix axes = body_rates(body, kinematics(body.model, q, workspace), "x axes");
+        const Matrix axes = rates_about_axes(body, kinematics(body.model, q, workspace), "x axes");
         const Vec3 lambda = I / std::sqrt(I.prod()), mu = Vec3::Constant(lambda.sum() / 2) - lambda;
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;

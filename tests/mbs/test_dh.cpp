@@ -3,6 +3,7 @@
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 
 #include <Eigen/Geometry>
@@ -13,10 +14,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-double max_abs(const Matrix& m) {
-    return m.cwiseAbs().maxCoeff();
-}
 
 // The product Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) by Eigen's transforms: the definition.
 Placement product(double gamma, double b, double alpha, double d, double theta, double r) {
@@ -160,8 +157,8 @@ TEST_CASE("dh: the coordinate adds to theta of a revolute and to r of a prismati
 
 namespace {
 
-constexpr double length = 2.5;
-constexpr double delta = 0.2113248654;  // cardan joints at delta L and (1 - delta) L
+constexpr double beam_length = 2.5;
+constexpr double joint_station = 0.2113248654;  // cardan joints at this times the length from either end
 
 struct ElementJoint {
     const char* name;
@@ -174,19 +171,19 @@ struct ElementJoint {
 // The six joints of a cardanic beam element: bending y, z; extension, torsion; bending z, y. In beam axes (x along the
 // beam) the joint frames have z along y, z, x, x, z, y.
 std::vector<ElementJoint> element_joints(bool first) {
-    const double h = pi / 2, rest = (0.5 - delta) * length;
+    const double h = pi / 2, rest = (0.5 - joint_station) * beam_length;
     const auto axes = [](int x, int y, int z) {
         return (Mat3() << Vec3::Unit(x), Vec3::Unit(y), Vec3::Unit(z)).finished();
     };
     const Mat3 along_y = axes(2, 0, 1), along_z = axes(0, 1, 2), along_x = axes(1, 2, 0);
-    const DhParameters start =
-        first ? DhParameters{pi, 0, h, -delta * length, h, 0} : DhParameters{h, 0, 0, 2 * delta * length, -h, 0};
-    return {{"bending y in", JointKind::revolute, start, delta * length, along_y},
-            {"bending z in", JointKind::revolute, {h, 0, h, 0, 0, 0}, delta * length, along_z},
-            {"extension", JointKind::prismatic, {h, 0, h, 0, 0, rest}, length / 2, along_x},
-            {"torsion", JointKind::revolute, {}, length / 2, along_x},
-            {"bending z out", JointKind::revolute, {pi, rest, h, 0, h, 0}, (1 - delta) * length, along_z},
-            {"bending y out", JointKind::revolute, {pi, 0, h, 0, h, 0}, (1 - delta) * length, along_y}};
+    const DhParameters start = first ? DhParameters{pi, 0, h, -joint_station * beam_length, h, 0}
+                                     : DhParameters{h, 0, 0, 2 * joint_station * beam_length, -h, 0};
+    return {{"bending y in", JointKind::revolute, start, joint_station * beam_length, along_y},
+            {"bending z in", JointKind::revolute, {h, 0, h, 0, 0, 0}, joint_station * beam_length, along_z},
+            {"extension", JointKind::prismatic, {h, 0, h, 0, 0, rest}, beam_length / 2, along_x},
+            {"torsion", JointKind::revolute, {}, beam_length / 2, along_x},
+            {"bending z out", JointKind::revolute, {pi, rest, h, 0, h, 0}, (1 - joint_station) * beam_length, along_z},
+            {"bending y out", JointKind::revolute, {pi, 0, h, 0, h, 0}, (1 - joint_station) * beam_length, along_y}};
 }
 
 }  // namespace
@@ -203,7 +200,7 @@ TEST_CASE("dh: the chain of a beam element by parameters is the same chain by pl
             spec.name = text("element ", element, " ", joint.name);
             spec.joint = joint.kind;
             spec.inertia = random_inertia(random);
-            const Placement in_base{joint.axes, Vec3((element + joint.station / length) * length, 0, 0)};
+            const Placement in_base{joint.axes, Vec3((element + joint.station / beam_length) * beam_length, 0, 0)};
             spec.placement = before.inverse() * in_base;
             spec.inboard = placements_at;
             placements_at = by_placements.frame_of(by_placements.add_body(spec));

@@ -3,6 +3,7 @@
 #include "mbs/lagrange.hpp"
 #include "tests/mbs/forced_tree.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 
 #include <Eigen/Geometry>
 
@@ -11,8 +12,6 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr double h = 1e-40;  // complex step
-
 // Jacobian of a frame by complex step of its pose: columns [rotation vector rate; velocity].
 Matrix differentiated_pose(ForcedTree& s, FrameId frame) {
     WorkspaceT<Complex> workspace(s.model());
@@ -20,10 +19,10 @@ Matrix differentiated_pose(ForcedTree& s, FrameId frame) {
     Matrix J(6, s.n);
     for (int a = 0; a < s.n; ++a) {
         ComplexVector z = s.q.cast<Complex>();
-        z(a) += Complex(0, h);
+        z(a) += Complex(0, complex_step);
         const Pose<Complex> moved = pose(kinematics<Complex>(s.model(), z, workspace), frame);
-        const Mat3 W = moved.R.imag() / h * R.transpose();
-        J.col(a) << W(2, 1), W(0, 2), W(1, 0), moved.p.imag() / h;
+        const Mat3 W = moved.R.imag() / complex_step * R.transpose();
+        J.col(a) << W(2, 1), W(0, 2), W(1, 0), moved.p.imag() / complex_step;
     }
     return J;
 }

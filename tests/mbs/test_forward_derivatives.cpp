@@ -5,6 +5,7 @@
 #include "mbs/forward_derivatives.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <array>
@@ -13,8 +14,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double h = 1e-40;
 
 struct Accelerations {
     ComplexVector qdd, actuator;
@@ -93,10 +92,10 @@ Columns differentiate(const DenseOracle& oracle, const Case& s, int argument) {
     for (int j = 0; j < s.n; ++j) {
         std::array<ComplexVector, 4> x{s.q.cast<Complex>(), s.qd.cast<Complex>(), s.Q.cast<Complex>(),
                                        s.prescribed.cast<Complex>()};
-        x[static_cast<std::size_t>(argument)](j) += Complex(0, h);
+        x[static_cast<std::size_t>(argument)](j) += Complex(0, complex_step);
         const Accelerations result = oracle(x[0], x[1], x[2], x[3]);
-        out.acceleration.col(j) = result.qdd.imag() / h;
-        out.actuator.col(j) = result.actuator.imag() / h;
+        out.acceleration.col(j) = result.qdd.imag() / complex_step;
+        out.actuator.col(j) = result.actuator.imag() / complex_step;
     }
     return out;
 }

@@ -5,20 +5,15 @@
 #include "mbs/lagrange.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
 
-constexpr double h = 1e-40;  // complex step
-
 int bodies(unsigned seed) {
     return 6 + static_cast<int>(seed % 9);
-}
-
-double scaled(const Matrix& difference, const Matrix& reference) {
-    return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
 }
 
 // d g / d q^c by complex step.
@@ -29,9 +24,9 @@ std::vector<Matrix> metric_derivatives(const Model& model, const Vector& q) {
     ComplexMatrix g(n, n);
     for (int c = 0; c < n; ++c) {
         ComplexVector z = q.cast<Complex>();
-        z(c) += Complex(0, h);
+        z(c) += Complex(0, complex_step);
         metric(kinematics<Complex>(model, z, workspace), g);
-        dg.push_back(g.imag() / h);
+        dg.push_back(g.imag() / complex_step);
     }
     return dg;
 }
@@ -144,13 +139,13 @@ TEST_CASE("derivatives: inverse dynamics by the analytic recursion equals the co
         ComplexVector tau(s.n), qdd = s.qdd.cast<Complex>();
         for (int j = 0; j < s.n; ++j) {
             ComplexVector q = s.q.cast<Complex>(), qd = s.qd.cast<Complex>();
-            q(j) += Complex(0, h);
+            q(j) += Complex(0, complex_step);
             inverse_dynamics<Complex>(kinematics<Complex>(s.model, q, workspace), qd, qdd, tau);
-            expected_q.col(j) = tau.imag() / h;
+            expected_q.col(j) = tau.imag() / complex_step;
             q(j) = s.q(j);
-            qd(j) += Complex(0, h);
+            qd(j) += Complex(0, complex_step);
             inverse_dynamics<Complex>(kinematics<Complex>(s.model, q, workspace), qd, qdd, tau);
-            expected_qd.col(j) = tau.imag() / h;
+            expected_qd.col(j) = tau.imag() / complex_step;
         }
         REQUIRE(scaled(by_q - expected_q, expected_q) < 1e-12);
         REQUIRE(scaled(by_qd - expected_qd, expected_qd) < 1e-12);
@@ -173,15 +168,15 @@ TEST_CASE("forces: stiffness and damping equal the complex step, springs and gra
         Matrix K(n, n), D(n, n);
         for (int j = 0; j < n; ++j) {
             ComplexVector z = q.cast<Complex>(), zd = qd.cast<Complex>();
-            z(j) += Complex(0, h);
+            z(j) += Complex(0, complex_step);
             system.forces.generalised_forces_of_elements<Complex>(
                 kinematics<Complex>(system.model, z, complex_workspace), z, zd, Q);
-            K.col(j) = -Q.imag() / h;
+            K.col(j) = -Q.imag() / complex_step;
             z(j) = q(j);
-            zd(j) += Complex(0, h);
+            zd(j) += Complex(0, complex_step);
             system.forces.generalised_forces_of_elements<Complex>(
                 kinematics<Complex>(system.model, z, complex_workspace), z, zd, Q);
-            D.col(j) = -Q.imag() / h;
+            D.col(j) = -Q.imag() / complex_step;
         }
         REQUIRE(scaled(d.elastic + d.gravity + d.loads - K, K) < 1e-12);
         REQUIRE(scaled(d.damping - D, D) < 1e-12);

@@ -1,17 +1,10 @@
 // Rigid inertia: joining bodies, Binet's tensor.
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/point_masses.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
-
-namespace {
-
-double max_abs(const Matrix& m) {
-    return m.cwiseAbs().maxCoeff();
-}
-
-}  // namespace
 
 TEST_CASE("inertia: parts joined in one body equal all their points together", "[analytic]") {
     Random random(1);

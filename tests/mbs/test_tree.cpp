@@ -3,6 +3,7 @@
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/point_masses.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -14,10 +15,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-double max_abs(const Matrix& m) {
-    return m.size() ? m.cwiseAbs().maxCoeff() : 0.0;
-}
 
 // All that the mechanics of a model says at one state.
 struct Mechanics {

@@ -9,17 +9,17 @@ using namespace cardan::testing;
 
 namespace {
 
-const std::string ground = link_tag("ground", "");
+const std::string ground_link = link_tag("ground", "");
 
 void refused(const std::string& xml, std::initializer_list<std::string> parts) {
     check_refused([&] { (void)parse_urdf(xml, "arm.urdf"); }, parts);
 }
 // Of one moving link with this in it, in line 3; its joint is in line 4.
 void refused_link(const std::string& inside, std::initializer_list<std::string> parts) {
-    refused(robot(ground + link_tag("arm", inside) + joint_tag("hinge", "continuous", "ground", "arm")), parts);
+    refused(robot(ground_link + link_tag("arm", inside) + joint_tag("hinge", "continuous", "ground", "arm")), parts);
 }
 void refused_joint(const std::string& type, const std::string& inside, std::initializer_list<std::string> parts) {
-    refused(robot(ground + link_tag("arm") + joint_tag("hinge", type, "ground", "arm", inside)), parts);
+    refused(robot(ground_link + link_tag("arm") + joint_tag("hinge", type, "ground", "arm", inside)), parts);
 }
 std::string inertial(const std::string& mass, const std::string& ixx, const std::string& izz = "0.6") {
     return "<inertial><mass value=\"" + mass + "\"/><inertia ixx=\"" + ixx +
@@ -66,10 +66,10 @@ TEST_CASE("urdf bad input: what is XML but no URDF robot is refused", "[property
 TEST_CASE("urdf bad input: a link that moves and ends a branch needs an inertia", "[property]") {
     refused_link("", {"arm.urdf:3: link 'arm' ends a branch", "joint 'hinge'", "<inertial>"});
     for (const char* type : {"revolute", "prismatic", "planar", "floating"})
-        refused(robot(ground + link_tag("arm", "") + joint_tag("hinge", type, "ground", "arm")),
+        refused(robot(ground_link + link_tag("arm", "") + joint_tag("hinge", type, "ground", "arm")),
                 {"arm.urdf:3: link 'arm' ends a branch", "joint 'hinge'"});
     // A frame on it does not help, an inertia welded to it does.
-    const std::string moved = ground + link_tag("arm", "") + joint_tag("hinge", "continuous", "ground", "arm");
+    const std::string moved = ground_link + link_tag("arm", "") + joint_tag("hinge", "continuous", "ground", "arm");
     refused(robot(moved + link_tag("tip", "") + joint_tag("bolt", "fixed", "arm", "tip")), {"arm.urdf:3: link 'arm'"});
     CHECK_NOTHROW(parse_urdf(robot(moved + link_tag("tip") + joint_tag("bolt", "fixed", "arm", "tip"))));
 }
@@ -78,7 +78,7 @@ TEST_CASE("urdf bad input: impossible inertias", "[property]") {
     refused_link(inertial("-1", "0.4"), {"arm.urdf:3: link 'arm': mass [kg] = -1", ">= 0"});
     refused_link(inertial("1", "-0.4"), {"arm.urdf:3: link 'arm'", "moment of inertia", "-0.4"});
     refused_link(inertial("1", "0.4", "0.91"), {"arm.urdf:3: link 'arm'", "triangle inequality"});
-    CHECK_NOTHROW(parse_urdf(robot(ground + link_tag("arm", inertial("1", "0.4", "0.9")) +
+    CHECK_NOTHROW(parse_urdf(robot(ground_link + link_tag("arm", inertial("1", "0.4", "0.9")) +
                                    joint_tag("hinge", "continuous", "ground", "arm"))));
     refused(robot(link_tag("ground", inertial("-1", "0.4"))), {"arm.urdf:2: link 'ground': mass"});
 }
@@ -105,7 +105,7 @@ TEST_CASE("urdf bad input: axes, joint types and joint data", "[property]") {
     refused_joint("spherical", "", {"arm.urdf:4: joint 'hinge': type = spherical; allowed: revolute"});
     refused_joint("ball", "", {"joint 'hinge': type = ball"});
     refused_joint("revolute", R"(<limit lower="0" upper="1" velocity="1"/>)", {"<limit> needs an attribute 'effort'"});
-    refused(robot(ground + link_tag("arm") +
+    refused(robot(ground_link + link_tag("arm") +
                   R"(<joint name="hinge" type="revolute"><parent link="ground"/><child link="arm"/></joint>)"),
             {"arm.urdf:4: joint 'hinge': a revolute joint needs a tag <limit>", "continuous"});
     refused_joint("continuous", R"(<dynamics damping="-1"/>)", {"arm.urdf:4: joint 'hinge': damping = -1", ">= 0"});
@@ -116,24 +116,24 @@ TEST_CASE("urdf bad input: axes, joint types and joint data", "[property]") {
 
 TEST_CASE("urdf bad input: names given twice, missing or unknown", "[property]") {
     const std::string hinge = joint_tag("hinge", "continuous", "ground", "arm");
-    refused(robot(ground + link_tag("arm") + link_tag("arm") + hinge),
+    refused(robot(ground_link + link_tag("arm") + link_tag("arm") + hinge),
             {"arm.urdf:4: link 'arm' is defined twice", "line 3"});
-    refused(robot(ground + link_tag("arm") + link_tag("b") + hinge + joint_tag("hinge", "continuous", "arm", "b")),
+    refused(robot(ground_link + link_tag("arm") + link_tag("b") + hinge + joint_tag("hinge", "continuous", "arm", "b")),
             {"arm.urdf:6: joint 'hinge' is defined twice", "line 5"});
-    refused(robot(ground + link_tag("arm") + joint_tag("hinge", "continuous", "wall", "arm")),
+    refused(robot(ground_link + link_tag("arm") + joint_tag("hinge", "continuous", "wall", "arm")),
             {"arm.urdf:4: joint 'hinge': parent link = 'wall'"});
-    refused(robot(ground + link_tag("arm") + joint_tag("hinge", "continuous", "ground", "leg")),
+    refused(robot(ground_link + link_tag("arm") + joint_tag("hinge", "continuous", "ground", "leg")),
             {"arm.urdf:4: joint 'hinge': child link = 'leg'"});
     refused(robot("<link/>"), {"arm.urdf:2: link '': <link> needs an attribute 'name'"});
     refused(robot("<link name=\"\"/>"), {"arm.urdf:2: link '': <link>: name = \"\"; allowed: a name"});
-    refused(robot(ground + link_tag("arm") + R"(<joint name="hinge" type="fixed"><child link="arm"/></joint>)"),
+    refused(robot(ground_link + link_tag("arm") + R"(<joint name="hinge" type="fixed"><child link="arm"/></joint>)"),
             {"arm.urdf:4: joint 'hinge': <joint> needs a tag <parent>"});
     refused_link("<inertial><mass value=\"1\"/></inertial>",
                  {"arm.urdf:3: link 'arm': <inertial> needs a tag <inertia>"});
 }
 
 TEST_CASE("urdf bad input: loops and several roots", "[property]") {
-    const std::string links = ground + link_tag("a") + link_tag("b");
+    const std::string links = ground_link + link_tag("a") + link_tag("b");
     refused(robot(links + joint_tag("1", "continuous", "ground", "a") + joint_tag("2", "continuous", "a", "b") +
                   joint_tag("3", "fixed", "ground", "b")),
             {"arm.urdf:7: joint '3' closes a loop", "'b'", "joint '2'", "only trees"});
@@ -142,7 +142,7 @@ TEST_CASE("urdf bad input: loops and several roots", "[property]") {
     refused(robot(link_tag("a") + link_tag("b") + joint_tag("1", "continuous", "a", "b") +
                   joint_tag("2", "continuous", "b", "a")),
             {"the joints form a loop"});
-    refused(robot(ground + link_tag("a") + joint_tag("1", "continuous", "a", "a")),
+    refused(robot(ground_link + link_tag("a") + joint_tag("1", "continuous", "a", "a")),
             {"joint '1' is a loop", "to itself"});
     refused(robot(links + joint_tag("1", "continuous", "ground", "a")),
             {"arm.urdf:4: link 'b' hangs on no joint", "'ground'", "one root"});
@@ -174,9 +174,9 @@ TEST_CASE("urdf bad input: nothing is printed, and the program's own log handler
 }
 
 TEST_CASE("urdf bad input: documents may be read in several threads at once", "[property]") {
-    const std::string good = robot(ground + link_tag("arm") + joint_tag("hinge", "continuous", "ground", "arm"));
+    const std::string good = robot(ground_link + link_tag("arm") + joint_tag("hinge", "continuous", "ground", "arm"));
     const std::string bad =
-        robot(ground + link_tag("arm") + joint_tag("hinge", "continuous", "ground", "arm", "<dynamics/>"));
+        robot(ground_link + link_tag("arm") + joint_tag("hinge", "continuous", "ground", "arm", "<dynamics/>"));
     std::vector<std::future<int>> results;
     for (int t = 0; t < 4; ++t)
         results.push_back(std::async(std::launch::async, [&, t] {

@@ -6,6 +6,7 @@
 #include "mbs/metric.hpp"
 #include "mbs/urdf.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -33,10 +34,6 @@ inline std::string joint_tag(const std::string& name, const std::string& type, c
 }
 inline std::string robot(const std::string& inside) {
     return "<robot name=\"test\">\n" + inside + "</robot>\n";
-}
-
-inline double max_abs(const Matrix& m) {
-    return m.size() ? m.cwiseAbs().maxCoeff() : 0.0;
 }
 
 inline Eigen::Isometry3d shifted(double x, double y, double z) {

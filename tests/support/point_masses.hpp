@@ -13,6 +13,10 @@ struct PointMass {
     Vec3 x;
 };
 
+inline RigidInertia point_mass(double m, const Vec3& at) {
+    return {.mass = m, .com = at, .J = Mat3::Zero()};
+}
+
 /// Inertia of a set of point masses from its definition, sums over the points.
 inline RigidInertia inertia_of(const std::vector<PointMass>& points) {
     RigidInertia body;
