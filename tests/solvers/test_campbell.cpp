@@ -3,6 +3,7 @@
 #include "solvers/campbell.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <algorithm>
@@ -33,9 +34,6 @@ SmallRotor make_rotor(SmallRotorSpec spec = {}) {
 Campbell diagram_of(const SmallRotor& rotor, const std::vector<double>& speeds, const CampbellOptions& options = {}) {
     return campbell(rotor.system, rotor.map, speeds, options);
 }
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

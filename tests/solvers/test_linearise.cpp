@@ -3,6 +3,7 @@
 #include "mbs/derivatives.hpp"
 #include "solvers/linearise.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -14,8 +15,6 @@ using namespace cardan::solvers;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double h = 1e-40;  // complex step
 
 double scaled(const Matrix& difference, const Matrix& reference) {
     return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
@@ -46,11 +45,11 @@ Matrix derivative(const Sample& s, By by, F f) {
     Matrix D(s.n, s.n);
     for (int c = 0; c < s.n; ++c) {
         ComplexVector q = s.at.q.cast<Complex>(), qd = s.at.qd.cast<Complex>(), qdd = s.at.qdd.cast<Complex>();
-        (by == By::q ? q : by == By::qd ? qd : qdd)(c) += Complex(0, h);
+        (by == By::q ? q : by == By::qd ? qd : qdd)(c) += Complex(0, complex_step);
         WorkspaceT<Complex> workspace(s.system.model);
         ComplexVector value(s.n);
         f(kinematics<Complex>(s.system.model, q, workspace), q, qd, qdd, value);
-        D.col(c) = value.imag() / h;
+        D.col(c) = value.imag() / complex_step;
     }
     return D;
 }

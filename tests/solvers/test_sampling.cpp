@@ -2,6 +2,7 @@
 #include "solvers/envelope.hpp"
 #include "solvers/sampling.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -13,9 +14,6 @@ using namespace cardan::solvers;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Value>
 std::vector<double> values_at(const std::vector<double>& time, const Value& value) {
@@ -73,7 +71,7 @@ TEST_CASE("time steps: equal ones are told from others, rounding and printed dig
 TEST_CASE("samples between: both ends belong to the part, also when they are rounded") {
     std::vector<double> time;
     for (int i = 0; i <= 100; ++i) time.push_back(0.1 * i);
-    const SampleRange all = samples_between(time, -infinity, infinity);
+    const SampleRange all = samples_between(time, -infinite, infinite);
     CHECK((all.first == 0 && all.count == 101));
     const SampleRange part = samples_between(time, 0.3, 0.7);  // 0.1*3 > 0.3 and 0.1*7 > 0.7 as doubles
     CHECK((part.first == 3 && part.count == 5));
@@ -166,7 +164,7 @@ TEST_CASE("envelope: of a million values the one peak survives exactly, gaps sta
         x.push_back(1e-3 * i);
         y.push_back(i == 654321 ? 17.25 : i == 123456 ? -3.5 : std::sin(0.01 * i));
     }
-    for (std::size_t i = 300000; i < 400000; ++i) y[i] = i % 2 == 0 ? not_a_number : infinity;
+    for (std::size_t i = 300000; i < 400000; ++i) y[i] = i % 2 == 0 ? not_a_number : infinite;
     const ThinnedCurve curve = min_max_envelope(x, y, 1000);
     CHECK(curve.x.size() < 4010);
     const auto peak = std::find(curve.y.begin(), curve.y.end(), 17.25);

@@ -12,6 +12,7 @@
 #include "solvers/recorder.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/doors.hpp"
+#include "tests/support/numbers.hpp"
 
 #include <functional>
 #include <limits>
@@ -19,13 +20,6 @@
 using namespace cardan;
 using namespace cardan::solvers;
 using namespace cardan::testing;
-
-namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 TEST_CASE("sizes: vectors and matrices that do not fit are refused by the solvers", "[property][solvers]") {
     const SmallRotor rotor = small_rotor();
@@ -126,7 +120,7 @@ TEST_CASE("recorder: an integrator of another system or with other drives is ref
 TEST_CASE("bad input: values that are not finite, tolerances and functions that are none", "[property][solvers]") {
     const SmallRotor rotor = small_rotor();
     const System& system = rotor.system;
-    for (const double bad : {not_a_number, infinity, -infinity}) {
+    for (const double bad : {not_a_number, infinite, -infinite}) {
         for (Vector OperatingPoint::*part : {&OperatingPoint::q, &OperatingPoint::qd, &OperatingPoint::qdd}) {
             OperatingPoint at = rotor.spinning(2);
             (at.*part)(2) = bad;

@@ -4,6 +4,7 @@
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/point_masses.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -15,10 +16,6 @@ using namespace cardan::testing;
 using cardan::oracles::bisect;
 
 namespace {
-
-RigidInertia point_mass(double m, const Vec3& at) {
-    return {m, at};
-}
 
 // A bar with a point mass at its end, hinged with a spring at a distance from the spin axis z; it flaps along z.
 struct HingedBar {

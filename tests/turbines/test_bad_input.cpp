@@ -1,6 +1,7 @@
 // Data of a turbine that must be refused: where, what, which value, what is allowed.
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/test_wt600.hpp"
 
@@ -10,8 +11,6 @@ using Catch::Matchers::Contains;
 using test::message_of;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 // The data set in a folder of its own, with one piece of text replaced.
 struct DataFolder {

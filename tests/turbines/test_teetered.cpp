@@ -5,6 +5,7 @@
 #include "solvers/steady_state.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
@@ -22,8 +23,6 @@ using turbines::TeeteredOptions;
 using turbines::TeeteredTurbine;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 TeeteredOptions general_options() {
     TeeteredOptions options = TeeteredOptions::with_elements(2);
