@@ -11,7 +11,6 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double sure_mac = 0.6;      // below: the link is doubtful
 constexpr double sure_pattern = 0.4;  // of the energy in its component: below it the pattern is doubtful
 constexpr double least_share = 0.05;  // of the energy on average: below it a branch is not named so
 
@@ -82,17 +81,20 @@ std::string motion_name(const std::string& row, const std::string& kind, const s
 class Naming {
 public:
     Naming(const std::vector<CampbellPoint>& points, const Identification& identification,
-           const std::vector<std::string>& rows, bool whirl)
+           const std::vector<std::string>& rows, bool whirl, NeighbourNames* neighbour)
         : points_(points),
           identification_(identification),
           rows_(rows),
+          neighbour_(neighbour),
           labels_(component_labels(identification, whirl)) {}
 
     std::vector<Branch> name(std::vector<Branch> branches) {
         for (const Branch& branch : branches)
             if (const int row = usual_row(branch); row >= 0) labels_.push_back({.row = row});
         if (labels_.empty()) return {};
-        const Matrix score = scores(branches);
+        if (neighbour_) neighbour_->pair(branches);
+        Matrix score = scores(branches);
+        if (neighbour_) continue_names(branches, score);
         const std::vector<int> label_of = assign(score);
         std::vector<std::size_t> others;
         for (std::size_t b = 0; b < branches.size(); ++b) {
@@ -109,6 +111,7 @@ public:
         }
         name_others(branches, others);
         name_motions(branches);
+        if (neighbour_) doubt_by_neighbour(branches);
         return branches;
     }
 
@@ -125,6 +128,10 @@ private:
     int usual_row(const Branch& branch) const;
     std::string usual_kind(const Branch& branch) const;
     Matrix scores(const std::vector<Branch>& branches) const;
+    std::size_t own_label(const Branch& partner) const;
+    void continue_names(const std::vector<Branch>& branches, Matrix& score) const;
+    void doubt_by_neighbour(std::vector<Branch>& branches) const;
+    bool continues(const Branch& branch, const Branch& partner) const;
     Label strongest(std::size_t point, const CampbellMode& mode, const Label& own) const;
     std::string label_name(const Label& label, const CampbellMode& mode) const;
     void set(Branch& branch, const Label& label) const;
@@ -136,6 +143,7 @@ private:
     const std::vector<CampbellPoint>& points_;
     const Identification& identification_;
     const std::vector<std::string>& rows_;
+    NeighbourNames* neighbour_;  // may be null
     std::vector<Label> labels_;
 };
 
@@ -169,6 +177,56 @@ Matrix Naming::scores(const std::vector<Branch>& branches) const {
                 score(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(l)) += part(*m, labels_[l]);
         }
     return score;
+}
+
+// Of a branch of the neighbour, whose components may stand in another order; labels_.size(): none here.
+std::size_t Naming::own_label(const Branch& partner) const {
+    std::size_t l = 0;
+    if (partner.component < 0) return labels_.size();
+    const Component& wanted = neighbour_->component(partner);
+    for (; l < labels_.size(); ++l) {
+        const Label& label = labels_[l];
+        if (label.row >= 0 || label.pattern != partner.pattern || label.harmonic != partner.harmonic) continue;
+        const Component& own = identification_.components()[static_cast<std::size_t>(label.component)];
+        if (own.part == wanted.part && own.family == wanted.family && own.ordinal == wanted.ordinal) break;
+    }
+    return l;
+}
+
+// The name that a branch has in the neighbour outweighs all energies. One that is "(another)" there stays so here: no
+// name but that, and that one only where it is left over.
+void Naming::continue_names(const std::vector<Branch>& branches, Matrix& score) const {
+    const double outweighs = 2 * (score.sum() + 1);
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+        const Branch* partner = neighbour_->partner(b);
+        if (!partner || usual_row(branches[b]) >= 0) continue;
+        const std::size_t l = own_label(*partner);
+        if (l == labels_.size()) continue;
+        const Label& label = labels_[l];
+        const auto row = static_cast<Eigen::Index>(b), column = static_cast<Eigen::Index>(l);
+        const bool own_name = partner->name == identification_.name(label.component, label.pattern, label.harmonic);
+        score.row(row).setZero();
+        score(row, column) = own_name ? outweighs : 1e-9;
+    }
+}
+
+// Without a partner of the same name, and where the likeness to it is in doubt.
+void Naming::doubt_by_neighbour(std::vector<Branch>& branches) const {
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+        Branch& branch = branches[b];
+        const Branch* partner = neighbour_->partner(b);
+        const bool same = partner && (branch.row >= 0 ? partner->row == branch.row : continues(branch, *partner));
+        for (std::size_t i = 0; i < branch.mode.size(); ++i)
+            if (branch.mode[i] >= 0 && (!same || neighbour_->doubtful(b, i, branch.mode[i]))) branch.doubtful[i] = true;
+    }
+}
+
+// By component and pattern.
+bool Naming::continues(const Branch& branch, const Branch& partner) const {
+    const std::size_t l = own_label(partner);
+    if (l == labels_.size()) return false;
+    const Label& label = labels_[l];
+    return branch.component == label.component && branch.pattern == label.pattern && branch.harmonic == label.harmonic;
 }
 
 // The label that holds most; `own` where none holds more.
@@ -265,14 +323,15 @@ void Naming::name_motions(std::vector<Branch>& branches) const {
 }  // namespace
 
 std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const Identification& identification,
-                                      const std::vector<std::string>& rows, bool whirl) const {
+                                      const std::vector<std::string>& rows, bool whirl,
+                                      NeighbourNames* neighbour) const {
     std::vector<Branch> tracked;
     for (const Track& track : tracks_) {
         Branch& branch = tracked.emplace_back();
         branch.mode = track.mode;
         branch.mac = track.mac;
     }
-    std::vector<Branch> branches = Naming(points, identification, rows, whirl).name(std::move(tracked));
+    std::vector<Branch> branches = Naming(points, identification, rows, whirl, neighbour).name(std::move(tracked));
     const auto first_frequency = [&](const Branch& branch) {
         for (std::size_t i = 0; i < points.size(); ++i)
             if (branch.mode[i] >= 0) return points[i].modes[static_cast<std::size_t>(branch.mode[i])].mode.natural_hz();

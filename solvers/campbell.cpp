@@ -226,6 +226,7 @@ private:
     std::vector<const System*> systems_;     // by point
     const Identification* first_ = nullptr;  // of the first machine
     Tracker tracker_;
+    std::optional<NeighbourNames> neighbour_;
     std::string instability_;
 };
 
@@ -241,6 +242,7 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     diagram_.unknowns = solver.unknowns();
     diagram_.rows = solver.row_names();
     frames_ = recorded_frames(system, rotor, diagram_);
+    if (options_.neighbour) neighbour_.emplace(*options_.neighbour).check(diagram_);
 }
 
 bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
@@ -257,6 +259,7 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
     } else {
         tracker_.add(solver.system(), point);
     }
+    if (neighbour_) neighbour_->add(solver.system(), point);
     if (std::isfinite(point.stability_margin)) warn_of_instability(point, instability_);
     diagram_.points.push_back(std::move(point));
     systems_.push_back(&system);
@@ -296,7 +299,8 @@ void Sweep::set_branches(const std::vector<const PointMethod*>& solvers) {
     const bool whirl = options_.method != CampbellMethod::frozen_azimuth &&
                        std::any_of(diagram_.points.begin(), diagram_.points.end(),
                                    [](const CampbellPoint& p) { return p.rotor_speed != 0; });
-    diagram_.branches = tracker_.branches(diagram_.points, *identification, diagram_.rows, whirl);
+    diagram_.branches =
+        tracker_.branches(diagram_.points, *identification, diagram_.rows, whirl, neighbour_ ? &*neighbour_ : nullptr);
     std::erase_if(diagram_.branches,
                   [&](const Branch& b) { return lowest_frequency(diagram_, b) > options_.max_frequency_hz; });
     drop_high_modes(diagram_, options_.max_frequency_hz);
@@ -360,6 +364,9 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
     if (cases.empty()) throw InputError("Campbell diagram", "number of points", 0, "at least one");
     if (parameter.empty()) throw InputError("Campbell diagram", "name of the parameter", "''", "not empty");
     check_cases(cases, parameter);
+    if (options.neighbour)
+        throw InputError("Campbell diagram", text("neighbour of a diagram over ", parameter), "given",
+                         "none: modes are followed from one machine to the next");
     Sweep sweep(options, cases.size(), parameter);
     std::vector<std::unique_ptr<PointMethod>> solvers;
     std::vector<const PointMethod*> used;

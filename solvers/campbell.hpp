@@ -45,6 +45,12 @@ struct CampbellFloquetOptions {
     int most_steps = 0;          ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
 };
 
+struct Campbell;
+
+/// Of a link between modes: below it the identity of the mode is doubtful. MAC values of one mode with others that are
+/// orthogonal to each other add up to one at most: above 0.5 only one of them can be the same.
+inline constexpr double sure_mac = 0.6;
+
 struct CampbellOptions {
     RotorSpin spin = RotorSpin::free;
     CampbellMethod method = CampbellMethod::coleman;
@@ -52,6 +58,13 @@ struct CampbellOptions {
         10;                   ///< branches that stay above are left out (all modes take part in tracking and naming)
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
     CampbellFloquetOptions floquet = {};
+    /// Diagram of a neighbouring variant of the machine, with the same method, blades and rows: branches keep the names
+    /// that they have there, by the complex energy MAC at the rotor speeds of both; doubtful where it is below
+    /// `sure_mac` or two candidates compete, and everywhere where the neighbour has no such branch (of which it should
+    /// have at least as many: the same `max_frequency_hz`). Motions named after a coordinate are named by what they
+    /// are. Null: names by the elastic energy alone. Must outlive the call. Not for a diagram over another parameter,
+    /// which follows from one machine to the next anyway.
+    const Campbell* neighbour = nullptr;
     /// Called after every rotor speed with the numbers done and to do.
     std::function<void(int done, int total)> progress = {};
     /// Asked before every rotor speed: true ends the sweep; what was computed is kept and `complete` is false.
@@ -98,8 +111,9 @@ struct Branch {
     int harmonic = 1;         ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
     std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
     std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
-    /// Tracked with MAC below 0.6, or another name holds clearly more energy there, or the blades do not move in the
-    /// pattern, or another branch has the name ("another").
+    /// Tracked with MAC below `sure_mac`, or another name holds clearly more energy there, or the blades do not move in
+    /// the pattern, or another branch has the name ("another"), or the neighbouring variant of the machine does not
+    /// bear the name out (CampbellOptions::neighbour).
     std::vector<bool> doubtful;
     std::vector<std::string> mostly;  ///< the name that holds most elastic energy at the point; empty without a mode
 };
@@ -161,8 +175,9 @@ struct Campbell {
 /// rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the machine is
 /// linearised at azimuth 0.
 /// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, two blades
-/// unless the method is `floquet`, no rotor for `floquet` and `averaged`, and options out of range; NumericalError
-/// where no (constant or periodic) steady state exists or is found.
+/// unless the method is `floquet`, no rotor for `floquet` and `averaged`, a neighbour of another kind or without a
+/// common speed, and options out of range; NumericalError where no (constant or periodic) steady state exists or is
+/// found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options = {});
 
@@ -178,7 +193,7 @@ struct CampbellCase {
 /// are followed from one to the next. What the diagram says about the machine is that of the first; no crossings.
 /// @param parameter  what the parameter is, with its unit, for axes and tables
 /// @throws InputError also for an empty name, parameters that are not finite or not increasing, and machines whose rows
-/// or component modes have other names than those of the first
+/// or component modes have other names than those of the first, or a neighbour in the options
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter,
                   const CampbellOptions& options = {});
 

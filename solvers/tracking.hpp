@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solvers/campbell.hpp"
+#include "solvers/neighbour_names.hpp"
 
 namespace cardan::solvers {
 
@@ -24,8 +25,10 @@ public:
     /// the sweep, or the coordinate that moves most, no name twice (assignment again).
     /// @param rows  names of the rows (PointMethod::row_names)
     /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
+    /// @param neighbour  with all points; null: none
     std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const Identification& identification,
-                                 const std::vector<std::string>& rows, bool whirl) const;
+                                 const std::vector<std::string>& rows, bool whirl,
+                                 NeighbourNames* neighbour = nullptr) const;
 
 private:
     struct Track {

@@ -13,8 +13,6 @@ namespace {
 using solvers::Campbell;
 using solvers::Mode;
 
-constexpr double likely = 0.6;  // as solvers::Branch::doubtful
-
 // Where the rows of the other machine stand in the diagram.
 std::vector<Eigen::Index> shared_rows(const Campbell& diagram, const Campbell& other) {
     std::vector<Eigen::Index> rows;
@@ -94,7 +92,8 @@ Campbell paired(const Campbell& diagram, const Campbell& other, const turbines::
             const double found = mac(row, partner[i]);
             branch.mode[p] = static_cast<int>(theirs.place[static_cast<std::size_t>(partner[i])]);
             branch.mac[p] = found;
-            branch.doubtful[p] = found < std::max({likely, mac.row(row).maxCoeff(), mac.col(partner[i]).maxCoeff()});
+            branch.doubtful[p] =
+                found < std::max({solvers::sure_mac, mac.row(row).maxCoeff(), mac.col(partner[i]).maxCoeff()});
         }
     }
     return result;
