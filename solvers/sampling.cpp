@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -55,11 +56,13 @@ TimeSteps time_steps(std::span<const double> time) {
 }
 
 SampleRange samples_between(std::span<const double> time, double from, double to) {
+    for (const auto& [name, value] : {std::pair{"from [s]", from}, std::pair{"to [s]", to}})
+        if (std::isnan(value)) throw InputError(place, name, value, "a time, or infinite: no limit");
     const double size = time.empty() ? 0.0 : std::max(std::abs(time.front()), std::abs(time.back()));
     const double rounding = 1e-12 * size;
     const auto first = std::lower_bound(time.begin(), time.end(), from - rounding);
     const auto last = std::upper_bound(first, time.end(), to + rounding);
-    if (std::isnan(from) || std::isnan(to) || last - first < 2)
+    if (last - first < 2)
         throw InputError(place, "from, to [s]", text(from, ", ", to),
                          time.empty() ? std::string("a history with samples")
                                       : text("two samples at least between ", time.front(), " and ", time.back()));

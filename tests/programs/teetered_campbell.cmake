@@ -12,6 +12,9 @@ add_example_test(example_teetered_ratio teetered_campbell 1 "ratio of tower to b
 add_example_test(example_teetered_excludes teetered_campbell 2 "excludes" --rigid-tower --tower-ratio 10)
 add_example_test(example_teetered_limits teetered_campbell 2 "excludes" --max-per-rev 3 --max-frequency 10)
 add_example_test(example_teetered_elements teetered_campbell 1 "number of elements = 0" --blade-elements 0)
+add_example_test(example_teetered_many_elements teetered_campbell 1
+    "number of unknowns = 4502; allowed: <= 1500 .all eigenvalues of a full matrix.*take fewer elements per part"
+    --blade-elements 300 --tower-elements 300)
 add_example_test(example_teetered_harmonics teetered_campbell 1 "number of harmonics = -1" --harmonics=-1 --rpm 50 ${one_element})
 add_example_test(example_teetered_frequency teetered_campbell 1 "largest frequency .* = -1; allowed: > 0" --max-frequency=-1 --rpm 50 ${one_element})
 add_example_test(example_teetered_no_data teetered_campbell 1 "no_such_folder/teetered.csv: cannot be read" --data no_such_folder)

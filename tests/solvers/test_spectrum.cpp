@@ -310,6 +310,11 @@ TEST_CASE("spectrum: bad input is refused with place, value and limit") {
     options.segment = 0;
     options.from = 9.95;
     refused(options, {"from, to [s] = 9.95, inf", "two samples at least between 0 and 10"});
+    options.from = std::numeric_limits<double>::quiet_NaN();
+    refused(options, {"time history: from [s] = nan", "infinite: no limit"});
+    options.from = 0;
+    options.to = std::numeric_limits<double>::quiet_NaN();
+    refused(options, {"time history: to [s] = nan", "infinite: no limit"});
     s.values[50] = std::numeric_limits<double>::quiet_NaN();
     refused({}, {"value at 5 s = nan", "finite"});
     s.values.pop_back();
