@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mbs/dynamics.hpp"
+#include "mbs/units.hpp"
 #include "solvers/steady_state.hpp"
 #include "turbines/assembly.hpp"
 
@@ -11,6 +12,8 @@
 #include <complex>
 
 namespace cardan::testing {
+
+inline const Vec3 earth_gravity(0, 0, -units::standard_gravity);  ///< ground axes, m/s^2
 
 inline Mat3 skew(const Vec3& v) {
     return (Mat3() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished();

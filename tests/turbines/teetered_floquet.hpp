@@ -2,6 +2,7 @@
 /// The two-bladed teetered machine for Floquet's theory: its linearisation over the azimuth, its families.
 #pragma once
 
+#include "tests/support/contains.hpp"
 #include "tests/turbines/periodic_modes.hpp"
 #include "turbines/teetered.hpp"
 
@@ -24,10 +25,6 @@ inline turbines::TeeteredDescription general_description() {
     d.hub.teeter = {3e4, 200};
     d.yaw = {5e6, 7e3};
     return d;
-}
-
-inline bool contains(const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos;
 }
 
 /// "tower lateral", "symmetric flap", "antisymmetric torsion", "yaw", "teeter" ...; rows of z: what does not belong to

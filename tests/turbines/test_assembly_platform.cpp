@@ -5,6 +5,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/turbines/floating.hpp"
 #include "tests/turbines/sampled_channels.hpp"
 #include "turbines/wt600.hpp"
 
@@ -15,8 +16,6 @@ using namespace cardan::testing;
 using namespace cardan::turbines;
 
 namespace {
-
-const Vec3 weight(0, 0, -9.80665);
 
 AssemblyOptions on_ground(const Vec3& gravity, int elements = 2) {
     AssemblyOptions options;
@@ -169,7 +168,7 @@ Vec6 gravity_load(const Moving& m, const Vec3& about) {
     for (const Tree::Piece& piece : m.turbine.tree().pieces()) {
         if (piece.part == "platform") continue;
         const Pose<double> own = pose(kin, m.turbine.tree().frame_of(BodyId{piece.body}));
-        const Vec3 force = piece.inertia.mass * weight, r = own.p + own.R * piece.inertia.com - about;
+        const Vec3 force = piece.inertia.mass * earth_gravity, r = own.p + own.R * piece.inertia.com - about;
         sum.head<3>() += force;
         sum.tail<3>() += r.cross(force);
     }
@@ -241,7 +240,8 @@ TEST_CASE("machine on a platform: at rest in any pose it moves as on the ground 
           "[property]") {
     for (unsigned seed : {1u, 2u, 3u}) {
         const PlatformMotion pose{any_motion(seed).q, Vec6::Zero(), Vec6::Zero()};
-        check_same(Moving(on_platform(weight), seed, pose), Moving(on_ground(pose.R().transpose() * weight), seed));
+        check_same(Moving(on_platform(earth_gravity), seed, pose),
+                   Moving(on_ground(pose.R().transpose() * earth_gravity), seed));
     }
 }
 
@@ -249,7 +249,7 @@ TEST_CASE("machine on a platform: a steady velocity changes nothing", "[property
     for (unsigned seed : {1u, 2u}) {
         PlatformMotion motion;
         motion.qd.head<3>() = Vec3(3, -2, 1);
-        check_same(Moving(on_platform(weight), seed, motion), Moving(on_ground(weight), seed));
+        check_same(Moving(on_platform(earth_gravity), seed, motion), Moving(on_ground(earth_gravity), seed));
     }
 }
 
@@ -259,8 +259,8 @@ TEST_CASE("machine on a platform: an acceleration along a line is gravity the ot
         motion.qd.tail<3>().setZero();
         motion.qdd.tail<3>().setZero();
         const Vec3 a = motion.qdd.head<3>();
-        check_same(Moving(on_platform(weight), seed, motion),
-                   Moving(on_ground(motion.R().transpose() * (weight - a)), seed), a);
+        check_same(Moving(on_platform(earth_gravity), seed, motion),
+                   Moving(on_ground(motion.R().transpose() * (earth_gravity - a)), seed), a);
     }
 }
 
@@ -286,14 +286,14 @@ TEST_CASE("machine on a platform: two seconds held, in steady motion, or in surg
           "[property]") {
     using solvers::Motion, solvers::MotionState;
     constexpr double a = 1.3;
-    const solvers::History fixed = simulate(on_ground(weight, 1), {});
-    check_same(simulate(on_platform(weight, 1), {}), fixed);
-    check_same(simulate(on_platform(weight, 1), {{BaseCoordinate::surge, Motion::constant_rate(-4, 2)},
-                                                 {BaseCoordinate::heave, Motion::constant_rate(0, 1)}}),
+    const solvers::History fixed = simulate(on_ground(earth_gravity, 1), {});
+    check_same(simulate(on_platform(earth_gravity, 1), {}), fixed);
+    check_same(simulate(on_platform(earth_gravity, 1), {{BaseCoordinate::surge, Motion::constant_rate(-4, 2)},
+                                                        {BaseCoordinate::heave, Motion::constant_rate(0, 1)}}),
                fixed);
     const Motion surge = Motion::function([](double t) { return MotionState{a * t * t / 2, a * t, a}; });
-    const solvers::History accelerated = simulate(on_platform(weight, 1), {{BaseCoordinate::surge, surge}});
-    check_same(accelerated, simulate(on_ground(weight - a * Vec3::UnitX(), 1), {}));
+    const solvers::History accelerated = simulate(on_platform(earth_gravity, 1), {{BaseCoordinate::surge, surge}});
+    check_same(accelerated, simulate(on_ground(earth_gravity - a * Vec3::UnitX(), 1), {}));
     // Which is no trifle: the tower bends upwind by some centimetres.
     CHECK(mean(accelerated["TTDspFA"]) < mean(fixed["TTDspFA"]) - 0.02);
 }
@@ -302,7 +302,7 @@ TEST_CASE("machine on a platform: the load at the foot is weight less rate of ch
           "[analytic]") {
     for (unsigned seed : {1u, 2u, 3u, 4u}) {
         const PlatformMotion motion = any_motion(seed);
-        const Moving m(on_platform(weight), seed, motion);
+        const Moving m(on_platform(earth_gravity), seed, motion);
         const Vec3 foot = motion.q.head<3>();
         const Vec6 expected = gravity_load(m, foot) - momentum_rate(m, foot, false), found = foot_load(m, motion);
         CAPTURE(expected.transpose(), found.transpose());
@@ -314,11 +314,11 @@ TEST_CASE("machine on a platform: the load at the foot is weight less rate of ch
 TEST_CASE("machine on a platform: the drives carry what the foot and the platform's own mass ask for", "[crosscheck]") {
     for (unsigned seed : {1u, 2u, 3u}) {
         const PlatformMotion motion = any_motion(seed);
-        AssemblyOptions options = on_platform(weight);
+        AssemblyOptions options = on_platform(earth_gravity);
         options.platform->inertia.mass = 5e4;  // a point at the foot
         const Moving m(options, seed, motion);
         const Vec6 load = foot_load(m, motion);
-        const Vec3 force = 5e4 * (motion.qdd.head<3>() - weight) - load.head<3>(), moment = -load.tail<3>();
+        const Vec3 force = 5e4 * (motion.qdd.head<3>() - earth_gravity) - load.head<3>(), moment = -load.tail<3>();
         const Mat3 yaw = rot_z(motion.q(5));
         CAPTURE(force.transpose(), moment.transpose());
         for (int i = 0; i < 3; ++i) CHECK(m.actuator(m.platform(i)) == Approx(force(i)).epsilon(1e-11));
@@ -329,7 +329,7 @@ TEST_CASE("machine on a platform: the drives carry what the foot and the platfor
 }
 
 TEST_CASE("machine on a free platform: it falls as a whole, and no momentum is lost or won in the air", "[analytic]") {
-    AssemblyOptions options = on_platform(weight);
+    AssemblyOptions options = on_platform(earth_gravity);
     options.platform->coordinates.role = CoordinateRole::free;
     options.platform->inertia = {2e5, Vec3(0, 0, -10), Vec3(4e7, 4e7, 2e7).asDiagonal()};
     Moving falling(options, 1);
@@ -339,7 +339,7 @@ TEST_CASE("machine on a free platform: it falls as a whole, and no momentum is l
     const Kinematics kin = kinematics(model, none, workspace);
     falling.turbine.system().forces.generalised_forces(kin, 0, none, none, Q);
     ForwardDynamics(model).solve(kin, none, Q, qdd, actuator);
-    qdd(falling.platform(2)) -= weight.z();
+    qdd(falling.platform(2)) -= earth_gravity.z();
     CHECK(qdd.cwiseAbs().maxCoeff() < 1e-9);
 
     options.gravity.setZero();
@@ -377,8 +377,8 @@ TEST_CASE("machine on a moored platform: it has modes of the platform, at the fr
 
 TEST_CASE("machine on a platform: what was added is named and told", "[property]") {
     CHECK_FALSE(wt600().layout().platform);
-    CHECK_FALSE(isolated_blade(wt600_description(), on_platform(weight)).layout().platform);
-    AssemblyOptions options = on_platform(weight);
+    CHECK_FALSE(isolated_blade(wt600_description(), on_platform(earth_gravity)).layout().platform);
+    AssemblyOptions options = on_platform(earth_gravity);
     options.platform->inertia.mass = 1234;
     const Turbine turbine = wt600(options);
     const CoordinateTable& table = turbine.system().model.coordinates();
@@ -389,14 +389,14 @@ TEST_CASE("machine on a platform: what was added is named and told", "[property]
         CHECK(row.role == CoordinateRole::driven);
     }
     CHECK(turbine.rotor().description.find("on a platform of 1234 kg") != std::string::npos);
-    CHECK(mass(turbine) - mass(wt600(on_ground(weight))) == Approx(1234));
+    CHECK(mass(turbine) - mass(wt600(on_ground(earth_gravity))) == Approx(1234));
 }
 
 TEST_CASE("machine on a platform: a bad platform is refused", "[property]") {
-    AssemblyOptions options = on_platform(weight);
+    AssemblyOptions options = on_platform(earth_gravity);
     options.platform->inertia.mass = -1;
     check_refused([&] { (void)wt600(options); }, {"platform", "mass", "-1"});
-    options = on_platform(weight);
+    options = on_platform(earth_gravity);
     options.platform->coordinates.directions[0] = Vec3::Zero();
     check_refused([&] { (void)wt600(options); }, {"platform", "direction of surge", "unit vector"});
 }

@@ -5,8 +5,8 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/test_wt600.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::bad_input {
+
 using Catch::Matchers::Contains;
 using test::message_of;
 
@@ -154,3 +154,5 @@ TEST_CASE("assembly options: refused with the value and what is allowed", "[prop
     check_machine_refused([](D&, O& o) { o.pitch = not_a_number; }, {"600 kW", "pitch [rad] = nan"});
     check_machine_refused([](D&, O& o) { o.gravity = Vec3(0, not_a_number, 0); }, {"gravity", "nan"});
 }
+
+}  // namespace cardan::testing::bad_input

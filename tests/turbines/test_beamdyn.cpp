@@ -1,4 +1,5 @@
 // BeamDyn files: matrices, axes, twist, curved lines, damping.
+#include "mbs/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/model_files.hpp"
 #include "turbines/beam_table.hpp"
@@ -11,7 +12,7 @@ using test::message_of;
 
 namespace {
 
-constexpr double degree = pi / 180;
+using units::degree;
 
 struct KeyPoint {
     double x, y, z, twist;  // BeamDyn's axes, m; degrees

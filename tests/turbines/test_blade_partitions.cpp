@@ -10,8 +10,7 @@
 #include "tests/turbines/test_nrel5mw_blade.hpp"
 #include "turbines/wt600.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::blade_partitions {
 
 namespace {
 
@@ -257,3 +256,5 @@ TEST_CASE("static moments on equal elements of the 5 MW blade: the last one is r
     CHECK_NOTHROW(build(33));
     CHECK_NOTHROW(build(1));
 }
+
+}  // namespace cardan::testing::blade_partitions

@@ -9,9 +9,9 @@
 
 #include <set>
 
-using namespace cardan;
-using namespace cardan::testing;
-using namespace cardan::turbines;
+namespace cardan::testing::machine_channels {
+
+using namespace turbines;
 
 namespace {
 
@@ -297,7 +297,7 @@ TEST_CASE("channels: with the shaft as a beam its torsion counts in azimuth and 
 
 namespace {
 
-solvers::Integrator at_rest(const System& system) {
+solvers::Integrator integrator_at_rest(const System& system) {
     const Vector zero = Vector::Zero(system.model.size());
     return {system, {}, 0, zero, zero};
 }
@@ -309,7 +309,7 @@ TEST_CASE("channels: names and aliases are unique, complete, and told to a recor
         TurbineDescription d = wt600_description();
         d.blades = blades;
         const Turbine turbine = assemble(d);
-        const solvers::Recorder recorder(at_rest(turbine.system()),
+        const solvers::Recorder recorder(integrator_at_rest(turbine.system()),
                                          channels(turbine));  // throws for names that come twice
         std::set<std::string> aliases;
         for (const Channel& channel : recorder.channels())
@@ -322,9 +322,9 @@ TEST_CASE("channels: names and aliases are unique, complete, and told to a recor
         CHECK_FALSE(aliases.contains("RootMxb4"));
     }
     const Wt600Operation machine = wt600_operation();
-    CHECK_NOTHROW(solvers::Recorder(at_rest(machine.turbine.system()), machine.channels));
+    CHECK_NOTHROW(solvers::Recorder(integrator_at_rest(machine.turbine.system()), machine.channels));
     const Turbine blade = isolated_blade(wt600_description());
-    const solvers::Recorder recorder(at_rest(blade.system()), channels(blade));
+    const solvers::Recorder recorder(integrator_at_rest(blade.system()), channels(blade));
     for (const Channel& channel : recorder.channels()) CHECK(channel.alias != "TwrBsMxt");
 }
 
@@ -361,3 +361,5 @@ TEST_CASE("channels: each says along or about which axes it is, unless it has no
     }
     CHECK(recorder.channels().front().frame == "axis of " + model.coordinates()[0].name);
 }
+
+}  // namespace cardan::testing::machine_channels

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <unistd.h>
 
+namespace cardan::testing::csv {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,3 +210,5 @@ TEST_CASE("csv: the files of the turbines can be read") {
     for (const std::string& name : nrel.names()) CHECK_FALSE(nrel.numbers(name, nrel.unit(name)).empty());
     for (const std::string& name : wt600.names()) CHECK_FALSE(wt600.numbers(name, wt600.unit(name)).empty());
 }
+
+}  // namespace cardan::testing::csv

@@ -1,4 +1,5 @@
 // ElastoDyn files: numbers, signs, frames, factors, notes.
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/model_files.hpp"
@@ -18,7 +19,7 @@ using test::message_of;
 
 namespace {
 
-constexpr double degree = pi / 180;
+using units::degree;
 
 // The table of the NREL 5 MW blade in the layout of FAST 7.
 std::string fast7_blade() {

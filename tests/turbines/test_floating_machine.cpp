@@ -16,16 +16,14 @@ using namespace cardan::turbines;
 
 namespace {
 
-const Vec3 weight(0, 0, -9.80665);
-
 AssemblyOptions on_ground(int elements = 1) {
     AssemblyOptions options;
-    options.gravity = weight;
+    options.gravity = earth_gravity;
     options.tower_elements = options.blade_elements = elements;
     return options;
 }
 
-Turbine floating(const PlatformDescription& platform, int elements = 1, const Vec3& gravity = weight) {
+Turbine floating(const PlatformDescription& platform, int elements = 1, const Vec3& gravity = earth_gravity) {
     AssemblyOptions options = on_ground(elements);
     options.gravity = gravity;
     options.platform = free_floating(platform);
@@ -273,7 +271,7 @@ TEST_CASE("floating machine: total momentum changes by outer forces alone", "[an
         const double m = model.body(i).inertia.mass;
         if (m == 0) continue;
         rate += m * carried.motion[static_cast<std::size_t>(i)].at(kin.centre_of_mass(i));
-        outer += m * weight;
+        outer += m * earth_gravity;
     }
     Vec6 x, xd, xdd;
     const std::vector<int> rows = platform_rows(turbine);

@@ -3,6 +3,7 @@
 #include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "solvers/integrate.hpp"
 #include "solvers/matio_state_space.hpp"
@@ -19,13 +20,14 @@
 
 #include <algorithm>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::linear_models {
+
+using namespace solvers;
 
 namespace {
 
-constexpr double rpm = pi / 30, Omega = 27 * rpm;
+using units::rpm;
+constexpr double Omega = 27 * rpm;
 
 const turbines::Turbine& machine() {
     static const turbines::Turbine made = turbines::wt600();
@@ -387,3 +389,5 @@ TEST_CASE(
         if (on) CHECK(damping(measured) == Approx(damping(designed)).epsilon(1e-2));
     }
 }
+
+}  // namespace cardan::testing::linear_models

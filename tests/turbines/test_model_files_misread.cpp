@@ -16,7 +16,7 @@ using test::message_of;
 
 namespace {
 
-constexpr auto elastodyn = "small_ElastoDyn.dat";
+constexpr auto elastodyn_file = "small_ElastoDyn.dat";
 
 TurbineFile with(const char* main, const char* file, const std::string& old_text, const std::string& new_text) {
     const test::ModelFolder model("openfast");
@@ -35,10 +35,10 @@ TurbineFile windio_with(const char* file, const std::string& old_text, const std
 TEST_CASE("openfast: the apex of a two-bladed rotor is upwind of the teeter pin by the undersling", "[analytic]") {
     // ElastoDyn: r_PQ = -UndSling g1 with g1 downwind along the shaft.
     const test::ModelFolder model("openfast");
-    model.replace(elastodyn, "3   NumBl", "2   NumBl");
-    CHECK(read_elastodyn(model / elastodyn).description.nacelle.overhang == 2.0);
-    model.replace(elastodyn, "0   UndSling", "0.25   UndSling");
-    CHECK(read_elastodyn(model / elastodyn).description.nacelle.overhang == 2.25);
+    model.replace(elastodyn_file, "3   NumBl", "2   NumBl");
+    CHECK(read_elastodyn(model / elastodyn_file).description.nacelle.overhang == 2.0);
+    model.replace(elastodyn_file, "0   UndSling", "0.25   UndSling");
+    CHECK(read_elastodyn(model / elastodyn_file).description.nacelle.overhang == 2.25);
 }
 
 TEST_CASE("openfast: a damping ratio of zero stays one, all zeros are no damping", "[analytic]") {
@@ -87,7 +87,7 @@ TEST_CASE("beamdyn: members and few key points are noted", "[property]") {
 }
 
 TEST_CASE("openfast: numbers that belong to no keyword or no column do not vanish", "[property]") {
-    CHECK(has_note(with(elastodyn, elastodyn, "             0   TipMass(1)", "  5000 - tip brake").notes,
+    CHECK(has_note(with(elastodyn_file, elastodyn_file, "             0   TipMass(1)", "  5000 - tip brake").notes,
                    "line without a keyword", "without effect"));
     CHECK_THAT(message_of([] {
                    (void)with("small.fst", "small_Blade.dat", "4.0000E+07   4.2000E+07", "4.0000E+07   4.2000E+07 9.9");
@@ -118,7 +118,7 @@ TEST_CASE("elastodyn: a column of FAST 7 that is all zeros is as good as none", 
 TEST_CASE("openfast: files that are something else, or not there, are told where they are named", "[property]") {
     CHECK_THAT(message_of([] { (void)read_openfast(test::data_file("openfast/small_Blade.dat")); }),
                Contains("small_Blade.dat:1: neither a main file of OpenFAST") && Contains("nor one of ElastoDyn"));
-    CHECK_THAT(message_of([] { (void)with(elastodyn, elastodyn, "\"small_Tower.dat\"", "\"no.dat\""); }),
+    CHECK_THAT(message_of([] { (void)with(elastodyn_file, elastodyn_file, "\"small_Tower.dat\"", "\"no.dat\""); }),
                Contains("small_ElastoDyn.dat:121: TwrFile: ") && Contains("no.dat: cannot be read"));
     CHECK_THAT(message_of([] { (void)with("small.fst", "small.fst", "\"small_ElastoDyn.dat\"", "\"no.dat\""); }),
                Contains("small.fst:20: EDFile: "));

@@ -1,6 +1,7 @@
 // The NREL 5 MW blade by assumed modes: frames of the machine, the tables of the paper of 2018 by its own functions,
 // converged frequencies, response to gravity and platform motion, and the joint chain beside it.
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/forced_response.hpp"
 #include "solvers/modes.hpp"
 #include "solvers/recorder.hpp"
@@ -14,15 +15,17 @@
 #include "turbines/nrel5mw_assumed_modes.hpp"
 #include "turbines/nrel5mw_platform.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
-using namespace cardan::turbines;
+namespace cardan::testing::nrel5mw_assumed_modes {
+
+using namespace turbines;
 using oracles::Jet;
 using Frames = oracles::PlatformFrames<Jet<1>>;
 
 namespace {
 
-constexpr double rpm = pi / 30, degree = pi / 180, rated = 12.1 * rpm, revolution = 2 * pi / rated;
+using units::degree;
+using units::rpm;
+constexpr double rated = 12.1 * rpm, revolution = 2 * pi / rated;
 
 // The axes of the oracle are X0 up, Y0, Z0 downwind.
 Vec3 value(const Frames::Vector& v) {
@@ -410,3 +413,5 @@ TEST_CASE("NREL 5 MW assumed modes: from rest under all motions of the platform 
     CHECK(largest > 0.5);
     CHECK(difference < 0.01 * largest);
 }
+
+}  // namespace cardan::testing::nrel5mw_assumed_modes

@@ -2,6 +2,7 @@
 /// What the tests of the NREL 5 MW blade share: rotor speeds, names and diagrams.
 #pragma once
 
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "turbines/nrel5mw.hpp"
 
@@ -11,14 +12,14 @@
 
 namespace cardan::testing {
 
-inline constexpr double rpm = pi / 30;  ///< rad/s
-inline const std::array<double, 3> speeds{0, 6 * rpm, 12.1 * rpm};
+using units::rpm;
+inline const std::array<double, 3> blade_speeds{0, 6 * rpm, 12.1 * rpm};
 
 /// The modes with reference frequencies.
-inline const std::array<std::string, 6> names{"1st blade flap", "1st blade edge", "2nd blade flap",
-                                              "2nd blade edge", "3rd blade flap", "1st blade torsion"};
+inline const std::array<std::string, 6> blade_mode_names{"1st blade flap", "1st blade edge", "2nd blade flap",
+                                                         "2nd blade edge", "3rd blade flap", "1st blade torsion"};
 
-inline solvers::Campbell diagram(const CardanBeamOptions& elements, std::span<const double> at = speeds,
+inline solvers::Campbell diagram(const CardanBeamOptions& elements, std::span<const double> at = blade_speeds,
                                  const turbines::Nrel5mwBlade& blade = turbines::nrel5mw_blade()) {
     const turbines::Nrel5mwIsolatedBlade isolated = turbines::isolated_blade(blade, elements);
     solvers::CampbellOptions options;
@@ -27,7 +28,7 @@ inline solvers::Campbell diagram(const CardanBeamOptions& elements, std::span<co
 }
 
 inline double hz(const solvers::Campbell& d, std::size_t mode, std::size_t point) {
-    return d.natural_hz(d.branch(names.at(mode)), point);
+    return d.natural_hz(d.branch(blade_mode_names.at(mode)), point);
 }
 
 }  // namespace cardan::testing

@@ -43,10 +43,12 @@ std::vector<std::string> by_frequency(const solvers::Campbell& d, std::size_t co
 TEST_CASE("NREL 5 MW blade: modes are named by what moves, not by their place in the list", "[property]") {
     const double speed[] = {0};
     const CardanBeamOptions n8 = nrel5mw_blade_elements(8);
-    CHECK(by_frequency(diagram(n8, speed), 6) == std::vector<std::string>(names.begin(), names.end()));
+    CHECK(by_frequency(diagram(n8, speed), 6) ==
+          std::vector<std::string>(blade_mode_names.begin(), blade_mode_names.end()));
     // A third of the torsional stiffness brings the torsion below the second edge mode.
     const solvers::Campbell soft = diagram(n8, speed, changed([](BeamSection& s) { s.compliance(3, 3) *= 3; }));
-    CHECK(by_frequency(soft, 4) == std::vector<std::string>{names[0], names[1], names[2], names[5]});
+    CHECK(by_frequency(soft, 4) ==
+          std::vector<std::string>{blade_mode_names[0], blade_mode_names[1], blade_mode_names[2], blade_mode_names[5]});
     CHECK(hz(soft, 5, 0) == Approx(5.33 / std::sqrt(3)).epsilon(0.05));
     // Turned by 90 degrees the soft direction lies in the rotor plane.
     const solvers::Campbell turned = diagram(n8, speed, changed([](BeamSection& s) {
@@ -57,20 +59,21 @@ TEST_CASE("NREL 5 MW blade: modes are named by what moves, not by their place in
                                                  s.centre = Vec3(R * s.centre);
                                                  s.J = Mat3(R * s.J * R.transpose());
                                              }));
-    CHECK(by_frequency(turned, 3) == std::vector<std::string>{names[1], names[0], "2nd blade edge"});
+    CHECK(by_frequency(turned, 3) ==
+          std::vector<std::string>{blade_mode_names[1], blade_mode_names[0], "2nd blade edge"});
     CHECK(hz(turned, 1, 0) == Approx(0.67656).margin(1e-5));
 }
 
 TEST_CASE("NREL 5 MW blade: mode shapes have their signs, nodes and slopes", "[property]") {
     const solvers::Campbell d = diagram(nrel5mw_blade_elements(16));
     for (std::size_t point : {0, 2}) {
-        const solvers::BladeShapes shapes = solvers::blade_shapes(d, names, point, Vec3::UnitZ());
-        REQUIRE(shapes.modes.size() == names.size());
-        CHECK(shapes.rotor_speed == speeds.at(point));
-        for (std::size_t k = 0; k < names.size(); ++k) {
+        const solvers::BladeShapes shapes = solvers::blade_shapes(d, blade_mode_names, point, Vec3::UnitZ());
+        REQUIRE(shapes.modes.size() == blade_mode_names.size());
+        CHECK(shapes.rotor_speed == blade_speeds.at(point));
+        for (std::size_t k = 0; k < blade_mode_names.size(); ++k) {
             const solvers::BladeShape& s = shapes.modes.at(k);
             CAPTURE(point, s.name);
-            CHECK(s.name == names.at(k));
+            CHECK(s.name == blade_mode_names.at(k));
             CHECK_FALSE(s.doubtful);
             CHECK(s.natural_hz == hz(d, k, point));
             REQUIRE(s.radius.size() == 17);
@@ -117,7 +120,7 @@ TEST_CASE("NREL 5 MW blade: shapes as table and picture", "[property]") {
     const test::Folder folder;
     const double speed[] = {0, 12.1 * rpm};
     const solvers::Campbell d = diagram(nrel5mw_blade_elements(4), speed);
-    const std::array<std::string, 2> two{names[0], "9th blade flap"};  // what is not there is left out
+    const std::array<std::string, 2> two{blade_mode_names[0], "9th blade flap"};  // what is not there is left out
     const std::vector<solvers::BladeShapes> shapes{solvers::blade_shapes(d, two, 0, Vec3::UnitZ()),
                                                    solvers::blade_shapes(d, two, 1, Vec3::UnitZ())};
     solvers::write_csv(shapes, folder / "shapes.csv");

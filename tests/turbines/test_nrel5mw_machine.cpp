@@ -112,7 +112,7 @@ ElastodynBlade elastodyn_blade(int elements) {
     return b;
 }
 
-solvers::SecondOrderSystem at_rest(const System& system) {
+solvers::SecondOrderSystem linearised_at_rest(const System& system) {
     const Vector zero = Vector::Zero(system.model.size());
     return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
 }
@@ -123,7 +123,7 @@ Vec3 limited_blade(int elements) {
         turbines::nrel5mw_description(turbines::nrel5mw_options(Nrel5mwVariant::fast));
     const turbines::Turbine blade = turbines::isolated_blade(d, undamped(Nrel5mwVariant::fast, elements, 1));
     const Model& model = blade.system().model;
-    const solvers::SecondOrderSystem whole = at_rest(blade.system());
+    const solvers::SecondOrderSystem whole = linearised_at_rest(blade.system());
     const CardanBeam& beam = blade.layout().blades[0];
     const Matrix shapes = turbines::elastodyn_blade_shapes(beam);
     REQUIRE(whole.M.rows() == model.size());
@@ -278,7 +278,7 @@ TEST_CASE(
         const turbines::AssemblyOptions elements = turbines::nrel5mw_assembly(variant, 1, 3);
         const auto damping = [&] {
             const turbines::Turbine tower = turbines::isolated_tower(d, elements, true);
-            return at_rest(tower.system()).C;
+            return linearised_at_rest(tower.system()).C;
         };
         const Matrix with = damping();
         d.tower.damping.modal.torsion.clear();

@@ -2,6 +2,7 @@
 /// What the tests of the whole NREL 5 MW machine share.
 #pragma once
 
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
@@ -9,7 +10,7 @@
 
 namespace cardan::testing {
 
-inline constexpr double rpm = pi / 30;  ///< rad/s
+using units::rpm;
 
 /// "tower" or "blade".
 inline const turbines::CsvTable& table(const char* name) {

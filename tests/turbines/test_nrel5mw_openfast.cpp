@@ -11,8 +11,8 @@
 #include "examples/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::nrel5mw_openfast {
+
 using nrel5mw_campbell::Limited;
 using oracles::ElastodynTurbine;
 using oracles::PolynomialBlade;
@@ -273,3 +273,5 @@ TEST_CASE("NREL 5 MW blade with the shear flexibility of BeamDyn's file: the ele
     CHECK(hz(d, "1st blade edge") == Approx(exact(1)).epsilon(5e-4));
     CHECK(hz(d, "2nd blade flap") == Approx(exact(2)).epsilon(1e-3));
 }
+
+}  // namespace cardan::testing::nrel5mw_openfast

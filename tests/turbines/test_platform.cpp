@@ -10,8 +10,8 @@
 #include "tests/support/refusal.hpp"
 #include "turbines/nrel5mw_platform.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::driven_platform {
+
 using oracles::Jet;
 using Frames = oracles::PlatformFrames<Jet<1>>;
 using turbines::Nrel5mwPlatform;
@@ -312,3 +312,5 @@ TEST_CASE("platform: bad options are refused", "[property]") {
     rigid.axial = false;
     check_refused([&] { (void)turbines::nrel5mw_on_platform(nrel5mw_blade(rigid)); }, {"extension", "EA"});
 }
+
+}  // namespace cardan::testing::driven_platform

@@ -12,8 +12,6 @@ using namespace cardan::turbines;
 
 namespace {
 
-const Vec3 weight(0, 0, -9.80665);
-
 // Without a machine.
 struct Afloat {
     Tree tree;
@@ -21,17 +19,17 @@ struct Afloat {
     PlatformFrames frames;
     std::vector<std::string> warnings;
 
-    explicit Afloat(const PlatformOptions& options, const Vec3& gravity = weight) {
+    explicit Afloat(const PlatformOptions& options, const Vec3& gravity = earth_gravity) {
         forces.set_gravity(gravity);
         frames = add_platform(tree, options);
         add_water_forces(forces, tree, frames.base, options, warnings);
     }
-    explicit Afloat(const PlatformDescription& platform, const Vec3& gravity = weight)
+    explicit Afloat(const PlatformDescription& platform, const Vec3& gravity = earth_gravity)
         : Afloat(free_floating(platform), gravity) {}
     System system() const { return {tree, forces}; }
 };
 
-PlatformDescription balanced() {
+PlatformDescription neutrally_buoyant() {
     PlatformDescription p = some_platform();
     p.buoyancy = 9.80665 * p.inertia.mass;
     return p;
@@ -45,7 +43,7 @@ solvers::SecondOrderSystem linear(const System& system) {
 }  // namespace
 
 TEST_CASE("platform alone: mass, damping and stiffness are those put together by hand", "[analytic]") {
-    const PlatformDescription p = balanced();
+    const PlatformDescription p = neutrally_buoyant();
     const Afloat afloat(p);
     CHECK(afloat.warnings.empty());
     const solvers::SecondOrderSystem found = linear(afloat.system());
@@ -83,7 +81,7 @@ TEST_CASE("platform alone: mass, damping and stiffness are those put together by
 
 TEST_CASE("platform alone: heave is the damped oscillation of mass and added mass on the water plane, exactly",
           "[analytic]") {
-    PlatformDescription p = balanced();
+    PlatformDescription p = neutrally_buoyant();
     p.inertia.com.head<2>().setZero();
     p.added_mass(2, 5) = p.added_mass(5, 2) = 0;  // of a hull that is a screw
     const Afloat afloat(p);
@@ -195,7 +193,7 @@ TEST_CASE("strip theory: bad hulls are refused", "[property]") {
 
 TEST_CASE("platform: single coordinates are free or driven, and only free ones have a stiffness that counts as elastic",
           "[property]") {
-    PlatformOptions options = free_floating(balanced());
+    PlatformOptions options = free_floating(neutrally_buoyant());
     options.coordinates.roles[0] = options.coordinates.roles[5] = CoordinateRole::driven;
     const Afloat afloat(options);
     const System system = afloat.system();
@@ -204,7 +202,8 @@ TEST_CASE("platform: single coordinates are free or driven, and only free ones h
         CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::driven);
     for (const char* name : {"sway", "heave", "roll", "pitch"})
         CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::free);
-    const solvers::SecondOrderSystem all = linear(Afloat(free_floating(balanced())).system()), some = linear(system);
+    const solvers::SecondOrderSystem all = linear(Afloat(free_floating(neutrally_buoyant())).system()),
+                                     some = linear(system);
     CHECK((all.K - some.K).cwiseAbs().maxCoeff() < 1e-12 * all.K.cwiseAbs().maxCoeff());
     CHECK(some.K_elastic.row(0).isZero(0));
     CHECK(some.K_elastic.row(5).isZero(0));
@@ -214,7 +213,7 @@ TEST_CASE("platform: single coordinates are free or driven, and only free ones h
 TEST_CASE("platform: bad descriptions are refused with their name, the quantity, the value and what is allowed",
           "[property]") {
     const auto with = [](auto change) {
-        PlatformDescription p = balanced();
+        PlatformDescription p = neutrally_buoyant();
         change(p);
         return [p] { Afloat{p}; };
     };
@@ -240,13 +239,13 @@ TEST_CASE("platform: bad descriptions are refused with their name, the quantity,
     check_refused(with([](auto& p) { p.buoyancy_centre.z() = -60; }), {"test spar", "capsizes", "unit diagonal"});
     // Driven it may do that, since it cannot.
     PlatformOptions driven;
-    static_cast<PlatformDescription&>(driven) = balanced();
+    static_cast<PlatformDescription&>(driven) = neutrally_buoyant();
     driven.buoyancy_centre.z() = -60;
     CHECK_NOTHROW(Afloat(driven));
 }
 
 TEST_CASE("platform: a lift that does not carry the weight is told", "[property]") {
-    PlatformDescription p = balanced();
+    PlatformDescription p = neutrally_buoyant();
     CHECK(Afloat(p).warnings.empty());
     p.buoyancy *= 1.5;
     REQUIRE(Afloat(p).warnings.size() == 1);

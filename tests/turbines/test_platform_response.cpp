@@ -1,5 +1,6 @@
 // Response of the NREL 5 MW blade to gravity and to a pitching platform, by integration in time. Reference: converged
 // response of the same blade by a method that shares nothing with the joint chain [docs/nrel5mw_platform.md].
+#include "mbs/units.hpp"
 #include "solvers/recorder.hpp"
 #include "tests/support/catch.hpp"
 #include "turbines/nrel5mw_platform.hpp"
@@ -7,13 +8,15 @@
 #include <algorithm>
 #include <numeric>
 
-using namespace cardan;
-using namespace cardan::solvers;
+namespace cardan::testing::platform_response {
+
+using namespace solvers;
 using turbines::Nrel5mwPlatform;
 
 namespace {
 
-constexpr double degree = pi / 180, rotor_speed = 12.1 * pi / 30, revolution = 60 / 12.1;
+using units::degree;
+constexpr double rotor_speed = 12.1 * pi / 30, revolution = 60 / 12.1;
 
 Nrel5mwPlatform machine(int elements, double gravity = 9.80665) {
     turbines::Nrel5mwPlatformOptions options;
@@ -189,3 +192,5 @@ TEST_CASE("platform: on a base that falls freely the blade does not feel its wei
     for (const char* channel : {"blade 1 tip flap deflection", "blade 1 tip edge deflection"})
         for (std::size_t i = 0; i < a.time.size(); ++i) CHECK(std::abs(a[channel][i] - b[channel][i]) < 1e-9);
 }
+
+}  // namespace cardan::testing::platform_response

@@ -3,8 +3,8 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/test_wt600.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::rigid_joints {
+
 using turbines::rigid_joint;
 using D = turbines::TurbineDescription;
 
@@ -87,3 +87,5 @@ TEST_CASE("assembly: damping of the description acts in the place of ratios of f
     CHECK(first_ratio(none) == Approx(0.02).epsilon(1e-9));
     CHECK(first_ratio(d) == Approx(0.025).epsilon(1e-9));
 }
+
+}  // namespace cardan::testing::rigid_joints

@@ -4,6 +4,7 @@
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/teetered_rotor.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/turbines/teetered_machine.hpp"
 #include "turbines/teetered.hpp"
 
 using namespace cardan;
@@ -11,8 +12,6 @@ using namespace cardan::testing;
 using turbines::TeeteredOptions;
 
 namespace {
-
-constexpr double speed = 6.02;
 
 struct BladeFrequencies {
     std::vector<double> flap, lag, torsion;  // rad/s, rising
@@ -45,7 +44,7 @@ oracles::BladeOnArm exact_blade(bool lag) {
             .stiffness = 1e7,
             .rotary_inertia = lag ? 4.9999 : 1e-4,
             .arm = 1.8,
-            .rotor_speed = speed,
+            .rotor_speed = teetered_speed,
             .lag = lag};
 }
 
@@ -58,7 +57,7 @@ TEST_CASE("teetered machine's blade: torsion is that of the discrete rod, stiffe
     const double c = std::sqrt(1e7 / 5);
     for (int n : {1, 2, 6})
         for (double a : {0.0, -1. / 12})
-            for (double rotor_speed : {0.0, speed}) {
+            for (double rotor_speed : {0.0, teetered_speed}) {
                 TeeteredOptions options = TeeteredOptions::with_elements(n);
                 options.blade.torsion_armature = a;
                 const auto torsion = blade_frequencies(options, rotor_speed).torsion;
@@ -76,12 +75,12 @@ TEST_CASE("teetered machine's blade: flap and lag converge to the exact blade wi
     // The second-order error is that of the geometric stiffness and of the rotary inertia.
     const auto flap = exact_blade(false).frequencies(2), lag = exact_blade(true).frequencies(2);
     // To the digits that another solution of the same equations gives.
-    CHECK(flap[0] / speed == Approx(3.4015).epsilon(0).margin(1e-4));
-    CHECK(lag[0] / speed == Approx(3.2434).epsilon(0).margin(1e-4));
-    CHECK(flap[1] / speed == Approx(20.069).epsilon(0).margin(1e-3));
-    CHECK(lag[1] / speed == Approx(19.712).epsilon(0).margin(1e-3));
+    CHECK(flap[0] / teetered_speed == Approx(3.4015).epsilon(0).margin(1e-4));
+    CHECK(lag[0] / teetered_speed == Approx(3.2434).epsilon(0).margin(1e-4));
+    CHECK(flap[1] / teetered_speed == Approx(20.069).epsilon(0).margin(1e-3));
+    CHECK(lag[1] / teetered_speed == Approx(19.712).epsilon(0).margin(1e-3));
     const auto error = [&](int elements, bool of_lag, std::size_t k) {
-        const auto found = blade_frequencies(TeeteredOptions::with_elements(elements), speed);
+        const auto found = blade_frequencies(TeeteredOptions::with_elements(elements), teetered_speed);
         return (of_lag ? found.lag[k] / lag[k] : found.flap[k] / flap[k]) - 1;
     };
     for (bool of_lag : {false, true}) {
@@ -102,11 +101,11 @@ TEST_CASE("teetered machine's blade: on the teeter hinge the exact blade, the mi
     hinged.hub_inertia = 25;
     hinged.hub_difference = (5. - 50.) / 2;
     const auto exact = hinged.frequencies(3);
-    CHECK(exact[1] / speed == Approx(10.167).epsilon(0).margin(1e-3));
-    CHECK(exact[2] / speed == Approx(34.073).epsilon(0).margin(1e-3));
+    CHECK(exact[1] / teetered_speed == Approx(10.167).epsilon(0).margin(1e-3));
+    CHECK(exact[2] / teetered_speed == Approx(34.073).epsilon(0).margin(1e-3));
     const auto d = turbines::teetered_description();
     MixedSetting setting;
-    setting.omega = {0, 0, speed};
+    setting.omega = {0, 0, teetered_speed};
     setting.root_position = {1.8, 0, 0};
     setting.pin = MixedPin{{0, 1, 0}, {-1.8, 0, 0}, {}};
     setting.pin->body.J = Vec3(25, 25, 2.5).asDiagonal();
@@ -129,7 +128,7 @@ TEST_CASE("teetered machine's blade: with the paper's element the second torsion
     // = 2.98.
     const auto d = turbines::teetered_description();
     MixedSetting setting;
-    setting.omega = {0, 0, speed};
+    setting.omega = {0, 0, teetered_speed};
     setting.root_position = {1.8, 0, 0};
     const double c = std::sqrt(1e7 / 5);
     for (int n : {2, 3, 4}) {
@@ -138,7 +137,7 @@ TEST_CASE("teetered machine's blade: with the paper's element the second torsion
         double box[2] = {0, 0};
         for (int k : {1, 2}) {
             const double rod = 2 * n * c / 8.42 * std::tan((2 * k - 1) * pi / (4 * n));
-            box[k - 1] = std::sqrt(rod * rod + 0.99996 * speed * speed);
+            box[k - 1] = std::sqrt(rod * rod + 0.99996 * teetered_speed * teetered_speed);
             double nearest = 1e300;
             for (const DescriptorMode& mode : modes)
                 nearest = std::min(nearest, std::abs(mode.eigenvalue.imag() - box[k - 1]));

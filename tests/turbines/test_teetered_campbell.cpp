@@ -3,6 +3,7 @@
 #include "solvers/campbell.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
+#include "tests/turbines/teetered_machine.hpp"
 #include "tests/turbines/teetered_table.hpp"
 
 using namespace cardan;
@@ -15,24 +16,15 @@ using turbines::TeeteredTurbine;
 
 namespace {
 
-constexpr double nominal = 6.02;
 constexpr const char* growing = "teeter (locked at 1 per rev and growing)";
 constexpr const char* decaying = "teeter (locked at 1 per rev and decaying)";
-
-TeeteredTurbine machine_of(int elements, bool rigid_tower = false, const Vec3& gravity = Vec3::Zero()) {
-    TeeteredOptions options = TeeteredOptions::with_elements(elements);
-    options.rigid_tower = rigid_tower;
-    options.gravity = gravity;
-    options.tower.torsion_armature = options.blade.torsion_armature = -1. / 12;
-    return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
-}
 
 // Modes up to a number per revolution at the nominal speed.
 Campbell diagram_of(const TeeteredTurbine& machine, const std::vector<double>& speeds, double per_rev) {
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
     options.floquet.odd = machine.half_turn_odd();
-    options.max_frequency_hz = per_rev * nominal / (2 * pi);
+    options.max_frequency_hz = per_rev * teetered_speed / (2 * pi);
     return solvers::campbell(machine.system(), machine.rotor(), speeds, options);
 }
 
@@ -77,9 +69,9 @@ void check_rigid_motions(const Campbell& d, double growth_per_rev) {
     for (const auto& [name, sign] : {std::pair{growing, 1}, std::pair{decaying, -1}}) {
         const Branch& branch = d.branch(name);
         CHECK(per_rev(d, branch) == Approx(1).epsilon(1e-12));
-        CHECK(sign * d.mode(branch, 0)->mode.eigenvalue.real() / nominal == Approx(growth_per_rev).margin(1e-5));
+        CHECK(sign * d.mode(branch, 0)->mode.eigenvalue.real() / teetered_speed == Approx(growth_per_rev).margin(1e-5));
     }
-    CHECK(d.points[0].stability_margin / nominal == Approx(-growth_per_rev).margin(1e-5));
+    CHECK(d.points[0].stability_margin / teetered_speed == Approx(-growth_per_rev).margin(1e-5));
     CHECK_THAT(d.warning, Catch::Contains("unstable at 57.4"));
 }
 
@@ -87,7 +79,7 @@ void check_rigid_motions(const Campbell& d, double growth_per_rev) {
 
 TEST_CASE("campbell of the teetered machine: three elements per part give names and first frequencies within 1 %",
           "[published]") {
-    const Campbell d = diagram_of(machine_of(3), {nominal}, 11);
+    const Campbell d = diagram_of(teetered_machine(3), {teetered_speed}, 11);
     CHECK(check_rows(d, teetered_ratio_100, 11, 1e-2, 1e-2) == 6);
     check_rigid_motions(d, 0.04525);
     CHECK(d.branches.size() == 10);
@@ -97,7 +89,7 @@ TEST_CASE("campbell of the teetered machine: three elements per part give names 
 TEST_CASE("campbell of the teetered machine: over the rotor speed every branch keeps its name", "[property]") {
     std::vector<double> speeds;
     for (double speed = 1; speed < 8.1; speed += 0.5) speeds.push_back(speed);
-    const Campbell d = diagram_of(machine_of(1), speeds, 11);
+    const Campbell d = diagram_of(teetered_machine(1), speeds, 11);
     REQUIRE(d.points.size() == 15);
     for (const char* name : {"yaw (rigid)", "yaw (2nd rigid)", growing, decaying, "1st blade flap (symmetric)",
                              "1st blade flap (antisymmetric)", "1st blade edge (symmetric)",
@@ -124,12 +116,12 @@ TEST_CASE("campbell of the teetered machine: over the rotor speed every branch k
 
 TEST_CASE("campbell of the teetered machine: without the half-turn symmetry the same, over the whole revolution",
           "[crosscheck]") {
-    const TeeteredTurbine machine = machine_of(1);
-    const Campbell half = diagram_of(machine, {nominal}, 11);
+    const TeeteredTurbine machine = teetered_machine(1);
+    const Campbell half = diagram_of(machine, {teetered_speed}, 11);
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
-    options.max_frequency_hz = 11 * nominal / (2 * pi);
-    const double speed[] = {nominal};
+    options.max_frequency_hz = 11 * teetered_speed / (2 * pi);
+    const double speed[] = {teetered_speed};
     const Campbell whole = solvers::campbell(machine.system(), machine.rotor(), speed, options);
     REQUIRE(whole.branches.size() == half.branches.size());
     for (const Branch& branch : half.branches) {
@@ -150,7 +142,7 @@ TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in
         options.teeter_locked = locked;
         const TeeteredTurbine machine = turbines::assemble(description, options);
         CHECK(machine.half_turn_odd().size() == (locked ? 0U : 1U));
-        const Campbell d = diagram_of(machine, {5.0, nominal}, 8);
+        const Campbell d = diagram_of(machine, {5.0, teetered_speed}, 8);
         CHECK(std::count(d.rows.begin(), d.rows.end(), "teeter") == (locked ? 0 : 1));
         for (const solvers::CampbellPoint& point : d.points) {
             REQUIRE(point.periodic.has_value());
@@ -164,7 +156,7 @@ TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in
 
 TEST_CASE("campbell of the teetered machine: six elements per part, all modes of the table", "[published][slow]") {
     for (const bool rigid : {true, false}) {
-        const Campbell d = diagram_of(machine_of(6, rigid), {nominal}, 140);
+        const Campbell d = diagram_of(teetered_machine(6, rigid), {teetered_speed}, 140);
         const auto& rows = rigid ? teetered_rigid : teetered_ratio_100;
         CHECK(check_rows(d, rows, 140, 3e-3, 1e-2) == static_cast<int>(rows.size()) - (rigid ? 0 : 1));
         check_rigid_motions(d, 0.04525);

@@ -25,7 +25,7 @@ TeeteredTurbine machine(bool teeter_locked) {
     return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
 }
 
-Campbell diagram(const TeeteredTurbine& machine, double first, double last, double step, double max_frequency) {
+Campbell floquet_diagram(const TeeteredTurbine& machine, double first, double last, double step, double max_frequency) {
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
     options.floquet.odd = machine.half_turn_odd();
@@ -36,7 +36,7 @@ Campbell diagram(const TeeteredTurbine& machine, double first, double last, doub
 }  // namespace
 
 TEST_CASE("campbell of the teetered machine: from standstill on no branch begins as another mode", "[property]") {
-    const Campbell d = diagram(machine(false), 0, 40, 8, 12);
+    const Campbell d = floquet_diagram(machine(false), 0, 40, 8, 12);
     for (const Branch& branch : d.branches)
         for (std::size_t i = 1; i < d.points.size(); ++i) {
             if (branch.mode[i - 1] < 0 || branch.mode[i] < 0) continue;
@@ -48,7 +48,7 @@ TEST_CASE("campbell of the teetered machine: from standstill on no branch begins
 
 TEST_CASE("campbell of the teetered machine: a mode that is locked becomes two motions, and both are in the diagram",
           "[property]") {
-    const Campbell d = diagram(machine(true), 40, 42.5, 0.25, 3);
+    const Campbell d = floquet_diagram(machine(true), 40, 42.5, 0.25, 3);
     int locked = 0;
     for (std::size_t i = 0; i < d.points.size(); ++i)
         for (std::size_t m = 0; m < d.points[i].modes.size(); ++m) {

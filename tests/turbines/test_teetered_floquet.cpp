@@ -4,6 +4,7 @@
 #include "tests/oracles/teetered_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
+#include "tests/turbines/teetered_machine.hpp"
 #include "tests/turbines/teetered_table.hpp"
 
 using namespace cardan;
@@ -11,16 +12,6 @@ using namespace cardan::testing;
 using turbines::TeeteredOptions;
 
 namespace {
-
-constexpr double speed = 6.02;
-
-// Torsion with the armature that makes it O(h^4).
-turbines::TeeteredTurbine machine_of(int elements, bool rigid_tower, double ratio = 100) {
-    TeeteredOptions options = TeeteredOptions::with_elements(elements);
-    options.rigid_tower = rigid_tower;
-    options.tower.torsion_armature = options.blade.torsion_armature = -1. / 12;
-    return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), ratio), options);
-}
 
 // The real multipliers that stand for motions without elastic energy.
 struct RigidMotions {
@@ -46,7 +37,7 @@ oracles::RigidTeeteredRotor rigid_rotor() {
             .teeter = 50 + slender + both * 1e-4,
             .shaft = 5 + slender + both * 4.9999,
             .yaw = 16599 + both * 67.5772 * 2.388 * 2.388,
-            .rotor_speed = speed};
+            .rotor_speed = teetered_speed};
 }
 
 // Within 0.3 % of every first mode and 1 % of every second one, undamped.
@@ -70,7 +61,7 @@ TEST_CASE("teetered machine: with stiff blades yaw and teeter move as the rigid 
         *stiffness *= 1e5;
     TeeteredOptions options = TeeteredOptions::with_elements(1);
     options.rigid_tower = true;
-    const HalfTurnFloquet stiff = floquet(turbines::assemble(d, options), speed, 200);
+    const HalfTurnFloquet stiff = floquet(turbines::assemble(d, options), teetered_speed, 200);
     const auto exact = rigid_rotor().half_turn_multipliers();
     REQUIRE(exact[0].real() > 1.1);
     const RigidMotions found = rigid_motions(stiff);
@@ -86,7 +77,7 @@ TEST_CASE("teetered machine: with stiff blades yaw and teeter move as the rigid 
 TEST_CASE("teetered machine: multipliers of the undamped machine come in reciprocal and conjugate pairs",
           "[property]") {
     // Conservative and reversible; only those that the method of integration leaves undamped.
-    const HalfTurnFloquet result = floquet(machine_of(1, false, 10), speed, 600);
+    const HalfTurnFloquet result = floquet(teetered_machine(1, false, 10), teetered_speed, 600);
     int compared = 0;
     for (const Complex& mu : result.multipliers) {
         if (std::abs(mu - 1.0) < 1e-3 || std::abs(std::abs(mu) - 1) > 0.2) continue;
@@ -102,7 +93,7 @@ TEST_CASE("teetered machine: multipliers of the undamped machine come in recipro
 
 TEST_CASE("teetered machine: three elements per part give the first modes within 1 %", "[published]") {
     for (bool rigid_tower : {false, true}) {
-        const HalfTurnFloquet result = floquet(machine_of(3, rigid_tower), speed, 100);
+        const HalfTurnFloquet result = floquet(teetered_machine(3, rigid_tower), teetered_speed, 100);
         for (const TeeteredRow& row : rigid_tower ? teetered_rigid : teetered_ratio_100) {
             if (row.ordinal > 1 || row.exact > 20) continue;
             CAPTURE(row.family, rigid_tower);
@@ -116,7 +107,7 @@ TEST_CASE("teetered machine: three elements per part give the first modes within
 }
 
 TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes of the table", "[published][slow]") {
-    const HalfTurnFloquet result = floquet(machine_of(6, true), speed, 700);
+    const HalfTurnFloquet result = floquet(teetered_machine(6, true), teetered_speed, 700);
     check_rows(result, teetered_rigid, 700);
     const RigidMotions motions = rigid_motions(result);
     REQUIRE(motions.yaw.size() == 2);
@@ -128,7 +119,7 @@ TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes
 
 TEST_CASE("teetered machine: six elements per part on a tower of a hundred times the blade's rigidity, all modes",
           "[published][slow]") {
-    const HalfTurnFloquet result = floquet(machine_of(6, false), speed, 1500);
+    const HalfTurnFloquet result = floquet(teetered_machine(6, false), teetered_speed, 1500);
     check_rows(result, teetered_ratio_100, 1500);
     const RigidMotions motions = rigid_motions(result);
     REQUIRE(motions.yaw.size() == 2);
@@ -144,7 +135,7 @@ TEST_CASE("teetered machine: with more elements the frequencies converge with or
           "[published][slow]") {
     std::vector<HalfTurnFloquet> results;
     const std::vector<int> elements{3, 6, 12};
-    for (int n : elements) results.push_back(floquet(machine_of(n, false), speed, 300));
+    for (int n : elements) results.push_back(floquet(teetered_machine(n, false), teetered_speed, 300));
     for (const TeeteredRow& row : teetered_ratio_100) {
         if (row.exact > 50 || std::string(row.family) == "antisymmetric torsion") continue;
         CAPTURE(row.family, row.ordinal);

@@ -5,6 +5,7 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/hill.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
+#include "tests/turbines/teetered_machine.hpp"
 #include "turbines/teetered_mixed.hpp"
 
 #include <tuple>
@@ -16,10 +17,8 @@ using turbines::TeeteredMixed;
 
 namespace {
 
-constexpr double speed = 6.02;
-
 Hill hill(const TeeteredMixed& machine, int harmonics) {
-    return {[&](double azimuth) { return machine.pencil(azimuth); }, speed, harmonics};
+    return {[&](double azimuth) { return machine.pencil(azimuth); }, teetered_speed, harmonics};
 }
 
 // Named after the largest elastic energy of a direction in a harmonic, which must be the principal one.
@@ -161,10 +160,10 @@ TEST_CASE("teetered machine, mixed elements: on the rigid tower the symmetric mo
     const turbines::TeeteredDescription d = teetered_description();
     const TeeteredMixed machine(d, 1, 4, true);
     MixedSetting setting;
-    setting.omega = {0, 0, speed};
+    setting.omega = {0, 0, teetered_speed};
     setting.root_position = {1.8, 0, 0};
     const auto alone = mixed_modes(machine.blade(), setting, machine.steady_state().head(machine.blade().unknowns()));
-    const Complex lag = alone[0].eigenvalue / speed, flap = alone[1].eigenvalue / speed;
+    const Complex lag = alone[0].eigenvalue / teetered_speed, flap = alone[1].eigenvalue / teetered_speed;
     const auto found = exponents(machine, d, {{"symmetric lag", lag * 1.001}, {"symmetric flap", flap * 1.001}}, 2);
     CHECK(std::abs(found[0] - lag) < 1e-8);
     CHECK(std::abs(found[1] - flap) < 1e-8);
@@ -195,7 +194,7 @@ TEST_CASE("teetered machine: joint chain and mixed elements tend to the same fre
         const turbines::TeeteredDescription d = turbines::with_tower_rigidity(teetered_description(), ratio);
         const auto machine = turbines::assemble(d, turbines::TeeteredOptions::with_elements(8));
         std::vector<Named> chain;
-        const HalfTurnFloquet floquet_modes = floquet(machine, speed, 100);
+        const HalfTurnFloquet floquet_modes = floquet(machine, teetered_speed, 100);
         for (const PeriodicMode& mode : floquet_modes.modes)
             if (mode.exponent.imag() < 11 && mode.share > 0.6)  // on the soft tower some are mixtures
                 chain.push_back({mode.family.c_str(), mode.exponent});
@@ -215,10 +214,10 @@ TEST_CASE("teetered machine: with cone, undersling, delta-3, tilt, springs and d
     const turbines::TeeteredDescription d = general_description();
     const auto machine = turbines::assemble(d, turbines::TeeteredOptions::with_elements(10));
     solvers::SteadyOptions at;
-    at.rotor_speed = speed;
+    at.rotor_speed = teetered_speed;
     const auto steady = solvers::steady_state(machine.system(), machine.rotor().spin, at);
     REQUIRE(steady.converged);
-    const HalfTurnFloquet floquet_modes = floquet(machine, speed, 200, 0.5, steady.at.q);
+    const HalfTurnFloquet floquet_modes = floquet(machine, teetered_speed, 200, 0.5, steady.at.q);
     std::vector<Named> chain;
     for (const PeriodicMode& mode : floquet_modes.modes)
         if (mode.exponent.imag() < 15 && mode.share > 0.6) chain.push_back({mode.family.c_str(), mode.exponent});

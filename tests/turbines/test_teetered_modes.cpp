@@ -4,6 +4,7 @@
 #include "solvers/hill.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
+#include "tests/turbines/teetered_machine.hpp"
 #include "tests/turbines/teetered_table.hpp"
 
 #include <map>
@@ -14,16 +15,6 @@ using turbines::TeeteredOptions;
 using turbines::TeeteredTurbine;
 
 namespace {
-
-constexpr double speed = 6.02;
-
-// Tower of a hundred times the blade's rigidity, torsion with the armature that makes it O(h^4).
-TeeteredTurbine machine_of(int elements, bool rigid_tower = false) {
-    TeeteredOptions options = TeeteredOptions::with_elements(elements);
-    options.rigid_tower = rigid_tower;
-    options.tower.torsion_armature = options.blade.torsion_armature = -1. / 12;
-    return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
-}
 
 std::vector<int> unknowns_of(const TeeteredTurbine& machine) {
     std::vector<int> unknowns;
@@ -37,11 +28,12 @@ struct Periodic {
     explicit Periodic(const TeeteredTurbine& machine, int harmonics = 8)
         : state(solvers::harmonic_balance(machine.system(), machine.rotor().spin, options(harmonics))),
           system(solvers::linearised(machine.system(), state)),
-          half_turn(solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), speed, machine.half_turn_odd())) {}
+          half_turn(solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), teetered_speed,
+                                            machine.half_turn_odd())) {}
 
     static solvers::PeriodicOptions options(int harmonics) {
         solvers::PeriodicOptions options;
-        options.rotor_speed = speed;
+        options.rotor_speed = teetered_speed;
         options.harmonics = harmonics;
         return options;
     }
@@ -76,7 +68,7 @@ Difference difference(const std::vector<solvers::FloquetMode>& a, const std::vec
     for (std::size_t i = 0; i < a.size(); ++i) {
         CHECK(a[i].kind == b[i].kind);
         if (a[i].kind == solvers::FloquetKind::rigid) continue;
-        largest.exponent = std::max(largest.exponent, std::abs(a[i].exponent - b[i].exponent) / speed);
+        largest.exponent = std::max(largest.exponent, std::abs(a[i].exponent - b[i].exponent) / teetered_speed);
         for (int j = -1; j <= 1; ++j) largest.share = std::max(largest.share, std::abs(a[i].share(j) - b[i].share(j)));
     }
     return largest;
@@ -105,7 +97,7 @@ std::map<std::string, std::vector<Complex>> by_family(const TeeteredTurbine& mac
             energy[z.family[static_cast<std::size_t>(i)]] += (std::conj(motion(i)) * force(i)).real();
         const auto most = std::max_element(energy.begin(), energy.end(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
-        found[most->first].push_back(mode.exponent / speed);
+        found[most->first].push_back(mode.exponent / teetered_speed);
     }
     return found;
 }
@@ -133,13 +125,13 @@ void check_rigid_motions(const solvers::Floquet& result, double growth_per_rev) 
         if (mode.kind == solvers::FloquetKind::rigid) ++rigid;
         if (mode.kind != solvers::FloquetKind::synchronous) continue;
         CHECK(mode.per_period() == Approx(1).epsilon(1e-14));
-        locked.push_back(mode.growth() / speed);
+        locked.push_back(mode.growth() / teetered_speed);
     }
     CHECK(rigid == 2);
     REQUIRE(locked.size() == 2);
     CHECK(locked[0] == Approx(growth_per_rev).epsilon(0).margin(1e-5));
     CHECK(locked[0] + locked[1] == Approx(0).margin(1e-9));
-    CHECK(result.growth() / speed == Approx(locked[0]));
+    CHECK(result.growth() / teetered_speed == Approx(locked[0]));
 }
 
 }  // namespace
@@ -147,7 +139,7 @@ void check_rigid_motions(const solvers::Floquet& result, double growth_per_rev) 
 TEST_CASE(
     "modes of the teetered machine: whole and half revolutions, Hill's method and the independent computation agree",
     "[crosscheck]") {
-    const TeeteredTurbine machine = machine_of(1);
+    const TeeteredTurbine machine = teetered_machine(1);
     const Periodic periodic(machine);
     REQUIRE(periodic.state.converged);
     CHECK(periodic.state.coefficients.isZero(0));
@@ -163,7 +155,7 @@ TEST_CASE(
     check_rigid_motions(balanced, 0.04525);
 
     // Of fifth order, with steps of a quarter of a degree.
-    const HalfTurnFloquet independent = floquet(machine, speed, 700);
+    const HalfTurnFloquet independent = floquet(machine, teetered_speed, 700);
     const auto families = by_family(machine, periodic, half);
     int compared = 0;
     for (const auto& [family, exponents] : families)
@@ -178,7 +170,7 @@ TEST_CASE(
 }
 
 TEST_CASE("modes of the teetered machine: three elements per part give the first modes within 1 %", "[published]") {
-    const TeeteredTurbine machine = machine_of(3);
+    const TeeteredTurbine machine = teetered_machine(3);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(11, true);
     CHECK(half.message.empty());
@@ -229,7 +221,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 
 TEST_CASE("modes of the teetered machine: six elements per part on the rigid tower, all modes of the table",
           "[published][slow]") {
-    const TeeteredTurbine machine = machine_of(6, true);
+    const TeeteredTurbine machine = teetered_machine(6, true);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
     CHECK(half.message.empty());
@@ -239,7 +231,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on the rigid tow
 
 TEST_CASE("modes of the teetered machine: six elements per part on a tower of a hundred times the blade's rigidity",
           "[published][slow]") {
-    const TeeteredTurbine machine = machine_of(6);
+    const TeeteredTurbine machine = teetered_machine(6);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
     CHECK(half.message.empty());
@@ -253,7 +245,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on a tower of a 
 }
 
 TEST_CASE("modes of the teetered machine: two elements per part, Hill's method", "[crosscheck][slow]") {
-    const TeeteredTurbine machine = machine_of(2);
+    const TeeteredTurbine machine = teetered_machine(2);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(16, true);
     const solvers::Floquet balanced = solvers::hill(periodic.system, {.harmonics = 16});

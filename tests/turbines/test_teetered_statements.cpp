@@ -6,6 +6,7 @@
 #include "tests/oracles/teetered_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/teetered_floquet.hpp"
+#include "tests/turbines/teetered_machine.hpp"
 
 #include <map>
 
@@ -13,8 +14,6 @@ using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr double speed = 6.02;
 
 // Of one mode: the largest row of every family (sums and differences of the blades, tower, yaw, teeter) in every
 // harmonic, over the largest of all rows in all harmonics. Angles and lengths have the same weight.
@@ -70,12 +69,12 @@ struct Modes {
         for (int i = 0; i < machine.system().model.size(); ++i)
             if (i != machine.rotor().spin) unknowns.push_back(i);
         solvers::PeriodicOptions periodic;
-        periodic.rotor_speed = speed;
+        periodic.rotor_speed = teetered_speed;
         const auto state = solvers::harmonic_balance(machine.system(), machine.rotor().spin, periodic);
         solvers::FloquetOptions wanted;
         wanted.per_period = per_period;
         wanted.tolerance = 1e-7;
-        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, speed, machine.half_turn_odd());
+        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.half_turn_odd());
         result = solvers::floquet(solvers::linearised(machine.system(), state), wanted);
         z = half_turn_coordinates(machine, unknowns);
     }
@@ -83,7 +82,8 @@ struct Modes {
     Rows at(double per_rev) const {
         const solvers::FloquetMode* best = &result.modes.front();
         for (const solvers::FloquetMode& mode : result.modes)
-            if (std::abs(mode.exponent.imag() / speed - per_rev) < std::abs(best->exponent.imag() / speed - per_rev))
+            if (std::abs(mode.exponent.imag() / teetered_speed - per_rev) <
+                std::abs(best->exponent.imag() / teetered_speed - per_rev))
                 best = &mode;
         return Rows(*best, z);
     }
@@ -158,11 +158,11 @@ TEST_CASE("teetered machine: yaw and teeter grow by 0.04525 per revolution, whet
                                             .teeter = 50 + slender + both * 1e-4,
                                             .shaft = 5 + slender + both * 4.9999,
                                             .yaw = 16599 + both * 67.5772 * 2.388 * 2.388,
-                                            .rotor_speed = speed};
+                                            .rotor_speed = teetered_speed};
     double largest = 0;
     for (const Complex& mu : rigid.half_turn_multipliers()) largest = std::max(largest, mu.real());
     CHECK(std::log(largest) / pi == Approx(0.04525).epsilon(0).margin(1e-5));
     // Numbers of another implementation: on the rigid tower, on the elastic one.
-    CHECK(Modes(true, 4).result.growth() / speed == Approx(0.045247).epsilon(0).margin(1e-6));
-    CHECK(modes().result.growth() / speed == Approx(0.045250).epsilon(0).margin(1e-6));
+    CHECK(Modes(true, 4).result.growth() / teetered_speed == Approx(0.045247).epsilon(0).margin(1e-6));
+    CHECK(modes().result.growth() / teetered_speed == Approx(0.045250).epsilon(0).margin(1e-6));
 }

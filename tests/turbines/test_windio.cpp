@@ -1,4 +1,5 @@
 // windIO files of both versions.
+#include "mbs/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/model_files.hpp"
 #include "turbines/beam_table.hpp"
@@ -12,7 +13,7 @@ using test::message_of;
 
 namespace {
 
-constexpr double degree = pi / 180;
+using units::degree;
 
 std::string message_after(const char* file, const char* old_text, const char* new_text) {
     const test::ModelFolder model("windio");

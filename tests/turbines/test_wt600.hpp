@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "turbines/wt600.hpp"
 
@@ -10,7 +11,16 @@
 
 namespace cardan::testing {
 
-inline constexpr double rpm = pi / 30;  ///< rad/s
+using units::rpm;
+
+/// Modes by their names in the diagram.
+inline constexpr const char* flap_collective = "1st blade flap (collective)";
+inline constexpr const char* flap_backward = "1st blade flap (backward)";
+inline constexpr const char* flap_forward = "1st blade flap (forward)";
+inline constexpr const char* lag_collective = "1st blade edge (collective)";
+inline constexpr const char* lag_backward = "1st blade edge (backward)";
+inline constexpr const char* lag_forward = "1st blade edge (forward)";
+inline constexpr const char* tower_longitudinal = "1st tower fore-aft";
 
 /// The discretisation of the reference numbers, everything stated; no damping anywhere.
 inline turbines::AssemblyOptions undamped(int elements = 3) {
@@ -72,6 +82,24 @@ inline const solvers::Share& share(const solvers::Campbell& d, const solvers::Ca
         if (c.family == family && c.ordinal == ordinal) return s;
     }
     throw Error(text("no component ", ordinal, " of family ", family));
+}
+
+/// Energy in the first (or only) component of a family, in the mode of a branch.
+inline double part(const solvers::Campbell& d, const char* branch, int point, const char* family) {
+    return share(d, mode_of(d, branch, point), family).total();
+}
+
+/// Strictly rising (or falling) from point to point, at all of them.
+template <class F>
+bool monotonic(F f, double sign, int first = 0, int last = 40) {
+    for (int point = first; point < last; ++point)
+        if (!(sign * (f(point + 1) - f(point)) > 0)) return false;
+    return true;
+}
+
+/// Frequency of a branch by the number of the point.
+inline auto branch_hz(const solvers::Campbell& d, const char* branch) {
+    return [&d, branch](int point) { return hz(d, branch, point); };
 }
 
 /// Mean frequency of the modes between two frequencies, weighted by their energy in one rotor pattern of a component:

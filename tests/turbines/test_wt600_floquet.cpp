@@ -3,46 +3,13 @@
 #include "mbs/decompositions.hpp"
 #include "solvers/linearise.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/turbines/periodic_modes.hpp"
 #include "tests/turbines/test_wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
 
 namespace {
-
-// Radau IIA of order 5 for M q'' + C q' + K q = 0, matrices given at the stages: L-stable, so the stiff modes of the
-// chain die out. State (q, q'), one column per initial value.      [Hairer and Wanner, Solving ODEs II, table IV.5.6]
-struct Radau {
-    Eigen::Matrix3d A;
-    Vec3 c;
-    Radau() {
-        const double r = std::sqrt(6.0);
-        A << (88 - 7 * r) / 360, (296 - 169 * r) / 1800, (-2 + 3 * r) / 225,  //
-            (296 + 169 * r) / 1800, (88 + 7 * r) / 360, (-2 - 3 * r) / 225,   //
-            (16 - r) / 36, (16 + r) / 36, 1. / 9;
-        c << (4 - r) / 10, (4 + r) / 10, 1;
-    }
-    /// @param at  at(i): the system at stage i
-    template <class Stage>
-    void step(double h, const Stage& at, Matrix& x) const {
-        const Eigen::Index n = x.rows() / 2;
-        const Eigen::Matrix3d AA = A * A;
-        const auto q = x.topRows(n), v = x.bottomRows(n);
-        Matrix left(3 * n, 3 * n), right(3 * n, x.cols());
-        for (Eigen::Index i = 0; i < 3; ++i) {
-            const solvers::SecondOrderSystem s = at(i);
-            for (Eigen::Index j = 0; j < 3; ++j)
-                left.block(i * n, j * n, n, n) =
-                    (i == j ? s.M : Matrix::Zero(n, n)) + h * A(i, j) * s.C + h * h * AA(i, j) * s.K;
-            right.middleRows(i * n, n) = -s.C * v - s.K * (q + c(i) * h * v);
-        }
-        const Matrix a = left.partialPivLu().solve(right);  // accelerations at the stages
-        const Matrix q_end =
-            q + h * v + h * h * (AA(2, 0) * a.topRows(n) + AA(2, 1) * a.middleRows(n, n) + AA(2, 2) * a.bottomRows(n));
-        x.bottomRows(n) += h * (A(2, 0) * a.topRows(n) + A(2, 1) * a.middleRows(n, n) + A(2, 2) * a.bottomRows(n));
-        x.topRows(n) = q_end;
-    }
-};
 
 // Multipliers over a third of a revolution: after it blade k stands where blade k + 1 stood.
 Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector<int>& unknowns, double rotor_speed,

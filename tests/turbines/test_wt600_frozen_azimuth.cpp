@@ -105,25 +105,22 @@ TEST_CASE("rotating axes, statement 1 in operation: the two differential lags ar
     // What whirls forward or backward in the fixed frame has one rotor speed less or more in rotating axes.
     for (int point = 1; point <= 20; ++point) {
         const double turn = point / 60.0;
-        const double a = hz(diagram(), "1st blade edge (backward)", point) + turn,
-                     b = hz(diagram(), "1st blade edge (forward)", point) - turn;
+        const double a = hz(diagram(), lag_backward, point) + turn, b = hz(diagram(), lag_forward, point) - turn;
         const double isolated = hz(blade_diagram(), "1st blade edge", point);
         CHECK(std::min(a, b) > isolated);
         CHECK(std::max(a, b) < 1.07 * isolated);
         CHECK(std::abs(b - a) < 0.03 * a);
     }
     // Numbers of another implementation.
-    CHECK(hz(diagram(), "1st blade edge (backward)", 20) + 20 / 60.0 == Approx(3.6365).margin(2e-4));
-    CHECK(hz(diagram(), "1st blade edge (forward)", 20) - 20 / 60.0 == Approx(3.6409).margin(2e-4));
+    CHECK(hz(diagram(), lag_backward, 20) + 20 / 60.0 == Approx(3.6365).margin(2e-4));
+    CHECK(hz(diagram(), lag_forward, 20) - 20 / 60.0 == Approx(3.6409).margin(2e-4));
 }
 
 TEST_CASE("rotating axes, statement 2: of the two differential flaps one rises and one falls", "[published]") {
     for (int point = 0; point < 20; ++point) {
         const double turn = point / 60.0, next = (point + 1) / 60.0;
-        CHECK(hz(diagram(), "1st blade flap (backward)", point + 1) + next >
-              hz(diagram(), "1st blade flap (backward)", point) + turn);
-        CHECK(hz(diagram(), "1st blade flap (forward)", point + 1) - next <
-              hz(diagram(), "1st blade flap (forward)", point) - turn);
+        CHECK(hz(diagram(), flap_backward, point + 1) + next > hz(diagram(), flap_backward, point) + turn);
+        CHECK(hz(diagram(), flap_forward, point + 1) - next < hz(diagram(), flap_forward, point) - turn);
     }
 }
 

@@ -1,5 +1,6 @@
 // The 600 kW machine in operation: its elements at the points that define them, and the machine they leave untouched.
 #include "mbs/metric.hpp"
+#include "mbs/units.hpp"
 #include "solvers/linearise.hpp"
 #include "solvers/steady_state.hpp"
 #include "tests/oracles/root_finding.hpp"
@@ -16,7 +17,7 @@ using namespace cardan::turbines;
 
 namespace {
 
-constexpr double rpm = pi / 30;
+using units::rpm;
 
 }  // namespace
 

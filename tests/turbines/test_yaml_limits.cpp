@@ -14,7 +14,7 @@ using test::message_of;
 
 namespace {
 
-std::string refusal(const std::string& yaml) {
+std::string message_of_parsing(const std::string& yaml) {
     return message_of([&] { (void)YamlNode::parse(yaml, "m.yaml"); });
 }
 
@@ -69,40 +69,42 @@ TEST_CASE("yaml limits: what is no text never reaches the parser") {
     CHECK_THAT(confined(room, [&] { (void)YamlNode::parse(utf32, "m.yaml"); }),
                Contains("m.yaml:1:2: is no text: the character NUL"));
     CHECK_THAT(confined(room, [&] { (void)read_windio("/dev/zero"); }), Contains("is longer than 64 MiB"));
-    CHECK_THAT(refusal("a: 1\nb: \xFF\xFE\n"), Contains("m.yaml:2:4: is not UTF-8: byte 0xFF"));
-    CHECK_THAT(refusal("a: 1\nb: \x04 c\n"), Contains("m.yaml:2: is not YAML: the control character 4"));
-    CHECK_THAT(refusal("a: \x7F\n"), Contains("control character 127"));
+    CHECK_THAT(message_of_parsing("a: 1\nb: \xFF\xFE\n"), Contains("m.yaml:2:4: is not UTF-8: byte 0xFF"));
+    CHECK_THAT(message_of_parsing("a: 1\nb: \x04 c\n"), Contains("m.yaml:2: is not YAML: the control character 4"));
+    CHECK_THAT(message_of_parsing("a: \x7F\n"), Contains("control character 127"));
     CHECK(YamlNode::parse("a: \"\\x04\"\r\n", "m.yaml")["a"].word() == "\x04");
 }
 
 TEST_CASE("yaml limits: depth, number of nodes, lengths of keys, lines and texts") {
-    CHECK_THAT(refusal("a:\n" + repeated("[", 100'000)), Contains("m.yaml:2:") && Contains("nested deeper than 60"));
-    CHECK_THAT(refusal(repeated("- ", 70)), Contains("nested deeper than 60"));
-    CHECK_THAT(refusal(repeated("? ", 70)), Contains("nested deeper than 60"));
-    CHECK_THAT(refusal(repeated("{a: ", 70)), Contains("nested deeper than 60"));
-    CHECK_THAT(refusal("a: " + repeated("[", 57) + repeated("]", 57)), Contains("nothing was thrown"));
-    CHECK_THAT(refusal("? " + std::string(2000, 'k') + "\n: 1\n"),
+    CHECK_THAT(message_of_parsing("a:\n" + repeated("[", 100'000)),
+               Contains("m.yaml:2:") && Contains("nested deeper than 60"));
+    CHECK_THAT(message_of_parsing(repeated("- ", 70)), Contains("nested deeper than 60"));
+    CHECK_THAT(message_of_parsing(repeated("? ", 70)), Contains("nested deeper than 60"));
+    CHECK_THAT(message_of_parsing(repeated("{a: ", 70)), Contains("nested deeper than 60"));
+    CHECK_THAT(message_of_parsing("a: " + repeated("[", 57) + repeated("]", 57)), Contains("nothing was thrown"));
+    CHECK_THAT(message_of_parsing("? " + std::string(2000, 'k') + "\n: 1\n"),
                Contains("a key of 2000 bytes; allowed: at most 1024"));
-    CHECK_THAT(refusal("a: 1\nb: '" + std::string(1 << 20, 'x') + "'\n"),
+    CHECK_THAT(message_of_parsing("a: 1\nb: '" + std::string(1 << 20, 'x') + "'\n"),
                Contains("m.yaml:2: a line of 1048581 bytes; allowed: at most 1048576"));
-    CHECK_THAT(refusal("#" + repeated("\n#", 4 << 20)), Contains("bytes of YAML; allowed: at most 8388608"));
-    CHECK_THAT(refusal("a: 1\n---\nb: 2\n"), Contains("several YAML documents; allowed: 1"));
+    CHECK_THAT(message_of_parsing("#" + repeated("\n#", 4 << 20)), Contains("bytes of YAML; allowed: at most 8388608"));
+    CHECK_THAT(message_of_parsing("a: 1\n---\nb: 2\n"), Contains("several YAML documents; allowed: 1"));
     CHECK_THAT(confined(rlim_t{2} << 30, [] { (void)YamlNode::parse("a: [" + repeated(",\n", 4'000'000), "m.yaml"); }),
                Contains("m.yaml:"));
-    CHECK_THAT(refusal("a:\n" + repeated("- 1\n", 1'100'000)), Contains("more than 1000000 nodes"));
+    CHECK_THAT(message_of_parsing("a:\n" + repeated("- 1\n", 1'100'000)), Contains("more than 1000000 nodes"));
 }
 
 TEST_CASE("yaml limits: aliases count as what they stand for, and none stands for itself") {
     std::string laughs = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
     for (int i = 1; i <= 8; ++i)
         laughs += text("a", i, ": &a", i, " [", repeated(text("*a", i - 1, ", "), 9), "*a", i - 1, "]\n");
-    CHECK_THAT(refusal(laughs), Contains("m.yaml:6:") && Contains("counting what aliases stand for"));
-    CHECK_THAT(refusal("a: &a [1, *a]\n"), Contains("m.yaml:1:11: an alias of what it is itself a part of"));
-    CHECK_THAT(refusal("a: &a\n  b: {c: *a}\n"), Contains("m.yaml:2:10: an alias of what it is itself a part of"));
+    CHECK_THAT(message_of_parsing(laughs), Contains("m.yaml:6:") && Contains("counting what aliases stand for"));
+    CHECK_THAT(message_of_parsing("a: &a [1, *a]\n"), Contains("m.yaml:1:11: an alias of what it is itself a part of"));
+    CHECK_THAT(message_of_parsing("a: &a\n  b: {c: *a}\n"),
+               Contains("m.yaml:2:10: an alias of what it is itself a part of"));
     std::string deep = "a0: &a0 [1]\n";
     for (int i = 1; i <= 70; ++i) deep += text("a", i, ": &a", i, " [*a", i - 1, "]\n");
-    CHECK_THAT(refusal(deep), Contains("nested deeper than 60"));
-    CHECK_THAT(refusal("a: *b\n"), Contains("is not YAML"));
+    CHECK_THAT(message_of_parsing(deep), Contains("nested deeper than 60"));
+    CHECK_THAT(message_of_parsing("a: *b\n"), Contains("is not YAML"));
     const YamlNode good = YamlNode::parse("a: &x {b: [1, 2]}\nc: *x\n", "m.yaml");
     CHECK(good["c"]["b"].numbers() == std::vector<double>{1, 2});
     CHECK(good["c"]["b"].path() == "c.b");
