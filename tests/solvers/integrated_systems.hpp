@@ -27,6 +27,14 @@ inline IntegrationOptions with(Method method, double relative = 1e-8, double abs
     return options;
 }
 
+/// Relative and absolute alike.
+inline IntegrationOptions equal_tolerances(Method method, double tolerance) {
+    IntegrationOptions options;
+    options.method = method;
+    options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
+    return options;
+}
+
 // Local errors of 1e-8 in a thousand steps, in ten thousand of the method of second order.
 inline double allowed(Method method) {
     return method == Method::generalised_alpha ? 1e-4 : 1e-5;
@@ -52,17 +60,17 @@ struct Oscillator {
     }
 };
 
-inline constexpr double gravity = 9.81;
+inline constexpr double pendulum_gravity = 9.81;
 
 // A point mass on an arm of 1.5 m.
 inline System pendulum() {
     Tree tree;
     ForceSet forces;
     add_joint(tree, {.name = "hinge", .axis = Vec3::UnitY(), .inertia = {3, Vec3(0, 0, -1.5), Mat3::Zero()}});
-    forces.set_gravity({0, 0, -gravity});
+    forces.set_gravity({0, 0, -pendulum_gravity});
     return {tree, forces};
 }
-inline const double pendulum_omega = std::sqrt(gravity / 1.5);
+inline const double pendulum_omega = std::sqrt(pendulum_gravity / 1.5);
 
 // A cart that is driven along x and carries a mass on a spring along x.
 struct Shaker {
@@ -101,7 +109,7 @@ inline System chain(double damping, CoordinateRole first = CoordinateRole::free)
         at = tree.add_frame(link.axes, Placement::translation({0, 0, -1}), text("end ", i + 1));
         forces.add_spring(text("spring ", i + 1), link.body, 5, damping);
     }
-    forces.set_gravity({0, 0, -gravity});
+    forces.set_gravity({0, 0, -pendulum_gravity});
     return {tree, forces};
 }
 
@@ -119,7 +127,7 @@ inline System long_chain(int hinges) {
         at = tree.add_frame(link.axes, Placement::translation({0, 0, -0.1}), text("end ", i + 1));
         forces.add_spring(text("spring ", i + 1), link.body, 500, 1);
     }
-    forces.set_gravity({0, 0, -gravity});
+    forces.set_gravity({0, 0, -pendulum_gravity});
     return {tree, forces};
 }
 

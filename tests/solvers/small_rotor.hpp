@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mbs/error.hpp"
+#include "solvers/campbell.hpp"
 #include "solvers/linearise.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -9,14 +10,14 @@
 
 namespace cardan::testing {
 
-enum class Hinges : std::uint8_t { flap, lag, flap_and_lag };
+enum class BladeHinges : std::uint8_t { flap, lag, flap_and_lag };
 
 /// A hub that spins about z, on a rigid nacelle or on one that tilts (about x) and yaws (about y) behind it. Hinges at
 /// a distance `offset` from the spin axis carry point masses on arms; with both, lag is outboard of flap.
 struct SmallRotorSpec {
     std::vector<double> stiffness = {2000, 2000, 2000};  ///< of the hinges, one per blade, N m/rad
     double damping = 0;                                  ///< of the hinges, N m s/rad
-    Hinges hinges = Hinges::flap;
+    BladeHinges hinges = BladeHinges::flap;
     double lag_to_flap = 3, lag_damping = 4;  ///< with both hinges: stiffness of lag over that of flap; its damping
     double mass = 3, arm = 4, offset = 0.5;   ///< kg, m, m
     RigidInertia hub = {10, Vec3::Zero(), Vec3(3, 3, 5).asDiagonal()};
@@ -85,8 +86,8 @@ inline SmallRotor small_rotor(const SmallRotorSpec& spec = {}) {
             forces.add_spring(name, id, stiffness, damping);
             bodies[k].push_back(id);
         };
-        const bool both = spec.hinges == Hinges::flap_and_lag;
-        hinge(spec.hinges == Hinges::lag, !both, spec.stiffness[k], spec.damping);
+        const bool both = spec.hinges == BladeHinges::flap_and_lag;
+        hinge(spec.hinges == BladeHinges::lag, !both, spec.stiffness[k], spec.damping);
         if (both) hinge(true, true, spec.lag_to_flap * spec.stiffness[k], spec.lag_damping);
         if (k == 0) tip = tree.add_frame(reached, Placement::translation({spec.arm, 0, 0}), "tip");
     }
@@ -101,6 +102,11 @@ inline SmallRotor small_rotor(const SmallRotorSpec& spec = {}) {
     rotor.map.parts = {{"blade", roots[0], {}, {"", "blade flap", "blade lag"}}};
     rotor.map.lines = {{"blade", 1, {roots[0], tip}}};
     return rotor;
+}
+
+inline solvers::Campbell diagram_of(const SmallRotor& rotor, const std::vector<double>& speeds,
+                                    const solvers::CampbellOptions& options = {}) {
+    return solvers::campbell(rotor.system, rotor.map, speeds, options);
 }
 
 }  // namespace cardan::testing

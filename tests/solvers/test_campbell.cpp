@@ -8,9 +8,9 @@
 
 #include <algorithm>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::hinged_rotors {
+
+using namespace solvers;
 
 namespace {
 
@@ -29,10 +29,6 @@ double lag_frequency(double Omega, double k = 2000) {
 SmallRotor make_rotor(SmallRotorSpec spec = {}) {
     spec.hub.J = hub_inertia * Mat3::Identity();
     return small_rotor(spec);
-}
-
-Campbell diagram_of(const SmallRotor& rotor, const std::vector<double>& speeds, const CampbellOptions& options = {}) {
-    return campbell(rotor.system, rotor.map, speeds, options);
 }
 
 }  // namespace
@@ -122,7 +118,7 @@ TEST_CASE("campbell: crossings lie where a branch meets a multiple of the rotor 
 
 TEST_CASE("campbell: a free spin raises the collective lag frequency, a prescribed one does not", "[analytic]") {
     // Free: the hub turns against the blades, w^2 grows by (J + 3 m r^2) / J with r = e + l.
-    const SmallRotor rotor = make_rotor({.hinges = Hinges::lag});
+    const SmallRotor rotor = make_rotor({.hinges = BladeHinges::lag});
     const double Omega = 3, r = e + l, free = std::sqrt((hub_inertia + 3 * m * r * r) / hub_inertia);
     CampbellOptions options;
     options.max_frequency_hz = 100;
@@ -274,7 +270,7 @@ TEST_CASE("campbell: what has no diagram is refused", "[property]") {
 
 TEST_CASE("campbell: without a constant steady state there is no diagram", "[property]") {
     // Gravity in the rotor plane pulls at the lag hinges once per revolution.
-    const SmallRotor rotor = make_rotor({.hinges = Hinges::lag, .gravity = {0, -9.81, 0}});
+    const SmallRotor rotor = make_rotor({.hinges = BladeHinges::lag, .gravity = {0, -9.81, 0}});
     std::string message;
     try {
         (void)diagram_of(rotor, {2.0});
@@ -283,3 +279,5 @@ TEST_CASE("campbell: without a constant steady state there is no diagram", "[pro
     }
     CHECK(message.find("periodic") != std::string::npos);
 }
+
+}  // namespace cardan::testing::hinged_rotors

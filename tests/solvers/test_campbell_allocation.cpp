@@ -71,7 +71,7 @@ void require_no_allocation(const System& system, const RotorMap& map, const std:
 SmallRotor damped_rotor(int blades, std::vector<double> stiffness = {}) {
     SmallRotorSpec spec;
     spec.stiffness = stiffness.empty() ? std::vector<double>(static_cast<std::size_t>(blades), 2000) : stiffness;
-    spec.hinges = testing::Hinges::flap_and_lag;
+    spec.hinges = BladeHinges::flap_and_lag;
     spec.elastic_support = true;
     spec.damping = 30;
     return small_rotor(spec);
@@ -120,7 +120,7 @@ TEST_CASE("campbell point: modes that turn aperiodic and back allocate nothing",
     if (!AllocationGuard::works()) return;
     // The lag hinge without a spring is overdamped at rest and oscillates under centrifugal stiffening.
     SmallRotorSpec spec;
-    spec.hinges = testing::Hinges::lag;
+    spec.hinges = BladeHinges::lag;
     spec.stiffness = {20, 20, 20};
     spec.damping = 90;
     const SmallRotor rotor = small_rotor(spec);

@@ -10,11 +10,11 @@ using namespace cardan::testing;
 
 namespace {
 
-Campbell diagram_of(const SmallRotor& rotor, std::vector<double> speeds, CampbellMethod method, RotorSpin spin) {
+Campbell diagram_by(const SmallRotor& rotor, const std::vector<double>& speeds, CampbellMethod method, RotorSpin spin) {
     CampbellOptions options;
     options.method = method;
     options.spin = spin;
-    return campbell(rotor.system, rotor.map, speeds, options);
+    return diagram_of(rotor, speeds, options);
 }
 
 // Distance of an eigenvalue from the exponents of a diagram, both modulo i Omega and complex conjugation.
@@ -34,8 +34,8 @@ TEST_CASE("campbell averaged: with blades that differ it has frequencies of no m
     for (const bool equal : {true, false}) {
         const SmallRotor rotor =
             small_rotor({.stiffness = {2000, 2000, equal ? 2000.0 : 3500.0}, .damping = 2, .elastic_support = true});
-        const Campbell mean = diagram_of(rotor, {3.0}, CampbellMethod::averaged, RotorSpin::prescribed),
-                       floquet = diagram_of(rotor, {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
+        const Campbell mean = diagram_by(rotor, {3.0}, CampbellMethod::averaged, RotorSpin::prescribed),
+                       floquet = diagram_by(rotor, {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
         double farthest = 0;
         for (const CampbellMode& m : mean.points[0].modes)
             farthest = std::max(farthest, distance(m.mode.eigenvalue, floquet.points[0]));
@@ -53,13 +53,13 @@ TEST_CASE("campbell averaged: with blades that differ it has frequencies of no m
 
 TEST_CASE("campbell averaged: gravity on equal blades is no difference between them", "[property]") {
     const SmallRotor rotor =
-        small_rotor({.hinges = Hinges::flap_and_lag, .elastic_support = true, .gravity = {0, -9.81, 0}});
-    CHECK(diagram_of(rotor, {3.0}, CampbellMethod::averaged, RotorSpin::prescribed).warning.empty());
+        small_rotor({.hinges = BladeHinges::flap_and_lag, .elastic_support = true, .gravity = {0, -9.81, 0}});
+    CHECK(diagram_by(rotor, {3.0}, CampbellMethod::averaged, RotorSpin::prescribed).warning.empty());
 }
 
 TEST_CASE("campbell: a mode that is at home in one blade has a pattern beyond doubt in none", "[property]") {
     const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000, 3500}});
-    const Campbell d = diagram_of(rotor, {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
+    const Campbell d = diagram_by(rotor, {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
     REQUIRE(d.branches.size() == 3);
     int found = 0;
     for (const Branch& branch : d.branches) {
@@ -72,6 +72,6 @@ TEST_CASE("campbell: a mode that is at home in one blade has a pattern beyond do
         CHECK(branch.doubtful[0]);
     }
     CHECK(found == 1);
-    const Campbell equal = diagram_of(small_rotor(), {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
+    const Campbell equal = diagram_by(small_rotor(), {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
     for (const Branch& branch : equal.branches) CHECK(!branch.doubtful[0]);
 }

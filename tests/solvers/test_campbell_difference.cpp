@@ -1,6 +1,7 @@
 // Differences of two Campbell diagrams of one machine: by hand-made diagrams, by a law of perturbation, as text, as
 // pictures; input that is refused.
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell_difference.hpp"
 #include "solvers/plot_campbell.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -17,7 +18,7 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr double rpm = pi / 30;
+using units::rpm;
 
 // Oscillations by name, at every point as (damped frequency in Hz, growth in 1/s); frequency 0: no mode there.
 struct Curve {
@@ -65,7 +66,7 @@ const BranchDifference& of(const std::vector<BranchDifference>& list, const std:
 SmallRotor whirling(double gravity) {
     SmallRotorSpec spec;
     spec.damping = 40;
-    spec.hinges = testing::Hinges::flap_and_lag;
+    spec.hinges = BladeHinges::flap_and_lag;
     spec.lag_damping = 60;
     spec.elastic_support = true;
     spec.gravity = {0, -gravity, 0};

@@ -24,16 +24,12 @@ CampbellOptions by(CampbellMethod method, double max_frequency_hz = 15) {
     return options;
 }
 
-Campbell diagram_of(const SmallRotor& rotor, const std::vector<double>& speeds, const CampbellOptions& options) {
-    return campbell(rotor.system, rotor.map, speeds, options);
-}
-
 // Lags and flaps on a nacelle that tilts and yaws, with damping.
 SmallRotor whirling(int blades, const Vec3& gravity = Vec3::Zero()) {
     SmallRotorSpec spec;
     spec.stiffness = std::vector<double>(static_cast<std::size_t>(blades), 2000.0);
     spec.damping = 40;
-    spec.hinges = testing::Hinges::flap_and_lag;
+    spec.hinges = BladeHinges::flap_and_lag;
     spec.lag_damping = 60;
     spec.elastic_support = true;
     spec.gravity = gravity;

@@ -42,7 +42,7 @@ SmallRotor whirling_pair() {
     SmallRotorSpec spec;
     spec.stiffness = {2000, 2000};
     spec.damping = 40;
-    spec.hinges = testing::Hinges::flap_and_lag;
+    spec.hinges = BladeHinges::flap_and_lag;
     spec.lag_damping = 60;
     spec.elastic_support = true;
     spec.gravity = {0, -9.81, -1};
@@ -183,7 +183,7 @@ TEST_CASE("campbell file by Floquet: the series of the steady state is the swing
     // for terms of second order in g.
     const double m = 3, l = 4, e = 0.5, k = 2000, c = 300, g = 0.01;
     const SmallRotor rotor =
-        small_rotor({.stiffness = {k, k}, .damping = c, .hinges = testing::Hinges::lag, .gravity = {0, -g, 0}});
+        small_rotor({.stiffness = {k, k}, .damping = c, .hinges = BladeHinges::lag, .gravity = {0, -g, 0}});
     const std::vector<double> speeds{0, 2, 3};
     const Campbell d = by_floquet(rotor, speeds, RotorSpin::prescribed, 3);
     const Stored stored(d);

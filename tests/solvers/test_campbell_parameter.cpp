@@ -10,9 +10,9 @@
 #include <cmath>
 #include <limits>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::campbell_parameters {
+
+using namespace solvers;
 
 namespace {
 
@@ -42,7 +42,7 @@ Machines hinged(std::size_t blades, const std::vector<double>& stiffness, double
     for (const double k : stiffness) {
         SmallRotorSpec spec;
         spec.stiffness = std::vector<double>(blades, k);
-        spec.hinges = testing::Hinges::flap_and_lag;
+        spec.hinges = BladeHinges::flap_and_lag;
         spec.lag_to_flap = k_lag / k;
         spec.lag_damping = 0;
         machines.rotors.push_back(small_rotor(spec));
@@ -221,7 +221,7 @@ TEST_CASE("campbell over a parameter: what cannot be computed is refused", "[pro
         Machines m = hinged(2, {2000});
         SmallRotorSpec spec;
         spec.stiffness = {2000, 2000};
-        spec.hinges = testing::Hinges::flap_and_lag;
+        spec.hinges = BladeHinges::flap_and_lag;
         spec.lag_to_flap = 0;
         m.rotors = {small_rotor(spec)};
         return m;
@@ -243,3 +243,5 @@ TEST_CASE("campbell over a parameter: what cannot be computed is refused", "[pro
     check_refused([&] { (void)campbell(good, "stiffness", by(CampbellMethod::coleman)); },
                   {"number of blades = 2", "floquet"});
 }
+
+}  // namespace cardan::testing::campbell_parameters

@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <numeric>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::multi_blade_coordinates {
+
+using namespace solvers;
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr double flap_offset = 0.5, arm = 4, mass = 3, stiffness = 2000;
 SmallRotor rotor_of(int blades, bool elastic_support, bool lag = false) {
     return small_rotor({.stiffness = std::vector<double>(static_cast<std::size_t>(blades), stiffness),
                         .damping = 2,
-                        .hinges = lag ? Hinges::flap_and_lag : Hinges::flap,
+                        .hinges = lag ? BladeHinges::flap_and_lag : BladeHinges::flap,
                         .mass = mass,
                         .arm = arm,
                         .offset = flap_offset,
@@ -269,3 +269,5 @@ TEST_CASE("coleman: less than two blades and unequal blades are refused", "[prop
     CHECK(T.rows()[4].kind == MultiBlade::sine);
     CHECK(T.rows()[4].blade_coordinate == 0);
 }
+
+}  // namespace cardan::testing::multi_blade_coordinates

@@ -6,9 +6,9 @@
 
 #include <array>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::disc_rotor {
+
+using namespace solvers;
 
 namespace {
 
@@ -148,3 +148,5 @@ TEST_CASE("modes: a shaft almost without inertia adds its own frequency or none,
         if (found.size() == 2) CHECK(std::abs(found[1].eigenvalue) == Approx(own).epsilon(0.02));
     }
 }
+
+}  // namespace cardan::testing::disc_rotor

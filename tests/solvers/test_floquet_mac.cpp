@@ -6,9 +6,9 @@
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::floquet_mac {
+
+using namespace solvers;
 
 namespace {
 
@@ -149,3 +149,5 @@ TEST_CASE("tracking: with a likeness of one's own the tracks follow it", "[prope
     check_refused([&] { tracker.add(likeness, Matrix(1, 2), point); },
                   {"size of a matrix of likenesses = 1 x 2", "2 x 2"});
 }
+
+}  // namespace cardan::testing::floquet_mac

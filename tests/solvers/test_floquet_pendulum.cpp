@@ -6,9 +6,9 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::driven_pendulum {
+
+using namespace solvers;
 
 namespace {
 
@@ -116,3 +116,5 @@ TEST_CASE("Floquet: a pendulum whose support moves sideways: exponents about its
         CHECK((result.growth() < 0) == shaken.stable);
     }
 }
+
+}  // namespace cardan::testing::driven_pendulum

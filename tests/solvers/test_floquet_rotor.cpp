@@ -23,7 +23,7 @@ using Index = Eigen::Index;
 
 TEST_CASE("Floquet: an isotropic three-bladed rotor has the modes of the multi-blade transformation", "[crosscheck]") {
     const double Omega = 4;
-    for (const Hinges hinges : {Hinges::flap, Hinges::flap_and_lag}) {
+    for (const BladeHinges hinges : {BladeHinges::flap, BladeHinges::flap_and_lag}) {
         const SmallRotor rotor = small_rotor({.damping = 2, .hinges = hinges, .elastic_support = true});
         const ColemanTransform T(rotor.map, rotor.unknowns());
         std::vector<Complex> expected;
@@ -151,7 +151,7 @@ TEST_CASE("Floquet: the monodromy matrix about a periodic state is the derivativ
           "[crosscheck]") {
     const SmallRotor rotor = small_rotor({.stiffness = {500, 500},
                                           .damping = 20,
-                                          .hinges = Hinges::flap_and_lag,
+                                          .hinges = BladeHinges::flap_and_lag,
                                           .lag_damping = 30,
                                           .elastic_support = true,
                                           .gravity = {0, -9.81, -1}});

@@ -1,5 +1,6 @@
 #include "mbs/types.hpp"
 #include "solvers/harmonics.hpp"
+#include "tests/solvers/signals.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
@@ -23,13 +24,6 @@ std::vector<double> steps(double from, double step, int count) {
     std::vector<double> time;
     for (int i = 0; i < count; ++i) time.push_back(from + step * i);
     return time;
-}
-
-template <class Value>
-std::vector<double> values_at(const std::vector<double>& time, const Value& value) {
-    std::vector<double> values;
-    for (double t : time) values.push_back(value(t));
-    return values;
 }
 
 void check_periodic(const Harmonics& h, double tolerance) {

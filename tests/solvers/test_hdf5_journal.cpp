@@ -11,6 +11,8 @@
 #include <random>
 #include <sys/stat.h>
 
+namespace cardan::testing::hdf5_journal {
+
 namespace {
 
 using cardan::solvers::detail::JournaledFile;
@@ -253,3 +255,5 @@ TEST_CASE("journal: a damaged or foreign end of a file is no journal", "[propert
         if (read_as(path, Mode::read) != state.substr(0, size)) FAIL("cut off at " << size);
     }
 }
+
+}  // namespace cardan::testing::hdf5_journal

@@ -105,7 +105,7 @@ TEST_CASE("integrate: generalised alpha takes as many steps as its local errors 
     const FrameId end = tree.add_frame(upper.axes, Placement::translation({0, 0, -1}), "end");
     add_joint(tree,
               {.name = "lower", .inboard = end, .axis = Vec3::UnitY(), .inertia = {1, Vec3(0, 0, -1), Mat3::Zero()}});
-    forces.set_gravity({0, 0, -gravity});
+    forces.set_gravity({0, 0, -pendulum_gravity});
     const System system(tree, forces);
     IntegrationOptions options;
     options.method = Method::generalised_alpha;

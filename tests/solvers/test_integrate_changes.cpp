@@ -13,24 +13,24 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr Oscillator oscillator{};
+constexpr Oscillator spring_mass{};
 
 // The oscillator under a force that can be changed, N, and how often it was asked.
 struct Pushed {
     std::shared_ptr<double> force = std::make_shared<double>(0);
     std::shared_ptr<long> asked = std::make_shared<long>(0);
     System system =
-        oscillator.system({{.name = "push", .force = [f = force, n = asked](const ForceInput&, VectorOut Q) {
-                                ++*n;
-                                Q(0) += *f;
-                            }}});
+        spring_mass.system({{.name = "push", .force = [f = force, n = asked](const ForceInput&, VectorOut Q) {
+                                 ++*n;
+                                 Q(0) += *f;
+                             }}});
 };
 
 // From 0.3 at rest; from `since` on under a constant force.
 double pushed_position(double t, double since, double force) {
-    const double u = t - since, d = oscillator.decay(), w = oscillator.omega();
-    return oscillator.position(t) +
-           force / oscillator.k * (1 - std::exp(-d * u) * (std::cos(w * u) + d / w * std::sin(w * u)));
+    const double u = t - since, d = spring_mass.decay(), w = spring_mass.omega();
+    return spring_mass.position(t) +
+           force / spring_mass.k * (1 - std::exp(-d * u) * (std::cos(w * u) + d / w * std::sin(w * u)));
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ TEST_CASE("integrate: restart() throws away what was computed beyond the present
         integrator.restart();
         REQUIRE(integrator.advance(2).reached());
         CHECK(integrator.statistics().restarts == 1);
-        CHECK(std::abs(integrator.state().q(0) - oscillator.position(2)) < 2 * allowed(method));
+        CHECK(std::abs(integrator.state().q(0) - spring_mass.position(2)) < 2 * allowed(method));
     }
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
             // It goes on as after any exception.
             CHECK(integrator.time() < 1);
             CHECK(integrator.advance(1).reached());
-            CHECK(std::abs(integrator.state().q(0) - oscillator.position(1)) < 2 * allowed(method));
+            CHECK(std::abs(integrator.state().q(0) - spring_mass.position(1)) < 2 * allowed(method));
             running = nullptr;
         }
     }
@@ -278,7 +278,7 @@ TEST_CASE("integrate: a checkpoint under other forces or options is gone on from
         *pushed.force = 0;
         Integrator third(pushed.system, {}, first.checkpoint(), with(Method::erk, 1e-7));
         REQUIRE(third.advance(3).reached());
-        CHECK(std::abs(third.state().q(0) - oscillator.position(3)) < 2 * allowed(method));
+        CHECK(std::abs(third.state().q(0) - spring_mass.position(3)) < 2 * allowed(method));
     }
 }
 

@@ -16,10 +16,6 @@ using namespace cardan::testing;
 
 namespace {
 
-double scaled(const Matrix& difference, const Matrix& reference) {
-    return difference.cwiseAbs().maxCoeff() / (1 + reference.cwiseAbs().maxCoeff());
-}
-
 struct Sample {
     Sample(unsigned seed, bool armatures)
         : random(seed),

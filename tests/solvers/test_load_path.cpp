@@ -3,16 +3,17 @@
 #include "solvers/load_path.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
 
 #include <cmath>
 #include <limits>
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
-using cardan::oracles::bisect;
+namespace cardan::testing::load_paths {
+
+using namespace solvers;
+using oracles::bisect;
 
 namespace {
 
@@ -37,10 +38,6 @@ struct Pendulum {
         return System(tree, forces);
     }
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 void check_factors(const LoadPath& path, const std::vector<double>& expected) {
     REQUIRE(path.points.size() == expected.size());
@@ -325,3 +322,5 @@ TEST_CASE("negative pivots are counted on the symmetric part, whatever the units
     CHECK(negative_pivots(K) == 0);
     CHECK(negative_pivots(Matrix(0, 0)) == 0);
 }
+
+}  // namespace cardan::testing::load_paths

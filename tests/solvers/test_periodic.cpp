@@ -64,7 +64,7 @@ struct Jeffcott {
 SmallRotor heavy_rotor(double gravity = 9.81) {
     return small_rotor({.stiffness = {500, 500},
                         .damping = 20,
-                        .hinges = Hinges::flap_and_lag,
+                        .hinges = BladeHinges::flap_and_lag,
                         .lag_damping = 30,
                         .elastic_support = true,
                         .gravity = gravity * Vec3(0, -1, -0.1)});

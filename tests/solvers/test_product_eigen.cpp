@@ -39,7 +39,7 @@ Matrix product_of(const std::vector<Matrix>& factors) {
     return product;
 }
 
-std::vector<Complex> sorted(std::vector<Complex> values) {
+std::vector<Complex> by_magnitude(std::vector<Complex> values) {
     std::sort(values.begin(), values.end(), [](Complex a, Complex b) {
         return std::abs(std::abs(a) - std::abs(b)) > 1e-9 * std::abs(a) ? std::abs(a) > std::abs(b)
                                                                         : a.imag() > b.imag();
@@ -50,12 +50,12 @@ std::vector<Complex> sorted(std::vector<Complex> values) {
 std::vector<Complex> values_of(const ProductEigen& eigen) {
     std::vector<Complex> values;
     for (Index i = 0; i < eigen.size(); ++i) values.push_back(std::exp(eigen.logarithm(i)));
-    return sorted(values);
+    return by_magnitude(values);
 }
 
 std::vector<Complex> values_of(const Matrix& A) {
     const Eigen::VectorXcd mu = Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
-    return sorted({mu.begin(), mu.end()});
+    return by_magnitude({mu.begin(), mu.end()});
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ TEST_CASE("product eigenvalues: singular factors leave zeros that are told from 
         std::vector<Complex> own;
         for (Index i = 0; i < n; ++i)
             if (eigen.mean_level(i) > -8) own.push_back(std::exp(eigen.logarithm(i)));
-        own = sorted(own);
+        own = by_magnitude(own);
         const std::vector<Complex> expected = values_of(product_of(factors));
         std::size_t nonzero = 0;
         while (nonzero < expected.size() && std::abs(expected[nonzero]) > 1e-9 * std::abs(expected[0])) ++nonzero;

@@ -19,7 +19,7 @@ Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
     return Matrix::Random(rows, columns);
 }
 
-std::vector<Complex> sorted(std::vector<Complex> values) {
+std::vector<Complex> by_real_part(std::vector<Complex> values) {
     std::sort(values.begin(), values.end(), [](Complex a, Complex b) {
         return std::pair(a.real(), std::abs(a.imag())) < std::pair(b.real(), std::abs(b.imag()));
     });
@@ -31,7 +31,7 @@ std::vector<Complex> upper_half(const Eigen::VectorXcd& values) {
     std::vector<Complex> upper;
     for (const Complex value : values)
         if (value.imag() >= 0) upper.push_back(value);
-    return sorted(std::move(upper));
+    return by_real_part(std::move(upper));
 }
 
 ComplexVector vector_of(const RealEigen& solver, const RealEigen::Value& value) {
@@ -61,7 +61,7 @@ TEST_CASE("real eigen: residuals are of the order of rounding, eigenvalues those
             CHECK(largest_residual(A, solver) < 1e-14);
             std::vector<Complex> own;
             for (const RealEigen::Value& value : solver.values()) own.push_back(value.mu);
-            own = sorted(std::move(own));
+            own = by_real_part(std::move(own));
             const std::vector<Complex> other = upper_half(Eigen::EigenSolver<Matrix>(A).eigenvalues());
             REQUIRE(own.size() == other.size());
             for (std::size_t i = 0; i < own.size(); ++i) CHECK(std::abs(own[i] - other[i]) < 1e-11 * A.norm());
@@ -85,7 +85,7 @@ TEST_CASE("real eigen: known spectra, among them rotations, permutations, triang
         CHECK(largest_residual(A, solver) < 1e-14);
         std::vector<Complex> found;
         for (const RealEigen::Value& value : solver.values()) found.push_back(value.mu);
-        return sorted(std::move(found));
+        return by_real_part(std::move(found));
     };
     const auto largest_error = [](const std::vector<Complex>& found, const std::vector<Complex>& exact) {
         REQUIRE(found.size() == exact.size());
@@ -103,7 +103,7 @@ TEST_CASE("real eigen: known spectra, among them rotations, permutations, triang
     for (int i = 0; i < n; ++i) cycle((i + 1) % n, i) = 1;
     std::vector<Complex> roots;
     for (int k = 0; k <= n / 2; ++k) roots.push_back(std::polar(1.0, 2 * pi * k / n));
-    CHECK(largest_error(values(cycle), sorted(roots)) < 1e-13);
+    CHECK(largest_error(values(cycle), by_real_part(roots)) < 1e-13);
     // One eigenvector for a double eigenvalue: an error of the root of rounding is the condition of the problem.
     const Matrix defective = (Matrix(3, 3) << 2, 1, 0, 0, 2, 0, 0, 0, 5).finished();
     CHECK(largest_error(values(defective), {2, 2, 5}) < 1e-7);

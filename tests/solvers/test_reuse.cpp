@@ -12,11 +12,11 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr std::array speeds{2.0, 0.0, 3.0, 1.0, 2.0, 0.5};
+constexpr std::array mixed_speeds{2.0, 0.0, 3.0, 1.0, 2.0, 0.5};
 
 SmallRotor rotor_on_elastic_support(const Vec3& gravity = Vec3::Zero()) {
     SmallRotorSpec spec;
-    spec.hinges = Hinges::flap_and_lag;
+    spec.hinges = BladeHinges::flap_and_lag;
     spec.elastic_support = true;
     spec.damping = 7;
     spec.gravity = gravity;
@@ -59,7 +59,7 @@ TEST_CASE("reuse: a steady solver gives the states of fresh ones, in any order a
     const SmallRotor rotor = rotor_on_elastic_support();
     SteadySolver solver(rotor.system, rotor.map.spin);
     SteadyState state;
-    for (const double speed : speeds) {
+    for (const double speed : mixed_speeds) {
         SteadyOptions options{.rotor_speed = speed, .azimuth = 0.1 * speed};
         const SteadyState fresh = steady_state(rotor.system, rotor.map.spin, options);
         solver.solve(options, state);
@@ -96,7 +96,7 @@ TEST_CASE("reuse: lineariser, restriction and transformation give what fresh one
     Lineariser lineariser(rotor.system);
     Linearisation lin;
     SecondOrderSystem system;
-    for (const double speed : speeds) {
+    for (const double speed : mixed_speeds) {
         const OperatingPoint at = rotor.spinning(speed, 0.7);
         lineariser.linearise(at, lin);
         restrict_to(lin, rotor.unknowns(), -1, system);
@@ -111,7 +111,7 @@ TEST_CASE("reuse: a mode solver gives the modes of fresh ones, in any order and 
     const SmallRotor rotor = rotor_on_elastic_support();
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
     ModeSolver solver(static_cast<Eigen::Index>(rotor.unknowns().size()));
-    for (const double speed : speeds) {
+    for (const double speed : mixed_speeds) {
         const SecondOrderSystem system = fresh_system(rotor, coleman, speed);
         check_same(solver, solver.solve(system), modes(system));
         SecondOrderSystem bad = system;
@@ -131,7 +131,7 @@ TEST_CASE("reuse: shares and energies written into used memory are those written
     Mode mode;
     std::vector<Share> shares(17, Share{.component = 4, .whirl = 3, .higher = {{1, 2, 3}}});
     Vector by_row = Vector::Constant(99, 5);
-    for (const double speed : speeds) {
+    for (const double speed : mixed_speeds) {
         const SecondOrderSystem system = fresh_system(rotor, coleman, speed);
         const std::size_t count = solver.solve(system);
         for (std::size_t i = 0; i < count; ++i) {
@@ -157,7 +157,7 @@ TEST_CASE("reuse: a point solver gives the points of fresh ones, in any order an
     const SmallRotor rotor = rotor_on_elastic_support();
     PointSolver solver(rotor.system, rotor.map);
     CampbellPoint point;
-    for (const double speed : speeds) {
+    for (const double speed : mixed_speeds) {
         CAPTURE(speed);
         solver.solve(speed, point);
         CampbellPoint fresh;

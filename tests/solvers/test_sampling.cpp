@@ -1,6 +1,7 @@
 #include "mbs/types.hpp"
 #include "solvers/envelope.hpp"
 #include "solvers/sampling.hpp"
+#include "tests/solvers/signals.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
@@ -14,13 +15,6 @@ using namespace cardan::solvers;
 using namespace cardan::testing;
 
 namespace {
-
-template <class Value>
-std::vector<double> values_at(const std::vector<double>& time, const Value& value) {
-    std::vector<double> values;
-    for (double t : time) values.push_back(value(t));
-    return values;
-}
 
 // Times from 0 to 1; every second step is `ratio` times as long as the others.
 std::vector<double> uneven(int pairs, double ratio) {

@@ -8,9 +8,9 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 
-using namespace cardan;
-using namespace cardan::solvers;
-using namespace cardan::testing;
+namespace cardan::testing::state_spaces {
+
+using namespace solvers;
 
 namespace {
 
@@ -88,7 +88,7 @@ void check_equal(const Matrix& found, const Matrix& expected, double tolerance) 
 SmallRotor heavy_rotor() {
     return small_rotor({.stiffness = {900, 900, 900},
                         .damping = 20,
-                        .hinges = Hinges::flap_and_lag,
+                        .hinges = BladeHinges::flap_and_lag,
                         .lag_damping = 30,
                         .elastic_support = true,
                         .gravity = 9.81 * Vec3(0, -1, -0.1)});
@@ -219,7 +219,7 @@ TEST_CASE("state space: A is that of the linearised equations, its Fourier serie
 TEST_CASE(
     "state space: the multi-blade model of an isotropic rotor is constant and has the modes of Coleman's matrices",
     "[crosscheck]") {
-    const SmallRotor rotor = small_rotor({.damping = 4, .hinges = Hinges::flap_and_lag, .elastic_support = true});
+    const SmallRotor rotor = small_rotor({.damping = 4, .hinges = BladeHinges::flap_and_lag, .elastic_support = true});
     const double Omega = 7;
     StateSpaceOptions options;
     options.spin = RotorSpin::prescribed;
@@ -314,3 +314,5 @@ TEST_CASE("state space: bad input is refused with what is allowed", "[property]"
     const LinearModel seen = state_space(rotor.system, rotor.map, rotor.spinning(8), {}, {}, few);
     CHECK(multi_blade(seen, rotor.map).A_remainder > 1e-6);
 }
+
+}  // namespace cardan::testing::state_spaces

@@ -4,6 +4,7 @@
 #include "tests/elements/cantilever.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/point_masses.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -74,10 +75,6 @@ std::string numerical_error(Call&& call) {
         return error.what();
     }
     return "(nothing thrown)";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "solvers/coleman.hpp"
 #include "solvers/integrate.hpp"
 #include "solvers/modes.hpp"
+#include "tests/solvers/integrated_systems.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 
@@ -15,10 +16,8 @@ using namespace cardan::testing;
 
 namespace {
 
-IntegrationOptions with(Method method, double tolerance) {
-    IntegrationOptions options;
-    options.method = method;
-    options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
+IntegrationOptions without_works(Method method, double tolerance) {
+    IntegrationOptions options = equal_tolerances(method, tolerance);
     options.works = false;
     return options;
 }
@@ -94,7 +93,7 @@ TEST_CASE("time: a damped beam let go in a mode decays with its eigenvalue, with
         for (std::size_t i : {0U, 1U, 2U, 3U}) {
             const Mode& mode = beam.found[i];
             REQUIRE(mode.damping_ratio() > 0.005);
-            const Complex seen = beam.decay(mode, 1e-3, with(c.method, c.tolerance));
+            const Complex seen = beam.decay(mode, 1e-3, without_works(c.method, c.tolerance));
             CAPTURE(static_cast<int>(c.method), i, seen, mode.eigenvalue, relative(seen, mode.eigenvalue));
             CHECK(relative(seen, mode.eigenvalue) < c.error);
         }
@@ -105,7 +104,8 @@ TEST_CASE("time: the eigenvalue is what remains as the amplitude vanishes, the d
     const Cantilever beam;
     for (std::size_t i : {0U, 1U}) {
         const auto difference = [&](double amplitude) {
-            return relative(beam.decay(beam.found[i], amplitude, with(Method::erk, 1e-12)), beam.found[i].eigenvalue);
+            return relative(beam.decay(beam.found[i], amplitude, without_works(Method::erk, 1e-12)),
+                            beam.found[i].eigenvalue);
         };
         const double large = difference(0.2), small = difference(0.1), smaller = difference(0.05);
         CAPTURE(i, large, small, smaller);
@@ -119,8 +119,8 @@ TEST_CASE("time: the modes of a spinning rotor on an elastic support, whirling o
           "[solvers][time][crosscheck]") {
     // Multi-blade coordinates z of the blades, x = T(psi) z: a mode is z = Re(shape exp(lambda t)).
     const double Omega = 9;
-    const SmallRotor rotor = small_rotor(
-        {.damping = 20, .hinges = testing::Hinges::flap_and_lag, .lag_damping = 30, .elastic_support = true});
+    const SmallRotor rotor =
+        small_rotor({.damping = 20, .hinges = BladeHinges::flap_and_lag, .lag_damping = 30, .elastic_support = true});
     const std::vector<int> unknowns = rotor.unknowns();
     const ColemanTransform transform(rotor.map, unknowns);
     const std::vector<Mode> found = modes(transform.transform(rotor.rotating(Omega), 0, Omega));
@@ -136,7 +136,7 @@ TEST_CASE("time: the modes of a spinning rotor on an elastic support, whirling o
             q(unknowns) = transform.matrix(0) * z;
             qd(unknowns) = transform.matrix(0) * z_dot + Omega * (transform.matrix(0, 1) * z);
             qd(rotor.map.spin) = Omega;
-            Integrator integrator(rotor.system, {spin}, 0, q, qd, with(c.method, c.tolerance));
+            Integrator integrator(rotor.system, {spin}, 0, q, qd, without_works(c.method, c.tolerance));
             const double dt = 1 / (12 * mode.damped_hz());
             Matrix y(z.size(), 25);
             y.col(0) = z;
@@ -167,7 +167,7 @@ System oscillator() {
 
 // x and h x' of the oscillator, let go at x = 1, after every step.
 Matrix steps_of(const System& system, Method method, double h, int steps, double spectral_radius = 0.8) {
-    IntegrationOptions options = with(method, 1e-9);
+    IntegrationOptions options = without_works(method, 1e-9);
     options.fixed_step = h;
     options.spectral_radius = spectral_radius;
     Vector q(1), qd(1);

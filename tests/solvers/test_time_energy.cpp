@@ -3,6 +3,7 @@
 #include "elements/cardan_beam.hpp"
 #include "mbs/error.hpp"
 #include "solvers/integrate.hpp"
+#include "tests/solvers/integrated_systems.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -13,13 +14,6 @@ using namespace cardan::solvers;
 using namespace cardan::testing;
 
 namespace {
-
-IntegrationOptions with(Method method, double tolerance) {
-    IntegrationOptions options;
-    options.method = method;
-    options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
-    return options;
-}
 
 // Four rods on hinges, 1 m and 1 kg each, which tumble over one another.
 System pendulums() {
@@ -78,13 +72,13 @@ double drift(const System& system, const Vector& q, const Vector& qd, Integratio
 double drift_of_pendulums(Method method, double tolerance) {
     Vector q(4);
     q << 1.5, 0.4, -0.7, 0.9;
-    return drift(pendulums(), q, Vector::Zero(4), with(method, tolerance));
+    return drift(pendulums(), q, Vector::Zero(4), equal_tolerances(method, tolerance));
 }
 double drift_of_beam(Method method, double tolerance) {
     const System system = spinning_beam();
     Vector qd = Vector::Zero(system.model.size());
     qd(system.model.index("hub")) = 3;
-    return drift(system, Vector::Zero(system.model.size()), qd, with(method, tolerance));
+    return drift(system, Vector::Zero(system.model.size()), qd, equal_tolerances(method, tolerance));
 }
 
 }  // namespace
@@ -152,7 +146,7 @@ TEST_CASE("time: in free flight momentum is kept and the mass centre goes straig
     for (const Case& c :
          {Case{Method::bdf, 1e-10, 1e-6}, Case{Method::adams, 1e-10, 1e-7}, Case{Method::dirk, 1e-9, 1e-7},
           Case{Method::erk, 1e-10, 1e-7}, Case{Method::generalised_alpha, 1e-7, 1e-3}}) {
-        Integrator integrator(system, {}, 0, q, qd, with(c.method, c.tolerance));
+        Integrator integrator(system, {}, 0, q, qd, equal_tolerances(c.method, c.tolerance));
         Workspace workspace(system.model);
         const Momentum before = momentum(kinematics(system.model, q, workspace), qd);
         REQUIRE(integrator.advance(20).reached());

@@ -2,6 +2,7 @@
 #include "solvers/atlas.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/torque_free_top.hpp"
+#include "tests/solvers/integrated_systems.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -15,15 +16,6 @@ using namespace cardan::solvers;
 using namespace cardan::testing;
 
 namespace {
-
-constexpr Method methods[] = {Method::bdf, Method::adams, Method::dirk, Method::erk, Method::generalised_alpha};
-
-IntegrationOptions with(Method method, double tolerance) {
-    IntegrationOptions options;
-    options.method = method;
-    options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
-    return options;
-}
 
 // Global over local error: some thousand steps; the method of second order is given 1e-8 where others have 1e-10.
 struct Accuracy {
@@ -101,7 +93,7 @@ TEST_CASE("time: the free asymmetric top keeps to Jacobi's functions with every 
     const ChartState s = tumbling_start(top, start);
     for (const Accuracy& a : accuracies) {
         CAPTURE(static_cast<int>(a.method));
-        Integrator integrator(system, {}, 0, s.q, s.qd, with(a.method, a.tolerance));
+        Integrator integrator(system, {}, 0, s.q, s.qd, equal_tolerances(a.method, a.tolerance));
         for (int i = 1; i <= 6; ++i) {
             const double t = 0.5 * i * top.period();
             REQUIRE(integrator.advance(t).reached());
@@ -123,7 +115,7 @@ TEST_CASE("time: near the singularity of the joints the top keeps attitude, ener
             // The least eigenvalue of the metric is as the square of the distance: so much of rounding is left.
             const double allowed = a.error + 1e-16 / (distance * distance);
             CAPTURE(distance, static_cast<int>(a.method));
-            Integrator integrator(system, {}, 0, s.q, s.qd, with(a.method, a.tolerance));
+            Integrator integrator(system, {}, 0, s.q, s.qd, equal_tolerances(a.method, a.tolerance));
             REQUIRE(integrator.advance(meeting).reached());
             CHECK(std::abs(std::abs(std::cos(integrator.state().q(1))) - std::sin(distance)) <
                   a.error + 1e-2 * distance);
@@ -146,7 +138,7 @@ TEST_CASE("time: aimed at the singularity, the steps pass it and the balance of 
     const System system = on_three_axes(start, {0, 1, 2}, tumbling_body);
     const ChartState s = tumbling_start(top, start);
     for (const Method method : methods) {
-        Integrator integrator(system, {}, 0, s.q, s.qd, with(method, 1e-4));
+        Integrator integrator(system, {}, 0, s.q, s.qd, equal_tolerances(method, 1e-4));
         REQUIRE(integrator.advance(2 * meeting).reached());
         const double error = (attitude(system, integrator.state().q) - top.attitude(2 * meeting)).norm();
         CAPTURE(static_cast<int>(method), error, integrator.energy().error, integrator.statistics().steps);
@@ -161,7 +153,7 @@ TEST_CASE("time: in the singularity implicit methods refuse to start and name th
     const Vector q = Vec3(0.2, pi / 2, 0.1);
     for (const Vec3& rates : {Vec3(0, 0, 0), Vec3(0.3, 0.4, 0.5)})
         for (const Method method : {Method::bdf, Method::dirk}) {
-            Integrator integrator(system, {}, 0, q, rates, with(method, 1e-8));
+            Integrator integrator(system, {}, 0, q, rates, equal_tolerances(method, 1e-8));
             const Advance advance = integrator.advance(1);
             CAPTURE(advance.message);
             CHECK(advance.end == Advance::End::failed);
@@ -179,7 +171,7 @@ TEST_CASE("time: with a change of chart the top tumbles through the singularity 
     const System yxz = on_three_axes(start, {1, 0, 2}, tumbling_body, "second ");
     const ChartState s = tumbling_start(top, start);
     for (const Accuracy& a : accuracies) {
-        const IntegrationOptions options = with(a.method, a.tolerance);
+        const IntegrationOptions options = equal_tolerances(a.method, a.tolerance);
         AtlasIntegrator atlas({{&xyz, {}, options}, {&yxz, {}, options}}, "body", 0, s.q, s.qd);
         double largest = 0;
         for (int i = 1; i <= 8; ++i) {
@@ -225,7 +217,7 @@ struct HeavyTop {
                 0,
                 Vec3(0, theta - inclined, 0),
                 Vec3(psi_dot, 0, omega3 - psi_dot * std::cos(theta)),
-                with(a.method, a.tolerance)};
+                equal_tolerances(a.method, a.tolerance)};
     }
 };
 

@@ -140,11 +140,11 @@ TEST_CASE("periodic system: wrong periods, sizes and numbers are refused with pl
     check_refused([&] { first_order().at(0, at); }, {"order", "1"});
     const auto wrong_size = PeriodicSystem::second_order(1, 3, varying);
     CHECK_THROWS_AS(wrong_size.at(0, at), NumericalError);
-    const auto infinite = PeriodicSystem::first_order(1, 1, [](double, Matrix& E, Matrix& A) {
+    const auto unbounded = PeriodicSystem::first_order(1, 1, [](double, Matrix& E, Matrix& A) {
         E = Matrix::Ones(1, 1);
         A = Matrix::Constant(1, 1, INFINITY);
     });
-    CHECK_THROWS_AS(monodromy(infinite, 3), NumericalError);
+    CHECK_THROWS_AS(monodromy(unbounded, 3), NumericalError);
     const auto singular = PeriodicSystem::first_order(1, 1, [](double, Matrix& E, Matrix& A) {
         E = Matrix::Zero(1, 1);
         A = Matrix::Zero(1, 1);
