@@ -1,12 +1,13 @@
 #include "tests/oracles/mathieu.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace cardan::oracles {
 
 double mathieu_cosine(double a, double q) {
+    using std::numbers::pi;
     constexpr int rows = 3000;
-    constexpr double pi = 3.14159265358979323846;
     const auto beside = [&](int n) { return q / (4.0 * n * n - a); };
     // Principal minors of the tridiagonal matrix, from the first row on.
     double before = 1, now = 1;
@@ -20,7 +21,6 @@ double mathieu_cosine(double a, double q) {
 }
 
 std::complex<double> mathieu_exponent(double a, double q) {
-    constexpr double pi = 3.14159265358979323846;
     const double c = mathieu_cosine(a, q);
     if (c > 1) return std::acosh(c) / pi;
     if (c < -1) return {std::acosh(-c) / pi, 1};

@@ -20,29 +20,29 @@ using Eigen::VectorXd;
 
 // The local variables at a point: phi, b, c and their derivatives with respect to x.
 constexpr int locals = 6;
-using Local = Jet<locals>;
-using Vector = std::array<Local, 3>;
+using SectionJet = Jet<locals>;
+using SectionVector = std::array<SectionJet, 3>;
 
 /// What the section at one point contributes, as functions of the six local variables.
 struct Section {
-    Local energy;    // elastic, per length
-    Vector tangent;  // r' of the pitch axis
-    Vector offset;   // mass centre minus pitch axis
-    Vector e2, e3;   // axes of the section
+    SectionJet energy;      // elastic, per length
+    SectionVector tangent;  // r' of the pitch axis
+    SectionVector offset;   // mass centre minus pitch axis
+    SectionVector e2, e3;   // axes of the section
 };
 
 Section section(const BladeStation& s, const Eigen::Matrix<double, locals, 1>& at) {
-    std::array<Local, locals> v;
-    for (int i = 0; i < locals; ++i) v[static_cast<std::size_t>(i)] = Local::variable(at[i], i);
+    std::array<SectionJet, locals> v;
+    for (int i = 0; i < locals; ++i) v[static_cast<std::size_t>(i)] = SectionJet::variable(at[i], i);
     const auto& [phi, b, c, dphi, db, dc] = v;
-    const Local f = phi + Local(-s.twist);
-    const Local sf = sin(f), cf = cos(f), sb = sin(b), cb = cos(b), sc = sin(c), cc = cos(c);
+    const SectionJet f = phi + SectionJet(-s.twist);
+    const SectionJet sf = sin(f), cf = cos(f), sb = sin(b), cb = cos(b), sc = sin(c), cc = cos(c);
 
-    const Local kx = dphi - dc * sb;
-    const Local ky = db * cf + dc * cb * sf;
-    const Local kz = dc * cb * cf - db * sf;
+    const SectionJet kx = dphi - dc * sb;
+    const SectionJet ky = db * cf + dc * cb * sf;
+    const SectionJet kz = dc * cb * cf - db * sf;
 
-    const Vector e1{cb * cc, cb * sc, -sb};
+    const SectionVector e1{cb * cc, cb * sc, -sb};
     Section y;
     y.e2 = {cc * sb * sf - sc * cf, sc * sb * sf + cc * cf, cb * sf};
     y.e3 = {cc * sb * cf + sc * sf, sc * sb * cf - cc * sf, cb * cf};
@@ -94,16 +94,16 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
     const double omega2 = rotor_speed * rotor_speed;
 
     // Local variables of every point, then the sections as jets.
-    MatrixXd local(points, locals);
+    MatrixXd at_points(points, locals);
     for (Index a = 0; a < 3; ++a) {
-        local.col(a) = angle_ * q.segment(a * n, n);
-        local.col(a + 3) = slope_ * q.segment(a * n, n);
+        at_points.col(a) = angle_ * q.segment(a * n, n);
+        at_points.col(a + 3) = slope_ * q.segment(a * n, n);
     }
     std::vector<Section> sections;
     std::vector<BladeStation> properties;
     for (Index i = 0; i < points; ++i) {
         properties.push_back(blade_.at(grid_.points()[i]));
-        sections.push_back(section(properties.back(), local.row(i).transpose()));
+        sections.push_back(section(properties.back(), at_points.row(i).transpose()));
     }
     const auto point = [](Index i) { return static_cast<std::size_t>(i); };
 
@@ -146,10 +146,10 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
     for (std::size_t vector = 0; vector < 3; ++vector) {
         std::array<MatrixXd, 3> dx;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto own = [&](const Section& s) -> const Local& {
+            const auto own = [&](const Section& s) -> const SectionJet& {
                 return vector == 0 ? s.offset[axis] : vector == 1 ? s.e2[axis] : s.e3[axis];
             };
-            const auto tangent = [&](const Section& s) -> const Local& { return s.tangent[axis]; };
+            const auto tangent = [&](const Section& s) -> const SectionJet& { return s.tangent[axis]; };
             VectorXd x = values(own);
             dx[axis] = spread(own);
             if (vector == 0) {

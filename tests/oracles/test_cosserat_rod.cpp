@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rigid = std::numeric_limits<double>::infinity();
 
 RodVector6 stiffness(double EA, double GA, double GJ, double EI_y, double EI_z) {

@@ -11,7 +11,7 @@ using namespace cardan::oracles;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Hub = PlanarRodMotion::Hub;
 
 // Slope of a shape of the beam, differenced.

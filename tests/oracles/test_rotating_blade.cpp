@@ -16,7 +16,7 @@ using namespace cardan::oracles;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rpm = pi / 30.0;
 
 /// A uniform blade of unit length, mass and flap stiffness with next to no sectional inertia.

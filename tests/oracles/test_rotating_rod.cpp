@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TwistedRod uniform(const RodSection& section, double length = 1) {
     return {.length = length, .section = [section](double) { return section; }};

@@ -17,7 +17,7 @@ using namespace cardan::oracles;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 StraightBeam uniform_beam() {
     return {.breaks = Eigen::Vector2d(0.0, 1.0),

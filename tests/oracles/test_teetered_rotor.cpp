@@ -12,7 +12,7 @@ using namespace cardan::oracles;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 RigidTeeteredRotor some_rotor() {
     return {.spanwise = 130, .teeter = 390000, .shaft = 390100, .yaw = 23000, .rotor_speed = 6};

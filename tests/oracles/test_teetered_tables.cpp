@@ -11,7 +11,8 @@ using cardan::oracles::BladeOnArm;
 
 namespace {
 
-constexpr double speed = 6.02, EI = 1e7, GJ = 1e7, pi = std::numbers::pi;
+using std::numbers::pi;
+constexpr double speed = 6.02, EI = 1e7, GJ = 1e7;
 
 enum class Root { clamped_flap, clamped_lag, hinged_flap };
 

@@ -13,7 +13,7 @@ using namespace cardan::oracles;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Classical Runge-Kutta method of fourth order: the arbiter of the closed forms below.
 template <typename State, typename Rate>

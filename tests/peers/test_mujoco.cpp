@@ -9,7 +9,7 @@ using namespace cardan::testing;
 
 namespace {
 
-std::unique_ptr<Peer> make(const std::vector<PeerLink>& links, Gravity gravity) {
+std::unique_ptr<Peer> mujoco(const std::vector<PeerLink>& links, Gravity gravity) {
     return std::make_unique<MujocoPeer>(links, gravity);
 }
 
@@ -20,7 +20,7 @@ TEST_CASE("mujoco: metric, bias forces, gravity, inverse and forward dynamics of
         Random random(seed);
         const Model model(random_tree(random, {.bodies = 4 + static_cast<int>(seed % 12), .massless = 0}));
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), mujoco, random));
     }
 }
 
@@ -32,11 +32,11 @@ TEST_CASE("mujoco: random trees with massless bodies, where these carry one othe
         const std::vector<PeerLink> links = peer_links(model);
         CAPTURE(seed);
         try {
-            make(links, {});
+            mujoco(links, {});
         } catch (const PeerRefusal&) {
             continue;
         }
-        require_equal(compare(model, links, make, random));
+        require_equal(compare(model, links, mujoco, random));
         ++compared;
     }
     REQUIRE(compared >= 40);
@@ -47,7 +47,7 @@ TEST_CASE("mujoco: long random trees", "[peers]") {
         Random random(seed);
         const Model model(random_tree(random, {.bodies = 60, .massless = 0}));
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), mujoco, random));
     }
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("mujoco: pieces welded to bodies and their frames move as Cardan's mer
         Random random(seed);
         const WeldedTree welded = random_welded_tree(random, {.bodies = 8, .massless = 0}, 6);
         CAPTURE(seed);
-        require_equal(compare(Model(welded.tree), welded.links, make, random));
+        require_equal(compare(Model(welded.tree), welded.links, mujoco, random));
     }
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("mujoco: several joints with one centre between bodies", "[peers]") {
         Random random(seed);
         const Model model(chain_of_cardan_joints(random, 5, 2 + static_cast<int>(seed % 2)));
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), mujoco, random));
     }
 }
 

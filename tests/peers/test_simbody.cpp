@@ -10,7 +10,7 @@ using namespace cardan::testing;
 
 namespace {
 
-std::unique_ptr<Peer> make(const std::vector<PeerLink>& links, Gravity gravity) {
+std::unique_ptr<Peer> simbody(const std::vector<PeerLink>& links, Gravity gravity) {
     return std::make_unique<SimbodyPeer>(links, gravity);
 }
 
@@ -21,7 +21,7 @@ TEST_CASE("simbody: metric, bias forces, gravity, inverse and forward dynamics o
         Random random(seed);
         const Model model(random_tree(random, {.bodies = 4 + static_cast<int>(seed % 12)}));
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), simbody, random));
     }
 }
 
@@ -30,7 +30,7 @@ TEST_CASE("simbody: long random trees", "[peers]") {
         Random random(seed);
         const Model model(random_tree(random, {.bodies = 60}));
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), simbody, random));
     }
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("simbody: pieces welded to bodies and their frames move as Cardan's me
         Random random(seed);
         const WeldedTree welded = random_welded_tree(random, {.bodies = 8}, 6);
         CAPTURE(seed);
-        require_equal(compare(Model(welded.tree), welded.links, make, random));
+        require_equal(compare(Model(welded.tree), welded.links, simbody, random));
     }
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("simbody: several joints with one centre between bodies", "[peers]") {
         Random random(seed);
         const Model model(chain_of_cardan_joints(random, 5, 2 + static_cast<int>(seed % 2)));
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), simbody, random));
     }
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("simbody: the 600 kW machine but for its armatures", "[peers]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
         Random random(seed);
         CAPTURE(seed);
-        require_equal(compare(model, peer_links(model), make, random));
+        require_equal(compare(model, peer_links(model), simbody, random));
     }
 }
 
