@@ -5,8 +5,9 @@
 
 namespace cardan::oracles {
 
+using std::numbers::pi;
+
 double mathieu_cosine(double a, double q) {
-    using std::numbers::pi;
     constexpr int rows = 3000;
     const auto beside = [&](int n) { return q / (4.0 * n * n - a); };
     // Principal minors of the tridiagonal matrix, from the first row on.
