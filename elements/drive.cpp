@@ -37,10 +37,10 @@ void DriveOrder::follow(double target, double time, double period) {
 namespace {
 
 // Deflection of the spring and its rate.
-struct Deflection {
+struct SpringDeflection {
     double position, rate;
 };
-Deflection deflection(const ElasticDrive& drive, double time, double position, double rate) {
+SpringDeflection deflection(const ElasticDrive& drive, double time, double position, double rate) {
     const Travel::State ordered = drive.order->at(time);
     return {position - drive.sense * ordered.position, rate - drive.sense * ordered.rate};
 }
@@ -48,12 +48,12 @@ Deflection deflection(const ElasticDrive& drive, double time, double position, d
 }  // namespace
 
 double ElasticDrive::force(double time, double position, double rate) const {
-    const Deflection d = deflection(*this, time, position, rate);
+    const SpringDeflection d = deflection(*this, time, position, rate);
     return -stiffness * d.position - damping * d.rate;
 }
 
 double ElasticDrive::power(double time, double position, double rate) const {
-    const Deflection d = deflection(*this, time, position, rate);
+    const SpringDeflection d = deflection(*this, time, position, rate);
     return force(time, position, rate) * sense * order->at(time).rate - damping * d.rate * d.rate;
 }
 
@@ -63,7 +63,7 @@ UserForce drive_force(const ElasticDrive& drive) {
     if (!drive.order) throw InputError(drive.name, "order", "none", "one");
     if (std::abs(drive.sense) != 1) throw InputError(drive.name, "sense", drive.sense, "1 or -1");
     const auto law = [drive](double time, double position, double rate) {
-        const Deflection d = deflection(drive, time, position, rate);
+        const SpringDeflection d = deflection(drive, time, position, rate);
         return CoordinateLaw{-drive.stiffness * d.position - drive.damping * d.rate, -drive.stiffness, -drive.damping,
                              drive.stiffness * d.position * d.position / 2};
     };

@@ -4,7 +4,7 @@ namespace cardan {
 
 namespace {
 
-constexpr Eigen::Index points = 12;
+constexpr Eigen::Index points_per_piece = 12;
 
 // Pieces that end at the breaks inside, at least about four of them: running integrals are less exact than full ones.
 std::vector<double> pieces(double length, const std::vector<double>& breaks) {
@@ -42,7 +42,7 @@ PlanarElement::PlanarElement(double length, std::vector<double> breaks, std::fun
     const GaussRule& rule = gauss_rule();
     const auto n = static_cast<Eigen::Index>(ends.size()) - 1;
     half_.resize(n);
-    for (Samples* s : {&x_, &weight_, &mass_, &bending_, &shear_}) s->resize(n * points);
+    for (Samples* s : {&x_, &weight_, &mass_, &bending_, &shear_}) s->resize(n * points_per_piece);
     for (Eigen::Index i = 0, at = 0; i < n; ++i) {
         const double from = ends[static_cast<std::size_t>(i)], to = ends[static_cast<std::size_t>(i) + 1];
         half_(i) = (to - from) / 2;
@@ -67,7 +67,7 @@ PlanarElement::Samples PlanarElement::running(const Samples& f) const {
     Samples sum(f.size());
     double before = 0;
     for (Eigen::Index i = 0; i < half_.size(); ++i) {
-        const auto piece = Eigen::seqN(i * points, points);
+        const auto piece = Eigen::seqN(i * points_per_piece, points_per_piece);
         sum(piece) = before + half_(i) * (running_gauss_rule() * f(piece).matrix()).array();
         before += (weight_(piece) * f(piece)).sum();
     }

@@ -4,8 +4,13 @@
 
 namespace cardan {
 
+namespace {
+
+using Samples = PlanarElement::Samples;
+
+}  // namespace
+
 StaticShapes static_shapes(const PlanarElement& element, const HingePlaces& hinges) {
-    using Samples = PlanarElement::Samples;
     const double d = hinges.second - hinges.first;
     const Samples &x = element.x(), &c = element.bending();
     const std::array<Samples, 2> N{(hinges.second - x) / d, (x - hinges.first) / d};

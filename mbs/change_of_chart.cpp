@@ -13,10 +13,11 @@ namespace cardan {
 
 namespace {
 
-constexpr const char* place = "change of chart";
+constexpr const char* in_change_of_chart = "change of chart";
 
 void check_size(const Vector& v, const Model& model, const char* what) {
-    if (v.size() != model.size()) throw InputError(place, what, v.size(), text(model.size(), ", one per coordinate"));
+    if (v.size() != model.size())
+        throw InputError(in_change_of_chart, what, v.size(), text(model.size(), ", one per coordinate"));
 }
 
 // The smallest rotation vector, base axes, that takes R to `target`.
@@ -42,7 +43,7 @@ public:
             known_rate_(i) = state.qd(same - old.begin());
         }
         if (6 * frames.size() < unknown_.size())
-            throw InputError(place, "number of frames", frames.size(),
+            throw InputError(in_change_of_chart, "number of frames", frames.size(),
                              text(">= 1 for every six of the ", unknown_.size(), " coordinates that are new, as '",
                                   to.coordinates()[unknown_.front()].name, "'"));
         Workspace workspace(from);
@@ -68,7 +69,7 @@ public:
             if (best < 1e-11) break;
         }
         if (best > 1e-8)
-            throw NumericalError(text(place, ": no position of the new coordinates ('",
+            throw NumericalError(text(in_change_of_chart, ": no position of the new coordinates ('",
                                       to_.coordinates()[unknown_.front()].name,
                                       "' ...) carries the frames to where they are; the nearest found is off by ", best,
                                       " rad, or by this part of a distance of ", size_, " m"));
@@ -164,7 +165,7 @@ private:
         qr.setThreshold(1e-7);
         if (qr.rank() < J.cols())
             throw NumericalError(text(
-                place, ": the new coordinates are singular at this state, '",
+                in_change_of_chart, ": the new coordinates are singular at this state, '",
                 to_.coordinates()[unknown_[static_cast<std::size_t>(qr.colsPermutation().indices()(qr.rank()))]].name,
                 "' first; change where they are not, or choose others"));
         return Vector(qr.solve(twist)).cwiseQuotient(length);
@@ -190,7 +191,7 @@ ChartState change_of_chart(const Model& from, const ChartState& state, const Mod
 
 double chart_quality(const Model& model, const Vector& q, std::string_view frame, const std::vector<int>& coordinates) {
     check_size(q, model, "number of positions");
-    if (coordinates.empty()) throw InputError(place, "number of coordinates", 0, ">= 1");
+    if (coordinates.empty()) throw InputError(in_change_of_chart, "number of coordinates", 0, ">= 1");
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, q, workspace);
     Matrix all(6, model.size());
@@ -199,11 +200,11 @@ double chart_quality(const Model& model, const Vector& q, std::string_view frame
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
         const int i = coordinates[k];
         if (i < 0 || i >= model.size())
-            throw InputError(place, "index of a coordinate", i, text("0 ... ", model.size() - 1));
+            throw InputError(in_change_of_chart, "index of a coordinate", i, text("0 ... ", model.size() - 1));
         const double length = all.col(i).norm();
         if (length == 0)
-            throw InputError(text(place, ": frame '", frame, "'"), "coordinate", model.coordinates()[i].name,
-                             "one that moves it");
+            throw InputError(text(in_change_of_chart, ": frame '", frame, "'"), "coordinate",
+                             model.coordinates()[i].name, "one that moves it");
         J.col(static_cast<Eigen::Index>(k)) = all.col(i) / length;
     }
     return Eigen::JacobiSVD<Matrix>(J).singularValues().tail<1>()(0);

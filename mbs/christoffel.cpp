@@ -59,12 +59,15 @@ double Christoffel::operator()(int a, int b, int c) const {
 namespace {
 
 // Rows of the branch: three each, then one for what nobody reads.
-enum Rows { w = -9, v = 0, f = 3, t = 6, spare = 9 };
+struct TableRows {
+    enum Row { w = -9, v = 0, f = 3, t = 6, spare = 9 };
+};
 
 // K(a, b) = v_a . f_b + w_a . t_b with v the velocities at the centre C of the subtree of the last column m,
 // f = M w x v_m and t = P w x w_m. A prismatic b has w = 0, which makes its column vanish: the factor (1 - s_b).
 CARDAN_INLINE void branch_columns(const PathTwists<double>& path, std::ptrdiff_t depth,
                                   const Workspace::Inertia& body) {
+    using enum TableRows::Row;
     using Columns = Packed3<double>;
     const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
     for (std::ptrdiff_t j = 0; j < PathTwists<double>::blocks(depth); ++j) {
@@ -97,6 +100,7 @@ CARDAN_INLINE Packed3<double> all(const Packed3<double>* row, std::ptrdiff_t col
 
 // Two rows at a time, for every number of f and t loaded to serve twice; the row after the last is a spare one.
 CARDAN_INLINE void fill_table(const PathTwists<double>& path, std::ptrdiff_t depth, Packed3<double>* K) {
+    using enum TableRows::Row;
     using Columns = Packed3<double>;
     const std::ptrdiff_t blocks = PathTwists<double>::blocks(depth);
     const Columns *fx = path.row(f), *fy = path.row(f + 1), *fz = path.row(f + 2), *tx = path.row(t),

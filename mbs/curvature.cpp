@@ -18,7 +18,7 @@ Curvature::Curvature(const Model& model, std::vector<bool> driven)
 
 namespace {
 
-constexpr const char* place = "curvature";
+constexpr const char* in_curvature = "curvature";
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void Curvature::zero_driven(X& x) const {
 }
 
 void Curvature::load(VectorIn x, Direction& direction) const {
-    require_size(place, "vector", x, model_->size());
+    require_size(in_curvature, "vector", x, model_->size());
     direction.x = x;
     zero_driven(direction.x);
     embedding_.first(direction.x, direction.field);
@@ -58,8 +58,8 @@ void Curvature::christoffel(VectorIn x, VectorIn y, VectorOut h) {
 }
 
 void Curvature::covariant_derivative(VectorIn qd, VectorIn V, VectorIn Vdot, VectorOut DV) {
-    require_size(place, "Vdot", Vdot, model_->size());
-    require_size(place, "DV", DV, model_->size());
+    require_size(in_curvature, "Vdot", Vdot, model_->size());
+    require_size(in_curvature, "DV", DV, model_->size());
     christoffel(qd, V, beta_);
     factor_.solve(beta_);
     DV = Vdot;
@@ -68,7 +68,7 @@ void Curvature::covariant_derivative(VectorIn qd, VectorIn V, VectorIn Vdot, Vec
 }
 
 void Curvature::geodesic(VectorIn qd, VectorOut qdd) {
-    require_size(place, "qdd", qdd, model_->size());
+    require_size(in_curvature, "qdd", qdd, model_->size());
     christoffel(qd, qd, beta_);
     factor_.solve(beta_);
     qdd = -beta_;
@@ -108,8 +108,8 @@ double Curvature::riemann(VectorIn x, VectorIn y, VectorIn z, VectorIn w) {
 
 double Curvature::sectional(VectorIn x, VectorIn y) {
     // y less its part along x, by coordinates of an orthonormal frame.
-    require_size(place, "x", x, model_->size());
-    require_size(place, "y", y, model_->size());
+    require_size(in_curvature, "x", x, model_->size());
+    require_size(in_curvature, "y", y, model_->size());
     beta_ = x;
     other_ = y;
     zero_driven(beta_);

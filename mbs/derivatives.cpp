@@ -9,7 +9,7 @@ namespace {
 
 // Rows of the branch besides the twists S_j = (w, u): Psi' = v x S and Psi'' = a x S + v x Psi' of the carrier's
 // spatial velocity v and acceleration a, their linear parts at o_j.
-enum Rows { psi1_w = 0, psi1_u = 3, psi2_w = 6, psi2_u = 9, scratch = 12 };
+enum BranchRows { psi1_w = 0, psi1_u = 3, psi2_w = 6, psi2_u = 9, scratch = 12 };
 
 template <class S>
 using Rates = typename WorkspaceT<S>::Rates;
@@ -211,12 +211,12 @@ void run(const Arguments<Complex>& x, const Sink& by_q, const Sink& by_qd) {
     differentiate(x, by_q, by_qd);
 }
 
-constexpr const char* place = "derivatives of the inverse dynamics";
+constexpr const char* in_derivatives = "derivatives of the inverse dynamics";
 
 template <class S>
 Arguments<S> arguments(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd) {
-    require_size(place, "qd", qd, kin.model().size());
-    require_size(place, "qdd", qdd, kin.model().size());
+    require_size(in_derivatives, "qd", qd, kin.model().size());
+    require_size(in_derivatives, "qdd", qdd, kin.model().size());
     composites(kin);
     WorkspaceT<S>& ws = kin.workspace();
     return {kin.model().size(), kin.model().links().data(),
@@ -233,8 +233,8 @@ template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
                                   MatrixOutT<S> dtau_dqd) {
     const Arguments<S> x = arguments<S>(kin, qd, qdd);
-    require_size(place, "dtau_dq", dtau_dq, x.n, x.n);
-    require_size(place, "dtau_dqd", dtau_dqd, x.n, x.n);
+    require_size(in_derivatives, "dtau_dq", dtau_dq, x.n, x.n);
+    require_size(in_derivatives, "dtau_dqd", dtau_dqd, x.n, x.n);
     const auto sink = [&](MatrixOutT<S>& A, int row) {
         return DenseSink<S>{x.links, x.n, A.data(), A.outerStride(), x.path.row(row), x.path.row(row + 1)};
     };
@@ -244,8 +244,8 @@ void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, Ve
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd,
                                   BranchMatrixT<S>& dtau_dq, BranchMatrixT<S>& dtau_dqd) {
-    require_model(place, "matrix dtau_dq", dtau_dq.model().serial(), kin.model().serial());
-    require_model(place, "matrix dtau_dqd", dtau_dqd.model().serial(), kin.model().serial());
+    require_model(in_derivatives, "matrix dtau_dq", dtau_dq.model().serial(), kin.model().serial());
+    require_model(in_derivatives, "matrix dtau_dqd", dtau_dqd.model().serial(), kin.model().serial());
     const auto sink = [](BranchMatrixT<S>& A) { return BranchSink<S>{A.rows(), A.columns(), A.offset()}; };
     run(arguments<S>(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
 }

@@ -11,16 +11,16 @@ Vec3 axial(const Mat3& B) {
     return {B(1, 2) - B(2, 1), B(2, 0) - B(0, 2), B(0, 1) - B(1, 0)};
 }
 
-constexpr const char* place = "embedding";
+constexpr const char* in_embedding = "embedding";
 
 void require_field(const char* what, const VelocityField& field, std::size_t n) {
-    require_count(place, what, field.w.size(), n);
-    require_count(place, what, field.v.size(), n);
+    require_count(in_embedding, what, field.w.size(), n);
+    require_count(in_embedding, what, field.v.size(), n);
 }
 void require_field(const char* what, const AccelerationField& field, std::size_t n) {
-    require_count(place, what, field.a.size(), n);
-    require_count(place, what, field.A.size(), n);
-    require_size(place, what, field.beta, static_cast<Eigen::Index>(n));
+    require_count(in_embedding, what, field.a.size(), n);
+    require_count(in_embedding, what, field.A.size(), n);
+    require_size(in_embedding, what, field.beta, static_cast<Eigen::Index>(n));
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ AccelerationField Embedding::acceleration_field() const {
 }
 
 void Embedding::update(const Kinematics& kin) {
-    require_model(place, "kinematics", kin.model().serial(), model_->serial());
+    require_model(in_embedding, "kinematics", kin.model().serial(), model_->serial());
     body_inertias(kin);
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -52,7 +52,7 @@ void Embedding::update(const Kinematics& kin) {
 }
 
 void Embedding::first(VectorIn x, VelocityField& out) const {
-    require_size(place, "x", x, model_->size());
+    require_size(in_embedding, "x", x, model_->size());
     require_field("velocity field", out, binet_.size());
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -72,9 +72,9 @@ void Embedding::first(VectorIn x, VelocityField& out) const {
 // alpha = d_y w^x in w^x x s, whose derivative along y is alpha x s + w^x x (w^y x s): A = alpha^ + w^x^ w^y^.
 void Embedding::second(VectorIn x, const VelocityField& dx, VectorIn y, const VelocityField& dy, VectorIn beta,
                        AccelerationField& out) {
-    require_size(place, "x", x, model_->size());
-    require_size(place, "y", y, model_->size());
-    require_size(place, "beta", beta, model_->size());
+    require_size(in_embedding, "x", x, model_->size());
+    require_size(in_embedding, "y", y, model_->size());
+    require_size(in_embedding, "beta", beta, model_->size());
     require_field("velocity field dx", dx, binet_.size());
     require_field("velocity field dy", dy, binet_.size());
     require_field("acceleration field", out, binet_.size());
@@ -134,7 +134,7 @@ void Embedding::loads(const AccelerationField& field) {
 }
 
 void Embedding::pull(const AccelerationField& field, VectorOut out) {
-    require_size(place, "out", out, model_->size());
+    require_size(in_embedding, "out", out, model_->size());
     loads(field);
     for (int k = model_->size() - 1; k >= 0; --k) {
         const std::size_t i = static_cast<std::size_t>(k);
@@ -151,7 +151,7 @@ void Embedding::pull(const AccelerationField& field, VectorOut out) {
 // int rho (v - v_o) x F dV.
 void Embedding::pull_second(const VelocityField& dz, const AccelerationField& field, VectorOut out) {
     require_field("velocity field dz", dz, binet_.size());
-    require_size(place, "out", out, model_->size());
+    require_size(in_embedding, "out", out, model_->size());
     loads(field);
     for (int k = 0; k < model_->size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);

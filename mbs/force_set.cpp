@@ -8,13 +8,13 @@ namespace cardan {
 
 namespace {
 
-constexpr double most = 1e100;  // squares and products stay numbers
+constexpr double largest_magnitude = 1e100;  // squares and products stay numbers
 
 void require_semidefinite(const Matrix& A, std::size_t n, const std::string& where, std::string_view quantity) {
     if (A.rows() != static_cast<Eigen::Index>(n) || A.cols() != A.rows())
         throw InputError(where, text(quantity, " size"), text(A.rows(), " x ", A.cols()), text(n, " x ", n));
     if (!A.allFinite()) throw InputError(where, quantity, A, "finite");
-    if (!(A.cwiseAbs().maxCoeff() <= most)) throw InputError(where, quantity, A, "magnitudes up to 1e100");
+    if (!(A.cwiseAbs().maxCoeff() <= largest_magnitude)) throw InputError(where, quantity, A, "magnitudes up to 1e100");
     if ((A - A.transpose()).norm() > 1e-9 * A.norm()) throw InputError(where, quantity, A, "symmetric");
     // Scaled to unit diagonal first: entries of rotations and translations differ by many decades.
     Matrix unit = A;
@@ -53,7 +53,8 @@ void ForceSet::add_wrench(FrameLoad load) {
     if (!load.wrench.force.allFinite() || !load.wrench.moment.allFinite())
         throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
                          text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()), "finite");
-    if (!(load.wrench.force.cwiseAbs().maxCoeff() <= most && load.wrench.moment.cwiseAbs().maxCoeff() <= most))
+    if (!(load.wrench.force.cwiseAbs().maxCoeff() <= largest_magnitude &&
+          load.wrench.moment.cwiseAbs().maxCoeff() <= largest_magnitude))
         throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
                          text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()),
                          "magnitudes up to 1e100");

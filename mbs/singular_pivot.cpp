@@ -8,7 +8,7 @@ namespace cardan {
 
 namespace {
 
-constexpr double least = 1e-12;  // pivot over scale
+constexpr double least_pivot = 1e-12;  // over scale
 
 // Twist of the joint at its own origin, [angular; linear].
 Vec6 joint_axis(const Model::Link& link, const Workspace::Frame& frame) {
@@ -55,7 +55,8 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
             const double armature = armature_diagonal_(static_cast<Eigen::Index>(k)), own = S.dot(U);
             const double D = own + armature;
             const double scale = S.dot(B * S) + std::abs(own) + std::abs(armature);
-            if (!(D > least * scale)) return SingularPivot{most_distal(kin, static_cast<int>(k), scale), D, scale};
+            if (!(D > least_pivot * scale))
+                return SingularPivot{most_distal(kin, static_cast<int>(k), scale), D, scale};
             const Mat6 P = Mat6::Identity() - S * U.transpose() / D;
             B = (P.transpose() * B * P + U * U.transpose() / D).eval();
         }

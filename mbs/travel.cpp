@@ -9,18 +9,18 @@ namespace cardan {
 
 namespace {
 
-constexpr const char* place = "travel of a drive";
+constexpr const char* in_travel = "travel of a drive";
 
 void require_finite(const char* quantity, double value) {
-    if (!std::isfinite(value)) throw InputError(place, quantity, value, "finite");
+    if (!std::isfinite(value)) throw InputError(in_travel, quantity, value, "finite");
 }
 
 double require_jerk(const TravelLimits& limits) {
-    require_positive(place, "largest rate", limits.rate);
-    require_positive(place, "largest acceleration", limits.acceleration);
-    require_not_negative(place, "largest jerk", limits.jerk);
+    require_positive(in_travel, "largest rate", limits.rate);
+    require_positive(in_travel, "largest acceleration", limits.acceleration);
+    require_not_negative(in_travel, "largest jerk", limits.jerk);
     const double jerk = limits.jerk > 0 ? limits.jerk : default_jerk(limits);
-    require_positive(place, "largest jerk", jerk);
+    require_positive(in_travel, "largest jerk", jerk);
     return jerk;
 }
 
@@ -87,7 +87,7 @@ public:
     double position() const { return now_.position; }
     void store(Travel& travel) const {
         if (!std::isfinite(time_) || !std::isfinite(now_.position))
-            throw InputError(place, "time of arrival [s]", time_, "finite: look at the limits and at the start");
+            throw InputError(in_travel, "time of arrival [s]", time_, "finite: look at the limits and at the start");
         travel.phases_ = phases_;
         travel.count_ = count_;
         travel.arrival_ = time_;
@@ -133,7 +133,7 @@ Travel Travel::straight(double time, double from, double to, double duration) {
     require_finite("time [s]", time);
     require_finite("position at the start", from);
     require_finite("target", to);
-    require_positive(place, "duration [s]", duration);
+    require_positive(in_travel, "duration [s]", duration);
     Travel travel(to);
     travel.start_ = time;
     Way(time, {from, (to - from) / duration, 0}).add(duration, 0).store(travel);

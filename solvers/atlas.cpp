@@ -9,7 +9,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "atlas of charts";
+constexpr const char* in_atlas = "atlas of charts";
 
 bool has(const Model& model, const std::string& coordinate) {
     const CoordinateTable& table = model.coordinates();
@@ -21,11 +21,11 @@ bool has(const Model& model, const std::string& coordinate) {
 AtlasIntegrator::AtlasIntegrator(std::vector<Chart> charts, std::string frame, double time, const Vector& q,
                                  const Vector& qd, double least_quality)
     : charts_(std::move(charts)), frame_(std::move(frame)), least_quality_(least_quality) {
-    if (charts_.size() < 2) throw InputError(place, "number of charts", charts_.size(), ">= 2");
+    if (charts_.size() < 2) throw InputError(in_atlas, "number of charts", charts_.size(), ">= 2");
     if (!(least_quality > 0 && least_quality < 1))
-        throw InputError(place, "least quality", least_quality, "between 0 and 1");
+        throw InputError(in_atlas, "least quality", least_quality, "between 0 and 1");
     for (std::size_t k = 0; k < charts_.size(); ++k)
-        if (!charts_[k].system) throw InputError(place, text("system of chart ", k), "none", "one");
+        if (!charts_[k].system) throw InputError(in_atlas, text("system of chart ", k), "none", "one");
     for (std::size_t k = 0; k < charts_.size(); ++k) {
         const Model& model = charts_[k].system->model;
         own_.emplace_back();

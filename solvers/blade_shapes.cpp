@@ -3,6 +3,7 @@
 #include "mbs/error.hpp"
 #include "mbs/pending_file.hpp"
 #include "mbs/spatial.hpp"
+#include "mbs/units.hpp"
 #include "mbs/version.hpp"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ void write_csv(std::span<const BladeShapes> shapes, const std::filesystem::path&
         for (const BladeShape& mode : at.modes)
             for (std::size_t i = 0; i < mode.radius.size(); ++i) {
                 const Vec3T<Complex>& u = mode.displacement[i];
-                const Complex twist = mode.rotation[i].x() * (180 / pi);
+                const Complex twist = mode.rotation[i].x() * units::to_degrees;
                 out << at.rotor_speed * 30 / pi << ',' << mode.name << ',' << mode.natural_hz << ',' << mode.radius[i]
                     << ',' << u.z().real() << ',' << u.y().real() << ',' << u.x().real() << ',' << twist.real() << ','
                     << u.z().imag() << ',' << u.y().imag() << ',' << u.x().imag() << ',' << twist.imag() << '\n';

@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
-constexpr double rigid_limit = 1e-4;
+constexpr double rigid_per_radian = 1e-4;
 // The same of the free spin in the mean over the azimuth, where gravity on bent blades makes a weak pendulum of it.
 constexpr double free_spin_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
@@ -26,11 +26,7 @@ constexpr double small_remainder = 1e-5;
 // Of the blades, over the diagonals: more is no rounding.
 constexpr double small_difference = 1e-4;
 // Harmonics at the ends that hold less are left out.
-constexpr double negligible = 1e-12;
-
-double square(const Matrix& A, const ComplexVector& x) {
-    return (x.adjoint() * (A * x)).value().real();
-}
+constexpr double negligible_participation = 1e-12;
 
 // Kinetic energies of the rows alone; of joint coordinates each carries all that is outboard.
 Vector kinetic_by_row(const SecondOrderSystem& system, const ComplexVector& shape, Complex eigenvalue) {
@@ -63,8 +59,8 @@ void keep_displacement(FloquetMode& mode) {
 void leave_out_ends(FloquetMode& mode) {
     Index first = 0, last = mode.harmonics.cols() - 1;
     const Index principal = -mode.first_harmonic;
-    while (first < principal && mode.participation(first) < negligible) ++first;
-    while (last > principal && mode.participation(last) < negligible) --last;
+    while (first < principal && mode.participation(first) < negligible_participation) ++first;
+    while (last > principal && mode.participation(last) < negligible_participation) --last;
     mode.harmonics = mode.harmonics.middleCols(first, last - first + 1).eval();
     mode.participation = mode.participation.segment(first, last - first + 1).eval();
     mode.first_harmonic += static_cast<int>(first);
@@ -80,8 +76,8 @@ double lowest_elastic(const CampbellPoint& point) {
 }  // namespace
 
 int naming_row(const SecondOrderSystem& system, const Mode& mode) {
-    const double elastic = square(system.K_elastic, mode.shape),
-                 kinetic = std::norm(mode.eigenvalue) * square(system.M, mode.shape);
+    const double elastic = hermitian_form(system.K_elastic, mode.shape),
+                 kinetic = std::norm(mode.eigenvalue) * hermitian_form(system.M, mode.shape);
     if (elastic > elastic_limit * (elastic + kinetic)) return -1;
     return largest(kinetic_by_row(system, mode.shape, mode.eigenvalue));
 }
@@ -211,7 +207,7 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
     Floquet result = floquet(periodic, floquet_options(periodic));
     if (!result.message.empty()) warn(text("at ", state_->rotor_speed * 30 / pi, " rpm ", result.message));
     for (FloquetMode& mode : result.modes) {
-        const bool slow = std::abs(mode.exponent) < rigid_limit * std::abs(state_->rotor_speed),
+        const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;
         if (slow) mode.kind = FloquetKind::rigid;
         if (slow && pair) point.modes.push_back(make(FloquetMode(mode)));
@@ -232,7 +228,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
         leave_out_ends(mode);
     const ComplexVector principal = mode.harmonics.col(-mode.first_harmonic);
     // A rigid displacement has no energy.
-    const double energy = rigid ? square(mean_.M, principal) : 2 * mode.share(0),
+    const double energy = rigid ? hermitian_form(mean_.M, principal) : 2 * mode.share(0),
                  factor = energy > 0 ? std::sqrt(2 / energy) : 1.0;
     if (rigid) mode.harmonics *= factor;
     out.mode = {mode.exponent, factor * principal};
@@ -257,7 +253,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
 
 void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) const {
     for (Mode& mode : modes(mean_)) {
-        if (std::abs(mode.eigenvalue) < rigid_limit * std::abs(state_->rotor_speed)) continue;
+        if (std::abs(mode.eigenvalue) < rigid_per_radian * std::abs(state_->rotor_speed)) continue;
         CampbellMode& m = point.modes.emplace_back();
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
             m.row = naming_row(mean_, mode);

@@ -7,9 +7,13 @@
 
 #include "mbs/types.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace cardan::solvers {
+
+/// Distance of 1 to the next number.
+inline constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
 /// C += sign A B.
 /// @param C  no alias of A or B

@@ -1,7 +1,7 @@
 #include "solvers/display_units.hpp"
 
 #include "mbs/error.hpp"
-#include "mbs/types.hpp"
+#include "mbs/units.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,6 @@
 namespace cardan::solvers {
 
 namespace {
-
-constexpr double degrees = 180 / pi, rpm = 30 / pi;
 
 bool is_pure_number(std::string_view units) {
     return units.empty() || units == "1" || units == "-";
@@ -54,11 +52,11 @@ std::string superscript(char digit) {
 
 ShownUnits shown_units(const Channel& channel, AngleUnits angles) {
     if (angles == AngleUnits::degrees) {
-        if (channel.units == "rad") return {degrees, "deg"};
-        if (channel.units == "rad s-2" || channel.units == "rad/s^2") return {degrees, "deg s-2"};
+        if (channel.units == "rad") return {units::to_degrees, "deg"};
+        if (channel.units == "rad s-2" || channel.units == "rad/s^2") return {units::to_degrees, "deg s-2"};
         if (channel.units == "rad s-1" || channel.units == "rad/s") {
-            if (channel.name.ends_with("speed")) return {rpm, "rpm"};
-            return {degrees, "deg s-1"};
+            if (channel.name.ends_with("speed")) return {units::to_rpm, "rpm"};
+            return {units::to_degrees, "deg s-1"};
         }
     }
     return {1, channel.units};

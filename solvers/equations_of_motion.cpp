@@ -10,17 +10,15 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "time integration";
-
 void check_start(const Model& model, double time, const Vector& q, const Vector& qd) {
-    if (!std::isfinite(time)) throw InputError(place, "first time [s]", time, "finite");
+    if (!std::isfinite(time)) throw InputError(in_integration, "first time [s]", time, "finite");
     for (const Vector* v : {&q, &qd}) {
         if (v->size() != model.size())
-            throw InputError(place, v == &q ? "number of positions" : "number of rates", v->size(),
+            throw InputError(in_integration, v == &q ? "number of positions" : "number of rates", v->size(),
                              text(model.size(), ", one per coordinate"));
         for (int i = 0; i < model.size(); ++i)
             if (!std::isfinite((*v)(i)))
-                throw InputError(text(place, ": '", model.coordinates()[i].name, "'"),
+                throw InputError(text(in_integration, ": '", model.coordinates()[i].name, "'"),
                                  v == &q ? "position at the start" : "rate at the start", (*v)(i), "finite");
     }
 }
@@ -31,10 +29,11 @@ std::vector<Drive> all_drives(const Model& model, std::vector<Drive> drives, dou
     std::vector<bool> given(static_cast<std::size_t>(model.size()));
     for (const Drive& drive : drives) {
         if (drive.coordinate < 0 || drive.coordinate >= model.size())
-            throw InputError(place, "index of a driven coordinate", drive.coordinate, text("0 ... ", model.size() - 1));
+            throw InputError(in_integration, "index of a driven coordinate", drive.coordinate,
+                             text("0 ... ", model.size() - 1));
         const auto i = static_cast<std::size_t>(drive.coordinate);
         if (given[i])
-            throw InputError(place, "motions of one coordinate", model.coordinates()[drive.coordinate].name,
+            throw InputError(in_integration, "motions of one coordinate", model.coordinates()[drive.coordinate].name,
                              "one at most");
         given[i] = true;
     }
@@ -74,11 +73,12 @@ void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
     const auto drive =
         std::find_if(drives_.begin(), drives_.end(), [&](const Drive& d) { return d.coordinate == coordinate; });
     if (drive == drives_.end())
-        throw InputError(place, "index of a driven coordinate", coordinate, "one that was driven from the start");
+        throw InputError(in_integration, "index of a driven coordinate", coordinate,
+                         "one that was driven from the start");
     const MotionState before = drive->motion.at(time, inside_), after = motion.at(time);
     const auto jumps = [](double a, double b) { return !(std::abs(a - b) <= 1e-8 * (1 + std::abs(a))); };
     const std::string where =
-        text(place, ": new motion of '", model().coordinates()[coordinate].name, "' at ", time, " s");
+        text(in_integration, ": new motion of '", model().coordinates()[coordinate].name, "' at ", time, " s");
     if (jumps(before.position, after.position))
         throw InputError(where, "position", after.position, text("as before, ", before.position));
     if (jumps(before.velocity, after.velocity))

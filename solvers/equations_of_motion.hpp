@@ -12,6 +12,9 @@
 
 namespace cardan::solvers {
 
+/// The place that errors of these equations and their integration name.
+inline constexpr const char* in_integration = "time integration";
+
 /// A coordinate and the motion that is imposed on it.
 struct Drive {
     int coordinate = -1;  ///< index in the model

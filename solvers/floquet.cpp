@@ -14,7 +14,7 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr const char* place = "Floquet theory";
+constexpr const char* in_floquet_theory = "Floquet theory";
 
 // The system in coordinates of unit inertia at t = 0 and in the time omega t: states alike in size.
 struct Normalised {
@@ -30,7 +30,8 @@ Vector units(const PeriodicSystem& raw) {
     raw.at(0, at);
     for (Index i = 0; i < raw.rows(); ++i) {
         if (!(at.M(i, i) > 0))
-            throw InputError(place, text("inertia of row ", i), at.M(i, i), "> 0 in a system of second order");
+            throw InputError(in_floquet_theory, text("inertia of row ", i), at.M(i, i),
+                             "> 0 in a system of second order");
         unit(i) = 1 / std::sqrt(at.M(i, i));
     }
     unit.tail(raw.rows()) = raw.frequency() * unit.head(raw.rows());
@@ -82,19 +83,20 @@ Grid make_grid(const FloquetOptions& options) {
 
 void check(const PeriodicSystem& system, const FloquetOptions& options) {
     const BladeSymmetry& symmetry = options.symmetry;
-    if (symmetry.parts < 1) throw InputError(place, "number of identical parts", symmetry.parts, ">= 1");
+    if (symmetry.parts < 1) throw InputError(in_floquet_theory, "number of identical parts", symmetry.parts, ">= 1");
     if (options.steps < 0 || options.steps % symmetry.parts != 0)
-        throw InputError(place, "steps per period", options.steps,
+        throw InputError(in_floquet_theory, "steps per period", options.steps,
                          text(">= 0 and a multiple of the number of identical parts, ", symmetry.parts));
     if (options.factors < 1 || options.factors > 64)
-        throw InputError(place, "number of factors", options.factors, "1 ... 64");
-    require_positive(place, "tolerance", options.tolerance);
+        throw InputError(in_floquet_theory, "number of factors", options.factors, "1 ... 64");
+    require_positive(in_floquet_theory, "tolerance", options.tolerance);
     if (!(options.per_period >= 0) || options.per_period > 1e4)
-        throw InputError(place, "frequency per period up to which modes are wanted", options.per_period, "0 ... 1e4");
-    if (options.most_steps < 1) throw InputError(place, "limit of steps", options.most_steps, ">= 1");
+        throw InputError(in_floquet_theory, "frequency per period up to which modes are wanted", options.per_period,
+                         "0 ... 1e4");
+    if (options.most_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.most_steps, ">= 1");
     const double difference = asymmetry(system, symmetry);
     if (!(difference < 1e-7))
-        throw InputError(place, text("difference of the ", symmetry.parts, " parts"), difference,
+        throw InputError(in_floquet_theory, text("difference of the ", symmetry.parts, " parts"), difference,
                          "below 1e-7; parts that differ need the whole period");
 }
 

@@ -12,8 +12,8 @@ using Index = Eigen::Index;
 constexpr int most_shift = 8;
 
 // A motion: shapes of its harmonics by column and what the matrices make of them.
-struct Motion {
-    Motion(const CampbellMode& mode, const SecondOrderSystem& weights)
+struct ModalMotion {
+    ModalMotion(const CampbellMode& mode, const SecondOrderSystem& weights)
         : exponent(mode.mode.eigenvalue), rigid(mode.kind() == FloquetKind::rigid), elastic(mode.row < 0) {
         if (mode.floquet) {
             shapes = mode.floquet->harmonics;
@@ -27,8 +27,8 @@ struct Motion {
     }
     int count() const { return static_cast<int>(shapes.cols()); }
     Complex eigenvalue(int column) const { return exponent + Complex(0, frequency * (first + column)); }
-    Motion conjugate() const {
-        Motion other = *this;
+    ModalMotion conjugate() const {
+        ModalMotion other = *this;
         other.exponent = std::conj(exponent);
         for (ComplexMatrix* m : {&other.shapes, &other.force, &other.momentum})
             *m = m->conjugate().rowwise().reverse().eval();
@@ -44,7 +44,7 @@ struct Motion {
 };
 
 // Column by column, of x's `from` and `count` further.
-Complex product(const Motion& x, const Motion& y, int shift, bool by_shape, int from, int count) {
+Complex product(const ModalMotion& x, const ModalMotion& y, int shift, bool by_shape, int from, int count) {
     Complex sum = 0;
     for (int i = from; i < from + count; ++i) {
         const int j = x.first + i + shift - y.first;
@@ -56,7 +56,7 @@ Complex product(const Motion& x, const Motion& y, int shift, bool by_shape, int 
     return sum;
 }
 
-Complex product(const Motion& x, const Motion& y, int shift, bool by_shape) {
+Complex product(const ModalMotion& x, const ModalMotion& y, int shift, bool by_shape) {
     return product(x, y, shift, by_shape, 0, x.count());
 }
 
@@ -64,7 +64,7 @@ struct Likeness {
     double mac = 0, score = 0;
 };
 
-Likeness likeness(const Motion& x, const Motion& y) {
+Likeness likeness(const ModalMotion& x, const ModalMotion& y) {
     const bool by_shape = x.rigid || y.rigid;
     if (by_shape && (x.elastic || y.elastic)) return {};
     const double size = product(x, x, 0, by_shape).real() * product(y, y, 0, by_shape).real();
@@ -88,13 +88,13 @@ Likeness best(const Likeness& a, const Likeness& b) {
 
 PeriodicLikeness periodic_likeness(const SecondOrderSystem& weights, const std::vector<const CampbellMode*>& before,
                                    const std::vector<CampbellMode>& now) {
-    std::vector<Motion> rows, columns;
+    std::vector<ModalMotion> rows, columns;
     for (const CampbellMode* mode : before) rows.emplace_back(*mode, weights);
     for (const CampbellMode& mode : now) columns.emplace_back(mode, weights);
     const auto m = static_cast<Index>(rows.size()), n = static_cast<Index>(columns.size());
     PeriodicLikeness result{Matrix(m, n), Matrix(m, n)};
     for (std::size_t j = 0; j < columns.size(); ++j) {
-        const Motion &y = columns[j], conjugate = y.conjugate();
+        const ModalMotion &y = columns[j], conjugate = y.conjugate();
         const double low = 1.5 * y.frequency;
         for (std::size_t i = 0; i < rows.size(); ++i) {
             Likeness one = likeness(rows[i], y);

@@ -14,13 +14,9 @@ using Index = Eigen::Index;
 // Harmonics that hold the same energy but for this are alike.
 constexpr double alike = 1e-6;
 // |lambda T| of a rigid motion: the square root of the errors of the integration.
-constexpr double rigid_limit = 1e-4;
+constexpr double rigid_per_period = 1e-4;
 // Rounding of a logarithm.
 constexpr double own_conjugate = 1e-12;
-
-double square(const Matrix& A, const ComplexVector& x) {
-    return (x.adjoint() * (A * x)).value().real();
-}
 
 Vector energies(const FloquetSolution& s, const EnergyWeights& w, double omega) {
     const Index J = s.harmonics.cols() / 2;
@@ -28,7 +24,7 @@ Vector energies(const FloquetSolution& s, const EnergyWeights& w, double omega) 
     for (Index i = 0; i < e.size(); ++i) {
         const Complex lambda = s.exponent + Complex(0, omega * static_cast<double>(i - J));
         const ComplexVector c = s.harmonics.col(i);
-        e(i) = square(w.K, c) + std::norm(lambda) * square(w.M, c);
+        e(i) = hermitian_form(w.K, c) + std::norm(lambda) * hermitian_form(w.M, c);
     }
     return e.cwiseMax(0);
 }
@@ -54,11 +50,11 @@ Index rigid_column(const FloquetSolution& s, const EnergyWeights& w, double omeg
     const auto turns = static_cast<Index>(std::lround(s.exponent.imag() / omega));
     const Index column = J - turns;
     const Complex rest = s.exponent - Complex(0, omega * static_cast<double>(turns));
-    if (std::abs(rest) * 2 * pi / omega > rigid_limit || column < 0 || column > 2 * J) return -1;
+    if (std::abs(rest) * 2 * pi / omega > rigid_per_period || column < 0 || column > 2 * J) return -1;
     const Matrix& W = w.M.isZero(0) ? w.K : w.M;
-    const double own = square(W, s.harmonics.col(column));
+    const double own = hermitian_form(W, s.harmonics.col(column));
     for (Index i = 0; i <= 2 * J; ++i)
-        if (square(W, s.harmonics.col(i)) > own) return -1;
+        if (hermitian_form(W, s.harmonics.col(i)) > own) return -1;
     return column;
 }
 
@@ -91,6 +87,10 @@ void normalise(FloquetMode& mode, double energy) {
 }
 
 }  // namespace
+
+double hermitian_form(const Matrix& A, const ComplexVector& x) {
+    return (x.adjoint() * (A * x)).value().real();
+}
 
 double FloquetMode::share(int j) const {
     const Index column = j - first_harmonic;

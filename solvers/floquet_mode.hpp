@@ -51,6 +51,9 @@ struct FloquetMode {
 /// "oscillation", "locked at 1 per period", "locked at 1/2 per period", "rigid" ...
 std::string kind_name(const FloquetMode& mode);
 
+/// x^H A x of a symmetric matrix, a real number.
+double hermitian_form(const Matrix& A, const ComplexVector& x);
+
 /// What a method has found: a solution exp(lambda t) sum_j c_j exp(i j omega t), with lambda modulo i omega.
 struct FloquetSolution {
     Complex exponent;

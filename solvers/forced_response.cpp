@@ -11,21 +11,22 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr auto place = "forced response";
+constexpr const char* in_forced_response = "forced response";
 
 Vector load_at(const std::function<Vector(double)>& load, double time, Index rows) {
     Vector f = load(time);
     if (f.size() != rows)
-        throw NumericalError(text(place, ": load at ", time, " s has ", f.size(), " rows; wanted: ", rows));
-    if (!f.allFinite()) throw NumericalError(text(place, ": load at ", time, " s is not finite"));
+        throw NumericalError(
+            text(in_forced_response, ": load at ", time, " s has ", f.size(), " rows; wanted: ", rows));
+    if (!f.allFinite()) throw NumericalError(text(in_forced_response, ": load at ", time, " s is not finite"));
     return f;
 }
 
 void check(const PeriodicSystem& system, int harmonics, int samples) {
-    if (!system.is_second_order()) throw InputError(place, "order of the system", 1, "2");
-    if (harmonics < 1) throw InputError(place, "harmonics", harmonics, ">= 1");
+    if (!system.is_second_order()) throw InputError(in_forced_response, "order of the system", 1, "2");
+    if (harmonics < 1) throw InputError(in_forced_response, "harmonics", harmonics, ">= 1");
     if (samples != 0 && samples <= 2 * harmonics)
-        throw InputError(place, "samples", samples, "0, or more than twice the harmonics");
+        throw InputError(in_forced_response, "samples", samples, "0, or more than twice the harmonics");
 }
 
 double remainder(const PeriodicSystem& system, const std::function<Vector(double)>& load, const ForcedResponse& q,
@@ -53,7 +54,7 @@ Vector ForcedResponse::at(double time, int derivative) const {
 ForcedResponse forced_response(const PeriodicSystem& system, const std::function<Vector(double)>& load, int harmonics,
                                int samples) {
     check(system, harmonics, samples);
-    if (!load) throw InputError(text(place, ": the function of the load is empty"));
+    if (!load) throw InputError(text(in_forced_response, ": the function of the load is empty"));
     if (samples == 0) samples = 4 * (harmonics + 1);
     const Index n = system.rows(), terms = Index{2} * harmonics + 1;
     const double omega = system.frequency();
@@ -78,7 +79,7 @@ ForcedResponse forced_response(const PeriodicSystem& system, const std::function
     const Vector scale = size.cwiseSqrt().cwiseInverse().replicate(terms, 1);
     const Eigen::PartialPivLU<Matrix> lu(scale.asDiagonal() * A * scale.asDiagonal());
     if (!(lu.rcond() > 1e-15))
-        throw NumericalError(text(place, ": the equations are singular (reciprocal condition ", lu.rcond(),
+        throw NumericalError(text(in_forced_response, ": the equations are singular (reciprocal condition ", lu.rcond(),
                                   "): an undamped natural frequency coincides with a harmonic of ", 1 / system.period(),
                                   " Hz, or nothing holds a coordinate"));
     const Vector x = scale.cwiseProduct(lu.solve(scale.cwiseProduct(b)));

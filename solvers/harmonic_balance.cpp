@@ -11,7 +11,7 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr const char* place = "harmonic balance";
+constexpr const char* in_harmonic_balance = "harmonic balance";
 
 // Unknowns are the coefficients column after column: entry l n + i is coefficient l of unknown i.
 class Balance {
@@ -47,11 +47,11 @@ private:
 };
 
 Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
-    : options_(options), equations_(system, spin, options, place) {
+    : options_(options), equations_(system, spin, options, in_harmonic_balance) {
     const int least = 2 * options.harmonics + 1;
     const int count = options.samples > 0 ? options.samples : 4 * (options.harmonics + 1);
     if (options.samples < 0 || count < least)
-        throw InputError(place, "number of samples", options.samples, text(">= ", least, ", or 0"));
+        throw InputError(in_harmonic_balance, "number of samples", options.samples, text(">= ", least, ", or 0"));
     const double Omega = options.rotor_speed;
     for (Matrix* m : {&basis_[0], &basis_[1], &basis_[2], &weights_}) m->resize(least, count);
     for (int s = 0; s < count; ++s) {
@@ -69,7 +69,8 @@ void Balance::hold() {
     for (int coordinate : options_.held) {
         const Index row = equations_.row_of(coordinate);
         if (row < 0)
-            throw InputError(place, "coordinate whose mean is held", coordinate, "a free coordinate besides the spin");
+            throw InputError(in_harmonic_balance, "coordinate whose mean is held", coordinate,
+                             "a free coordinate besides the spin");
         held_.push_back(row);
     }
 }

@@ -12,7 +12,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "harmonics";
+constexpr const char* in_harmonics = "harmonics";
 
 // 1, cos(phi), sin(phi), cos(2 phi), sin(2 phi) ...
 void fill_basis(double phi, Vector& basis) {
@@ -44,9 +44,9 @@ Periods whole_periods(std::span<const double> time, double frequency, int harmon
     const double covered = (time.back() - time.front() + steps.mean) / period;
     const double count = std::floor(covered * (1 + 1e-12) + 1e-9);
     if (!(count >= 1 && count < 1e9))
-        throw InputError(place, "periods in the history", covered, text("at least one of ", period, " s"));
+        throw InputError(in_harmonics, "periods in the history", covered, text("at least one of ", period, " s"));
     if (!(steps.largest < period / (2 * harmonics)))
-        throw InputError(place, "longest step between samples [s]", steps.largest,
+        throw InputError(in_harmonics, "longest step between samples [s]", steps.largest,
                          text("< ", period / (2 * harmonics), ", half a period of harmonic ", harmonics));
     const double begin = time.back() - count * period + 1e-6 * steps.mean;
     std::size_t first = 0;
@@ -65,21 +65,22 @@ double Harmonics::operator()(double time) const {
 }
 
 Harmonics harmonics(std::span<const double> time, std::span<const double> values, double base_frequency, int count) {
-    require_positive(place, "base frequency [Hz]", base_frequency);
-    if (count < 1 || count > 1000) throw InputError(place, "number of harmonics", count, "1 to 1000");
+    require_positive(in_harmonics, "base frequency [Hz]", base_frequency);
+    if (count < 1 || count > 1000) throw InputError(in_harmonics, "number of harmonics", count, "1 to 1000");
     if (values.size() != time.size())
-        throw InputError(place, "number of values", values.size(), text(time.size(), ", that of the times"));
+        throw InputError(in_harmonics, "number of values", values.size(), text(time.size(), ", that of the times"));
     const Periods periods = whole_periods(time, base_frequency, count);
     const auto samples = static_cast<double>(time.size() - periods.first);
     if (samples < 2 * count + 1)
-        throw InputError(place, "samples in whole periods", samples, text("at least ", 2 * count + 1));
+        throw InputError(in_harmonics, "samples in whole periods", samples, text("at least ", 2 * count + 1));
 
     // Normal equations: the basis is orthogonal but for the unevenness of the samples, so nothing is lost by squaring.
     const Eigen::Index unknowns = 2 * count + 1;
     Vector basis(unknowns), right = Vector::Zero(unknowns);
     Matrix left = Matrix::Zero(unknowns, unknowns);
     for (std::size_t i = periods.first; i < time.size(); ++i) {
-        if (!std::isfinite(values[i])) throw InputError(place, text("value at ", time[i], " s"), values[i], "finite");
+        if (!std::isfinite(values[i]))
+            throw InputError(in_harmonics, text("value at ", time[i], " s"), values[i], "finite");
         fill_basis(angle(time[i], base_frequency), basis);
         left.selfadjointView<Eigen::Lower>().rankUpdate(basis);
         right += values[i] * basis;

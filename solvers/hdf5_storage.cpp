@@ -1,10 +1,11 @@
 #include "solvers/hdf5_storage.hpp"
 
+#include "solvers/hdf5_driver.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <mutex>
 #include <new>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -28,12 +29,6 @@ struct Storage : H5FD_t {
     std::vector<Piece> lost;  ///< what the disk did not take, in order: metadata that HDF5 may ask for again
 };
 
-/// What an access list carries to open_file.
-struct AccessInfo {
-    DiskState* state;
-};
-
-constexpr haddr_t max_address = static_cast<haddr_t>(1) << 62;
 constexpr std::size_t max_kept_piece = 65536;  // larger pieces of raw data are never asked for again
 
 Storage& storage(H5FD_t* file) {
@@ -47,149 +42,120 @@ void note(DiskState& state, int reason) {
     if (state.error == 0) state.error = reason;
 }
 
-// The functions below are called by the C library: none lets an exception out.
+// See access_through().
+struct StorageDriver {
+    /// What an access list carries to open().
+    struct Access {
+        DiskState* state;
+    };
+    static constexpr const char* driver_name = "cardan";
+    static constexpr haddr_t max_address = static_cast<haddr_t>(1) << 62;
 
-H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t) noexcept {
-    const auto* info = static_cast<const AccessInfo*>(H5Pget_driver_info(access));
-    if (info == nullptr) return nullptr;
-    DiskState& state = *info->state;
-    const int fd = ::open(name, O_RDWR | O_CLOEXEC | ((flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0), 0666);
-    if (fd < 0) {
-        note(state, errno);
-        return nullptr;
-    }
-    struct stat status {};
-    const bool busy = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    int reason = busy ? EWOULDBLOCK : 0;
-    if (!busy && ::fstat(fd, &status) != 0) reason = errno;
-    if (reason == 0 && (flags & H5F_ACC_TRUNC) != 0 && S_ISREG(status.st_mode)) {
-        if (::ftruncate(fd, 0) != 0) reason = errno;
-        status.st_size = 0;
-    }
-    auto* made = reason == 0 ? new (std::nothrow) Storage : nullptr;
-    if (made == nullptr) {
-        note(state, reason == 0 ? ENOMEM : reason);
-        ::close(fd);
-        return nullptr;
-    }
-    made->fd = fd;
-    made->end_of_file = static_cast<haddr_t>(status.st_size);
-    made->state = &state;
-    return made;
-}
-
-herr_t close_file(H5FD_t* file) noexcept {
-    Storage& s = storage(file);
-    if (::close(s.fd) != 0) note(*s.state, errno);
-    delete &s;
-    return 0;
-}
-
-int compare_files(const H5FD_t* a, const H5FD_t* b) noexcept {
-    struct stat first {};
-    struct stat second {};
-    if (::fstat(storage(a).fd, &first) != 0 || ::fstat(storage(b).fd, &second) != 0) return a < b ? -1 : 1;
-    if (first.st_dev != second.st_dev) return first.st_dev < second.st_dev ? -1 : 1;
-    if (first.st_ino != second.st_ino) return first.st_ino < second.st_ino ? -1 : 1;
-    return 0;
-}
-
-herr_t query_features(const H5FD_t*, unsigned long* flags) noexcept {
-    if (flags != nullptr) {
-        *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
-                 H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
-    }
-    return 0;
-}
-
-haddr_t get_end_allocated(const H5FD_t* file, H5FD_mem_t) noexcept {
-    return storage(file).end_allocated;
-}
-
-herr_t set_end_allocated(H5FD_t* file, H5FD_mem_t, haddr_t address) noexcept {
-    storage(file).end_allocated = address;
-    return 0;
-}
-
-haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) noexcept {
-    return storage(file).end_of_file;
-}
-
-herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) noexcept {
-    const Storage& s = storage(file);
-    auto* to = static_cast<char*>(buffer);
-    std::memset(to, 0, size);
-    for (std::size_t done = 0; done < size;) {
-        const ssize_t n = ::pread(s.fd, to + done, size - done, static_cast<off_t>(address + done));
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return -1;
-        if (n == 0) break;  // beyond the end: zeros
-        done += static_cast<std::size_t>(n);
-    }
-    for (const Piece& piece : s.lost) {
-        const haddr_t from = std::max(address, piece.address);
-        const haddr_t end = std::min(address + size, piece.address + piece.bytes.size());
-        if (from < end) std::memcpy(to + (from - address), piece.bytes.data() + (from - piece.address), end - from);
-    }
-    return 0;
-}
-
-herr_t write_bytes(H5FD_t* file, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size,
-                   const void* bytes) noexcept {
-    Storage& s = storage(file);
-    const auto* from = static_cast<const char*>(bytes);
-    std::size_t done = 0;
-    while (s.state->error == 0 && done < size) {
-        const ssize_t n = ::pwrite(s.fd, from + done, size - done, static_cast<off_t>(address + done));
-        if (n < 0 && errno != EINTR) note(*s.state, errno);
-        if (n == 0) note(*s.state, ENOSPC);
-        if (n > 0) done += static_cast<std::size_t>(n);
-    }
-    s.end_of_file = std::max(s.end_of_file, address + size);
-    if (done < size && (type != H5FD_MEM_DRAW || size <= max_kept_piece)) {
-        try {
-            s.lost.push_back({address, std::vector<char>(from, from + size)});
-        } catch (const std::bad_alloc&) {
-            return -1;
+    static H5FD_t* open(const char* name, unsigned flags, hid_t access, haddr_t) noexcept {
+        const auto* info = static_cast<const Access*>(H5Pget_driver_info(access));
+        if (info == nullptr) return nullptr;
+        DiskState& state = *info->state;
+        const int fd = ::open(name, O_RDWR | O_CLOEXEC | ((flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0), 0666);
+        if (fd < 0) {
+            note(state, errno);
+            return nullptr;
         }
+        struct stat status {};
+        const bool busy = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        int reason = busy ? EWOULDBLOCK : 0;
+        if (!busy && ::fstat(fd, &status) != 0) reason = errno;
+        if (reason == 0 && (flags & H5F_ACC_TRUNC) != 0 && S_ISREG(status.st_mode)) {
+            if (::ftruncate(fd, 0) != 0) reason = errno;
+            status.st_size = 0;
+        }
+        auto* made = reason == 0 ? new (std::nothrow) Storage : nullptr;
+        if (made == nullptr) {
+            note(state, reason == 0 ? ENOMEM : reason);
+            ::close(fd);
+            return nullptr;
+        }
+        made->fd = fd;
+        made->end_of_file = static_cast<haddr_t>(status.st_size);
+        made->state = &state;
+        return made;
     }
-    return 0;
-}
 
-herr_t truncate_file(H5FD_t* file, hid_t, hbool_t) noexcept {
-    Storage& s = storage(file);
-    if (s.end_allocated != s.end_of_file) {
-        if (s.state->error == 0 && ::ftruncate(s.fd, static_cast<off_t>(s.end_allocated)) != 0) note(*s.state, errno);
-        s.end_of_file = s.end_allocated;
+    static herr_t close(H5FD_t* file) noexcept {
+        Storage& s = storage(file);
+        if (::close(s.fd) != 0) note(*s.state, errno);
+        delete &s;
+        return 0;
     }
-    return 0;
-}
 
-/// Registered with the C library at first use, and again should the host program have closed the library since.
-hid_t driver() {
-    static std::mutex mutex;
-    static hid_t id = -1;
-    const std::lock_guard lock(mutex);
-    if (id < 0 || H5Iget_type(id) != H5I_VFL) {
-        H5FD_class_t table{};  // zeros: no driver block in the file, one free list for each kind of data
-        table.name = "cardan";
-        table.maxaddr = max_address;
-        table.fc_degree = H5F_CLOSE_WEAK;
-        table.fapl_size = sizeof(AccessInfo);
-        table.open = open_file;
-        table.close = close_file;
-        table.cmp = compare_files;
-        table.query = query_features;
-        table.get_eoa = get_end_allocated;
-        table.set_eoa = set_end_allocated;
-        table.get_eof = get_end_of_file;
-        table.read = read_bytes;
-        table.write = write_bytes;
-        table.truncate = truncate_file;
-        id = H5FDregister(&table);
+    static int compare(const H5FD_t* a, const H5FD_t* b) noexcept {
+        struct stat first {};
+        struct stat second {};
+        if (::fstat(storage(a).fd, &first) != 0 || ::fstat(storage(b).fd, &second) != 0) return a < b ? -1 : 1;
+        if (first.st_dev != second.st_dev) return first.st_dev < second.st_dev ? -1 : 1;
+        if (first.st_ino != second.st_ino) return first.st_ino < second.st_ino ? -1 : 1;
+        return 0;
     }
-    return id;
-}
+
+    static haddr_t end_allocated(const H5FD_t* file, H5FD_mem_t) noexcept { return storage(file).end_allocated; }
+
+    static herr_t set_end_allocated(H5FD_t* file, H5FD_mem_t, haddr_t address) noexcept {
+        storage(file).end_allocated = address;
+        return 0;
+    }
+
+    static haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t) noexcept { return storage(file).end_of_file; }
+
+    static herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) noexcept {
+        const Storage& s = storage(file);
+        auto* to = static_cast<char*>(buffer);
+        std::memset(to, 0, size);
+        for (std::size_t done = 0; done < size;) {
+            const ssize_t n = ::pread(s.fd, to + done, size - done, static_cast<off_t>(address + done));
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) return -1;
+            if (n == 0) break;  // beyond the end: zeros
+            done += static_cast<std::size_t>(n);
+        }
+        for (const Piece& piece : s.lost) {
+            const haddr_t from = std::max(address, piece.address);
+            const haddr_t end = std::min(address + size, piece.address + piece.bytes.size());
+            if (from < end) std::memcpy(to + (from - address), piece.bytes.data() + (from - piece.address), end - from);
+        }
+        return 0;
+    }
+
+    static herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size,
+                        const void* bytes) noexcept {
+        Storage& s = storage(file);
+        const auto* from = static_cast<const char*>(bytes);
+        std::size_t done = 0;
+        while (s.state->error == 0 && done < size) {
+            const ssize_t n = ::pwrite(s.fd, from + done, size - done, static_cast<off_t>(address + done));
+            if (n < 0 && errno != EINTR) note(*s.state, errno);
+            if (n == 0) note(*s.state, ENOSPC);
+            if (n > 0) done += static_cast<std::size_t>(n);
+        }
+        s.end_of_file = std::max(s.end_of_file, address + size);
+        if (done < size && (type != H5FD_MEM_DRAW || size <= max_kept_piece)) {
+            try {
+                s.lost.push_back({address, std::vector<char>(from, from + size)});
+            } catch (const std::bad_alloc&) {
+                return -1;
+            }
+        }
+        return 0;
+    }
+
+    static herr_t truncate(H5FD_t* file, hid_t, hbool_t) noexcept {
+        Storage& s = storage(file);
+        if (s.end_allocated != s.end_of_file) {
+            if (s.state->error == 0 && ::ftruncate(s.fd, static_cast<off_t>(s.end_allocated)) != 0)
+                note(*s.state, errno);
+            s.end_of_file = s.end_allocated;
+        }
+        return 0;
+    }
+};
 
 herr_t keep_first(unsigned n, const H5E_error2_t* error, void* out) noexcept {
     try {
@@ -209,12 +175,7 @@ std::string innermost_reason() {
 }
 
 Handle writing_access(DiskState& state) {
-    Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    const AccessInfo info{&state};
-    if (list.valid() && (H5Pset_driver(list.get(), driver(), &info) < 0 ||
-                         H5Pset_libver_bounds(list.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0))
-        list.close();
-    return list;
+    return access_through<StorageDriver>({&state});
 }
 
 }  // namespace cardan::solvers::detail

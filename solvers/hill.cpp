@@ -15,7 +15,7 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr const char* place = "Hill's method";
+constexpr const char* in_hills_method = "Hill's method";
 
 // (A - sigma E)^-1 E projected on the harmonics 1, cos, sin, cos 2, ... of the time omega t; its eigenvalues are
 // 1 / (lambda - sigma). Large ones, slow motions, keep their accuracy beside stiff ones. States of second order in
@@ -44,7 +44,7 @@ Matrix inverted_pencil(const PeriodicSystem& system, int H, int samples, double 
     return left.partialPivLu().solve(right);
 }
 
-Vector units(const PeriodicSystem& system) {
+Vector state_units(const PeriodicSystem& system) {
     Vector unit = Vector::Ones(system.states());
     if (!system.is_second_order()) return unit;
     SecondOrderSystem at;
@@ -150,13 +150,13 @@ std::vector<Candidate> candidates(const PeriodicSystem& system, const Matrix& S,
 
 Floquet hill(const PeriodicSystem& system, const HillOptions& options) {
     const int H = options.harmonics;
-    if (H < 1 || H > 200) throw InputError(place, "number of harmonics", H, "1 ... 200");
+    if (H < 1 || H > 200) throw InputError(in_hills_method, "number of harmonics", H, "1 ... 200");
     const int samples = options.samples > 0 ? options.samples : std::max(64, 8 * (H + 1));
     if (options.samples < 0 || samples < 4 * H + 1)
-        throw InputError(place, "number of samples", options.samples, text(">= ", 4 * H + 1, ", or 0"));
+        throw InputError(in_hills_method, "number of samples", options.samples, text(">= ", 4 * H + 1, ", or 0"));
     constexpr double sigma = 0.3137;  // no one's exponent over omega
     const EnergyWeights weights(system, samples, options.weight);
-    const Vector unit = units(system);
+    const Vector unit = state_units(system);
     const Matrix S = inverted_pencil(system, H, samples, sigma, unit);
     if (!S.allFinite()) throw NumericalError("Hill's method: the pencil is singular");
     const std::vector<Candidate> found = candidates(system, S, sigma, H, unit, weights);

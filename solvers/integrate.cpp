@@ -13,10 +13,8 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "time integration";
 constexpr int watched_steps = 1000;
-constexpr double never = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 // Two times closer than this are one.
 double resolution(double time) {
     return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
@@ -64,7 +62,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     : options_(std::move(options)), equations_(system, std::move(drives), time, q, qd) {
     check_options(time);
     const Eigen::Index m = equations_.size();
-    if (m == 0) throw InputError(place, "number of free coordinates", m, ">= 1");
+    if (m == 0) throw InputError(in_integration, "number of free coordinates", m, ">= 1");
     x_.resize(2 * m);
     x_between_.resize(2 * m);
     for (Eigen::Index i = 0; i < m; ++i) {
@@ -81,7 +79,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     find_breaks();
     begin_piece();
     if (!equations_.complete(time, x_.data(), state_))
-        throw NumericalError(text(place, ": no start: ", equations_.problem()));
+        throw NumericalError(text(in_integration, ": no start: ", equations_.problem()));
     kinetic_at_start_ = equations_.kinetic_energy(state_);
     potential_at_start_ = equations_.potential_energy(state_);
     x_between_ = x_;
@@ -93,31 +91,33 @@ Integrator::~Integrator() = default;
 
 void Integrator::check_options(double time) const {
     const Tolerances& tolerances = options_.tolerances;
-    require_positive(place, "relative tolerance", tolerances.relative);
+    require_positive(in_integration, "relative tolerance", tolerances.relative);
     for (double value : {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed})
-        require_positive(place, "absolute tolerance", value);
-    require_not_negative(place, "largest step [s]", options_.max_step);
-    require_not_negative(place, "first step [s]", options_.first_step);
-    require_not_negative(place, "fixed step [s]", options_.fixed_step);
-    for (const auto& [name, step] :
-         {std::pair{"largest step [s]", options_.max_step}, std::pair{"first step [s]", options_.first_step},
-          std::pair{"fixed step [s]", options_.fixed_step}})
+        require_positive(in_integration, "absolute tolerance", value);
+    const std::array steps{std::pair{"largest step [s]", options_.max_step},
+                           std::pair{"first step [s]", options_.first_step},
+                           std::pair{"fixed step [s]", options_.fixed_step}};
+    for (const auto& [name, step] : steps) require_not_negative(in_integration, name, step);
+    for (const auto& [name, step] : steps)
         if (step > 0 && step < shortest_step(time))
-            throw InputError(place, name, step, text("0, or >= ", shortest_step(time), ", which the clock can tell"));
+            throw InputError(in_integration, name, step,
+                             text("0, or >= ", shortest_step(time), ", which the clock can tell"));
     if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
-        throw InputError(place, "fixed step [s]", options_.fixed_step,
+        throw InputError(in_integration, "fixed step [s]", options_.fixed_step,
                          text("at most the largest step, ", options_.max_step));
     const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
     if (options_.max_order < 0 || options_.max_order > highest)
-        throw InputError(place, "highest order", options_.max_order, text("0 ... ", highest, " with this method"));
+        throw InputError(in_integration, "highest order", options_.max_order,
+                         text("0 ... ", highest, " with this method"));
     if (!(options_.spectral_radius >= 0 && options_.spectral_radius <= 1))
-        throw InputError(place, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
+        throw InputError(in_integration, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
     for (double jump : options_.breaks)
-        if (!std::isfinite(jump)) throw InputError(place, "time of a break [s]", jump, "finite");
+        if (!std::isfinite(jump)) throw InputError(in_integration, "time of a break [s]", jump, "finite");
     for (const Event& event : options_.events) {
-        if (!event.function) throw InputError(place, "event", event.name, "one with a function");
+        if (!event.function) throw InputError(in_integration, "event", event.name, "one with a function");
         if (event.direction < -1 || event.direction > 1)
-            throw InputError(text(place, ": event '", event.name, "'"), "direction", event.direction, "-1, 0 or 1");
+            throw InputError(text(in_integration, ": event '", event.name, "'"), "direction", event.direction,
+                             "-1, 0 or 1");
     }
 }
 
@@ -140,8 +140,8 @@ void Integrator::begin_piece() {
 double Integrator::event_value(std::size_t event, double time) {
     const double value = equations_.evaluate(options_.events[event].function, time, x_between_.data());
     if (!std::isfinite(value))
-        throw NumericalError(
-            text(place, ": the function of the event '", options_.events[event].name, "' at ", time, " s is ", value));
+        throw NumericalError(text(in_integration, ": the function of the event '", options_.events[event].name, "' at ",
+                                  time, " s is ", value));
     return value;
 }
 
@@ -235,7 +235,8 @@ void Integrator::complete(Advance& result) {
 AfterEvent Integrator::act(int event) {
     const Event& happened = options_.events[static_cast<std::size_t>(event)];
     if (!equations_.complete(state_.time, x_.data(), state_))
-        throw NumericalError(text(place, ": no state at the event '", happened.name, "': ", equations_.problem()));
+        throw NumericalError(
+            text(in_integration, ": no state at the event '", happened.name, "': ", equations_.problem()));
     const While acting(doing_, Doing::acting);
     return happened.action ? happened.action(*this) : AfterEvent::stop;
 }
@@ -348,7 +349,7 @@ Advance Integrator::advance(double target, bool one_step) try {
 
 void Integrator::check_allowed(const char* what, Doing latest) const {
     if (doing_ <= latest) return;
-    throw InputError(place, what,
+    throw InputError(in_integration, what,
                      doing_ == Doing::acting ? "called in the action of an event" : "called within advance()",
                      latest == Doing::nothing ? "after advance() has returned; an action may stop it"
                                               : "between two calls of advance(), or in the action of an event");
@@ -357,7 +358,7 @@ void Integrator::check_allowed(const char* what, Doing latest) const {
 Advance Integrator::advance(double time) {
     check_allowed("advance()", Doing::nothing);
     if (!std::isfinite(time) || time < state_.time)
-        throw InputError(place, "time to advance to [s]", time, text("finite and >= ", state_.time));
+        throw InputError(in_integration, "time to advance to [s]", time, text("finite and >= ", state_.time));
     return advance(time, false);
 }
 

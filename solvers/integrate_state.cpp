@@ -11,8 +11,6 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "time integration";
-
 void check(const Checkpoint& from) {
     for (const auto& [what, value] : {std::pair{"work of forces [J]", from.works.forces},
                                       std::pair{"dissipated energy [J]", from.works.dissipation},
@@ -82,7 +80,7 @@ void Integrator::repeat_steps() {
 }
 
 EnergyBalance Integrator::energy() {
-    if (!options_.works) throw InputError(place, "works", "off", "on, for a balance of energy");
+    if (!options_.works) throw InputError(in_integration, "works", "off", "on, for a balance of energy");
     EnergyBalance balance;
     balance.kinetic = equations_.kinetic_energy(state_);
     balance.potential = equations_.potential_energy(state_);
@@ -112,7 +110,8 @@ Checkpoint Integrator::checkpoint() const {
 void Integrator::note(const std::string& name, double value) {
     // A history keeps it under that name in a group of its own.
     if (name.empty() || name == "." || name.find('/') != std::string::npos)
-        throw InputError(place, "name of a note", text("'", name, "'"), "neither empty nor '.', and without '/'");
+        throw InputError(in_integration, "name of a note", text("'", name, "'"),
+                         "neither empty nor '.', and without '/'");
     notes_[name] = value;
 }
 

@@ -13,15 +13,14 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "linear model";
-constexpr std::array<Matrix StateMatrices::*, 4> all{&StateMatrices::A, &StateMatrices::B, &StateMatrices::C,
-                                                     &StateMatrices::D};
+constexpr std::array<Matrix StateMatrices::*, 4> state_matrices{&StateMatrices::A, &StateMatrices::B, &StateMatrices::C,
+                                                                &StateMatrices::D};
 
 // Sum of weight(i) times the matrices of item i.
 template <class Items>
 StateMatrices weighted(const Items& items, const Vector& weight) {
     StateMatrices sum;
-    for (Matrix StateMatrices::*m : all) {
+    for (Matrix StateMatrices::*m : state_matrices) {
         sum.*m = Matrix::Zero((items[0].*m).rows(), (items[0].*m).cols());
         for (std::size_t i = 0; i < items.size(); ++i) sum.*m += weight(static_cast<Eigen::Index>(i)) * (items[i].*m);
     }
@@ -32,9 +31,9 @@ StateMatrices weighted(const Items& items, const Vector& weight) {
 
 std::vector<StateMatrices> fourier_coefficients(const LinearModel& model, int harmonics) {
     const auto count = static_cast<int>(model.samples.size()), most = (count - 1) / 2;
-    if (count == 0) throw InputError(place, "number of azimuths", count, ">= 1");
+    if (count == 0) throw InputError(in_linear_model, "number of azimuths", count, ">= 1");
     if (harmonics > most)
-        throw InputError(place, "harmonics", harmonics, text("at most ", most, " from ", count, " azimuths"));
+        throw InputError(in_linear_model, "harmonics", harmonics, text("at most ", most, " from ", count, " azimuths"));
     if (harmonics < 0) harmonics = most;
     Matrix weights(count, 2 * harmonics + 1);
     for (int s = 0; s < count; ++s)
@@ -48,7 +47,7 @@ std::vector<StateMatrices> fourier_coefficients(const LinearModel& model, int ha
 
 StateMatrices evaluate(const std::vector<StateMatrices>& coefficients, double psi) {
     if (coefficients.size() % 2 == 0)
-        throw InputError(place, "number of Fourier coefficients", coefficients.size(), "odd");
+        throw InputError(in_linear_model, "number of Fourier coefficients", coefficients.size(), "odd");
     return weighted(coefficients, fourier_basis(psi, static_cast<int>(coefficients.size() / 2)));
 }
 
@@ -58,14 +57,15 @@ ComplexMatrix ConstantModel::transfer(Complex s) const {
     ComplexMatrix pencil = -A.cast<Complex>();
     pencil.diagonal().array() += s;
     const ComplexMatrix x = pencil.partialPivLu().solve(B.cast<Complex>());
-    if (!x.allFinite()) throw NumericalError(text(place, ": the transfer function has a pole at ", s));
+    if (!x.allFinite()) throw NumericalError(text(in_linear_model, ": the transfer function has a pole at ", s));
     return C.cast<Complex>() * x + direct;
 }
 
 std::vector<Complex> ConstantModel::poles() const {
     if (A.rows() == 0) return {};
     const Eigen::EigenSolver<Matrix> solver(A, false);
-    if (solver.info() != Eigen::Success) throw NumericalError(text(place, ": the eigenvalue iteration fails"));
+    if (solver.info() != Eigen::Success)
+        throw NumericalError(text(in_linear_model, ": the eigenvalue iteration fails"));
     std::vector<Complex> found(solver.eigenvalues().begin(), solver.eigenvalues().end());
     // Magnitudes of a pair may differ in the last digit: exact conjugates are compared by their imaginary parts.
     std::sort(found.begin(), found.end(), [](const Complex& a, const Complex& b) {
@@ -87,7 +87,7 @@ void check_names(const std::vector<NamedModel>& models, const char* file, std::s
 
 ConstantModel at_sample(const LinearModel& model, std::size_t sample) {
     if (sample >= model.samples.size())
-        throw InputError(place, "number of the azimuth", sample, text("below ", model.samples.size()));
+        throw InputError(in_linear_model, "number of the azimuth", sample, text("below ", model.samples.size()));
     ConstantModel frozen;
     static_cast<StateMatrices&>(frozen) = model.samples[sample];
     frozen.machine = model.machine;
@@ -104,7 +104,7 @@ std::size_t index_of(const std::vector<Signal>& signals, std::string_view name) 
         if (signals[i].name == name || (!name.empty() && signals[i].alias == name)) return i;
     std::string names;
     for (const Signal& signal : signals) names += text(names.empty() ? "" : ", ", "'", signal.name, "'");
-    throw InputError(place, "name of a signal", text("'", name, "'"), text("one of ", names));
+    throw InputError(in_linear_model, "name of a signal", text("'", name, "'"), text("one of ", names));
 }
 
 }  // namespace cardan::solvers

@@ -10,6 +10,9 @@
 
 namespace cardan::solvers {
 
+/// The place that errors of linear models name.
+inline constexpr const char* in_linear_model = "linear model";
+
 /// A state, an input or an output.
 struct Signal {
     std::string name;            ///< "blade 1 root moment y"

@@ -11,21 +11,21 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "linearisation";
+constexpr const char* in_linearisation = "linearisation";
 
 void require_finite(const CoordinateTable& table, const char* what, const Vector& values) {
-    require_size(place, what, values, table.size());
+    require_size(in_linearisation, what, values, table.size());
     if (values.allFinite()) return;
     for (int i = 0; i < table.size(); ++i)
         if (!std::isfinite(values(i)))
-            throw InputError(text(place, ": coordinate '", table[i].name, "'"), what, values(i), "finite");
+            throw InputError(text(in_linearisation, ": coordinate '", table[i].name, "'"), what, values(i), "finite");
 }
 
 void check(const CoordinateTable& table, const OperatingPoint& at) {
     require_finite(table, "position", at.q);
     require_finite(table, "rate", at.qd);
     require_finite(table, "acceleration", at.qdd);
-    if (!std::isfinite(at.time)) throw InputError(place, "time [s]", at.time, "finite");
+    if (!std::isfinite(at.time)) throw InputError(in_linearisation, "time [s]", at.time, "finite");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr const char* place = "multi-blade model";
+constexpr const char* in_multi_blade_model = "multi-blade model";
 
 // "blade 2 root moment y" -> "blade root moment y"; "" for other names.
 std::string without_number(const Signal& signal) {
@@ -162,14 +162,16 @@ std::vector<Signal> state_signals(const LinearModel& model, const RotorMap& roto
 
 void check(const LinearModel& model, const RotorMap& rotor) {
     if (static_cast<std::size_t>(model.blades) != rotor.blades.size())
-        throw InputError(place, "number of blades", model.blades, text(rotor.blades.size(), ", as the rotor has"));
+        throw InputError(in_multi_blade_model, "number of blades", model.blades,
+                         text(rotor.blades.size(), ", as the rotor has"));
     if (model.samples.empty() || (model.rotor_speed != 0 && model.samples.size() < 3))
-        throw InputError(place, "number of azimuths", model.samples.size(), "3 or more of a rotor that turns");
+        throw InputError(in_multi_blade_model, "number of azimuths", model.samples.size(),
+                         "3 or more of a rotor that turns");
     // The transformed matrices repeat after 1/B of a revolution.
     const auto different =
         static_cast<int>(model.samples.size()) / std::gcd(static_cast<int>(model.samples.size()), model.blades);
     if (model.rotor_speed != 0 && model.blades > 2 && different < 3)
-        throw InputError(place, "number of azimuths", model.samples.size(),
+        throw InputError(in_multi_blade_model, "number of azimuths", model.samples.size(),
                          text("one at which the rotor of ", model.blades, " blades stands in 3 different ways (",
                               model.blades + 1, ", ", 3 * model.blades, ")"));
 }

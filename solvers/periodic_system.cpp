@@ -11,7 +11,7 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr const char* place = "blade symmetry";
+constexpr const char* in_blade_symmetry = "blade symmetry";
 
 void check(const char* name, double time, const Matrix& A, Index rows) {
     if (A.rows() != rows || A.cols() != rows)
@@ -177,8 +177,8 @@ void Permutation::renumber(const std::vector<std::vector<int>>& blades, std::siz
         std::count_if(blades.begin(), blades.end(), [&](const auto& blade) { return has(blade[coordinate]); }));
     if (there == 0) return;
     if (there < Q)
-        throw InputError(place, text("blades whose coordinate number ", coordinate, " is an unknown"), there,
-                         text("none or all ", Q));
+        throw InputError(in_blade_symmetry, text("blades whose coordinate number ", coordinate, " is an unknown"),
+                         there, text("none or all ", Q));
     for (std::size_t k = 0; k < Q; ++k) {
         const Index here = row(blades[k][coordinate]), next = row(blades[(k + 1) % Q][coordinate]);
         P(here, here) = 0;
@@ -189,7 +189,7 @@ void Permutation::renumber(const std::vector<std::vector<int>>& blades, std::siz
 void Permutation::turn(const RotatingPair& pair, double angle) {
     if (!has(pair.y) && !has(pair.z)) return;
     if (!has(pair.y) || !has(pair.z))
-        throw InputError(place, "coordinates of a rotating pair", 1, "none or both of a pair");
+        throw InputError(in_blade_symmetry, "coordinates of a rotating pair", 1, "none or both of a pair");
     const Index y = row(pair.y), z = row(pair.z);
     const double c = std::cos(angle), s = pair.sense * std::sin(angle);
     P(y, y) = P(z, z) = c;
@@ -198,7 +198,7 @@ void Permutation::turn(const RotatingPair& pair, double angle) {
 }
 
 void Permutation::reverse(int coordinate) {
-    if (!has(coordinate)) throw InputError(place, "odd coordinate", coordinate, "one of the unknowns");
+    if (!has(coordinate)) throw InputError(in_blade_symmetry, "odd coordinate", coordinate, "one of the unknowns");
     P.row(row(coordinate)) *= -1;
 }
 
@@ -207,12 +207,13 @@ void Permutation::reverse(int coordinate) {
 BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coordinates, double rotor_speed,
                              const std::vector<int>& odd) {
     const std::size_t Q = rotor.blades.size();
-    if (Q < 2) throw InputError(place, "number of blades", Q, ">= 2");
+    if (Q < 2) throw InputError(in_blade_symmetry, "number of blades", Q, ">= 2");
     if (!odd.empty() && Q != 2)
-        throw InputError(place, "number of blades", Q, "2 where coordinates change sign after a part of a turn");
+        throw InputError(in_blade_symmetry, "number of blades", Q,
+                         "2 where coordinates change sign after a part of a turn");
     for (const auto& blade : rotor.blades)
         if (blade.size() != rotor.blades[0].size())
-            throw InputError(place, "coordinates of a blade", blade.size(),
+            throw InputError(in_blade_symmetry, "coordinates of a blade", blade.size(),
                              text(rotor.blades[0].size(), " as of blade 1"));
     Permutation permutation(coordinates);
     for (std::size_t i = 0; i < rotor.blades[0].size(); ++i) permutation.renumber(rotor.blades, i, rotor_speed < 0);
@@ -226,12 +227,14 @@ double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
     if (symmetry.parts < 2) return 0;
     const Index n = system.rows();
     if (symmetry.P.rows() != n || symmetry.P.cols() != n)
-        throw InputError(place, "size of P", text(symmetry.P.rows(), " x ", symmetry.P.cols()), text(n, " x ", n));
+        throw InputError(in_blade_symmetry, "size of P", text(symmetry.P.rows(), " x ", symmetry.P.cols()),
+                         text(n, " x ", n));
     Matrix all = symmetry.P;
     for (int i = 1; i < symmetry.parts; ++i) all = all * symmetry.P;
     const double off = (all - Matrix::Identity(n, n)).cwiseAbs().maxCoeff();
     if (!(off < 1e-9))
-        throw InputError(place, text("difference of P^", symmetry.parts, " and the unit matrix"), off, "below 1e-9");
+        throw InputError(in_blade_symmetry, text("difference of P^", symmetry.parts, " and the unit matrix"), off,
+                         "below 1e-9");
     const double part = system.period() / symmetry.parts, omega = system.frequency();
     double largest = 0;
     for (double fraction : {0.07, 0.38, 0.81}) {

@@ -1,6 +1,7 @@
 #include "solvers/plot_blade_shapes.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/plot_gnuplot.hpp"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace cardan::solvers {
 
 namespace {
-
-constexpr double degrees = 180 / pi;
 
 // The next of ..., 1, 2, 3, 4, 6, 8, 10, 20, ... not below the value: half of it is a good tic, too.
 double round_up(double value) {
@@ -36,7 +35,7 @@ Columns nodes(const BladeShape& shape) {
     Columns c;
     for (std::size_t i = 0; i < shape.radius.size(); ++i)
         c.add(shape.radius[i], shape.displacement[i].z().real(), shape.displacement[i].y().real(),
-              degrees * shape.rotation[i].x().real());
+              units::to_degrees * shape.rotation[i].x().real());
     return c;
 }
 
@@ -54,7 +53,7 @@ Columns curves(const BladeShape& shape) {
                 return r * r * (1 + 2 * s) * a + s * s * (1 + 2 * r) * b + h * s * r * (r * slope_a - s * slope_b);
             };
             c.add(shape.radius[i] + s * h, cubic(u0.z(), -t0.y(), u1.z(), -t1.y()),
-                  cubic(u0.y(), t0.z(), u1.y(), t1.z()), degrees * (r * t0.x() + s * t1.x()));
+                  cubic(u0.y(), t0.z(), u1.y(), t1.z()), units::to_degrees * (r * t0.x() + s * t1.x()));
         }
     }
     return c;
@@ -81,7 +80,8 @@ std::string hertz(double frequency) {
 std::string panel(const BladeShape& shape, std::size_t number, bool left, bool right, bool bottom) {
     // A mode that hardly twists shall look so: the right axis reaches at least to 1 deg per m.
     double twist = 1;
-    for (const auto& rotation : shape.rotation) twist = std::max(twist, degrees * std::abs(rotation.x().real()));
+    for (const auto& rotation : shape.rotation)
+        twist = std::max(twist, units::to_degrees * std::abs(rotation.x().real()));
     twist = round_up(twist);
     std::string plots = "0 with lines lc rgb '#888888' lw 1 notitle";
     for (const Quantity& q : quantities) {

@@ -30,7 +30,7 @@ double largest(std::span<const double> values) {
 }
 
 // The curves of a panel in the units of the channels, and what they become when they are shown.
-struct Curves {
+struct PanelCurves {
     std::vector<const Channel*> channels;
     std::vector<ThinnedCurve> curves;
 
@@ -119,7 +119,7 @@ void plot(const History& history, const std::vector<HistoryPanel>& panels, const
     stack.width = options.width;
     for (const HistoryMark& mark : options.marks) stack.marks.push_back({mark.time, mark.label});
     for (const HistoryPanel& panel : panels) {
-        Curves curves;
+        PanelCurves curves;
         for (const std::string& channel : panel.channels) {
             const std::size_t i = history.index(channel);
             const auto values = std::span(history.values[i]).subspan(range.first, range.count);
@@ -163,7 +163,7 @@ void plot_spectra(const History& history, const std::vector<HistoryPanel>& panel
     stack.x_high = options.max_frequency_hz;
     stack.width = options.width;
     for (const HistoryPanel& panel : panels) {
-        Curves curves;
+        PanelCurves curves;
         for (const std::string& channel : panel.channels) {
             const Spectrum s = spectrum(history, channel, options.spectrum);
             const auto shown = static_cast<std::size_t>(

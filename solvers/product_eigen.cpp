@@ -2,17 +2,16 @@
 
 #include "mbs/decompositions.hpp"
 #include "mbs/error.hpp"
+#include "solvers/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace cardan::solvers {
 
 namespace {
 
 using Index = Eigen::Index;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 std::size_t at(Index k) {
     return static_cast<std::size_t>(k);
@@ -38,7 +37,7 @@ struct Circle {
         }
         // Double eigenvalues: a large multiple of the other eigenvector instead of an infinite one.
         const Complex gap = 1.0 - factor;
-        Complex value = end / (std::abs(gap) < epsilon ? Complex(epsilon) : gap);
+        Complex value = end / (std::abs(gap) < machine_epsilon ? Complex(machine_epsilon) : gap);
         if (forward) {
             for (Index k = 0; k < p; ++k) {
                 x(k) = value;
@@ -95,7 +94,7 @@ void ProductEigen::chase(Index i, bool whole) {
         rotate(k + 1, i, G, whole);
         T(i + 1, i) = 0;
         for (Index j : {i, i + 1})
-            if (std::abs(T(j, j)) < 0.1 * epsilon) T(j, j) = 0.1 * epsilon;
+            if (std::abs(T(j, j)) < 0.1 * machine_epsilon) T(j, j) = 0.1 * machine_epsilon;
     }
 }
 
@@ -123,8 +122,8 @@ void ProductEigen::reduce() {
 Index ProductEigen::active_from(Index last, double negligible) {
     for (Index i = last; i > 0; --i) {
         double near = std::abs(H()(i, i)) + std::abs(H()(i - 1, i - 1));
-        if (near == 0) near = epsilon;
-        if (std::abs(H()(i, i - 1)) <= std::max(epsilon * near, negligible)) {
+        if (near == 0) near = machine_epsilon;
+        if (std::abs(H()(i, i - 1)) <= std::max(machine_epsilon * near, negligible)) {
             H()(i, i - 1) = 0;
             return i;
         }
@@ -167,7 +166,7 @@ bool ProductEigen::iterate() {
     int iterations = 0;
     for (Index last = n - 1; last > 0;) {
         // Late, entries that are small beside the whole matrix count as zero.
-        const Index first = active_from(last, iterations > 30 ? epsilon : 0);
+        const Index first = active_from(last, iterations > 30 ? machine_epsilon : 0);
         if (first == last) {
             --last;
             iterations = 0;

@@ -12,7 +12,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "recorder";
+constexpr const char* in_recorder = "recorder";
 
 // Of an integral number of values, as an array: its size is the number of channels.
 std::array<double, 6> values_of(const EnergyBalance& e) {
@@ -38,7 +38,8 @@ Recorder::Recorder(const Integrator& integrator, std::vector<ChannelGroup> more,
     if (energies_) add_energies();
     if (statistics_) add_statistics();
     for (const ChannelGroup& group : more_) {
-        if (!group.sample) throw InputError(place, "group of channels", "without a function", "one with a function");
+        if (!group.sample)
+            throw InputError(in_recorder, "group of channels", "without a function", "one with a function");
         channels_.insert(channels_.end(), group.channels.begin(), group.channels.end());
     }
     check_names();
@@ -98,18 +99,19 @@ void Recorder::check_names() const {
     std::set<std::string> seen;
     for (const Channel& channel : channels_) {
         if (channel.name.empty() || channel.units.empty() || channel.long_name.empty())
-            throw InputError(place, "channel", text("'", channel.name, "'"), "name, units and long_name not empty");
+            throw InputError(in_recorder, "channel", text("'", channel.name, "'"),
+                             "name, units and long_name not empty");
         for (const std::string& name : {channel.name, channel.alias})
             if (!name.empty() && !seen.insert(name).second)
-                throw InputError(place, "name or alias of a channel", text("'", name, "', twice"), "unique");
+                throw InputError(in_recorder, "name or alias of a channel", text("'", name, "', twice"), "unique");
     }
 }
 
 void Recorder::sample(Integrator& integrator, double* values) {
-    require_model(place, "integrator", integrator.model().serial(), model_->serial());
+    require_model(in_recorder, "integrator", integrator.model().serial(), model_->serial());
     for (const State& s : states_)
         if (s.vector == &DynamicState::actuator && !integrator.is_driven(static_cast<int>(s.entry)))
-            throw InputError(place, "coordinate that is not driven in this integrator",
+            throw InputError(in_recorder, "coordinate that is not driven in this integrator",
                              model_->coordinates()[static_cast<int>(s.entry)].name,
                              "the driven coordinates of the integrator that the recorder was made for");
     const DynamicState& state = integrator.state();
@@ -128,11 +130,11 @@ void Recorder::sample(Integrator& integrator, double* values) {
 }
 
 std::vector<double> sample_times(double from, double to, double step) {
-    require_positive(place, "time between samples [s]", step);
+    require_positive(in_recorder, "time between samples [s]", step);
     if (!std::isfinite(from) || !std::isfinite(to) || to < from)
-        throw InputError(place, "first and last time [s]", text(from, ", ", to), "finite and rising");
+        throw InputError(in_recorder, "first and last time [s]", text(from, ", ", to), "finite and rising");
     const double steps = (to - from) / step;
-    if (steps > 1e8) throw InputError(place, "number of samples", steps, "at most 1e8");
+    if (steps > 1e8) throw InputError(in_recorder, "number of samples", steps, "at most 1e8");
     std::vector<double> times;
     const auto count = static_cast<long>(steps * (1 + 1e-12) + 1e-9);
     times.reserve(static_cast<std::size_t>(count) + 1);
@@ -141,9 +143,9 @@ std::vector<double> sample_times(double from, double to, double step) {
 }
 
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, const RecordRow& row) {
-    if (!row) throw InputError(place, "function that receives the rows", "empty", "a callable one");
+    if (!row) throw InputError(in_recorder, "function that receives the rows", "empty", "a callable one");
     if (const auto falls = std::ranges::is_sorted_until(times); falls != times.end())
-        throw InputError(place, "time of a sample [s]", *falls,
+        throw InputError(in_recorder, "time of a sample [s]", *falls,
                          text("not before that of the sample before, ", falls[-1]));
     std::vector<double> values(recorder.channels().size());
     const auto hand_out = [&] {
@@ -170,7 +172,7 @@ Advance record(Integrator& integrator, Recorder& recorder, const std::vector<dou
     }
     const auto same = [](const Channel& a, const Channel& b) { return a.name == b.name && a.units == b.units; };
     if (!std::ranges::equal(into.channels, recorder.channels(), same))
-        throw InputError(place, "history to append to", text("'", into.title, "'"), "one with the same channels");
+        throw InputError(in_recorder, "history to append to", text("'", into.title, "'"), "one with the same channels");
     return record(integrator, recorder, times, [&](double time, const std::vector<double>& values) {
         into.time.push_back(time);
         for (std::size_t i = 0; i < values.size(); ++i) into.values[i].push_back(values[i]);

@@ -10,14 +10,15 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "time history";
+constexpr const char* in_time_history = "time history";
 
 void check_rising(std::span<const double> time) {
-    if (time.size() < 2) throw InputError(place, "number of samples", time.size(), "at least 2");
+    if (time.size() < 2) throw InputError(in_time_history, "number of samples", time.size(), "at least 2");
     for (std::size_t i = 0; i < time.size(); ++i) {
-        if (!std::isfinite(time[i])) throw InputError(place, text("time of sample ", i), time[i], "finite");
+        if (!std::isfinite(time[i])) throw InputError(in_time_history, text("time of sample ", i), time[i], "finite");
         if (i > 0 && !(time[i] > time[i - 1]))
-            throw InputError(place, text("time of sample ", i), time[i], text("> ", time[i - 1], ", that before it"));
+            throw InputError(in_time_history, text("time of sample ", i), time[i],
+                             text("> ", time[i - 1], ", that before it"));
     }
 }
 
@@ -57,13 +58,13 @@ TimeSteps time_steps(std::span<const double> time) {
 
 SampleRange samples_between(std::span<const double> time, double from, double to) {
     for (const auto& [name, value] : {std::pair{"from [s]", from}, std::pair{"to [s]", to}})
-        if (std::isnan(value)) throw InputError(place, name, value, "a time, or infinite: no limit");
+        if (std::isnan(value)) throw InputError(in_time_history, name, value, "a time, or infinite: no limit");
     const double size = time.empty() ? 0.0 : std::max(std::abs(time.front()), std::abs(time.back()));
     const double rounding = 1e-12 * size;
     const auto first = std::lower_bound(time.begin(), time.end(), from - rounding);
     const auto last = std::upper_bound(first, time.end(), to + rounding);
     if (last - first < 2)
-        throw InputError(place, "from, to [s]", text(from, ", ", to),
+        throw InputError(in_time_history, "from, to [s]", text(from, ", ", to),
                          time.empty() ? std::string("a history with samples")
                                       : text("two samples at least between ", time.front(), " and ", time.back()));
     return {static_cast<std::size_t>(first - time.begin()), static_cast<std::size_t>(last - first)};
@@ -72,14 +73,14 @@ SampleRange samples_between(std::span<const double> time, double from, double to
 std::vector<double> resample(std::span<const double> time, std::span<const double> values, std::span<const double> at) {
     check_rising(time);
     if (values.size() != time.size())
-        throw InputError(place, "number of values", values.size(), text(time.size(), ", that of the times"));
+        throw InputError(in_time_history, "number of values", values.size(), text(time.size(), ", that of the times"));
     std::vector<double> result;
     result.reserve(at.size());
     std::size_t i = 0;  // piece from sample i to i + 1
     for (std::size_t k = 0; k < at.size(); ++k) {
         const double t = at[k];
         if (!(t >= time.front() && t <= time.back()) || (k > 0 && t < at[k - 1]))
-            throw InputError(place, "time to resample at [s]", t,
+            throw InputError(in_time_history, "time to resample at [s]", t,
                              text("rising, between ", time.front(), " and ", time.back()));
         while (i + 2 < time.size() && t >= time[i + 1]) ++i;
         const double h = time[i + 1] - time[i], s = (t - time[i]) / h, r = 1 - s;
@@ -92,9 +93,9 @@ std::vector<double> resample(std::span<const double> time, std::span<const doubl
 
 History resample(const History& history, double step) {
     check_rising(history.time);
-    require_positive(place, "time between samples [s]", step);
+    require_positive(in_time_history, "time between samples [s]", step);
     const double steps = (history.time.back() - history.time.front()) / step;
-    if (!(steps < 1e8)) throw InputError(place, "number of samples", steps, "at most 1e8");
+    if (!(steps < 1e8)) throw InputError(in_time_history, "number of samples", steps, "at most 1e8");
     History result{history.title, history.channels, {}, {}};
     const auto count = static_cast<std::size_t>(steps * (1 + 1e-12) + 1e-9) + 1;
     result.time.reserve(count);

@@ -1,5 +1,7 @@
 #include "solvers/schur.hpp"
 
+#include "solvers/dense.hpp"
+
 #include <Eigen/Jacobi>
 
 #include <algorithm>
@@ -13,7 +15,6 @@ namespace {
 using Index = Eigen::Index;
 constexpr Index row_block = 64;  // rows of a batch of columns that stay in the first cache
 constexpr int strip = 16;        // columns whose rows are turned together
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -99,7 +100,7 @@ Index SchurIteration::active_from(const Matrix& T, Index last) const {
     Index k = last;
     for (; k > 0; --k) {
         const double beside = std::abs(T(k - 1, k - 1)) + std::abs(T(k, k));
-        if (std::abs(T(k, k - 1)) <= std::max(epsilon * beside, negligible_)) break;
+        if (std::abs(T(k, k - 1)) <= std::max(machine_epsilon * beside, negligible_)) break;
     }
     return k;
 }
@@ -123,7 +124,7 @@ Index SchurIteration::start_of_bulge(const Matrix& T, Index first, Index last, c
         if (m == first) return m;
         const double left = T(m, m - 1) * (std::abs(v[1]) + std::abs(v[2]));
         const double right = v[0] * (std::abs(T(m - 1, m - 1)) + std::abs(d) + std::abs(T(m + 1, m + 1)));
-        if (std::abs(left) < epsilon * std::abs(right)) return m;
+        if (std::abs(left) < machine_epsilon * std::abs(right)) return m;
     }
 }
 
@@ -185,7 +186,7 @@ bool SchurIteration::reduce(Matrix& T, Matrix& Z) {
     if (n == 0) return true;
     const double norm = T.cwiseAbs().maxCoeff();
     if (!(norm < std::numeric_limits<double>::infinity())) return false;
-    negligible_ = std::max(norm * epsilon * epsilon, std::numeric_limits<double>::min());
+    negligible_ = std::max(norm * machine_epsilon * machine_epsilon, std::numeric_limits<double>::min());
     int iteration = 0;
     Index steps = 0, last = n - 1;
     while (last >= 0) {

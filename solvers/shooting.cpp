@@ -11,7 +11,7 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-constexpr const char* place = "shooting";
+constexpr const char* in_shooting = "shooting";
 
 // Time is the azimuth here, rates and accelerations are by azimuth.
 class Shooting {
@@ -47,17 +47,18 @@ private:
 
 int number_of_steps(const PeriodicOptions& options) {
     if (!options.held.empty())
-        throw InputError(place, "number of held means", options.held.size(), "0 (harmonic balance can hold them)");
+        throw InputError(in_shooting, "number of held means", options.held.size(),
+                         "0 (harmonic balance can hold them)");
     const int steps = options.steps > 0 ? options.steps : std::max(64, 8 * options.harmonics);
     if (options.steps < 0 || steps < 2 * options.harmonics + 1)
-        throw InputError(place, "steps per revolution", options.steps,
+        throw InputError(in_shooting, "steps per revolution", options.steps,
                          text(">= ", 2 * options.harmonics + 1, ", or 0"));
     return steps;
 }
 
 Shooting::Shooting(const System& system, int spin, const PeriodicOptions& options)
     : options_(options),
-      equations_(system, spin, options, place),
+      equations_(system, spin, options, in_shooting),
       method_(options.stages),
       algebra_(method_, equations_.size()),
       steps_(number_of_steps(options)),

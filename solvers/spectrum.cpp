@@ -14,7 +14,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "spectrum";
+constexpr const char* in_spectrum = "spectrum";
 
 // One period of w(j) = sum_m (-1)^m a_m cos(2 pi m j/n), so that averages of shifted segments have no ripple.
 std::vector<double> samples_of(Window window, std::size_t n) {
@@ -46,20 +46,21 @@ void remove_trend(std::vector<double>& x, Detrend detrend) {
 
 void check(std::span<const double> time, std::span<const double> values) {
     if (values.size() != time.size())
-        throw InputError(place, "number of values", values.size(), text(time.size(), ", that of the times"));
+        throw InputError(in_spectrum, "number of values", values.size(), text(time.size(), ", that of the times"));
     const TimeSteps steps = time_steps(time);
     if (!steps.uniform())
-        throw InputError(place, text("deviation from equal steps at ", steps.deviates_at, " s"),
+        throw InputError(in_spectrum, text("deviation from equal steps at ", steps.deviates_at, " s"),
                          text(steps.largest_deviation, " of a step"), "at most 0.001; resample() makes equal steps");
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::isfinite(values[i])) throw InputError(place, text("value at ", time[i], " s"), values[i], "finite");
+        if (!std::isfinite(values[i]))
+            throw InputError(in_spectrum, text("value at ", time[i], " s"), values[i], "finite");
 }
 
 std::size_t segment_length(double seconds, double step, std::size_t samples) {
-    if (samples < 8) throw InputError(place, "number of samples", samples, "at least 8");
+    if (samples < 8) throw InputError(in_spectrum, "number of samples", samples, "at least 8");
     const double length = seconds == 0 ? static_cast<double>(samples) : std::round(seconds / step);
     if (!(length >= 8 && length <= static_cast<double>(samples)))
-        throw InputError(place, "segment [s]", seconds,
+        throw InputError(in_spectrum, "segment [s]", seconds,
                          text(8 * step, " (8 samples) to ", static_cast<double>(samples) * step, " (all samples)"));
     return static_cast<std::size_t>(length);
 }
@@ -75,8 +76,8 @@ double Spectrum::variance(double from, double to) const {
 
 Spectrum spectrum(std::span<const double> time, std::span<const double> values, const SpectrumOptions& options) {
     if (!(options.overlap >= 0 && options.overlap < 1))
-        throw InputError(place, "overlap", options.overlap, "0 <= overlap < 1");
-    if (!(options.segment >= 0)) throw InputError(place, "segment [s]", options.segment, ">= 0; 0: all samples");
+        throw InputError(in_spectrum, "overlap", options.overlap, "0 <= overlap < 1");
+    if (!(options.segment >= 0)) throw InputError(in_spectrum, "segment [s]", options.segment, ">= 0; 0: all samples");
     const SampleRange range = samples_between(time, options.from, options.to);
     if (values.size() == time.size()) values = values.subspan(range.first, range.count);
     time = time.subspan(range.first, range.count);

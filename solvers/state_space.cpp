@@ -17,7 +17,6 @@ using detail::Directions;
 using detail::Layout;
 using detail::OutputDifferences;
 using Index = Eigen::Index;
-constexpr const char* place = "linear model";
 
 class Builder {
 public:
@@ -70,10 +69,11 @@ void Builder::solve(const Matrix& right) {
     const Matrix M = lin_.mass(f, f);
     const Eigen::LLT<Matrix> mass(M);
     if (mass.info() != Eigen::Success)
-        throw NumericalError(text(place, ": the mass matrix of the free coordinates is not positive definite"));
+        throw NumericalError(
+            text(in_linear_model, ": the mass matrix of the free coordinates is not positive definite"));
     const Matrix accelerations = mass.solve(Matrix(right(f, Eigen::all)));
     directions_.qdd(f, Eigen::all) = accelerations;
-    if (!directions_.qdd.allFinite()) throw NumericalError(text(place, ": accelerations are not finite"));
+    if (!directions_.qdd.allFinite()) throw NumericalError(text(in_linear_model, ": accelerations are not finite"));
     // `right` holds the prescribed accelerations already.
     directions_.actuator(d, Eigen::all) = Matrix(lin_.mass(d, f)) * accelerations - Matrix(right(d, Eigen::all));
 }
@@ -155,12 +155,12 @@ LinearModel build(const System& system, const RotorMap& rotor, double rotor_spee
 LinearModel state_space(const System& system, const RotorMap& rotor, const PeriodicSteadyState& about,
                         const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
                         const StateSpaceOptions& options) {
-    if (!about.converged) throw InputError(place, "periodic steady state", "not converged", "converged");
+    if (!about.converged) throw InputError(in_linear_model, "periodic steady state", "not converged", "converged");
     if (about.coefficients.rows() != system.model.size() || about.spin != rotor.spin || rotor.spin < 0)
-        throw InputError(place, "coordinates and spin of the periodic steady state",
+        throw InputError(in_linear_model, "coordinates and spin of the periodic steady state",
                          text(about.coefficients.rows(), ", ", about.spin),
                          text(system.model.size(), ", ", rotor.spin));
-    if (options.azimuths < 3) throw InputError(place, "number of azimuths", options.azimuths, ">= 3");
+    if (options.azimuths < 3) throw InputError(in_linear_model, "number of azimuths", options.azimuths, ">= 3");
     return build(
         system, rotor, about.rotor_speed, options.azimuths, [&](double psi) { return about.at(psi); }, 0, inputs,
         outputs, options);
@@ -171,13 +171,14 @@ LinearModel state_space(const System& system, const RotorMap& rotor, const Opera
                         const StateSpaceOptions& options) {
     for (const Vector* v : {&about.q, &about.qd, &about.qdd})
         if (v->size() != system.model.size() || !v->allFinite())
-            throw InputError(place, "coordinates of the operating point", v->size(),
+            throw InputError(in_linear_model, "coordinates of the operating point", v->size(),
                              text(system.model.size(), ", all finite"));
     if (rotor.spin >= system.model.size())
-        throw InputError(place, "index of the spin coordinate", rotor.spin, text("-1 ... ", system.model.size() - 1));
+        throw InputError(in_linear_model, "index of the spin coordinate", rotor.spin,
+                         text("-1 ... ", system.model.size() - 1));
     const double speed = rotor.spin < 0 ? 0 : about.qd(rotor.spin), first = rotor.spin < 0 ? 0 : about.q(rotor.spin);
     const int azimuths = speed == 0 ? 1 : options.azimuths;
-    if (speed != 0 && azimuths < 3) throw InputError(place, "number of azimuths", azimuths, ">= 3");
+    if (speed != 0 && azimuths < 3) throw InputError(in_linear_model, "number of azimuths", azimuths, ">= 3");
     const auto at = [&](double psi) {
         OperatingPoint turned = about;
         if (speed == 0) return turned;

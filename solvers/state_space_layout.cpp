@@ -12,7 +12,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr const char* place = "inputs of a linear model";
+constexpr const char* in_inputs = "inputs of a linear model";
 
 }  // namespace
 
@@ -71,14 +71,15 @@ struct Moved {
             if (input.kind() != LinearInput::Kind::motion) continue;
             for (const auto& [coordinate, factor] : input.coordinates()) {
                 if (coordinate < 0 || coordinate >= size)
-                    throw InputError(place, text("coordinate of '", input.name(), "'"), coordinate,
+                    throw InputError(in_inputs, text("coordinate of '", input.name(), "'"), coordinate,
                                      text("0 ... ", size - 1));
                 (input.with_states() ? with_states : split).push_back(coordinate);
             }
         }
         for (int coordinate : split)
             if (contains(with_states, coordinate))
-                throw InputError(place, "coordinate that is moved with and without states", coordinate, "one of them");
+                throw InputError(in_inputs, "coordinate that is moved with and without states", coordinate,
+                                 "one of them");
     }
     static bool contains(const std::vector<int>& list, int value) {
         return std::find(list.begin(), list.end(), value) != list.end();
@@ -107,7 +108,7 @@ Layout::Layout(const System& system, const RotorMap& rotor, const std::vector<Li
 }
 
 void Layout::check(const LinearInput& input) const {
-    const std::string where = text(place, ": '", input.name(), "'");
+    const std::string where = text(in_inputs, ": '", input.name(), "'");
     const Model& model = system_.model;
     const bool wrench = input.kind() == LinearInput::Kind::force || input.kind() == LinearInput::Kind::moment;
     if (wrench) {
@@ -158,7 +159,7 @@ void Layout::add_columns(const std::vector<LinearInput>& inputs) {
             Signal signal{.name = input.name() + suffix[at], .units = units(input) + per[at]};
             signal.blade = blade_number(signal.name);
             if (input.name().empty() || !names.insert(signal.name).second)
-                throw InputError(place, "name", text("'", signal.name, "'"), "not empty, each name once");
+                throw InputError(in_inputs, "name", text("'", signal.name, "'"), "not empty, each name once");
             columns_.push_back({i, d});
             input_signals.push_back(std::move(signal));
         }
