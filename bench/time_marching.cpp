@@ -3,6 +3,7 @@
 // the same run. "x real time" depends on the machine; "step / forward dynamics" and "second / forward dynamics" (per
 // second of simulated time) are the figures to keep.
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/integrate.hpp"
 #include "solvers/steady_state.hpp"
 #include "turbines/nrel5mw_machine.hpp"
@@ -41,7 +42,7 @@ struct Run {
     std::optional<solvers::Integrator> integrator;
 };
 
-const Vec3 gravity{0, 0, -9.80665};
+const Vec3 gravity{0, 0, -units::standard_gravity};
 
 turbines::Turbine wt600(int elements) {
     turbines::AssemblyOptions options;

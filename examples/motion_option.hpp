@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/motion.hpp"
 
 #include <CLI/CLI.hpp>
@@ -96,8 +97,7 @@ inline MotionOption motion_option(const std::string& option, const std::string& 
 }
 
 inline solvers::Motion MotionOption::motion(double unit) const {
-    constexpr double degree = pi / 180;
-    const double start = unit * mean, rate = unit * velocity, size = unit * amplitude, angle = degree * phase;
+    const double start = unit * mean, rate = unit * velocity, size = unit * amplitude, angle = units::degree * phase;
     if (!oscillates()) return solvers::Motion::constant_rate(start, rate);
     if (velocity == 0) return solvers::Motion::harmonic(start, size, period, angle);
     const double omega = 2 * pi / period;

@@ -7,6 +7,7 @@
 // frame's velocities, which the paper's Annex A does not have.
 // References: the tables of the paper; converged frequencies and response of the same blade by other methods
 // (docs/nrel5mw_blade.md, docs/nrel5mw_platform.md).
+#include "mbs/units.hpp"
 #include "solvers/plot_stack.hpp"
 #include "turbines/nrel5mw_platform.hpp"
 
@@ -23,8 +24,6 @@ using namespace cardan;
 using namespace cardan::paper2018;
 
 namespace {
-
-constexpr double degrees = 180 / pi;
 
 struct Arguments {
     std::string out = "nrel5mw_assumed_modes";
@@ -225,7 +224,7 @@ void print_signal(const std::string& name, const Signal& y, double unit) {
     for (double value : {y.mean, y.max, y.min}) std::cout << std::setw(10) << value / unit;
     for (std::size_t k = 0; k < 5; ++k)
         std::cout << std::setw(10) << y.amplitude[k] / unit << std::setw(9)
-                  << text("(", std::round(10 * y.phase[k] * degrees) / 10, ")");
+                  << text("(", std::round(10 * y.phase[k] * units::to_degrees) / 10, ")");
     std::cout << "\n";
 }
 
@@ -270,7 +269,8 @@ double platform_error(const PlatformResponse& response, const Reference& referen
             if (h.amplitude < 0.05 * largest) continue;
             worst = std::max(worst, error(y.amplitude[h.k - 1] / r.unit, h.amplitude));
             if (std::isfinite(h.phase))
-                worst = std::max(worst, std::abs(std::remainder(y.phase[h.k - 1] * degrees - h.phase, 360)) / 100);
+                worst = std::max(worst,
+                                 std::abs(std::remainder(y.phase[h.k - 1] * units::to_degrees - h.phase, 360)) / 100);
         }
     }
     return worst;
@@ -311,7 +311,7 @@ bool platform_part(const Arguments& a) {
     const AssumedModesBlade blade = in_natural_modes(full, a.natural),
                             paper = turbines::nrel5mw_blade_of_2018(a.basis(), TensionIntegral::from_free_tip);
     const PlatformCase at_rest{.harmonics = a.harmonics};
-    PlatformCase pitching{.pitch = 5 / degrees, .revolutions = 2, .harmonics = a.harmonics};
+    PlatformCase pitching{.pitch = 5 / units::to_degrees, .revolutions = 2, .harmonics = a.harmonics};
     const auto both = [&](const PlatformCase& of) {
         PlatformCase without = of;
         without.derivatives = false;

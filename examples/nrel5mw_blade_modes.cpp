@@ -8,6 +8,7 @@
 // refined ones.
 #include "elements/centrifugal_limit.hpp"
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "mbs/version.hpp"
 #include "solvers/campbell_csv.hpp"
 #include "solvers/plot_blade_shapes.hpp"
@@ -24,8 +25,6 @@
 using namespace cardan;
 
 namespace {
-
-constexpr double to_rpm = 30 / pi;
 
 const std::array<std::string, 6> names{"1st blade flap", "1st blade edge", "2nd blade flap",
                                        "2nd blade edge", "3rd blade flap", "1st blade torsion"};
@@ -76,7 +75,7 @@ std::vector<double> rotor_speeds(const std::string& given) {
     std::vector<double> speeds = numbers("--rpm", given, allowed);
     for (std::size_t i = 0; i < speeds.size(); ++i)
         if (speeds[i] < 0 || (i > 0 && speeds[i] <= speeds[i - 1])) throw InputError("--rpm", "value", given, allowed);
-    for (double& speed : speeds) speed /= to_rpm;
+    for (double& speed : speeds) speed /= units::to_rpm;
     return speeds;
 }
 
@@ -192,11 +191,12 @@ std::optional<double> print(const Arguments& a, const solvers::Campbell& d) {
     double largest = 0;
     bool complete = true;
     for (std::size_t i = 0; i < d.points.size(); ++i) {
-        std::cout << "\n" << std::setprecision(6) << std::defaultfloat << d.points[i].rotor_speed * to_rpm << " rpm\n";
+        std::cout << "\n"
+                  << std::setprecision(6) << std::defaultfloat << d.points[i].rotor_speed * units::to_rpm << " rpm\n";
         for (std::size_t k = 0; k < names.size(); ++k) {
             std::cout << "  " << std::left << std::setw(18) << names.at(k) << std::right << std::fixed;
             const solvers::Branch* branch = find(d, names.at(k), i);
-            const auto exact = reference(a, d.points[i].rotor_speed * to_rpm, k);
+            const auto exact = reference(a, d.points[i].rotor_speed * units::to_rpm, k);
             if (k < 3 && !(branch && exact)) complete = false;
             if (!branch) {
                 std::cout << "not found\n";
@@ -234,7 +234,7 @@ int convergence(const Arguments& a, const turbines::Nrel5mwBlade& blade, const s
         }
         for (std::size_t i = 0; i < speeds.size(); ++i) {
             std::cout << partition_name(partition) << ", equal elements" << (last_metre ? " and one of 1 m" : "")
-                      << ", " << std::defaultfloat << std::setprecision(6) << speeds[i] * to_rpm
+                      << ", " << std::defaultfloat << std::setprecision(6) << speeds[i] * units::to_rpm
                       << " rpm: error, % (observed order)\n  elements" << std::fixed;
             for (const std::string& name : names) std::cout << std::setw(18) << name;
             std::cout << "\n";
@@ -243,7 +243,7 @@ int convergence(const Arguments& a, const turbines::Nrel5mwBlade& blade, const s
                 std::cout << std::setw(10) << counts.at(row);
                 for (std::size_t k = 0; k < names.size(); ++k) {
                     const solvers::Branch* branch = find(diagrams[row], names.at(k), i);
-                    const auto exact = reference(a, speeds[i] * to_rpm, k);
+                    const auto exact = reference(a, speeds[i] * units::to_rpm, k);
                     const double error = branch && exact ? diagrams[row].natural_hz(*branch, i) - *exact : 0;
                     if (branch && exact)
                         std::cout << std::showpos << std::setw(11) << std::setprecision(3) << 100 * error / *exact
@@ -288,7 +288,8 @@ int run(const Arguments& a) {
     for (const std::string& warning : isolated.beam.warnings) std::cerr << "warning: " << warning << "\n";
     const double limit = centrifugal_limit(isolated.beam, blade.root_radius);
     if (speeds.back() > limit / 2)
-        std::cerr << "warning: " << speeds.back() * to_rpm << " rpm is above half of the " << limit * to_rpm
+        std::cerr << "warning: " << speeds.back() * units::to_rpm << " rpm is above half of the "
+                  << limit * units::to_rpm
                   << " rpm at which this discretisation loses its stiffness to the centrifugal force; take more "
                      "elements or another partition\n";
     std::cout << isolated.rotor.machine << ": " << isolated.beam.elements.size() << " elements, ";

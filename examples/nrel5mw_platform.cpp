@@ -8,6 +8,8 @@
 // Reference: converged response of the same blade by a method that shares nothing with the joint chain, without
 // platform motion and with a pitch of 5 degrees at half the rotor's frequency (docs/nrel5mw_platform.md).
 // Goal: 0.5 % and 1 degree on every harmonic above 0.01 m with 16 elements.
+#include "mbs/units.hpp"
+
 #include "examples/motion_option.hpp"
 #include "examples/nrel5mw_platform/files.hpp"
 #include "examples/nrel5mw_platform/reference.hpp"
@@ -20,8 +22,6 @@ using namespace cardan;
 
 namespace {
 
-using program::degree;
-
 constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw", "nacelle-yaw"};
 constexpr std::size_t translations = 3, platform_coordinates = 6, pitch_coordinate = 4;
 
@@ -29,7 +29,7 @@ struct Arguments {
     std::array<std::string, names.size()> motions;
     std::string reference, method = "dirk", out = "nrel5mw_platform";
     int blades = 1, elements = 16, max_order = 2, periods = 300, samples = 720, harmonics = 5;
-    double rpm = 12.1, blade_pitch = 0, damping = turbines::nrel5mw_platform_damping, gravity = 9.80665;
+    double rpm = 12.1, blade_pitch = 0, damping = turbines::nrel5mw_platform_damping, gravity = units::standard_gravity;
     double tolerance = 0, step = 0, settled = 5e-6;
 };
 
@@ -134,7 +134,7 @@ std::vector<solvers::Drive> drives(const Arguments& a, const turbines::Nrel5mwPl
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!motions.at(i)) continue;
         const BodyId body = i < platform_coordinates ? machine.platform.coordinates.at(i) : machine.yaw;
-        all.push_back({model.index(body), motions.at(i)->motion(i < translations ? 1 : degree)});
+        all.push_back({model.index(body), motions.at(i)->motion(i < translations ? 1 : units::degree)});
     }
     return all;
 }
@@ -197,7 +197,7 @@ void print_run(const platform::Response& response, double period, double settled
 turbines::Nrel5mwPlatform machine_of(const Arguments& a) {
     turbines::Nrel5mwPlatformOptions options;
     options.blades = a.blades;
-    options.pitch = a.blade_pitch * degree;
+    options.pitch = a.blade_pitch * units::degree;
     options.gravity = Vec3(0, 0, -a.gravity);
     options.elements = turbines::nrel5mw_platform_elements(a.elements, a.damping);
     return turbines::nrel5mw_on_platform(turbines::nrel5mw_platform_blade(), options);
@@ -252,7 +252,7 @@ int run(const Arguments& a) {
     program::stop_at_once();
     file.close(response.complete);
 
-    platform::PictureOptions pictures{settings.period, integrator.time(), a.rpm * program::rpm};
+    platform::PictureOptions pictures{settings.period, integrator.time(), a.rpm * units::rpm};
     if (response.complete) pictures.periodic_to -= settings.period;
     const platform::Drawn drawn = platform::draw_pictures(machine, a.out, pictures);
     const std::string files = text("\nfiles: ", a.out, ".h5 (", file.rows(), " samples of ", recorder.channels().size(),

@@ -8,6 +8,7 @@
 // printed as notes. Frames, signs, and what is read: docs/coming_from_openfast.md.
 #include "mbs/error.hpp"
 #include "mbs/text_file.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell_difference.hpp"
 #include "turbines/assembly.hpp"
 #include "turbines/description_yaml.hpp"
@@ -132,7 +133,7 @@ std::string freedoms_in_words(const turbines::TurbineFile& model) {
 turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::TurbineFile& model) {
     turbines::AssemblyOptions o;
     o.pitch = a.pitch ? *a.pitch * pi / 180 : model.pitch;
-    if (a.gravity) o.gravity = {0, 0, -9.80665};
+    if (a.gravity) o.gravity = {0, 0, -units::standard_gravity};
     if (a.undamped) o.structural_damping = o.joint_damping = false;
     o.blade_beam = beam_options(model.description.blade.line, a.blade_elements, true);
     o.tower_beam = beam_options(model.description.tower.line, a.tower_elements, false);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mbs/types.hpp"
+#include "mbs/units.hpp"
 #include "solvers/hdf5_history.hpp"
 #include "solvers/plot_history.hpp"
 #include "solvers/recorder.hpp"
@@ -22,8 +23,6 @@
 #include <vector>
 
 namespace cardan::program {
-
-inline constexpr double rpm = pi / 30, degree = pi / 180;
 
 /// Names of methods on the command line.
 inline const std::vector<std::string> method_names{"bdf", "adams", "dirk", "erk", "alpha"};
@@ -201,9 +200,9 @@ inline bool plot_spectra(const solvers::History& history, const std::vector<solv
     char title[100];
     std::snprintf(title, sizeof title, "amplitude spectra, %.5g to %.5g s", part.time.front(), part.time.back());
     picture.title = title;
-    if (speed > 0.1 * rpm) {
+    if (speed > 0.1 * units::rpm) {
         picture.rotor_frequency_hz = speed / (2 * pi);
-        std::snprintf(title, sizeof title, ", %.4g rpm", speed / rpm);
+        std::snprintf(title, sizeof title, ", %.4g rpm", speed / units::rpm);
         if (options.tell_speed) picture.title += title;
     }
     picture.title += ": " + history.title;

@@ -2,6 +2,7 @@
 /// What the programs about the two-bladed teetered machine have in common: the machine and its periodic system.
 #pragma once
 
+#include "mbs/units.hpp"
 #include "turbines/teetered.hpp"
 
 #include "examples/campbell_program.hpp"
@@ -40,7 +41,7 @@ inline turbines::TeeteredTurbine machine(const TeeteredArguments& a) {
     options.blade.torsion_armature = options.tower.torsion_armature = -1. / 12;  // torsion of fourth order
     options.rigid_tower = a.rigid_tower;
     options.teeter_locked = a.no_teeter;
-    if (a.gravity) options.gravity = {0, 0, -9.80665};
+    if (a.gravity) options.gravity = {0, 0, -units::standard_gravity};
     return turbines::assemble(description, options);
 }
 

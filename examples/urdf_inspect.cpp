@@ -7,6 +7,7 @@
 // Reference: docs/urdf.md; the tests hold metric and poses against hand calculation.
 #include "mbs/metric.hpp"
 #include "mbs/summary.hpp"
+#include "mbs/units.hpp"
 #include "mbs/urdf.hpp"
 #include "solvers/modes.hpp"
 
@@ -65,7 +66,6 @@ void print_dh(const Tree& tree) {
     std::cout << "\nDenavit-Hartenberg parameters (Khalil and Kleinfinger), deg and m\n"
                  "  body                          on                              kind           gamma          b"
                  "      alpha          d     theta0         r0\n";
-    constexpr double deg = 180 / pi;
     for (const Tree::Body& body : tree.bodies()) {
         const DhParameters dh = dh_parameters(body.in_parent);
         const std::string parent =
@@ -73,7 +73,8 @@ void print_dh(const Tree& tree) {
         std::cout << "  " << std::left << std::setw(30) << body.spec.name << std::setw(32) << parent << std::setw(10)
                   << (body.spec.joint == JointKind::revolute ? "revolute" : "prismatic") << std::right << std::fixed
                   << std::setprecision(4);
-        for (const double value : {dh.gamma * deg, dh.b, dh.alpha * deg, dh.d, dh.theta0 * deg, dh.r0})
+        for (const double value : {dh.gamma * units::to_degrees, dh.b, dh.alpha * units::to_degrees, dh.d,
+                                   dh.theta0 * units::to_degrees, dh.r0})
             std::cout << std::setw(11) << value + 0.0;
         std::cout << std::defaultfloat << std::setprecision(6) << "\n";
     }

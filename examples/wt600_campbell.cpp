@@ -5,6 +5,7 @@
 // constant, their eigenvalues are the natural frequencies and damping ratios in the fixed frame.
 // Reference: the values with 3 elements per blade and tower in docs/wt600.md.
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell_difference.hpp"
 #include "turbines/wt600.hpp"
 
@@ -58,7 +59,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
     if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
-    if (a.gravity) a.assembly.gravity = {0, 0, -9.80665};
+    if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
     if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};
     return -1;
 }

@@ -5,6 +5,8 @@
 // delay, the brake is applied until the rotor stands. Equations of motion g q'' + Gamma q' q' = Q with gravity and a
 // prescribed load on the rotor (no aerodynamics, see elements/rotor_load.hpp).
 // Checks: the theorem of energy, by the integration and by the recorded powers; the order of events; standstill.
+#include "mbs/units.hpp"
+
 #include "examples/wt600_simulation.hpp"
 
 using namespace cardan;
@@ -77,7 +79,7 @@ public:
             });
         add(
             "overspeed, pitch to feather", 1,
-            [this](const ForceInput& in) { return in.qd(spin_) - a_.overspeed * a_.speed * program::rpm; },
+            [this](const ForceInput& in) { return in.qd(spin_) - a_.overspeed * a_.speed * units::rpm; },
             [this](double time) {
                 if (overspeed_at_ >= 0) return AfterEvent::go_on;
                 overspeed_at_ = time;
@@ -89,7 +91,7 @@ public:
             [this](const ForceInput& in) {
                 if (overspeed_at_ < 0 || machine_.brake_valve->is_on()) return 1.0;
                 if (a_.by_delay) return overspeed_at_ + a_.brake_delay - in.time;
-                return in.qd(spin_) - a_.brake_speed * program::rpm;
+                return in.qd(spin_) - a_.brake_speed * units::rpm;
             },
             [this](double time) {
                 machine_.brake_valve->turn(true, time);
@@ -155,8 +157,8 @@ int run(const Arguments& given) {
     Arguments a = given;
     const turbines::Wt600Operation machine = machine_of(a, !a.no_gravity), calm = machine_of(a, false);
     const bool balanced = a.speed == 0;
-    if (balanced) a.speed = program::balanced_speed(calm, turbines::wt600_rated_speed()) / program::rpm;
-    const program::Start start = program::rotating_start(machine, calm, a.speed * program::rpm);
+    if (balanced) a.speed = program::balanced_speed(calm, turbines::wt600_rated_speed()) / units::rpm;
+    const program::Start start = program::rotating_start(machine, calm, a.speed * units::rpm);
     const System& system = machine.turbine.system();
     Supervisor supervisor(a, machine);
     solvers::IntegrationOptions options = program::integration_options(a.simulation);
@@ -178,10 +180,10 @@ int run(const Arguments& given) {
 
     std::printf("%-32s %10s %10s %10s\n", "event", "time, s", "rpm", "pitch, deg");
     for (const Happened& h : supervisor.list)
-        std::printf("%-32s %10.4f %10.3f %10.2f\n", h.name.c_str(), h.time, h.speed / program::rpm,
-                    h.pitch / program::degree);
+        std::printf("%-32s %10.4f %10.3f %10.2f\n", h.name.c_str(), h.time, h.speed / units::rpm,
+                    h.pitch / units::degree);
     const program::Extreme fastest = program::largest(rows.history, "RotSpeed");
-    std::printf("%-32s %10.4f %10.3f\n", "(largest rotor speed)", fastest.time, fastest.value / program::rpm);
+    std::printf("%-32s %10.4f %10.3f\n", "(largest rotor speed)", fastest.time, fastest.value / units::rpm);
     program::print_largest(
         rows.history, {"TwrBsMyt", "TwrBsMxt", "TwrBsFxt", "TTDspFA", "YawBrTAxp", "RootMyb1", "RootMxb1", "RootFzb1",
                        "OoPDefl1", "IPDefl1", "RotTorq", "HSSBrTq", "GenTq"});

@@ -6,6 +6,7 @@
 // truncation leaves a small model to design with.
 // Reference: the modes of A are those of the Campbell diagram at this rotor speed (docs/wt600.md).
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "solvers/hdf5_state_space.hpp"
 #include "solvers/lin_file.hpp"
@@ -56,7 +57,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
     if (const int code = program::parse(app, argc, argv); code >= 0) return code;
-    if (a.gravity) a.assembly.gravity = {0, 0, -9.80665};
+    if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
     return -1;
 }
 

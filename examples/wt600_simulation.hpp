@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/dynamics.hpp"
+#include "mbs/units.hpp"
 #include "solvers/steady_state.hpp"
 #include "turbines/wt600_operation.hpp"
 
@@ -121,7 +122,7 @@ inline double balanced_speed(const turbines::Wt600Operation& calm, double guess)
         a = b, fa = fb, b = next;
         if (std::abs(b - a) < 1e-10 * guess) return b;
     }
-    throw NumericalError(text("start of the simulation: no rotor speed near ", guess / rpm,
+    throw NumericalError(text("start of the simulation: no rotor speed near ", guess / units::rpm,
                               " rpm at which rotor and generator balance; give one (--rpm)"));
 }
 

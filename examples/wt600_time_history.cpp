@@ -7,6 +7,7 @@
 // aerodynamics, see elements/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
 // Checks: the theorem of energy, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 
 #include "examples/motion_option.hpp"
@@ -87,7 +88,7 @@ std::vector<solvers::Drive> drives(const Arguments& a, const turbines::Turbine& 
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (a.motions.at(i).empty()) continue;
         const int coordinate = turbine.system().model.index(turbine.layout().platform->coordinates.at(i));
-        const double unit = turbine.system().model.body(coordinate).revolute ? program::degree : 1;
+        const double unit = turbine.system().model.body(coordinate).revolute ? units::degree : 1;
         all.push_back({coordinate, program::motion_option(text("--", names.at(i)), a.motions.at(i), {}).motion(unit)});
     }
     return all;
@@ -143,7 +144,7 @@ double amplitude(const solvers::History& history, const char* channel, double fr
 }
 
 void print_swing(const solvers::History& history, const std::string& what, double speed, double t) {
-    std::printf("%6s %8.2f %8.2f", what.c_str(), speed / program::rpm, t);
+    std::printf("%6s %8.2f %8.2f", what.c_str(), speed / units::rpm, t);
     for (const char* channel : {"YawBrTAxp", "YawBrTAyp"})
         std::printf(" %10.4f %10.4f", amplitude(history, channel, t - 6, t - 2), amplitude(history, channel, t, t + 6));
     std::printf("\n");
@@ -160,7 +161,7 @@ void print_resonances(const solvers::History& history, double tower_hz) {
         const double meets = 2 * pi * tower_hz / p;
         const auto at = std::ranges::find_if(speed, [&](double now) { return now >= meets; });
         if (at == speed.end())
-            std::printf("%5dP %8.2f %8s\n", p, meets / program::rpm, "-");
+            std::printf("%5dP %8.2f %8s\n", p, meets / units::rpm, "-");
         else
             print_swing(history, text(p, "P"), meets, history.time[static_cast<std::size_t>(at - speed.begin())]);
     }
@@ -205,7 +206,7 @@ int run(const Arguments& a) {
     const std::vector<solvers::Drive> platform = drives(a, machine.turbine);
     const std::string description = text(title(a), ", ", options_of(a), "\n", machine.turbine.summary());
     const std::optional<solvers::Checkpoint> broken_off = program::start_of(s, description);
-    machine.pitch->move_to(0, 0, a.pitch_rate * program::degree);
+    machine.pitch->move_to(0, 0, a.pitch_rate * units::degree);
     double connected_at = -1;
     if (broken_off && broken_off->notes.contains(connected)) {
         connected_at = broken_off->notes.at(connected);
@@ -239,7 +240,7 @@ int run(const Arguments& a) {
     const bool settled = rows.history.time.back() > machine.pitch->arrival() + 15;
     if (settled) {
         std::printf("rotor speed at the end %.3f rpm, by the balance of torques %.3f rpm\n",
-                    last_speed(rows.history) / program::rpm, expected / program::rpm);
+                    last_speed(rows.history) / units::rpm, expected / units::rpm);
         good = program::check("rotor speed at the end against the balance of torques",
                               last_speed(rows.history) / expected - 1, 5e-3) &&
                good;

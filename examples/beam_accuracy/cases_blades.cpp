@@ -1,5 +1,6 @@
 // Two blades in bending: both planes, coupled by the twist.
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "turbines/nrel5mw.hpp"
 #include "turbines/wt600.hpp"
 
@@ -12,8 +13,6 @@ namespace cardan::accuracy {
 namespace {
 
 using enum Check::Kind;
-
-constexpr double rpm = pi / 30;
 
 // What all methods can do alike: mass on the line, no sectional inertia, no torsion, no extension.
 BeamLine bending_only(const BeamLine& line) {
@@ -98,7 +97,7 @@ Study wt600_at_rest() {
 }
 
 Study wt600_rotating() {
-    return with(blade("wt600_27", "600 kW blade, bending only, 27 rpm", wt600_blade(27 * rpm), equal),
+    return with(blade("wt600_27", "600 kW blade, bending only, 27 rpm", wt600_blade(27 * units::rpm), equal),
                 {{order, "S", 0, 32, 4, 0.1},
                  {order, "static", 0, 32, 4, 0.1},
                  {error, "G", 0, 4, -0.193, 0.01},
@@ -127,7 +126,7 @@ Study nrel_at_rest() {
 }
 
 Study nrel_rotating() {
-    return with(blade("nrel_12", "NREL 5 MW blade, bending only, 12.1 rpm", nrel_blade(12.1 * rpm), nrel_equal),
+    return with(blade("nrel_12", "NREL 5 MW blade, bending only, 12.1 rpm", nrel_blade(12.1 * units::rpm), nrel_equal),
                 {{order, "S", 0, 32, 4, 0.2},
                  {order, "static", 0, 32, 4, 0.1},
                  {error, "G", 0, 8, -0.0449, 0.01},

@@ -61,8 +61,9 @@ double legend_height(int rows) {
     return 20 * rows + 14;
 }
 
-constexpr double panel_width = 330, panel_height = 290;   // pixels
-constexpr double first = 0.9, guide_end = 34, last = 72;  // of the x axis; room for words beyond the last curve
+constexpr double panel_width = 330, panel_height = 290;  // pixels
+constexpr double axis_begin = 0.9, guide_end = 34,
+                 axis_end = 72;  // of the x axis; room for words beyond the last curve
 
 // Lines of order 2 and 4 fan out from the upper left corner.
 std::string guides(double high) {
@@ -136,7 +137,8 @@ void draw(const Figure& figure, const std::vector<Result>& results, const std::f
                  height = 68 + foot + panel_height * static_cast<double>(rows) + 62 * static_cast<double>(rows - 1);
     script += text("set multiplot layout ", rows, ",", columns, " margins ", 90 / width, ",", 1 - 14 / width, ",",
                    foot / height, ",", 1 - 68 / height, " spacing ", 70 / width, ",", 62 / height, " title ",
-                   solvers::gnuplot_text(figure.title), " font ',15'\nset logscale xy\nset xrange [", first, ":", last,
+                   solvers::gnuplot_text(figure.title), " font ',15'\nset logscale xy\nset xrange [", axis_begin, ":",
+                   axis_end,
                    "]\nset xtics (1,2,4,8,16,32) font ',11'\nset ytics "
                    "nomirror 100 font ',11'\nset format y '%g'\nset grid noxtics\nset samples 2\nset mytics 1\nset "
                    "ylabel offset 2.5,0\nset xlabel offset 0,0.6\nset title "

@@ -2,6 +2,7 @@
 
 #include "mbs/error.hpp"
 #include "mbs/spatial.hpp"
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "solvers/modes.hpp"
 
@@ -11,7 +12,6 @@ namespace cardan::paper2018 {
 
 namespace {
 
-constexpr double to_rad = pi / 30;
 constexpr Eigen::Index natural = 60;  // modes in which Coriolis forces are taken into account
 
 // The mode's place among the names: edge, flap and torsion are counted as they come.
@@ -43,7 +43,7 @@ void check_complete(const Frequencies& hz, double rpm) {
 }  // namespace
 
 NamedModes named_modes(const AssumedModesBlade& blade, double rpm) {
-    const AssumedModesMatrices matrices = blade.at(turbines::nrel5mw_spinning_hub(rpm * to_rad));
+    const AssumedModesMatrices matrices = blade.at(turbines::nrel5mw_spinning_hub(rpm * units::rpm));
     NamedModes named;
     Namer name;
     for (const AssumedMode& mode : natural_modes(matrices)) {
@@ -57,7 +57,7 @@ NamedModes named_modes(const AssumedModesBlade& blade, double rpm) {
 }
 
 Frequencies gyroscopic_frequencies(const AssumedModesBlade& blade, double rpm) {
-    const HubMotion motion = turbines::nrel5mw_spinning_hub(rpm * to_rad);
+    const HubMotion motion = turbines::nrel5mw_spinning_hub(rpm * units::rpm);
     const AssumedModesMatrices full = blade.at(motion);
     const Matrix columns = natural_shapes(natural_modes(full), natural);
     const AssumedModesMatrices m = blade.reduced(columns).at(motion);
@@ -82,7 +82,7 @@ Frequencies gyroscopic_frequencies(const AssumedModesBlade& blade, double rpm) {
 Frequencies stretched_frequencies(double rpm) {
     const BeamLine line = turbines::nrel5mw_blade().line;
     return gyroscopic_frequencies(
-        turbines::nrel5mw_blade_converged(stretched(line, turbines::nrel5mw_spinning_hub(rpm * to_rad))), rpm);
+        turbines::nrel5mw_blade_converged(stretched(line, turbines::nrel5mw_spinning_hub(rpm * units::rpm))), rpm);
 }
 
 std::array<double, 3> torsion_at_rest(const AssumedModesBasis& basis) {
@@ -126,7 +126,7 @@ std::vector<Frequencies> chain_frequencies(int elements, const std::vector<doubl
     const auto isolated =
         turbines::isolated_blade(turbines::nrel5mw_blade(), turbines::nrel5mw_blade_elements(elements));
     std::vector<double> speeds = rpm;
-    for (double& speed : speeds) speed *= to_rad;
+    for (double& speed : speeds) speed *= units::rpm;
     solvers::CampbellOptions options;
     options.max_frequency_hz = 15;
     const solvers::Campbell diagram = solvers::campbell(*isolated.system, isolated.rotor, speeds, options);

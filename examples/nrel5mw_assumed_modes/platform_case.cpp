@@ -11,13 +11,13 @@ namespace cardan::paper2018 {
 
 namespace {
 
-constexpr double rotor_speed = 12.1 * pi / 30;
+constexpr double rated_speed = 12.1 * pi / 30;
 constexpr int samples = 720;
 
 HubMotion root_motion(const PlatformCase& of, double time) {
-    const double w = rotor_speed / of.revolutions, s = std::sin(w * time), c = std::cos(w * time);
+    const double w = rated_speed / of.revolutions, s = std::sin(w * time), c = std::cos(w * time);
     turbines::Nrel5mwMotion motion;
-    motion.azimuth = {rotor_speed * time, rotor_speed, 0};
+    motion.azimuth = {rated_speed * time, rated_speed, 0};
     motion.pitch = {of.pitch * s, of.pitch * w * c, -of.pitch * w * w * s};
     motion.heave = {of.heave_rate * time, of.heave_rate, 0};
     const HubMotion root = turbines::nrel5mw_blade_root(motion);
@@ -45,14 +45,14 @@ void analyse(Signal& y, int harmonics) {
 }  // namespace
 
 AssumedModesBlade in_natural_modes(const AssumedModesBlade& blade, int count) {
-    const auto modes = natural_modes(blade.at(turbines::nrel5mw_spinning_hub(rotor_speed)));
+    const auto all_modes = natural_modes(blade.at(turbines::nrel5mw_spinning_hub(rated_speed)));
     Matrix columns(blade.size(), std::min<Eigen::Index>(count, blade.size()));
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = modes[static_cast<std::size_t>(k)].shape;
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = all_modes[static_cast<std::size_t>(k)].shape;
     return blade.reduced(columns);
 }
 
 PlatformResponse platform_response(const AssumedModesBlade& blade, const PlatformCase& of) {
-    const double period = of.revolutions * 2 * pi / rotor_speed;
+    const double period = of.revolutions * 2 * pi / rated_speed;
     const auto system =
         solvers::PeriodicSystem::second_order(period, blade.size(), [&](double time, solvers::SecondOrderSystem& out) {
             const AssumedModesMatrices m = blade.at(root_motion(of, time));

@@ -1,5 +1,6 @@
 #include "examples/nrel5mw_floating/decay.hpp"
 
+#include "mbs/units.hpp"
 #include "solvers/campbell.hpp"
 #include "solvers/linearise.hpp"
 #include "solvers/mode_names.hpp"
@@ -126,7 +127,7 @@ struct Run {
     double rotor_speed;
 };
 
-struct Outcome {
+struct DecayOutcome {
     MeasuredDecay measured;
     bool complete = false, good = true;
     std::string files;
@@ -153,7 +154,7 @@ void draw(const solvers::History& history, const Release& release, const std::st
     for (const char* ending : {".svg", ".png"}) solvers::plot(history, panels, prefix + ending);
 }
 
-Outcome let_go(const Run& run, const Release& release, const Linear& linear, const std::string& prefix) {
+DecayOutcome let_go(const Run& run, const Release& release, const Linear& linear, const std::string& prefix) {
     const System& system = run.turbine.system();
     const int at = system.model.index(run.turbine.layout().platform->coordinates.at(release.coordinate));
     solvers::OperatingPoint start = run.start;
@@ -186,7 +187,7 @@ Outcome let_go(const Run& run, const Release& release, const Linear& linear, con
     if (end.end == solvers::Advance::End::failed) throw NumericalError(end.message);
     file.close(end.reached());
     std::printf("\n%s\n", history.title.c_str());
-    Outcome out;
+    DecayOutcome out;
     out.complete = end.reached();
     const double released = program::largest(history, "kinetic energy").value;
     out.good = program::check_energy(integrator.energy(), released, energy_allowed(run.options.tolerance));
@@ -197,7 +198,7 @@ Outcome let_go(const Run& run, const Release& release, const Linear& linear, con
     return out;
 }
 
-void print_row(const Release& release, const Outcome& outcome, const Linear& linear) {
+void print_row(const Release& release, const DecayOutcome& outcome, const Linear& linear) {
     const MeasuredDecay& m = outcome.measured;
     const bool measured = m.half_cycles >= 2;
     const auto cell = [](bool known, const char* format, double value) {
@@ -256,11 +257,11 @@ int decay(const MachineOptions& machine, const DecayOptions& options, const std:
     for (const Release& release : list)
         program::check_outputs(text(prefix, "_", coordinate_names.at(release.coordinate)), {".h5", ".svg", ".png"});
     const turbines::Turbine turbine = on_spar(machine, CoordinateRole::free);
-    const double speed = options.rpm * program::rpm;
+    const double speed = options.rpm * units::rpm;
     const solvers::OperatingPoint start = equilibrium(turbine, speed);
     const std::vector<Linear> linear = linear_modes(turbine, speed, list);
     const Run run{turbine, start, machine, options, speed};
-    std::vector<Outcome> outcomes;
+    std::vector<DecayOutcome> outcomes;
     for (std::size_t i = 0; i < list.size(); ++i) {
         outcomes.push_back(let_go(run, list[i], linear[i], text(prefix, "_", coordinate_names.at(list[i].coordinate))));
         if (!outcomes.back().complete) break;
@@ -274,11 +275,11 @@ int decay(const MachineOptions& machine, const DecayOptions& options, const std:
         agrees = agrees && outcomes[i].agrees(linear[i]);
     }
     std::printf("\nfiles:");
-    for (const Outcome& outcome : outcomes) std::printf(" %s", outcome.files.c_str());
+    for (const DecayOutcome& outcome : outcomes) std::printf(" %s", outcome.files.c_str());
     std::printf("\n");
     std::fflush(stdout);
     if (!outcomes.back().complete) return 130;
-    if (!std::ranges::all_of(outcomes, &Outcome::good)) return 1;
+    if (!std::ranges::all_of(outcomes, &DecayOutcome::good)) return 1;
     return agrees ? 0 : 3;
 }
 

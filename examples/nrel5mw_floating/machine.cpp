@@ -1,6 +1,7 @@
 #include "examples/nrel5mw_floating/machine.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 #include "solvers/periodic.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ turbines::Turbine machine(const MachineOptions& options, turbines::Nrel5mwTower 
 }  // namespace
 
 double unit(std::size_t coordinate) {
-    return coordinate < 3 ? 1 : pi / 180;
+    return coordinate < 3 ? 1 : units::degree;
 }
 
 std::size_t coordinate_index(const std::string& option, const std::string& name) {

@@ -1,5 +1,6 @@
 #include "examples/nrel5mw_floating/motion.hpp"
 
+#include "mbs/units.hpp"
 #include "turbines/channels.hpp"
 
 #include "examples/motion_option.hpp"
@@ -135,19 +136,19 @@ struct Study {
     double settle, duration;  ///< s
 };
 
-struct Outcome {
+struct MotionOutcome {
     solvers::History history;
     bool complete = false, good = false;
 };
 
-Outcome run(const Study& study, const Case& one, const std::string& prefix) {
+MotionOutcome run(const Study& study, const Case& one, const std::string& prefix) {
     const MotionOptions& o = study.options;
-    const std::vector<solvers::Drive> driven = drives(study.turbine, one, o.rpm * program::rpm, study.settle);
+    const std::vector<solvers::Drive> driven = drives(study.turbine, one, o.rpm * units::rpm, study.settle);
     solvers::Integrator integrator(study.turbine.system(), driven, 0, study.start.q, study.start.qd,
                                    program::integration_options(o.method, o.tolerance, 2));
     solvers::Recorder recorder(integrator, turbines::channels(study.turbine),
                                {.coordinates = false, .rates = false, .actuators = true, .statistics = false});
-    Outcome out;
+    MotionOutcome out;
     out.history = {
         text("NREL 5 MW machine on the prescribed spar, ", o.rpm, " rpm: ", one.words.empty() ? "still" : one.words),
         recorder.channels(),
@@ -278,17 +279,17 @@ int motion(const MachineOptions& machine, const MotionOptions& options, const st
     program::check_outputs(prefix, {".csv"});
     for (const Case& one : all) program::check_outputs(text(prefix, "_", one.name), {".h5", ".png"});
     const turbines::Turbine turbine = on_spar(machine, CoordinateRole::driven);
-    const solvers::OperatingPoint start = equilibrium(turbine, options.rpm * program::rpm);
+    const solvers::OperatingPoint start = equilibrium(turbine, options.rpm * units::rpm);
     const Study study{turbine, start, options, options.settle, options.settle + options.periods * longest};
     const std::string path = prefix + ".csv";
     std::ofstream csv(path);
     Table table{{}, csv};
     for (const double hz : distinct_frequencies(all.back().frequencies())) table.periods.push_back(1 / hz);
     table.csv_header();
-    const Outcome still = run(study, all.front(), prefix);
+    const MotionOutcome still = run(study, all.front(), prefix);
     bool complete = still.complete, good = still.good;
     for (std::size_t i = 1; i < all.size() && complete; ++i) {
-        const Outcome moving = run(study, all[i], prefix);
+        const MotionOutcome moving = run(study, all[i], prefix);
         complete = moving.complete;
         good = good && moving.good;
         if (moving.history.time.size() > 1)

@@ -1,6 +1,7 @@
 #include "examples/nrel5mw_platform/reference.hpp"
 
 #include "mbs/error.hpp"
+#include "mbs/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ namespace cardan::platform {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double to_degrees = 180 / pi;
 constexpr int highest = 5;  // harmonic of the references
 
 // What the reference is good for, and the goal: 0.5 % and 1 deg of every harmonic above 0.01 m. Smaller ones, and the
@@ -60,7 +60,7 @@ public:
         for (double value : {h.mean, h.max, h.min}) number(value / unit, 10);
         for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
             number(h.amplitude[k] / unit, 10);
-            angle(h.phase[k] * to_degrees);
+            angle(h.phase[k] * units::to_degrees);
         }
         std::cout << "\n";
     }
@@ -79,7 +79,7 @@ public:
         each(r, [&](const ReferenceHarmonic& exact) {
             const auto i = static_cast<std::size_t>(exact.k - 1);
             percent(h.amplitude[i] / unit / exact.amplitude - 1, 10);
-            angle(difference(h.phase[i] * to_degrees, exact.phase));
+            angle(difference(h.phase[i] * units::to_degrees, exact.phase));
         });
     }
 
@@ -121,7 +121,7 @@ double worst(const ReferenceSignal& r, const Harmonics& h, double unit, bool len
         const auto i = static_cast<std::size_t>(exact.k - 1);
         used = std::max(used, used_up(h.amplitude[i] / unit, exact.amplitude, length));
         if (std::isfinite(exact.phase))
-            used = std::max(used, std::abs(difference(h.phase[i] * to_degrees, exact.phase)) / goal_phase);
+            used = std::max(used, std::abs(difference(h.phase[i] * units::to_degrees, exact.phase)) / goal_phase);
     }
     return used;
 }
