@@ -2,6 +2,7 @@
 
 #include "elements/mean_difference.hpp"
 #include "elements/static_moment.hpp"
+#include "elements/tilted_masses.hpp"
 
 namespace cardan {
 
@@ -156,6 +157,7 @@ ElementInertia partition_element(const ElementLine& on, double delta, Partition 
     element.body[0].J += left;
     element.body[3].J += right;
     element.polar_inertia += left(0, 0) + right(0, 0);
+    element.tilted_moment = take_masses_off_the_tilt(on, element);
     return element;
 }
 

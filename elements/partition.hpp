@@ -43,6 +43,8 @@ struct ElementInertia {
     std::string warning = {};  ///< empty, or what is unsound about the partition here
     /// How far B1 and B4 have the first moments of the static shapes: 1 all the way, 0 those of the true segments.
     double shape_share = 0;
+    double tilted_moment = 0;   ///< share of the first moments across the axis that shear tilts though the sections
+                                ///< stay: more than 0 where the end bodies have not the rotary inertia to carry them
     double rotary_split = 0.5;  ///< place, as a fraction of the length, inboard of which the sectional rotary inertia
                                 ///< is part of B1, beyond of B4
 };
@@ -55,6 +57,9 @@ struct ElementInertia {
 ///
 /// compliance_gauss and mean_difference: hinges from the bending compliance, delta is not used; sectional rotary
 /// inertia is cut at the centroid of the torsion compliance, int x/GJ / int 1/GJ.
+///
+/// Where sections give way in shear, first moments across the axis of B2 and B3 move to B1 and B4
+/// (elements/tilted_masses).
 ///
 /// mean_difference: a body is the material of its segment, stretched along the axis about its centre and scaled in mass
 /// until mass and moment of inertia are those of the partition, and moved along the axis to its place; across it keeps

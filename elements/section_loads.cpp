@@ -54,39 +54,47 @@ private:
     Vec3 about_, force_ = Vec3::Zero(), moment_ = Vec3::Zero();
 };
 
-// Inertia less weight of the material of a rigid segment between two places, times `sign`.
-void add_material(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, const Vec3& gravity,
-                  double from, double to, double sign) {
-    const BeamLine& line = cut.line.line();
-    const double arc = cut.element->arc, start = cut.element->start;
-    using Load = Vec6;
-    const Vec3 about = axes.p;
-    const Load load = cut.line.integral((from - start) / arc, (to - start) / arc, Load(Load::Zero()), [&](double s) {
-        const BeamSection section = line.section(s);
-        const Vec3 r = axes * (cut.line.pose(s) * section.centre);
-        const Vec3 force = section.mass * (motion.at(r) - gravity);
-        return Load((Load() << force, cross<double>(r - about, force)).finished());
-    });
-    sum.add(sign * load.head<3>(), sign * load.tail<3>(), about);
+// Inertia less weight about `about`, base axes: force and moment.
+using Load = Vec6;
+
+Load of_point(double mass, const Vec3& at, const BodyMotion& motion, const Vec3& gravity, const Vec3& about) {
+    const Vec3 force = mass * (motion.at(at) - gravity);
+    return (Load() << force, cross<double>(at - about, force)).finished();
 }
 
-// The sectional inertia of either part of an element sits on its terminal body: the share of it between s and the
-// hinge.
-void add_rotary(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, double sign) {
-    const bool first = cut.segment == 0;
-    const Hinges& hinges = cut.element->hinges;
-    const double t = fraction(cut);
-    if (!first && hinges.second == 1) return;
-    const double share = first ? (hinges.first - t) / hinges.first : (t - hinges.second) / (1 - hinges.second);
-    const double split = cut.element->rotary_split;
-    const Mat3 J = cut.line.integral(first ? 0.0 : split, first ? split : 1.0, Mat3(Mat3::Zero()), [&](double s) {
-        const Mat3 R = cut.line.pose(s).R;
-        return Mat3(R * cut.line.line().section(s).J * R.transpose());
-    });
-    const Mat3 J_base = axes.R * J * axes.R.transpose();
+Load of_body(const RigidInertia& body, const Placement& axes, const BodyMotion& motion, const Vec3& gravity) {
+    Load load = of_point(body.mass, axes * body.com, motion, gravity, axes.p);
+    const Mat3 J = axes.R * body.J * axes.R.transpose();
     const Vec3& w = motion.angular_velocity;
-    sum.add(Vec3::Zero(), sign * share * (J_base * motion.angular_acceleration + cross<double>(w, Vec3(J_base * w))),
-            axes.p);
+    load.tail<3>() += J * motion.angular_acceleration + cross<double>(w, Vec3(J * w));
+    return load;
+}
+
+// The masses of the line between two places, as a rigid segment carries them.
+Load of_line(const Cut& cut, const Placement& axes, const BodyMotion& motion, const Vec3& gravity, double from,
+             double to) {
+    const BeamLine& line = cut.line.line();
+    const double arc = cut.element->arc, start = cut.element->start;
+    return cut.line.integral((from - start) / arc, (to - start) / arc, Load(Load::Zero()), [&](double s) {
+        const BeamSection section = line.section(s);
+        return of_point(section.mass, axes * (cut.line.pose(s) * section.centre), motion, gravity, axes.p);
+    });
+}
+
+// Inertia less weight of a rigid segment between two places, times `sign`: the masses of the line there; what its body
+// has beyond or short of those of the whole segment (sectional inertia, what the partition has moved) counts in
+// proportion to the length, so that both elements at a node see the same loads.
+void add_segment(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, const Vec3& gravity,
+                 double from, double to, double sign) {
+    const Hinges& h = cut.element->hinges;
+    const std::array<double, 5> ends{0, h.first, h.middle, h.second, 1};
+    const double start = cut.element->start + ends[cut.segment] * cut.element->arc,
+                 end = cut.element->start + ends[cut.segment + 1] * cut.element->arc;
+    if (!(end > start)) return;
+    const Load surplus = of_body(cut.element->inertia[cut.segment], axes, motion, gravity) -
+                         of_line(cut, axes, motion, gravity, start, end);
+    const Load load = sign * (of_line(cut, axes, motion, gravity, from, to) + (to - from) / (end - start) * surplus);
+    sum.add(load.head<3>(), load.tail<3>(), axes.p);
 }
 
 // Does a frame belong to a rigid segment? Not if it was placed on a node: that may carry anything.
@@ -214,10 +222,8 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const int body = model.frame(element.segments[cut.segment].carrier).body;
     BodyMotion motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // a beam clamped to the base
     if (body >= 0) motion = carried.motion[static_cast<std::size_t>(body)];
-    const double sign = inward ? 1 : -1;
-    add_material(sum, cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s), sign);
+    add_segment(sum, cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s), inward ? 1 : -1);
     add_wrenches(sum, beam, cut, axes, kin, forces, inward);
-    if (cut.segment == 0 || cut.segment == 3) add_rotary(sum, cut, axes, motion, sign);
     SectionLoads loads;
     loads.values = -sum.in(here.R);
     return loads;

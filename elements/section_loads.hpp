@@ -30,8 +30,9 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
                                 double s);
 
 /// Loads by equilibrium of everything outboard of s: inertial forces, gravity and wrenches. What the rigid segment at s
-/// carries between the next hinge and s is counted with the true mass of the line (with static moments and mean
-/// differences that agrees with the masses of the bodies to the order of the discretisation only). At a node: just
+/// carries between the next hinge and s is counted with the true mass of the line; what its body has beyond that (the
+/// sectional inertia of an end body, masses that the partition has moved) counts in proportion to the length, so that
+/// the loads on both sides of a node agree with every partition. At a node: just
 /// inboard of it, whatever is fixed to the node included; at the root: just outboard of node 0. Wrenches count as the
 /// beam's if their frames were placed on its segments (distributed loads, CardanBeam::Segment::carrier) or nodes, not
 /// merely on the same body. User forces are not known as wrenches and are left out.

@@ -18,7 +18,7 @@ BeamLine coupled_line(double length) {
             [length](double x) {
                 const double s = x / length;
                 EngineeringSection e;
-                e.mass = 1;
+                e.mass = 1, e.j_flap = e.j_edge = 0.05;
                 e.EA = 50 - 20 * s, e.GJ = 3 - s, e.EI_flap = 2 - s, e.EI_edge = 7 - 3 * s;
                 e.GA_y = 30 - 5 * s, e.GA_z = 20 - 6 * s;
                 e.beta = 0.3 + 0.8 * s;

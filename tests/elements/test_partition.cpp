@@ -1,6 +1,7 @@
 // How mass is given to the bodies of an element.
 #include "elements/cardan_beam.hpp"
 #include "elements/quadrature.hpp"
+#include "elements/tilted_masses.hpp"
 #include "tests/elements/cantilever.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -18,9 +19,26 @@ BeamLine tapered_with_offsets() {
                 s.centre = {0, 0.1 * x, -0.05 + 0.02 * x * x};
                 s.J = Vec3(0.5, 0.2, 0.3).asDiagonal();
                 s.compliance = Mat6::Identity();
+                s.compliance.block<2, 2>(1, 1).setZero();
                 return s;
             },
             "tapered"};
+}
+
+BeamLine flexible_in_shear(BeamLine line, double offset, double shear_compliance) {
+    line.section = [section = line.section, offset, shear_compliance](double x) {
+        BeamSection s = section(x);
+        s.centre *= offset;
+        s.compliance(1, 1) = s.compliance(2, 2) = shear_compliance;
+        return s;
+    };
+    return line;
+}
+
+RigidInertia sum_of(const ElementInertia& element) {
+    RigidInertia sum;
+    for (const RigidInertia& body : element.body) sum = sum + body;
+    return sum;
 }
 
 }  // namespace
@@ -29,8 +47,7 @@ TEST_CASE("segment masses: total mass, first moment and inertia tensor of the co
     const BeamLine line = tapered_with_offsets();
     const double x0 = 0.4, L = 2.1;
     const ElementInertia element = partition_element(line, x0, L, 0.23, Partition::segment_masses);
-    RigidInertia sum;
-    for (const RigidInertia& body : element.body) sum = sum + body;
+    const RigidInertia sum = sum_of(element);
     const auto integral = [&](auto f) { return integrate(x0, x0 + L, line.breaks, decltype(f(0.0))(f(0.0) * 0), f); };
     const auto at = [&](double x) { return Vec3(x - x0, line.section(x).centre(1), line.section(x).centre(2)); };
     const double M = integral([&](double x) { return line.section(x).mass; });
@@ -48,6 +65,81 @@ TEST_CASE("segment masses: total mass, first moment and inertia tensor of the co
     // the sectional inertia stands on the terminal bodies
     CHECK(element.body[0].J(0, 0) > 0.5 * L / 2);
     CHECK(element.body[1].J(0, 0) < 0.05);
+}
+
+TEST_CASE("shear flexibility: of the turn of the middle bodies 1 / (1 + GA h^2 / 12 EI) is shear, in each direction",
+          "[analytic]") {
+    EngineeringSection s = slender(1, 2);
+    s.EI_flap = 3, s.EI_edge = 70, s.GA_y = 40, s.GA_z = 5;
+    for (const double beta : {0.0, 0.4})
+        for (const double h : {0.1, 1.0, 8.0}) {
+            s.beta = beta;
+            const BeamLine line = uniform_beam(h, s);
+            const Eigen::Matrix2d R = Eigen::Rotation2Dd(beta).toRotationMatrix(),
+                                  part = part_of_shear(ElementLine(line, 0, h), Hinges::symmetric(delta_gauss));
+            const auto share = [h](double GA, double EI) { return 1 / (1 + GA * h * h / (12 * EI)); };
+            const Eigen::Matrix2d exact = R * Eigen::Vector2d(share(40, 70), share(5, 3)).asDiagonal() * R.transpose();
+            CHECK((part - exact).norm() < 1e-12);
+        }
+    s.GA_y = s.GA_z = std::numeric_limits<double>::infinity();
+    const BeamLine rigid = uniform_beam(1, s);
+    CHECK(part_of_shear(ElementLine(rigid, 0, 1), Hinges::symmetric(0.2)).isZero(0));
+}
+
+TEST_CASE(
+    "shear flexibility: that share of the first moments across the axis stands on the end bodies, "
+    "what the element has stays",
+    "[property]") {
+    const BeamLine rigid = tapered_with_offsets();
+    for (const Partition partition : {Partition::segment_masses, Partition::compliance_gauss})
+        for (const double offset : {0.5, 2.0}) {  // the larger one asks for more rotary inertia than there is
+            CAPTURE(partition_name(partition), offset);
+            const BeamLine flexible = flexible_in_shear(rigid, offset, 10),
+                           stiffened = flexible_in_shear(rigid, offset, 0);
+            const ElementLine line(flexible, 0.4, 2.5), stiff(stiffened, 0.4, 2.5);
+            const ElementInertia moved = partition_element(line, 0.23, partition),
+                                 segments = partition_element(stiff, 0.23, partition);
+            const Eigen::Matrix2d part = part_of_shear(line, moved.hinges).transpose();
+            CHECK(part(0, 0) > 0.9);
+            CHECK(segments.tilted_moment == 0);
+            CHECK((offset < 1 ? moved.tilted_moment == 0 : moved.tilted_moment > 0.1 && moved.tilted_moment < 0.7));
+            const RigidInertia a = sum_of(moved), b = sum_of(segments);
+            CHECK(a.mass == Approx(b.mass).epsilon(1e-14));
+            CHECK((a.com - b.com).norm() < 1e-14);
+            const Mat3 change = binet_tensor<double>(a.J) - binet_tensor<double>(b.J);
+            CHECK(std::abs(change(0, 0)) < 1e-13);
+            CHECK(change.bottomRightCorner<2, 2>().norm() < 1e-13 * binet_tensor<double>(b.J).norm());
+            for (std::size_t k = 0; k < 4; ++k) {
+                CHECK_NOTHROW(moved.body[k].check("segment"));
+                CHECK(moved.body[k].mass == segments.body[k].mass);
+                CHECK(moved.body[k].com(0) == segments.body[k].com(0));
+            }
+            if (offset > 1) continue;
+            for (const std::size_t k : {1u, 2u}) {
+                const Eigen::Vector2d was = segments.body[k].com.tail<2>(), is = moved.body[k].com.tail<2>();
+                CHECK((was - part * was - is).norm() < 1e-14);
+            }
+        }
+}
+
+TEST_CASE(
+    "shear flexibility: products of inertia with the axis change by what the halves of elements do not cancel, "
+    "h^2 in a beam",
+    "[convergence]") {
+    const BeamLine rigid = tapered_with_offsets(), flexible = flexible_in_shear(rigid, 1, 10);
+    const auto change = [&](int elements) {
+        double xy = 0;
+        for (int e = 0; e < elements; ++e) {
+            const double L = 1.1 / elements;
+            const RigidInertia a = sum_of(partition_element(flexible, e * L, L, 0.23, Partition::segment_masses)),
+                               b = sum_of(partition_element(rigid, e * L, L, 0.23, Partition::segment_masses));
+            xy += (binet_tensor<double>(a.J) - binet_tensor<double>(b.J))(0, 1);
+        }
+        return xy;
+    };
+    CHECK(std::abs(change(4)) > 1e-6);
+    CHECK(std::log2(change(4) / change(8)) == Approx(2).margin(0.1));
+    CHECK(std::log2(change(8) / change(16)) == Approx(2).margin(0.05));
 }
 
 TEST_CASE("static moments: closed form of the uniform element with delta = 1/6", "[analytic]") {

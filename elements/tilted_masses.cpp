@@ -1,0 +1,99 @@
+#include "elements/tilted_masses.hpp"
+
+#include "elements/timoshenko.hpp"
+#include "mbs/decompositions.hpp"
+
+namespace cardan {
+
+namespace {
+
+// Bending compliance in the directions of deflection, w_y'' = kappa_z and w_z'' = -kappa_y.
+Eigen::Matrix2d bending(const Mat6& S) {
+    return (Eigen::Matrix2d() << S(5, 5), -S(5, 4), -S(4, 5), S(4, 4)).finished();
+}
+
+// Shear compliance at zero twist: what torsion about a shear centre beside the line shears is none.
+Eigen::Matrix2d shear(const Mat6& S) {
+    const Eigen::Matrix2d all = S.block<2, 2>(1, 1);
+    const Eigen::Vector2d by_twist = S.block<2, 1>(1, 3);
+    return S(3, 3) > 0 ? Eigen::Matrix2d(all - by_twist * by_twist.transpose() / S(3, 3)) : all;
+}
+
+Eigen::Matrix2d scatter_across(const RigidInertia& body) {
+    return binet_tensor<double>(body.J).bottomRightCorner<2, 2>();
+}
+Eigen::Matrix2d second_moments_across(const RigidInertia& body) {
+    return scatter_across(body) + body.mass * body.com.tail<2>() * body.com.tail<2>().transpose();
+}
+
+// An end body and the one beside it when the end has taken over a first moment across the axis.
+struct Pair {
+    RigidInertia end, between;
+
+    Pair moved(const Eigen::Vector2d& moment) const {
+        Pair p = *this;
+        p.between.com.tail<2>() -= moment / between.mass;
+        p.end.com.tail<2>() += moment / end.mass;
+        Mat3 P = binet_tensor<double>(end.J);
+        P.bottomRightCorner<2, 2>() = second_moments_across(end) + second_moments_across(between) -
+                                      second_moments_across(p.between) -
+                                      end.mass * p.end.com.tail<2>() * p.end.com.tail<2>().transpose();
+        p.end.J = ordinary_tensor<double>(P);
+        return p;
+    }
+    // Can the end body be made of material? Binet's tensor is then positive semi-definite.
+    bool is_possible() const {
+        const Mat3 P = binet_tensor<double>(end.J);
+        return P(1, 1) >= 0 && P(2, 2) >= 0 && P.bottomRightCorner<2, 2>().determinant() >= 0 && P.determinant() >= 0;
+    }
+};
+
+// Returns the share of the moment that could be moved.
+double move(RigidInertia& end, RigidInertia& between, const Eigen::Vector2d& moment) {
+    if (!(end.mass > 0) || moment.isZero(0)) return 1;
+    const Pair before{end, between};
+    double share = 1;
+    if (!before.moved(moment).is_possible()) {
+        double impossible = 1;
+        share = 0;
+        for (int i = 0; i < 40; ++i) {
+            const double middle = (share + impossible) / 2;
+            (before.moved(middle * moment).is_possible() ? share : impossible) = middle;
+        }
+    }
+    const Pair after = before.moved(share * moment);
+    end = after.end, between = after.between;
+    return share;
+}
+
+}  // namespace
+
+Eigen::Matrix2d part_of_shear(const ElementLine& on, const Hinges& hinges) {
+    if (!is_flexible_in_shear(on)) return Eigen::Matrix2d::Zero();
+    // Opposite moments m and -m at the hinges bend by M = m (x1 + x2 - 2 x) / d and shear by V = 2 m / d.
+    const double d = hinges.second - hinges.first, sum = hinges.first + hinges.second, arc = on.end() - on.start();
+    using Both = Eigen::Matrix<double, 2, 4>;
+    const Both turn = on.integral(0, 1, Both(Both::Zero()), [&](double s) {
+        const Mat6 S = on.line().section(s).compliance;
+        const double M = (sum - 2 * (s - on.start()) / arc) / d, V = 2 / (d * arc);
+        return Both((Both() << V * V * shear(S), M * M * bending(S)).finished());
+    });
+    const Eigen::Matrix2d sheared = turn.leftCols<2>(), all = sheared + turn.rightCols<2>();
+    const double trace = all.trace();
+    // Rigid in one direction, the other alone counts.
+    if (!(all.determinant() > 1e-12 * trace * trace)) return sheared / trace;
+    return sheared * all.inverse();
+}
+
+double take_masses_off_the_tilt(const ElementLine& on, ElementInertia& element) {
+    const Eigen::Matrix2d share = part_of_shear(on, element.hinges).transpose();
+    if (share.isZero(0)) return 0;
+    std::array<RigidInertia, 4>& B = element.body;
+    const auto moment = [&](const RigidInertia& body) {
+        return Eigen::Vector2d(share * body.com.tail<2>() * body.mass);
+    };
+    const double moved = std::min(move(B[0], B[1], moment(B[1])), move(B[3], B[2], moment(B[2])));
+    return (1 - moved) * std::min(1.0, share.norm());
+}
+
+}  // namespace cardan
