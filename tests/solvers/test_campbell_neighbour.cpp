@@ -18,7 +18,7 @@ namespace {
 SmallRotor flap_and_lag_variant(double k, std::size_t blades = 3) {
     SmallRotorSpec spec;
     spec.stiffness = std::vector<double>(blades, k);
-    spec.hinges = testing::Hinges::flap_and_lag;
+    spec.hinges = testing::BladeHinges::flap_and_lag;
     spec.lag_to_flap = 3000 / k;
     spec.lag_damping = 0;
     return small_rotor(spec);

@@ -60,7 +60,8 @@ NameJumps jumps_over_yaw_stiffness(std::span<const double> speeds, int steps, bo
 
 }  // namespace
 
-TEST_CASE("campbell variants: names do not jump from one yaw stiffness to the next if they are continued", "[property]") {
+TEST_CASE("campbell variants: names do not jump from one yaw stiffness to the next if they are continued",
+          "[property]") {
     const std::vector<double> speeds = rpm_range(0, 30, 3);
     // By energy alone rotor tilt and first flap backward change places between 2.42 and 2.43, mostly without a mark.
     CHECK(jumps_over_yaw_stiffness(speeds, 4, false).unmarked > 0);
