@@ -49,7 +49,7 @@ public:
 private:
     // As it is stored: components in base axes, or in the section axes at s.
     Wrench per_length(double s) const {
-        const Wrench w = load_.per_length(s);
+        Wrench w = load_.per_length(s);
         if (!w.force.allFinite() || !w.moment.allFinite())
             throw InputError(text("load '", load_.name, "' at s = ", s, " m"), "force, moment per length",
                              text(w.force.transpose(), "; ", w.moment.transpose()), "finite");

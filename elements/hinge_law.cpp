@@ -184,6 +184,7 @@ ShearTilt shear_tilt(const ElementLine& element, const Hinges& hinges, CurvedFle
     const auto is_free = [&](ElementCoordinate kind) { return place(kind) < std::ssize(kinds); };
     if (!is_free(u) || !is_flexible_in_shear(element)) return {};
     std::vector<int> free;
+    free.reserve(kinds.size());
     for (ElementCoordinate kind : kinds) free.push_back(static_cast<int>(kind));
 
     ShearTilt tilt;

@@ -71,7 +71,7 @@ int holder(const std::string& path) {
 }  // namespace
 
 std::string who_has_it_open(const std::string& path) {
-    const std::string answer = "another program, or another object of this one, has it open";
+    std::string answer = "another program, or another object of this one, has it open";
     // Who has just begun the file may be about to lock it again, under its other name.
     for (int attempt = 0; attempt < 10; ++attempt) {
         for (const std::string& name : {path, path + ".partial"})

@@ -26,8 +26,8 @@ struct Polyline {
 
 /// Two coordinates of an isotropic part that are the y and z components of one vector (shaft bending).
 struct RotatingPair {
-    int y, z;
-    double sense;       ///< +1: the part's x axis points along the rotor axis, -1: against it
+    int y = -1, z = -1;
+    double sense = 1;   ///< +1: the part's x axis points along the rotor axis, -1: against it
     bool turns = true;  ///< with the rotor; false: the part stands still (a bearing, a shaft before the spin joint)
 };
 

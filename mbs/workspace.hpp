@@ -64,7 +64,7 @@ public:
     std::vector<Rates> rates;
     /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see
     /// mbs/path_twists.hpp).
-    std::ptrdiff_t stride;
+    std::ptrdiff_t stride = 0;
     std::vector<Packed3<S>> branch;
     VectorT<S> zero;
 

@@ -206,7 +206,7 @@ void check_beginning(const std::string& path) {
     if (JournaledFile journal; !has_signature() && journal.open(path.c_str(), JournaledFile::Mode::read) == 0)
         if (journal.read(0, start) != 0) start.fill('\0');  // a flush goes on, or was broken off
     if (!has_signature()) throw FileError(path, "cannot be opened as an HDF5 file: file signature not found");
-    if (const int version = start.back(); version != 2)
+    if (const int version = static_cast<unsigned char>(start.back()); version != 2)
         throw FileError(path, text("is an HDF5 file, but no history: its format has the version ", version,
                                    "; that of histories has 2"));
 }
