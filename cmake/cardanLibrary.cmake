@@ -1,5 +1,5 @@
 # cardan_precompile(<target> [FROM <owner>] [HEADERS <headers>]): headers that most sources include are compiled once, or
-# taken as another target has compiled them. Sources do not rely on it: the clang build is made without.
+# taken as another target has compiled them. Sources do not rely on it: the presets thread and debug are made without.
 function(cardan_precompile target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "HEADERS")
     if(CARDAN_PRECOMPILE_HEADERS AND arg_FROM)

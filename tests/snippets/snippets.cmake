@@ -80,6 +80,7 @@ message(STATUS "documents: ${count} C++ blocks")
 add_library(document_snippets OBJECT EXCLUDE_FROM_ALL ${snippets})
 target_link_libraries(document_snippets PRIVATE ${all_libraries} cardan::urdf)
 target_compile_options(document_snippets PRIVATE -O0)
-set_target_properties(document_snippets PROPERTIES CXX_EXTENSIONS OFF)
+# Blocks stand alone: several have a main().
+set_target_properties(document_snippets PROPERTIES CXX_EXTENSIONS OFF UNITY_BUILD OFF)
 add_test(NAME document_snippets COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target document_snippets)
 set_tests_properties(document_snippets PROPERTIES LABELS slow RUN_SERIAL TRUE)
