@@ -89,6 +89,8 @@ int run_program(const char* name, int argc, char** argv, int (*parse)(int, char*
         return code == 130 && interrupted() ? 128 + interrupt : code;
     } catch (const Error& error) {
         std::cerr << name << ": " << error.what() << "\n";
+    } catch (const std::bad_alloc&) {
+        std::cerr << name << ": not enough memory; fewer elements, times or speeds need less\n";
     } catch (const std::exception& error) {
         std::cerr << name << ": unexpected: " << error.what() << "\n";
     }

@@ -13,6 +13,7 @@
 #include "solvers/matio_state_space.hpp"
 #include "solvers/model_reduction.hpp"
 #include "solvers/multi_blade_model.hpp"
+#include "solvers/problem_size.hpp"
 #include "solvers/state_space.hpp"
 #include "turbines/channels.hpp"
 #include "turbines/wt600.hpp"
@@ -85,6 +86,8 @@ const std::vector<std::string> outputs{"GenSpeed",  "RotSpeed",  "RotTorq",   "T
                                        "RootMyb2",  "RootMyb3",  "BldPitch1", "BldPitch2", "BldPitch3"};
 
 solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments& a) {
+    // Before the equilibrium, which would take long for nothing.
+    solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
     const double rotor_speed = a.rotor_rpm * pi / 30;
     solvers::StateSpaceOptions options;
     options.azimuths = a.azimuths;

@@ -1,6 +1,7 @@
 #include "solvers/campbell_point.hpp"
 
 #include "mbs/error.hpp"
+#include "solvers/problem_size.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -10,10 +11,6 @@ namespace cardan::solvers {
 
 namespace {
 
-// Eigenvalues of a full matrix take some 25 (2 n)^3 operations and eight matrices of (2 n)^2 numbers: with this many
-// unknowns minutes per point and 600 MB, with six times as many a day and 20 GB.
-constexpr std::size_t most_unknowns = 1500;
-
 std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
     check(rotor, system.model);
     const std::size_t blades = rotor.blades.size();
@@ -22,11 +19,7 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
     const bool spin_is_unknown = options.spin == RotorSpin::free && blades != 1;
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
-    if (unknowns.size() > most_unknowns)
-        throw InputError(rotor.machine, "number of unknowns", unknowns.size(),
-                         text("<= ", most_unknowns,
-                              " (all eigenvalues of a full matrix of twice the size are computed at every point: time "
-                              "grows with the cube); take fewer elements per part, their error is small long before"));
+    check_number_of_unknowns(rotor.machine, unknowns.size());
     return unknowns;
 }
 

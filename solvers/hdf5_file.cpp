@@ -1,7 +1,7 @@
 #include "solvers/hdf5_file.hpp"
 
 #include "mbs/error.hpp"
-#include "mbs/text_file.hpp"
+#include "solvers/hdf5_checks.hpp"
 #include "solvers/hdf5_impl.hpp"
 #include "solvers/hdf5_storage.hpp"
 #include "solvers/hdf5_text.hpp"
@@ -17,62 +17,18 @@
 namespace cardan::solvers {
 namespace {
 
+using detail::check_attributes;
+using detail::checked_attributes;
+using detail::checked_name;
+using detail::flaw;
 using detail::Handle;
 using detail::Quiet;
+using detail::refuse;
 
 constexpr unsigned keep_order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 constexpr std::size_t big_array = 32768;       // bytes; smaller ones lie in the header, whose checksum they share
 constexpr std::size_t largest_chunk = 524288;  // bytes; two of them fit into the chunk cache of the C library
 constexpr unsigned deflate_level = 4;
-
-[[noreturn]] void refuse(const std::string& path, std::string_view object, std::string_view why) {
-    throw InputError(text(path, ": ", object, ": ", why));
-}
-
-bool has_nul(std::string_view s) {
-    return s.find('\0') != std::string_view::npos;
-}
-
-/// The first thing that keeps a text from being stored; empty: nothing.
-std::string flaw(std::string_view s) {
-    if (has_nul(s)) return "contains a NUL";
-    return is_utf8(s) ? "" : "is not UTF-8";
-}
-
-/// Without the leading slash; parts between slashes are names.
-std::string checked_name(const std::string& path, std::string_view name) {
-    if (name.starts_with('/')) name.remove_prefix(1);
-    bool good = flaw(name).empty();
-    for (std::size_t start = 0; start <= name.size();) {
-        const std::size_t end = std::min(name.find('/', start), name.size());
-        const std::string_view part = name.substr(start, end - start);
-        good = good && !part.empty() && part != "." && part != "..";
-        start = end + 1;
-    }
-    if (!good)
-        refuse(path, text("'", name, "'"),
-               "is not a name; allowed: parts in UTF-8 that are not empty, with / between them");
-    return std::string(name);
-}
-
-void check(const std::string& path, std::string_view object, const Attributes& attributes) {
-    for (const Attribute& a : attributes) {
-        const auto* value = std::get_if<std::string>(&a.value);
-        if (a.name.empty() || !flaw(a.name).empty()) refuse(path, object, "an attribute has no name in UTF-8");
-        if (value != nullptr && !flaw(*value).empty())
-            refuse(path, object, text("attribute ", a.name, " ", flaw(*value)));
-    }
-}
-
-/// units, long_name and the rest as attributes.
-Attributes checked(const std::string& path, std::string_view object, const Description& about) {
-    if (about.units.empty()) refuse(path, object, "units are missing; write \"1\" for a pure number");
-    if (about.long_name.empty()) refuse(path, object, "long_name is missing");
-    Attributes all{{"units", about.units}, {"long_name", about.long_name}};
-    all.insert(all.end(), about.more.begin(), about.more.end());
-    check(path, object, all);
-    return all;
-}
 
 Handle complex_type(hid_t number) {
     const std::size_t size = H5Tget_size(number);
@@ -261,14 +217,14 @@ void Hdf5File::write(std::string_view name, std::span<const double> values, cons
     const Quiet quiet;
     Impl& impl = writable();
     Hdf5Writer{impl}.put_array(name, {values.data(), values.size(), H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, sizeof(double)},
-                               shape, checked(impl.path, name, about));
+                               shape, checked_attributes(impl.path, name, about));
 }
 
 void Hdf5File::write(std::string_view name, std::span<const int> values, const Shape& shape, const Description& about) {
     const Quiet quiet;
     Impl& impl = writable();
     Hdf5Writer{impl}.put_array(name, {values.data(), values.size(), H5T_NATIVE_INT, H5T_STD_I32LE, sizeof(int)}, shape,
-                               checked(impl.path, name, about));
+                               checked_attributes(impl.path, name, about));
 }
 
 void Hdf5File::write(std::string_view name, std::span<const std::int64_t> values, const Shape& shape,
@@ -277,7 +233,7 @@ void Hdf5File::write(std::string_view name, std::span<const std::int64_t> values
     Impl& impl = writable();
     Hdf5Writer{impl}.put_array(name,
                                {values.data(), values.size(), H5T_NATIVE_INT64, H5T_STD_I64LE, sizeof(std::int64_t)},
-                               shape, checked(impl.path, name, about));
+                               shape, checked_attributes(impl.path, name, about));
 }
 
 void Hdf5File::write(std::string_view name, std::span<const std::complex<double>> values, const Shape& shape,
@@ -287,7 +243,7 @@ void Hdf5File::write(std::string_view name, std::span<const std::complex<double>
     const Handle memory = complex_type(H5T_NATIVE_DOUBLE);
     const Handle stored = complex_type(H5T_IEEE_F64LE);
     Hdf5Writer{impl}.put_array(name, {values.data(), values.size(), memory.get(), stored.get(), 2 * sizeof(double)},
-                               shape, checked(impl.path, name, about));
+                               shape, checked_attributes(impl.path, name, about));
 }
 
 void Hdf5File::write(std::string_view name, std::span<const std::string> values, const Shape& shape,
@@ -298,7 +254,7 @@ void Hdf5File::write(std::string_view name, std::span<const std::string> values,
     Attributes all{{"long_name", std::string(long_name)}};
     if (detail::may_be_decoded(values)) all.push_back({"_Encoding", "utf-8"});
     all.insert(all.end(), more.begin(), more.end());
-    check(impl.path, name, all);
+    check_attributes(impl.path, name, all);
     for (std::size_t i = 0; i < values.size(); ++i)
         if (const std::string why = flaw(values[i]); !why.empty()) refuse(impl.path, name, text("text ", i, " ", why));
     check_fill(impl.path, name, values.size(), shape);
@@ -317,7 +273,7 @@ void Hdf5File::make_group(std::string_view name, const Attributes& attributes) {
     Impl& impl = writable();
     const std::string clean = checked_name(impl.path, name);
     const Hdf5Writer writer{impl};
-    check(impl.path, clean, attributes);
+    check_attributes(impl.path, clean, attributes);
     writer.refuse_dataset_as_group(clean + "/");
     impl.change(clean, [&] {
         writer.ensure_groups(clean, true);
@@ -329,7 +285,7 @@ void Hdf5File::make_group(std::string_view name, const Attributes& attributes) {
 void Hdf5File::set_attribute(std::string_view object, const Attribute& attribute) {
     const Quiet quiet;
     Impl& impl = writable();
-    check(impl.path, object, {attribute});
+    check_attributes(impl.path, object, {attribute});
     const Handle opened = impl.open_object(object);
     impl.change(object, [&] { Hdf5Writer{impl}.put_attribute(opened.get(), object, attribute); });
 }

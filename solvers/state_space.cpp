@@ -3,6 +3,7 @@
 #include "mbs/decompositions.hpp"
 #include "mbs/dynamics.hpp"
 #include "mbs/error.hpp"
+#include "solvers/problem_size.hpp"
 #include "solvers/state_space_impl.hpp"
 
 #include <algorithm>
@@ -140,6 +141,7 @@ LinearModel build(const System& system, const RotorMap& rotor, double rotor_spee
                   const std::function<OperatingPoint(double psi)>& at, double first,
                   const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
                   const StateSpaceOptions& options) {
+    check_number_of_unknowns(rotor.machine, system.model.coordinates().free().size());
     Builder builder(system, rotor, inputs, outputs, options);
     LinearModel model = builder.empty(rotor_speed);
     for (int s = 0; s < azimuths; ++s) {

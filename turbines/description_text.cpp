@@ -3,6 +3,7 @@
 #include "mbs/pending_file.hpp"
 #include "turbines/description_yaml.hpp"
 #include "turbines/description_yaml_fields.hpp"
+#include "turbines/teetered.hpp"
 
 #include <charconv>
 #include <limits>
@@ -59,6 +60,16 @@ public:
             entry("com", list(i.com));
             entry("J", rows(i.J));
             entry("reduced", i.reduced ? "true" : "false");
+        });
+    }
+    void beam(const char* key, const PrismaticBeam& beam) {
+        group(key, [&] {
+            number("length", beam.length);
+            group("section", [&] {
+                EngineeringSection section = beam.section;
+                for (const SectionColumn& column : section_columns())
+                    entry(column.name, digits(column.of(section), column.name, column.may_be_infinite));
+            });
         });
     }
     void damping(const char* key, const BeamDamping& d) {
@@ -167,6 +178,30 @@ std::string to_yaml(const TurbineDescription& description) {
 
 std::string as_computed(const TurbineDescription& description) {
     return written(description, BeamLines::near);
+}
+
+std::string as_computed(const TeeteredDescription& d) {
+    Writer writer(BeamLines::near);
+    writer.out = "# A two-blade machine with a teetered hub. SI units, radians; axes and signs: docs/teetered.md.\n";
+    writer.word("name", d.name);
+    writer.number("rotor_speed", d.rotor_speed);
+    writer.beam("tower", d.tower);
+    writer.spring("yaw", d.yaw);
+    writer.inertia("nacelle", d.nacelle);
+    writer.number("shaft_height", d.shaft_height);
+    writer.number("tilt", d.tilt);
+    writer.number("overhang", d.overhang);
+    writer.inertia("shaft", d.shaft);
+    writer.group("hub", [&] {
+        writer.inertia("inertia", d.hub.inertia);
+        writer.number("root_arm", d.hub.root_arm);
+        writer.number("undersling", d.hub.undersling);
+        writer.number("delta3", d.hub.delta3);
+        writer.number("cone", d.hub.cone);
+        writer.spring("teeter", d.hub.teeter);
+    });
+    writer.beam("blade", d.blade);
+    return writer.out;
 }
 
 void write_description(const TurbineDescription& description, const std::filesystem::path& path) {

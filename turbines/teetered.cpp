@@ -248,11 +248,11 @@ private:
     const TeeteredOptions& options_;
 };
 
-TeeteredTurbine::TeeteredTurbine(const TeeteredAssembler& a, const std::string& name, const std::string& source,
-                                 const std::string& settings)
+TeeteredTurbine::TeeteredTurbine(const TeeteredAssembler& a, const std::string& name,
+                                 const TeeteredDescription& description, const std::string& settings)
     : tree_(std::make_shared<const Tree>(a.tree)),
       system_(std::make_shared<const System>(a.tree, a.forces)),
-      source_(source),
+      source_(description.source),
       warnings_(a.warnings) {
     const Model& model = system_->model;
     rotor_.machine = name;
@@ -266,7 +266,8 @@ TeeteredTurbine::TeeteredTurbine(const TeeteredAssembler& a, const std::string& 
     rotor_.lines = a.lines;
     for (BodyId body : a.odd) half_turn_odd_.push_back(model.index(body));
     rotor_.description =
-        text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_);
+        text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_,
+             "\n\nthe machine that was computed\n", as_computed(description));
 }
 
 std::string TeeteredTurbine::summary() const {
@@ -299,13 +300,13 @@ std::string settings(const TeeteredOptions& o) {
 TeeteredTurbine assemble(const TeeteredDescription& description, const TeeteredOptions& options) {
     TeeteredAssembler assembler(description, options);
     assembler.whole_machine();
-    return {assembler, description.name, description.source, settings(options)};
+    return {assembler, description.name, description, settings(options)};
 }
 
 TeeteredTurbine isolated_blade(const TeeteredDescription& description, const TeeteredOptions& options) {
     TeeteredAssembler assembler(description, options);
     assembler.one_blade();
-    return {assembler, description.name + ", isolated blade", description.source, settings(options)};
+    return {assembler, description.name + ", isolated blade", description, settings(options)};
 }
 
 }  // namespace cardan::turbines

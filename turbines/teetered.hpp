@@ -58,6 +58,9 @@ TeeteredDescription teetered_description();
 /// The same from a folder with teetered.csv.
 /// @throws FileError, ParseError, InputError
 TeeteredDescription teetered_description(const std::filesystem::path& folder);
+/// The data as YAML (SI units), without `source`: what histories and diagrams keep as the machine that was computed.
+/// There is no reader for it. @throws InputError: a number that is not finite
+std::string as_computed(const TeeteredDescription& description);
 /// Tower stiffnesses as multiples of the blade's: EI fore-aft of flap, lateral of lag, GJ of GJ (Table III: 10, 100,
 /// 1000).
 /// @throws InputError: ratio not finite and positive
@@ -102,8 +105,8 @@ public:
 private:
     friend TeeteredTurbine assemble(const TeeteredDescription&, const TeeteredOptions&);
     friend TeeteredTurbine isolated_blade(const TeeteredDescription&, const TeeteredOptions&);
-    TeeteredTurbine(const class TeeteredAssembler& assembler, const std::string& name, const std::string& source,
-                    const std::string& settings);
+    TeeteredTurbine(const class TeeteredAssembler& assembler, const std::string& name,
+                    const TeeteredDescription& description, const std::string& settings);
 
     std::shared_ptr<const Tree> tree_;
     std::shared_ptr<const System> system_;

@@ -17,3 +17,6 @@ add_example_test(example_linear_order wt600_linear_model 1 "order = 1000" --orde
 add_example_test(example_linear_blade_azimuths wt600_linear_model 1 "number of azimuths = 6; allowed: one at which" --azimuths 6
                  --blade-elements 1 --tower-elements 1)
 add_example_test(example_linear_unwritable wt600_linear_model 1 "the folder 'no/such' does not exist" --out no/such/x)
+add_example_test(example_linear_many_elements wt600_linear_model 1
+    "number of unknowns = [0-9]+; allowed: <= 1500 .all eigenvalues of a full matrix.*take fewer elements per part"
+    --blade-elements 80 --tower-elements 80 --out example_linear_many_elements)

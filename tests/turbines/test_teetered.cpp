@@ -67,6 +67,21 @@ TEST_CASE("teetered machine: masses and places are those of Table I", "[publishe
     CHECK(teetered_description().rotor_speed == 6.02);
 }
 
+TEST_CASE("teetered machine: results keep the machine that was computed, not only what it was read from",
+          "[property]") {
+    turbines::TeeteredDescription d = teetered_description();
+    d.hub.teeter.stiffness = 12345;
+    d.blade.section.EI_flap *= 2;
+    d.name = "stiffer";
+    const std::string& kept = assemble(d).rotor().description;
+    const std::size_t at = kept.find("the machine that was computed\n");
+    REQUIRE(at != std::string::npos);
+    CHECK_THAT(kept.substr(at), Contains("name: \"stiffer\"\nrotor_speed: 6.02\n") &&
+                                    Contains("teeter: {stiffness: 12345, damping: ") &&
+                                    Contains(text("blade:\n  length: ", d.blade.length, "\n  section:\n")) &&
+                                    Contains(text("EI_flap: ", d.blade.section.EI_flap, "\n")));
+}
+
 TEST_CASE("teetered machine: the metric of yaw and teeter is that of the rigid machine by hand", "[analytic]") {
     // Slender blades from 1.8 to 10.22 m with 4.9999 (about the shaft), 1e-4 (teeter), 5 (spanwise) kg m.
     const TeeteredTurbine machine = assemble(teetered_description());
