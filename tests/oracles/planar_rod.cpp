@@ -49,7 +49,7 @@ void PlanarRodMotion::prepare() {
     const VectorXd at_root = basis(0.0);
     for (Index i = 0; i < points; ++i) {
         phi_.row(i) = basis(s_[i]).transpose();
-        chi_.row(i) = stretch_basis(s_[i]).transpose();
+        if (chi_.cols() > 0) chi_.row(i) = stretch_basis(s_[i]).transpose();
     }
     dphi_ = running_.partialPivLu().solve(phi_ - VectorXd::Ones(points) * at_root.transpose());
     y_.setZero(2 * (translations() + phi_.cols() + chi_.cols()));
