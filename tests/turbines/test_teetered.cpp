@@ -73,7 +73,7 @@ TEST_CASE("teetered machine: results keep the machine that was computed, not onl
     d.hub.teeter.stiffness = 12345;
     d.blade.section.EI_flap *= 2;
     d.name = "stiffer";
-    const std::string& kept = assemble(d).rotor().description;
+    const std::string kept = assemble(d).rotor().description;
     const std::size_t at = kept.find("the machine that was computed\n");
     REQUIRE(at != std::string::npos);
     CHECK_THAT(kept.substr(at), Contains("name: \"stiffer\"\nrotor_speed: 6.02\n") &&
