@@ -79,7 +79,7 @@ TEST_CASE("teetered machine: results keep the machine that was computed, not onl
     CHECK_THAT(kept.substr(at), Contains("name: \"stiffer\"\nrotor_speed: 6.02\n") &&
                                     Contains("teeter: {stiffness: 12345, damping: ") &&
                                     Contains(text("blade:\n  length: ", d.blade.length, "\n  section:\n")) &&
-                                    Contains(text("EI_flap: ", d.blade.section.EI_flap, "\n")));
+                                    Contains("EI_flap: 2e+07\n"));
 }
 
 TEST_CASE("teetered machine: the metric of yaw and teeter is that of the rigid machine by hand", "[analytic]") {
