@@ -25,9 +25,9 @@ inline double scaled(const Matrix& difference, const Matrix& reference) {
 }
 
 /// Largest element of A - B over the roots of B's diagonal elements of its row and column: a measure for matrices whose
-/// elements have different units. Rows and columns where B's is not positive are left out.
+/// elements have different units. Where B's is zero (a rigid direction) the difference counts as it is.
 inline double scaled_difference(const Mat6& A, const Mat6& B) {
-    const Vec6 d = B.diagonal().unaryExpr([](double b) { return b > 0 ? 1 / std::sqrt(b) : 0.0; });
+    const Vec6 d = B.diagonal().unaryExpr([](double b) { return b != 0 ? 1 / std::sqrt(std::abs(b)) : 1.0; });
     return (d.asDiagonal() * (A - B) * d.asDiagonal()).cwiseAbs().maxCoeff();
 }
 
