@@ -76,7 +76,7 @@ private:
 
     EndLoads on_segments(const CardanBeam::Element& element, const ElementLine& on) {
         const Hinges& h = element.hinges;
-        const std::array<double, 5> ends{0, h.first, h.middle, h.second, 1};
+        const std::array<double, 5> ends = h.ends();
         EndLoads sum;
         for (std::size_t k = 0; k < 4; ++k)
             for_each_point(on, ends[k], ends[k + 1], [&](double s, double share) {

@@ -46,8 +46,7 @@ double torsion_centre(const ElementLine& on) {
 
 // True segments between the hinges of the element.
 void cut_at_hinges(const ElementLine& on, ElementInertia& element) {
-    const Hinges& h = element.hinges;
-    const std::array<double, 5> ends{0, h.first, h.middle, h.second, 1};
+    const std::array<double, 5> ends = element.hinges.ends();
     for (std::size_t k = 0; k < 4; ++k) {
         element.body[k] = line_mass(on, ends[k], ends[k + 1]);
         element.mass += element.body[k].mass;

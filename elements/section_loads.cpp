@@ -54,7 +54,7 @@ private:
     Vec3 about_, force_ = Vec3::Zero(), moment_ = Vec3::Zero();
 };
 
-// Inertia less weight about `about`, base axes: force and moment.
+// Inertia less weight: force and moment about `about`, of bodies and lines about the origin of `axes`; base axes.
 using Load = Vec6;
 
 Load of_point(double mass, const Vec3& at, const BodyMotion& motion, const Vec3& gravity, const Vec3& about) {
@@ -81,20 +81,21 @@ Load of_line(const Cut& cut, const Placement& axes, const BodyMotion& motion, co
     });
 }
 
-// Inertia less weight of a rigid segment between two places, times `sign`: the masses of the line there; what its body
-// has beyond or short of those of the whole segment (sectional inertia, what the partition has moved) counts in
-// proportion to the length, so that both elements at a node see the same loads.
-void add_segment(WrenchSum& sum, const Cut& cut, const Placement& axes, const BodyMotion& motion, const Vec3& gravity,
-                 double from, double to, double sign) {
-    const Hinges& h = cut.element->hinges;
-    const std::array<double, 5> ends{0, h.first, h.middle, h.second, 1};
-    const double start = cut.element->start + ends[cut.segment] * cut.element->arc,
-                 end = cut.element->start + ends[cut.segment + 1] * cut.element->arc;
-    if (!(end > start)) return;
-    const Load surplus = of_body(cut.element->inertia[cut.segment], axes, motion, gravity) -
-                         of_line(cut, axes, motion, gravity, start, end);
-    const Load load = sign * (of_line(cut, axes, motion, gravity, from, to) + (to - from) / (end - start) * surplus);
-    sum.add(load.head<3>(), load.tail<3>(), axes.p);
+// Inertia less weight of a rigid segment between two places: the masses of the line there; what its body has beyond or
+// short of those of the whole segment (sectional inertia, what the partition has moved) counts in proportion to the
+// length, so that both elements at a node see the same loads. All of a segment, as at the root, is its body.
+Load of_segment(const Cut& cut, const Placement& axes, const BodyMotion& motion, const Vec3& gravity, double from,
+                double to) {
+    const CardanBeam::Element& element = *cut.element;
+    const std::array<double, 5> ends = element.hinges.ends();
+    const double start = element.start + ends[cut.segment] * element.arc,
+                 end = element.start + ends[cut.segment + 1] * element.arc;
+    if (!(end > start)) return Load::Zero();
+    const double share = (to - from) / (end - start);
+    const Load load = share * of_body(element.inertia[cut.segment], axes, motion, gravity);
+    if (share == 1) return load;
+    return load + of_line(cut, axes, motion, gravity, from, to) -
+           share * of_line(cut, axes, motion, gravity, start, end);
 }
 
 // Does a frame belong to a rigid segment? Not if it was placed on a node: that may carry anything.
@@ -222,7 +223,9 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const int body = model.frame(element.segments[cut.segment].carrier).body;
     BodyMotion motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // a beam clamped to the base
     if (body >= 0) motion = carried.motion[static_cast<std::size_t>(body)];
-    add_segment(sum, cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s), inward ? 1 : -1);
+    const Load load =
+        of_segment(cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s)) * (inward ? 1 : -1);
+    sum.add(load.head<3>(), load.tail<3>(), axes.p);
     add_wrenches(sum, beam, cut, axes, kin, forces, inward);
     SectionLoads loads;
     loads.values = -sum.in(here.R);

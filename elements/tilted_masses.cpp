@@ -12,18 +12,12 @@ Eigen::Matrix2d bending(const Mat6& S) {
     return (Eigen::Matrix2d() << S(5, 5), -S(5, 4), -S(4, 5), S(4, 4)).finished();
 }
 
-// Shear compliance at zero twist: what torsion about a shear centre beside the line shears is none.
-Eigen::Matrix2d shear(const Mat6& S) {
-    const Eigen::Matrix2d all = S.block<2, 2>(1, 1);
-    const Eigen::Vector2d by_twist = S.block<2, 1>(1, 3);
-    return S(3, 3) > 0 ? Eigen::Matrix2d(all - by_twist * by_twist.transpose() / S(3, 3)) : all;
+// Of the mass centre, and all second moments across the axis, about the axis.
+Eigen::Matrix2d of_centre(const RigidInertia& body) {
+    return body.mass * body.com.tail<2>() * body.com.tail<2>().transpose();
 }
-
-Eigen::Matrix2d scatter_across(const RigidInertia& body) {
-    return binet_tensor<double>(body.J).bottomRightCorner<2, 2>();
-}
-Eigen::Matrix2d second_moments_across(const RigidInertia& body) {
-    return scatter_across(body) + body.mass * body.com.tail<2>() * body.com.tail<2>().transpose();
+Eigen::Matrix2d across(const RigidInertia& body) {
+    return binet_tensor<double>(body.J).bottomRightCorner<2, 2>() + of_centre(body);
 }
 
 // An end body and the one beside it when the end has taken over a first moment across the axis.
@@ -35,9 +29,7 @@ struct Pair {
         p.between.com.tail<2>() -= moment / between.mass;
         p.end.com.tail<2>() += moment / end.mass;
         Mat3 P = binet_tensor<double>(end.J);
-        P.bottomRightCorner<2, 2>() = second_moments_across(end) + second_moments_across(between) -
-                                      second_moments_across(p.between) -
-                                      end.mass * p.end.com.tail<2>() * p.end.com.tail<2>().transpose();
+        P.bottomRightCorner<2, 2>() = across(end) + across(between) - across(p.between) - of_centre(p.end);
         p.end.J = ordinary_tensor<double>(P);
         return p;
     }
@@ -76,7 +68,7 @@ Eigen::Matrix2d part_of_shear(const ElementLine& on, const Hinges& hinges) {
     const Both turn = on.integral(0, 1, Both(Both::Zero()), [&](double s) {
         const Mat6 S = on.line().section(s).compliance;
         const double M = (sum - 2 * (s - on.start()) / arc) / d, V = 2 / (d * arc);
-        return Both((Both() << V * V * shear(S), M * M * bending(S)).finished());
+        return Both((Both() << V * V * shear_at_zero_twist(S), M * M * bending(S)).finished());
     });
     const Eigen::Matrix2d sheared = turn.leftCols<2>(), all = sheared + turn.rightCols<2>();
     const double trace = all.trace();

@@ -72,12 +72,17 @@ Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges, CurvedF
                          [](const Mat6& strain, const Mat6& H) { return Mat6(H.transpose() * strain); });
 }
 
+Eigen::Matrix2d shear_at_zero_twist(const Mat6& compliance) {
+    const Eigen::Matrix2d all = compliance.block<2, 2>(1, 1);
+    const Eigen::Vector2d by_twist = compliance.block<2, 1>(1, 3);
+    const double twist = compliance(3, 3);
+    return twist > 0 ? Eigen::Matrix2d(all - by_twist * by_twist.transpose() / twist) : all;
+}
+
 bool is_flexible_in_shear(const ElementLine& element) {
-    // Of the shear compliance, all of it and what is left of it at zero twist.
     const Eigen::Vector2d shear = element.integral(0, 1, Eigen::Vector2d(Eigen::Vector2d::Zero()), [&](double s) {
         const Mat6 S = element.line().section(s).compliance;
-        const double all = S(1, 1) + S(2, 2), by_twist = S(3, 1) * S(3, 1) + S(3, 2) * S(3, 2);
-        return Eigen::Vector2d(all, S(3, 3) > 0 ? all - by_twist / S(3, 3) : all);
+        return Eigen::Vector2d(S(1, 1) + S(2, 2), shear_at_zero_twist(S).trace());
     });
     return shear(1) > 1e-9 * shear(0);
 }

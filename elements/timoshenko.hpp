@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace cardan {
 
 /// (1 - 1/sqrt 3) / 2: hinges at the Gauss points, the default. Of all places only this one converges at O(h^4) in
@@ -17,6 +19,8 @@ struct Hinges {
     double first, second;  ///< cardan joints
     double middle;         ///< cylindrical joint, between them
     static Hinges symmetric(double delta) { return {delta, 1 - delta, 0.5}; }
+    /// Where the bodies B1 ... B4 begin and end.
+    std::array<double, 5> ends() const { return {0, first, middle, second, 1}; }
 };
 
 /// Joint coordinates of one element in the order of its law: extension, torsion, rotation about y at hinge 1 and 2,
@@ -48,6 +52,10 @@ Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges,
                        CurvedFlexibility rule = CurvedFlexibility::curve);
 /// The element [x0, x0 + L] of a line, hinges at delta L and (1 - delta) L.
 Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
+
+/// Shear compliance of a section at zero twist, 1/N, from its compliance: torsion about a shear centre off the line,
+/// which shears the line, has no part in it.
+Eigen::Matrix2d shear_at_zero_twist(const Mat6& compliance);
 
 /// Does any section of the element give way in shear? Torsion about a shear centre off the line, which shears the line,
 /// does not count.

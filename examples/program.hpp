@@ -85,12 +85,11 @@ int run_program(const char* name, int argc, char** argv, int (*parse)(int, char*
         Arguments arguments;
         if (const int code = parse(argc, argv, arguments); code >= 0) return code;
         handle_signals([](int signal) { interrupt = signal; });
-        const int code = run(arguments);
+        const int code =
+            with_memory("this run; fewer elements, times or speeds need less", [&] { return run(arguments); });
         return code == 130 && interrupted() ? 128 + interrupt : code;
     } catch (const Error& error) {
         std::cerr << name << ": " << error.what() << "\n";
-    } catch (const std::bad_alloc&) {
-        std::cerr << name << ": not enough memory; fewer elements, times or speeds need less\n";
     } catch (const std::exception& error) {
         std::cerr << name << ": unexpected: " << error.what() << "\n";
     }

@@ -7,20 +7,12 @@
 
 namespace cardan::solvers::detail {
 
-namespace {
-
-bool has_nul(std::string_view s) {
-    return s.find('\0') != std::string_view::npos;
-}
-
-}  // namespace
-
 void refuse(const std::string& path, std::string_view object, std::string_view why) {
     throw InputError(text(path, ": ", object, ": ", why));
 }
 
 std::string flaw(std::string_view s) {
-    if (has_nul(s)) return "contains a NUL";
+    if (s.find('\0') != std::string_view::npos) return "contains a NUL";
     return is_utf8(s) ? "" : "is not UTF-8";
 }
 

@@ -1,7 +1,7 @@
 #include "solvers/hdf5_history.hpp"
 
 #include "mbs/error.hpp"
-#include "mbs/text_file.hpp"
+#include "solvers/hdf5_checks.hpp"
 #include "solvers/hdf5_history_impl.hpp"
 #include "solvers/hdf5_history_writer.hpp"
 
@@ -21,7 +21,7 @@ void check(const std::string& path, const std::vector<Channel>& channels) {
             throw InputError(path, "channel", text("'", channel.name, "'"), "name, units and long_name not empty");
         for (const std::string* words :
              {&channel.name, &channel.units, &channel.long_name, &channel.frame, &channel.point, &channel.alias})
-            if (!is_utf8(*words) || words->find('\0') != std::string::npos)
+            if (!detail::flaw(*words).empty())
                 throw InputError(text(path, ": channel ", &channel - channels.data() + 1,
                                       ": a text has the character NUL or is not UTF-8"));
         for (const std::string& name : {channel.name, channel.alias})

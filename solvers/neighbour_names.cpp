@@ -3,6 +3,7 @@
 #include "mbs/error.hpp"
 #include "solvers/assignment.hpp"
 #include "solvers/floquet_mac.hpp"
+#include "solvers/tracking.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double least_mean_mac = 0.1;  // below: not the same mode at all, as a link of the tracking
-constexpr double rival_part = 0.8;      // of the MAC: above it another mode competes
+constexpr double rival_part = 0.8;  // of the MAC: above it another mode competes
 
 // Index of the point at a rotor speed; -1: none.
 int point_at_speed(const Campbell& diagram, double speed) {
@@ -77,8 +77,7 @@ void NeighbourNames::pair(const std::vector<Branch>& branches) {
     partner_ = assign(sum);
     for (std::size_t b = 0; b < partner_.size(); ++b) {
         const auto row = static_cast<Eigen::Index>(b);
-        if (partner_[b] >= 0 && !(sum(row, partner_[b]) >= least_mean_mac * std::max(1.0, count(row))))
-            partner_[b] = -1;
+        if (partner_[b] >= 0 && !(sum(row, partner_[b]) >= least_score * std::max(1.0, count(row)))) partner_[b] = -1;
     }
 }
 

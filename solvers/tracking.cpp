@@ -9,8 +9,6 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double least_score = 0.1;  // below: not the same mode at all
-
 bool begins(const CampbellMode& mode) {
     if (mode.row >= 0) return true;
     switch (mode.kind()) {

@@ -7,6 +7,9 @@
 
 namespace cardan::solvers {
 
+/// Of a likeness of two modes between 0 and 1: below they are not the same mode at all.
+inline constexpr double least_score = 0.1;
+
 /// Links the modes of consecutive points by optimal assignment on the complex energy MAC, never by frequency order.
 /// Points may differ in anything but their rows. Oscillations begin a track, and motions named after a coordinate.
 class Tracker {
@@ -14,7 +17,7 @@ public:
     /// @param system  the (transformed) system of the point: its energy product weighs the MAC
     void add(const SecondOrderSystem& system, const CampbellPoint& point);
     /// With likenesses of one's own, such as periodic_likeness(): a row per track (see last()), a column per mode.
-    /// @param score  the assignment makes its sum largest; below 0.1 a track ends
+    /// @param score  the assignment makes its sum largest; below least_score a track ends
     /// @param mac    kept with the branch
     /// @throws InputError for matrices of another size
     void add(const Matrix& score, const Matrix& mac, const CampbellPoint& point);
