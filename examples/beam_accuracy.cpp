@@ -28,15 +28,15 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Errors of beam elements over their number.\n"
         "Prints tables and a check list, computed | reference | error, and writes DIR/beam_accuracy_CASE.csv and "
         "DIR/beam_*.svg, .png.");
     app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check is off; 130 interrupted (finished cases are kept).");
     app.add_option("--case", a.names, "cases to run (default: all)");
-    app.add_option("--out", a.out, "folder of the files")->capture_default_str();
+    app.add_option("--out", a.out, "folder of the files");
     app.add_flag("--list", a.list, "print the cases and end");
-    return program::parse(app, argc, argv);
+    return app.parse(argc, argv);
 }
 
 std::vector<Case> chosen(const std::vector<std::string>& names) {

@@ -25,24 +25,24 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app("Time histories: what is in a file, repair after a crash, export as CSV.");
+    program::CommandLine app("Time histories: what is in a file, repair after a crash, export as CSV.");
     app.footer("Exit code: 0; 1 error; 2 wrong usage. See 'history COMMAND --help'.");
-    app.require_subcommand(1);
     const auto command = [&](const char* name, const char* what) {
-        CLI::App* sub = app.add_subcommand(name, what);
-        sub->add_option("FILE", a.file, "history (HDF5)")->required();
-        sub->callback([&a, name] { a.command = name; });
+        program::CommandLine sub = app.add_subcommand(name, what);
+        sub.add_option("FILE", a.file, "history (HDF5)").required();
         return sub;
     };
     command("info", "print title, state, channels, statistics and checkpoint")
-        ->add_flag("--description", a.description, "print the input description as well");
+        .add_flag("--description", a.description, "print the input description as well");
     command("repair", "put a file in order whose writer was killed, so that all programs can read it");
-    CLI::App* write = command("export", "write channels as CSV: one line per time, one column per channel");
-    write->add_option("--csv", a.csv, "file to write")->required();
-    write->add_option("--channel", a.selection.channels, "names or aliases (default: all)");
-    write->add_option("--from", a.selection.from, "first time, s");
-    write->add_option("--to", a.selection.to, "last time, s");
-    return program::parse(app, argc, argv);
+    program::CommandLine write = command("export", "write channels as CSV: one line per time, one column per channel");
+    write.add_option("--csv", a.csv, "file to write").required();
+    write.add_option("--channel", a.selection.channels, "names or aliases (default: all)");
+    write.add_option("--from", a.selection.from, "first time, s").hide_default();
+    write.add_option("--to", a.selection.to, "last time, s").hide_default();
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
+    a.command = app.subcommand();
+    return -1;
 }
 
 const char* state_of(const HistoryInfo& info) {

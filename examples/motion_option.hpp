@@ -6,14 +6,14 @@
 #include "mbs/units.hpp"
 #include "solvers/motion.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "examples/named_values.hpp"
+#include "examples/shared/command_line.hpp"
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cardan::program {
 
@@ -39,10 +39,13 @@ inline constexpr auto motion_help =
 /// Options --surge, --sway ..., one for each name.
 /// @param given  out: what stands behind them
 template <std::size_t N>
-void add_motion_options(CLI::App& app, const std::array<const char*, N>& names,
-                        const std::array<const char*, N>& directions, std::array<std::string, N>& given) {
+std::vector<Option> add_motion_options(CommandLine& app, const std::array<const char*, N>& names,
+                                       const std::array<const char*, N>& directions,
+                                       std::array<std::string, N>& given) {
+    std::vector<Option> options;
     for (std::size_t i = 0; i < N; ++i)
-        app.add_option(text("--", names[i]), given[i], directions[i])->type_name("KEY=NUMBER,...");
+        options.push_back(app.add_option(text("--", names[i]), given[i], directions[i]).type_name("KEY=NUMBER,..."));
+    return options;
 }
 
 namespace detail {

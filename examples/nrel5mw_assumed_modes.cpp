@@ -34,7 +34,7 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "The NREL 5 MW blade by assumed modes, beside the tables of a paper of 2018 and beside the joint chain:\n"
         "frequencies at rest and in rotation, mode shapes, response to a pitching platform. Writes\n"
         "PREFIX_frequencies.csv, PREFIX_shapes.csv, .svg (mode shapes over the length), PREFIX_platform.csv, .svg.");
@@ -43,16 +43,12 @@ int parse(int argc, char** argv, Arguments& a) {
         "its\n"
         "own functions and tension (not judged by other functions), converged frequencies within 1.5e-4 of the\n"
         "reference, response to the pitching platform within 1 % and 1 deg.");
-    app.add_option("--elements", a.elements, "of the joint chain")->capture_default_str();
-    app.add_option("--harmonics", a.harmonics, "of the periodic response")
-        ->check(CLI::Range(6, 40))
-        ->capture_default_str();
-    app.add_option("--modes", a.natural, "natural modes in which the blade on the platform moves")
-        ->check(CLI::Range(1, 384))
-        ->capture_default_str();
+    app.add_option("--elements", a.elements, "of the joint chain");
+    app.add_option("--harmonics", a.harmonics, "of the periodic response").range(6, 40);
+    app.add_option("--modes", a.natural, "natural modes in which the blade on the platform moves").range(1, 384);
     add_options(app, a.functions);
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    return program::parse(app, argc, argv);
+    app.add_option("--out", a.out, "prefix of the files");
+    return app.parse(argc, argv);
 }
 
 // Frequencies of one model at the paper's rotor speeds.

@@ -80,50 +80,47 @@ std::vector<double> rotor_speeds(const std::string& given) {
 }
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Natural frequencies and mode shapes of the rotating NREL 5 MW blade, clamped at 1.5 m.\n"
         "Prints computed | reference | error, and writes PREFIX.csv (frequencies), PREFIX_modes.csv (shapes) and\n"
         "PREFIX_modes.svg (shapes at the last rotor speed).");
     app.footer(
         "Exit code: 0; 1 error; 2 wrong usage; 3 a goal that holds for this run (0.1 % with 16 equal elements, "
         "0.5 % refined) is missed; 130 interrupted.");
-    app.add_option("--elements", a.elements, "beam elements")->capture_default_str();
-    app.add_option("--rpm", a.rpm, "rotor speeds, rev/min, separated by commas")->capture_default_str();
-    auto* boundaries = app.add_option("--boundaries", a.boundaries,
-                                      "element ends, m from the root, separated by commas, from 0 to 61.5");
-    app.add_flag("--refined", a.refined, "8 elements that become shorter toward the tip")->excludes(boundaries);
-    app.add_option("--partition", a.partition,
-                   "inertia of the elements: true segment masses; static moments (with the last metre as an element of "
-                   "its own, unless --boundaries are given); segment masses with hinges at the Gauss points of the "
-                   "compliance; mean differences")
-        ->check(CLI::IsMember({"segment", "static", "gauss", "mean-difference"}))
-        ->capture_default_str();
-    app.add_option(
-        "--delta", a.delta,
-        "place of the hinges with segment masses (default: Gauss points) and static moments (1/6), 0 ... 0.5");
-    app.add_option("--mass-factor", a.blade.mass_factor, "on mass and sectional inertia")->capture_default_str();
-    app.add_option("--shear-ratio", a.blade.shear_ratio, "GA / EA (default: rigid in shear)");
+    const program::Option elements = app.add_option("--elements", a.elements, "beam elements");
+    app.add_option("--rpm", a.rpm, "rotor speeds, rev/min, separated by commas");
+    const program::Option boundaries = app.add_option(
+        "--boundaries", a.boundaries, "element ends, m from the root, separated by commas, from 0 to 61.5");
+    const program::Option refined =
+        app.add_flag("--refined", a.refined, "8 elements that become shorter toward the tip").excludes(boundaries);
+    const program::Option partition =
+        app.add_option(
+               "--partition", a.partition,
+               "inertia of the elements: true segment masses; static moments (with the last metre as an element of "
+               "its own, unless --boundaries are given); segment masses with hinges at the Gauss points of the "
+               "compliance; mean differences")
+            .one_of({"segment", "static", "gauss", "mean-difference"});
+    const program::Option delta =
+        app.add_option(
+               "--delta", a.delta,
+               "place of the hinges with segment masses (default: Gauss points) and static moments (1/6), 0 ... 0.5")
+            .hide_default();
+    app.add_option("--mass-factor", a.blade.mass_factor, "on mass and sectional inertia");
+    app.add_option("--shear-ratio", a.blade.shear_ratio, "GA / EA (default: rigid in shear)").hide_default();
     app.add_flag("--no-mass-offset", a.no_mass_offset, "mass centres on the pitch axis");
     app.add_flag("--no-extension", a.no_extension, "condense the extension out of the elements");
     app.add_flag("--convergence", a.convergence,
                  "print errors with 2, 4, 8, 16, 32 elements for all partitions, and observed orders, instead");
     app.add_option("--data", a.data, "folder with nrel5mw_blade.csv (default: built in)");
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-        if (a.refined && (app.count("--elements") > 0 || a.partition == "static"))
-            throw CLI::ExcludesError("--refined", "--elements and --partition static");
-        for (const char* other : {"--elements", "--boundaries", "--refined", "--partition"})
-            if (a.convergence && app.count(other) > 0) throw CLI::ExcludesError("--convergence", other);
-        if (app.count("--elements") > 0 && app.count("--boundaries") > 0)
-            throw CLI::ExcludesError("--elements", "--boundaries");
-        if (a.delta != 0 && places_hinges(partition_of(a)))
-            throw CLI::ExcludesError("--delta", "--partition " + a.partition);
-        if (a.delta == 0 && app.count("--delta") > 0) throw InputError("--delta", "value", a.delta, "0 < delta < 0.5");
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    app.add_option("--out", a.out, "prefix of the files");
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
+    if (a.refined && (elements.given() || a.partition == "static"))
+        return app.refuse("--refined", "--elements and --partition static");
+    for (const program::Option& other : {elements, boundaries, refined, partition})
+        if (a.convergence && other.given()) return app.refuse("--convergence", other.name());
+    if (elements.given() && boundaries.given()) return app.refuse("--elements", "--boundaries");
+    if (a.delta != 0 && places_hinges(partition_of(a))) return app.refuse("--delta", "--partition " + a.partition);
+    if (a.delta == 0 && delta.given()) throw InputError("--delta", "value", a.delta, "0 < delta < 0.5");
     a.blade.mass_offset = !a.no_mass_offset;
     return -1;
 }

@@ -36,57 +36,52 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Campbell diagram of the NREL 5 MW machine (land-based).\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png and PREFIX_families.png, and prints a table; at 0, 6 and "
         "12.1 rpm beside OpenFAST.");
-    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format))->capture_default_str();
+    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format));
     app.add_option("--variant", a.variant,
                    "data of the report; of FAST's ElastoDyn (no torsion of tower and blades, no offset of mass "
                    "centres); of OpenFAST's BeamDyn blade (no mass factor, no offset, GA = EA / 10)")
-        ->check(CLI::IsMember({"report", "fast", "beamdyn"}))
-        ->capture_default_str();
-    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
-    auto* gravity = app.add_flag(
+        .one_of({"report", "fast", "beamdyn"});
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower");
+    const program::Option gravity = app.add_flag(
         "--gravity", a.gravity,
         "under gravity: modes of the mean over the azimuth; the table beside OpenFAST has those without as well");
     app.add_flag("--elastodyn-shapes", a.shapes,
                  "with --gravity, in the table beside OpenFAST: tower limited to ElastoDyn's two shapes per direction, "
                  "with --variant fast also each blade to its three")
-        ->needs(gravity);
+        .needs(gravity);
     app.add_option("--azimuth", a.azimuth,
                    "with --gravity, in the table beside OpenFAST: where blade 1 stands at 0 rpm, deg (0: up)")
-        ->needs(gravity)
-        ->capture_default_str();
+        .needs(gravity);
     app.add_option(
            "--yaw", a.yaw,
            "yaw bearing: free on the spring and damper of its drive, or locked as in the models of OpenFAST that "
            "the table compares with (YawDOF = False)")
-        ->check(CLI::IsMember({"free", "locked"}))
-        ->capture_default_str();
-    app.add_flag("--generator-free", a.generator_free, "generator free instead of prescribed")->excludes(gravity);
+        .one_of({"free", "locked"});
+    app.add_flag("--generator-free", a.generator_free, "generator free instead of prescribed").excludes(gravity);
     app.add_flag("--pitch-actuator", a.pitch_actuator, "elastic pitch actuators (the report has them for ADAMS)");
-    app.add_option("--power", a.power, "scaled by the rules of similarity to this power, MW")->capture_default_str();
+    app.add_option("--power", a.power, "scaled by the rules of similarity to this power, MW");
     app.add_flag("--undamped", a.undamped, "leave out all damping");
-    auto* highest =
+    const program::Option highest =
         app.add_option("--max-frequency", a.max_frequency,
-                       text("follow modes up to this frequency, Hz; with --tower by default ", tower_max_frequency))
-            ->capture_default_str();
+                       text("follow modes up to this frequency, Hz; with --tower by default ", tower_max_frequency));
     app.add_option("--names", a.names, "of modes: as reports and tools around OpenFAST print them, or Cardan's own")
-        ->check(CLI::IsMember({"community", "descriptive"}))
-        ->capture_default_str();
+        .one_of({"community", "descriptive"});
     app.add_flag("--modes", a.modes,
                  "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
     app.add_flag("--tower", a.tower,
                  "only print the frequencies of the tower: alone, and with the rest as one rigid body on its top")
-        ->excludes(gravity);
+        .excludes(gravity);
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     app.add_option("--data", a.data,
                    "folder with nrel5mw_blade.csv, nrel5mw_tower.csv and nrel5mw_turbine.csv (default: built in)");
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    const int code = program::parse(app, argc, argv);
-    if (a.tower && highest->count() == 0) a.max_frequency = tower_max_frequency;
+    app.add_option("--out", a.out, "prefix of the files");
+    const int code = app.parse(argc, argv);
+    if (a.tower && !highest.given()) a.max_frequency = tower_max_frequency;
     return code;
 }
 

@@ -47,7 +47,7 @@ constexpr std::array<const char*, names.size()> directions{
     "of the nacelle about the tower axis, deg"};
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Response of the NREL 5 MW blade to prescribed motions of the platform under its tower.\n"
         "Writes PREFIX.h5 (the whole run), .csv (last period), .svg, .png (last three periods), _energy.png and\n"
         "_spectrum.png (ten periods at the end).\n\n" +
@@ -60,37 +60,27 @@ int parse(int argc, char** argv, Arguments& a) {
         "the response\nhas not become periodic, or the theorem of energy does not hold; 130 interrupted: what was "
         "computed is written.");
     app.add_option("--case", a.reference, "reference case: no motion; pitch of 5 degrees every second revolution")
-        ->check(CLI::IsMember({"none", "pitch"}));
+        .one_of({"none", "pitch"});
     program::add_motion_options(app, names, directions, a.motions);
-    app.add_option("--rpm", a.rpm, "rotor speed, rev/min")->capture_default_str();
-    app.add_option("--blades", a.blades, "1 to 3")->capture_default_str();
-    app.add_option("--blade-pitch", a.blade_pitch, "leading edge upwind, deg")->capture_default_str();
-    app.add_option("--elements", a.elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--damping", a.damping, "stiffness-proportional, s")->capture_default_str();
-    app.add_option("--gravity", a.gravity, "m/s^2")->capture_default_str();
-    app.add_option("--method", a.method, "of integration")
-        ->check(CLI::IsMember({"bdf", "dirk", "alpha"}))
-        ->capture_default_str();
+    app.add_option("--rpm", a.rpm, "rotor speed, rev/min");
+    app.add_option("--blades", a.blades, "1 to 3");
+    app.add_option("--blade-pitch", a.blade_pitch, "leading edge upwind, deg");
+    app.add_option("--elements", a.elements, "beam elements per blade");
+    app.add_option("--damping", a.damping, "stiffness-proportional, s");
+    app.add_option("--gravity", a.gravity, "m/s^2");
+    app.add_option("--method", a.method, "of integration").one_of({"bdf", "dirk", "alpha"});
     app.add_option("--tolerance", a.tolerance,
-                   "of integration, relative; 0: 3e-7, with more than 16 elements less in proportion")
-        ->capture_default_str();
-    app.add_option("--max-order", a.max_order, "of bdf, 1 ... 5; above 2 weakly damped modes keep ringing a little")
-        ->capture_default_str();
-    app.add_option("--step", a.step, "fixed step, s (dirk, alpha); 0: chosen by the method")->capture_default_str();
-    app.add_option("--settled", a.settled, "change of tip deflections from period to period that ends it, m")
-        ->capture_default_str();
-    app.add_option("--periods", a.periods, "at most that many")->check(CLI::Range(1, 1000000))->capture_default_str();
-    app.add_option("--samples", a.samples, "of the last period")->check(CLI::Range(48, 1000000))->capture_default_str();
-    app.add_option("--harmonics", a.harmonics, "printed")->check(CLI::Range(1, 20))->capture_default_str();
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (!a.reference.empty() && !a.motions.at(i).empty()) throw CLI::ExcludesError("--case", option(i));
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+                   "of integration, relative; 0: 3e-7, with more than 16 elements less in proportion");
+    app.add_option("--max-order", a.max_order, "of bdf, 1 ... 5; above 2 weakly damped modes keep ringing a little");
+    app.add_option("--step", a.step, "fixed step, s (dirk, alpha); 0: chosen by the method");
+    app.add_option("--settled", a.settled, "change of tip deflections from period to period that ends it, m");
+    app.add_option("--periods", a.periods, "at most that many").range(1, 1000000);
+    app.add_option("--samples", a.samples, "of the last period").range(48, 1000000);
+    app.add_option("--harmonics", a.harmonics, "printed").range(1, 20);
+    app.add_option("--out", a.out, "prefix of the files");
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (!a.reference.empty() && !a.motions.at(i).empty()) return app.refuse("--case", option(i));
     if (a.reference == "pitch") a.motions.at(pitch_coordinate) = "amplitude=5,revolutions=2";
     return -1;
 }

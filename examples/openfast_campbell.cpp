@@ -35,35 +35,36 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Campbell diagram of an existing model: OpenFAST (.fst, or an ElastoDyn file), windIO (.yaml), our own .yaml.\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, and prints a table.");
-    app.add_option("model", a.model, "FILE.fst, ElastoDyn.dat or FILE.yaml")->required();
+    app.add_option("model", a.model, "FILE.fst, ElastoDyn.dat or FILE.yaml").required();
     app.add_option("--rpm", a.rpm,
                    "rotor speeds, numbers and FIRST:LAST:STEP separated by commas, rev/min (default: from 0 to 1.2 "
                    "times the model's, in 12 steps)");
-    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
-    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower");
+    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz");
     app.add_option("--pitch", a.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
-    const CLI::IsMember free_or_locked({"free", "locked"});
+    const std::vector<std::string> free_or_locked{"free", "locked"};
     app.add_option("--generator", a.generator,
                    "free: the rotor turns freely; locked: at its speed, whatever happens (default: the model's, GenDOF "
                    "of ElastoDyn; else free)")
-        ->check(free_or_locked);
+        .one_of(free_or_locked);
     app.add_option("--yaw", a.yaw,
                    "yaw bearing: free on the spring of the yaw drive, or locked (default: the model's, YawDOF of "
                    "ElastoDyn)")
-        ->check(free_or_locked);
+        .one_of(free_or_locked);
     app.add_option("--generator-inertia", a.generator_inertia,
-                   "inertia of the generator on its own shaft, kg m^2, for models that do not give it");
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+                   "inertia of the generator on its own shaft, kg m^2, for models that do not give it")
+        .hide_default();
+    app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--save", a.save, "also write the machine as our own YAML to this file (.yaml)");
     app.add_flag("--gravity", a.gravity, "with gravity");
     app.add_flag("--undamped", a.undamped, "leave out all damping");
     app.add_flag("--notes", a.notes, "print all notes; else those on groups of entries are only counted");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
-    return program::parse(app, argc, argv);
+    return app.parse(argc, argv);
 }
 
 bool is_yaml(const std::filesystem::path& path) {

@@ -35,38 +35,35 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Pictures of a recorded motion.\n"
         "Writes PREFIX.svg and .png with the channels over time, PREFIX_spectrum.* with --spectrum or --density, and "
         "PREFIX_energy.* with --energy.");
-    app.add_option("file", a.file, "history .h5, or table .csv: time[s],NAME[UNIT],...")->required();
-    app.add_option("--channel", a.channels, "name or alias; * stands for any text; may be repeated")
-        ->take_all()
-        ->allow_extra_args(false);
+    app.add_option("file", a.file, "history .h5, or table .csv: time[s],NAME[UNIT],...").required();
+    app.add_option("--channel", a.channels, "name or alias; * stands for any text; may be repeated").one_word();
     app.add_flag("--list", a.list, "print the channels and end");
     app.add_option("--out", a.out, "prefix of the files (default: name of the file, in the current folder)");
     app.add_option("--format", a.formats, "kinds of pictures, comma-separated")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"svg", "png", "pdf"}))
-        ->capture_default_str();
+        .delimiter(',')
+        .one_of({"svg", "png", "pdf"});
     app.add_option("--title", a.title, "heading (default: that of the history)");
-    app.add_option("--from", a.from, "leave out what was before, s");
-    app.add_option("--to", a.to, "leave out what was after, s");
-    app.add_option("--mark", a.marks, "vertical line TIME=LABEL, s; may be repeated")
-        ->take_all()
-        ->allow_extra_args(false);
+    app.add_option("--from", a.from, "leave out what was before, s").hide_default();
+    app.add_option("--to", a.to, "leave out what was after, s").hide_default();
+    app.add_option("--mark", a.marks, "vertical line TIME=LABEL, s; may be repeated").one_word();
     app.add_flag("--together", a.together, "channels with the same units share a panel");
     app.add_flag("--degrees,!--radians", a.degrees,
                  "angles in deg, rates in deg/s, speeds in rpm (this is the default), or in rad and rad/s");
     app.add_flag("--energy", a.energy, "energies and their error, from the channels of the recorder");
     app.add_flag("--spectrum", a.spectrum, "amplitude spectra of the channels (Hann window), and their peaks");
     app.add_flag("--density", a.density, "power spectral densities instead of amplitudes");
-    app.add_option("--segment", a.segment, "average over segments of this length, s (default: all in one)");
+    app.add_option("--segment", a.segment, "average over segments of this length, s (default: all in one)")
+        .hide_default();
     app.add_flag("--linear-trend", a.linear_trend, "take a line from the segments, not only the mean");
-    app.add_option("--max-frequency", a.max_frequency, "end of the spectra, Hz (default: half the sampling frequency)");
-    app.add_option("--rpm", a.rpm, "rotor speed: lines at its multiples nP, rev/min");
-    app.add_option("--blades", a.blades, "number of blades, for nP")->capture_default_str();
-    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    app.add_option("--max-frequency", a.max_frequency, "end of the spectra, Hz (default: half the sampling frequency)")
+        .hide_default();
+    app.add_option("--rpm", a.rpm, "rotor speed: lines at its multiples nP, rev/min").hide_default();
+    app.add_option("--blades", a.blades, "number of blades, for nP");
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
     require_not_negative("--rpm", "value", a.rpm);
     if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string();
     a.spectrum = a.spectrum || a.density;

@@ -4,10 +4,8 @@
 
 #include "mbs/error.hpp"
 #include "mbs/pending_file.hpp"
-#include "mbs/version.hpp"
 
-#include <CLI/CLI.hpp>
-
+#include "examples/shared/command_line.hpp"
 #include <atomic>
 #include <csignal>
 #include <exception>
@@ -59,18 +57,6 @@ inline void check_outputs(const std::string& prefix, std::initializer_list<const
             std::cerr << "note: " << file.partial() << " was left behind by a run that was killed; it is removed\n";
         file.discard();
     }
-}
-
-/// Reads the command line.
-/// @return exit code to end with (0 after --help and --version, 2 for wrong usage), -1: go on
-inline int parse(CLI::App& app, int argc, char** argv) {
-    app.set_version_flag("--version", std::string(version()));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return -1;
 }
 
 /// The body of main().

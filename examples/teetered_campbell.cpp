@@ -22,21 +22,20 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Campbell diagram of the two-bladed teetered machine (Lee, Hodges, Patil 2002) by Floquet's theory.\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg and PREFIX.png, and prints a table.");
-    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format, "; nominal 57.5"))
-        ->capture_default_str();
+    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format, "; nominal 57.5"));
     a.machine.blade_elements = a.machine.tower_elements = 3;
     program::add_options(app, a.machine);
-    auto* frequency = app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")
-                          ->capture_default_str();
+    const program::Option frequency =
+        app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz");
     app.add_option("--max-per-rev", a.max_per_rev, "follow modes up to this multiple of the first rotor speed")
-        ->excludes(frequency);
+        .excludes(frequency);
     app.add_flag("--modes", a.modes,
                  "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    return program::parse(app, argc, argv);
+    app.add_option("--out", a.out, "prefix of the files");
+    return app.parse(argc, argv);
 }
 
 // In rotation.

@@ -36,20 +36,21 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Modes of the two-bladed teetered machine of Lee, Hodges and Patil (2002) at one rotor speed, by Floquet's "
         "theory.\nPrints a table and writes PREFIX.h5, PREFIX.csv, PREFIX_harmonics.csv, PREFIX.svg and PREFIX.png "
         "(mode shapes in the arrangement of the paper's Figs. 3 to 14).");
     app.footer(
         "Exit code: 0; 1 error; 2 wrong usage; 3 a goal (0.3 % for first, 1 % for second modes, with six elements and "
         "more and the paper's data) is missed.");
-    app.add_option("--speed", a.speed, "rotor speed, rad/s")->capture_default_str();
+    app.add_option("--speed", a.speed, "rotor speed, rad/s");
     program::add_options(app, a.machine);
-    app.add_option("--max", a.max_per_rev, "modes up to this frequency, per revolution")->capture_default_str();
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
-    app.add_flag("--modes", a.modes, "also draw every mode shape (PREFIX_modes/*.svg, *.png)");
-    app.add_flag("--no-pictures", a.no_pictures, "tables and files only")->excludes("--modes");
-    return program::parse(app, argc, argv);
+    app.add_option("--max", a.max_per_rev, "modes up to this frequency, per revolution");
+    app.add_option("--out", a.out, "prefix of the files");
+    const program::Option modes =
+        app.add_flag("--modes", a.modes, "also draw every mode shape (PREFIX_modes/*.svg, *.png)");
+    app.add_flag("--no-pictures", a.no_pictures, "tables and files only").excludes(modes);
+    return app.parse(argc, argv);
 }
 
 solvers::Campbell modes_of(const Arguments& a, const turbines::TeeteredTurbine& machine) {

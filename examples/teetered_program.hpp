@@ -17,15 +17,16 @@ struct TeeteredArguments {
     std::string data;
 };
 
-inline void add_options(CLI::App& app, TeeteredArguments& a) {
-    auto* ratio = app.add_option("--tower-ratio", a.tower_ratio,
-                                 "rigidity of the tower over that of the blades (default: 100, or as --data says)");
-    app.add_flag("--rigid-tower", a.rigid_tower, "no tower coordinates")->excludes(ratio);
-    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
+inline void add_options(CommandLine& app, TeeteredArguments& a) {
+    const Option ratio =
+        app.add_option("--tower-ratio", a.tower_ratio,
+                       "rigidity of the tower over that of the blades (default: 100, or as --data says)");
+    app.add_flag("--rigid-tower", a.rigid_tower, "no tower coordinates").excludes(ratio);
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower");
     app.add_flag("--no-teeter", a.no_teeter, "teeter locked");
     app.add_flag("--gravity", a.gravity, "with gravity: about a steady state that changes with the azimuth");
-    app.add_option("--harmonics", a.harmonics, "of the revolution in that steady state")->capture_default_str();
+    app.add_option("--harmonics", a.harmonics, "of the revolution in that steady state");
     app.add_option("--data", a.data, "folder with teetered.csv (default: built in)");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
 }

@@ -27,22 +27,21 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Natural frequencies of a six-axis arm from URDF with a flexible forearm, beside those of the rigid arm,\n"
         "and checks against the stiff limit, an exact beam and the way through URDF and back.");
     app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check is off.");
     app.add_option("--file", a.file,
-                   "URDF with the links forearm_tube, forearm_root and forearm_tip, 0.8 m apart along x")
-        ->capture_default_str();
-    app.add_option("--elements", a.elements, "beam elements of the forearm, at most 200")->capture_default_str();
-    app.add_option("--q", a.q, "pose: COORDINATE=VALUE, rad; several (default: 0)")->allow_extra_args(false);
+                   "URDF with the links forearm_tube, forearm_root and forearm_tip, 0.8 m apart along x");
+    app.add_option("--elements", a.elements, "beam elements of the forearm, at most 200");
+    app.add_option("--q", a.q, "pose: COORDINATE=VALUE, rad; several (default: 0)").one_word();
     app.add_option("--stiffness", a.stiffness,
                    "drives: VALUE for all or COORDINATE=VALUE for one, N m/rad; several (default: 500000)")
-        ->allow_extra_args(false);
-    app.add_option("--youngs-factor", a.youngs_factor, "on the elastic constants of the tube")->capture_default_str();
-    app.add_option("--modes", a.modes, "number of modes printed")->check(CLI::PositiveNumber)->capture_default_str();
+        .one_word();
+    app.add_option("--youngs-factor", a.youngs_factor, "on the elastic constants of the tube");
+    app.add_option("--modes", a.modes, "number of modes printed").positive();
     app.add_option("--write", a.write, "write the arm with the beam as URDF to this file");
-    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
     require_positive("--youngs-factor", "value", a.youngs_factor);
     return -1;
 }

@@ -29,19 +29,19 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Prints what a URDF file holds: notes, masses, coordinates and limits, Denavit-Hartenberg parameters, the\n"
         "metric at a pose, and the natural modes about that pose with a spring on every coordinate.");
     app.footer("Exit code: 0; 1 error; 2 wrong usage.");
-    app.add_option("FILE", a.file, "URDF file")->capture_default_str();
-    app.add_option("--q", a.q, "pose: COORDINATE=VALUE, rad or m; several (default: 0)")->allow_extra_args(false);
+    app.add_option("FILE", a.file, "URDF file");
+    app.add_option("--q", a.q, "pose: COORDINATE=VALUE, rad or m; several (default: 0)").one_word();
     app.add_option("--stiffness", a.stiffness,
                    "springs: VALUE for all or COORDINATE=VALUE for one, N m/rad or N/m; several (default: 100000)")
-        ->allow_extra_args(false);
-    app.add_option("--modes", a.modes, "number of modes printed")->check(CLI::PositiveNumber)->capture_default_str();
+        .one_word();
+    app.add_option("--modes", a.modes, "number of modes printed").positive();
     app.add_flag("--undamped", a.undamped, "without the viscous damping of the file");
     app.add_option("--write", a.write, "write the tree as URDF to this file");
-    return program::parse(app, argc, argv);
+    return app.parse(argc, argv);
 }
 
 std::string limit(double value) {

@@ -31,25 +31,25 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Campbell diagram of the 600 kW three-blade machine (Zhao, Maisser, Wu 2007).\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, PREFIX_tower_yaw_tilt.png and "
         "PREFIX_flap_edge.png, and prints a table.");
-    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format))->capture_default_str();
-    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+    app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format));
+    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower");
+    app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
-    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz")->capture_default_str();
+    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz");
     app.add_flag("--undamped", a.undamped, "leave out all damping");
     program::add_generator_option(app, a.generator);
-    auto* frozen =
+    const program::Option frozen =
         app.add_flag("--frozen-azimuth", a.frozen,
                      "eigenvalues at one azimuth (no motions of the machine), for comparison with the paper");
     app.add_flag("--floquet", a.floquet,
                  "by Floquet's theory about the periodic steady state, beside the mean of the multi-blade system over "
                  "the azimuth (PREFIX_averaged.csv, PREFIX_difference.svg, .png)")
-        ->excludes(frozen);
+        .excludes(frozen);
     app.add_flag("--gravity", a.gravity,
                  "with gravity (in rotation the steady state is periodic: with --floquet only)");
     app.add_flag("--shaft-beam", a.shaft_beam,
@@ -57,7 +57,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--modes", a.modes,
                  "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
-    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
     if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
     if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
     if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};

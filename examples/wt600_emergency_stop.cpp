@@ -21,27 +21,31 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Emergency stop of the 600 kW machine: grid loss, overspeed, pitch to feather, brake, standstill.\n"
         "Prints the events, the largest loads and the balance of energy; writes PREFIX.h5, .svg, .png, "
         "_energy.png and\n_spectrum.png (after standstill).");
     a.simulation.out = "wt600_emergency_stop";
     program::add_simulation_options(app, a.simulation);
-    auto* speed = app.add_option("--rpm", a.speed,
-                                 "rotor speed at the start, rev/min (default: where rotor and generator balance)");
-    app.add_option("--wind", a.wind, "wind speed, m/s")->capture_default_str();
-    app.add_option("--grid-loss", a.loss, "time of the loss of the grid, s")->capture_default_str();
-    app.add_option("--overspeed", a.overspeed, "limit of the speed, by the speed at the start")->capture_default_str();
-    auto* brake_speed = app.add_option("--brake-speed", a.brake_speed, "the brake is applied below, rev/min");
-    brake_speed->capture_default_str();
-    auto* brake_delay = app.add_option("--brake-delay", a.brake_delay, "or so long after the overspeed, s");
-    brake_delay->excludes(brake_speed);
-    app.add_option("--after", a.after, "time simulated after standstill, s")->capture_default_str();
+    const program::Option speed =
+        app.add_option("--rpm", a.speed,
+                       "rotor speed at the start, rev/min (default: where rotor and generator balance)")
+            .hide_default();
+    app.add_option("--wind", a.wind, "wind speed, m/s");
+    app.add_option("--grid-loss", a.loss, "time of the loss of the grid, s");
+    app.add_option("--overspeed", a.overspeed, "limit of the speed, by the speed at the start");
+    const program::Option brake_speed =
+        app.add_option("--brake-speed", a.brake_speed, "the brake is applied below, rev/min");
+    const program::Option brake_delay =
+        app.add_option("--brake-delay", a.brake_delay, "or so long after the overspeed, s")
+            .hide_default()
+            .excludes(brake_speed);
+    app.add_option("--after", a.after, "time simulated after standstill, s");
     app.add_flag("--no-gravity", a.no_gravity, "leave out gravity");
-    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
-    a.by_delay = brake_delay->count() > 0;
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
+    a.by_delay = brake_delay.given();
     program::check_simulation_options(a.simulation);
-    if (speed->count() > 0) require_positive("--rpm", "value", a.speed);
+    if (speed.given()) require_positive("--rpm", "value", a.speed);
     require_positive("--brake-speed", "value", a.brake_speed);
     require_positive("--grid-loss", "value", a.loss);
     require_not_negative("--after", "value", a.after);

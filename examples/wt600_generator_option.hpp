@@ -7,8 +7,7 @@
 #include "turbines/generator_slip.hpp"
 #include "turbines/wt600_operation.hpp"
 
-#include <CLI/CLI.hpp>
-
+#include "examples/shared/command_line.hpp"
 #include <string>
 
 namespace cardan::program {
@@ -22,13 +21,11 @@ struct GeneratorOption {
     }
 };
 
-inline void add_generator_option(CLI::App& app, GeneratorOption& option) {
+inline void add_generator_option(CommandLine& app, GeneratorOption& option) {
     app.add_option("--generator", option.kind,
                    "free: no torque; slip: the data set's induction machine, linearised; locked: its speed prescribed")
-        ->check(CLI::IsMember({"free", "slip", "locked"}))
-        ->capture_default_str();
-    app.add_option("--generator-torque", option.torque, "of the induction machine where its slip is linearised, N m")
-        ->capture_default_str();
+        .one_of({"free", "slip", "locked"});
+    app.add_option("--generator-torque", option.torque, "of the induction machine where its slip is linearised, N m");
 }
 
 /// @param data  folder of the data set; empty: built in

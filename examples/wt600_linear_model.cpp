@@ -38,26 +38,24 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Linear model of the 600 kW three-blade machine for control design.\n"
         "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.");
-    app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min")->capture_default_str();
-    app.add_option("--azimuths", a.azimuths, "azimuths per revolution")->capture_default_str();
+    app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min");
+    app.add_option("--azimuths", a.azimuths, "azimuths per revolution");
     app.add_option("--error", a.error,
                    "error of the balanced model, % of the largest response of every input and output up to the largest "
-                   "frequency; its order follows")
-        ->capture_default_str();
-    app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)")->capture_default_str();
+                   "frequency; its order follows");
+    app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
     app.add_option("--max-frequency", a.max_frequency,
-                   "modes are printed, and the balanced model is right, up to this frequency, Hz")
-        ->capture_default_str();
-    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower")->capture_default_str();
+                   "modes are printed, and the balanced model is right, up to this frequency, Hz");
+    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower");
     app.add_flag("--gravity", a.gravity, "about the periodic steady state under gravity");
     program::add_generator_option(app, a.generator);
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+    app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
-    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
     if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
     return -1;
 }

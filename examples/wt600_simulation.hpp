@@ -19,18 +19,15 @@ struct SimulationArguments {
     bool resume = false;
 };
 
-inline void add_simulation_options(CLI::App& app, SimulationArguments& a) {
-    app.add_option("--duration", a.duration, "simulated time, s")->capture_default_str();
-    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade")->capture_default_str();
-    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower")->capture_default_str();
-    app.add_option("--method", a.method, "method of integration")
-        ->check(CLI::IsMember(method_names))
-        ->capture_default_str();
-    app.add_option("--order", a.order, "highest order of bdf (beyond 2, weakly damped modes may grow)")
-        ->capture_default_str();
-    app.add_option("--tolerance", a.tolerance, "relative tolerance of a step")->capture_default_str();
-    app.add_option("--step", a.step, "time between outputs, s")->capture_default_str();
-    app.add_option("--out", a.out, "prefix of the files")->capture_default_str();
+inline void add_simulation_options(CommandLine& app, SimulationArguments& a) {
+    app.add_option("--duration", a.duration, "simulated time, s");
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower");
+    app.add_option("--method", a.method, "method of integration").one_of(method_names);
+    app.add_option("--order", a.order, "highest order of bdf (beyond 2, weakly damped modes may grow)");
+    app.add_option("--tolerance", a.tolerance, "relative tolerance of a step");
+    app.add_option("--step", a.step, "time between outputs, s");
+    app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
 }
 

@@ -35,7 +35,7 @@ struct Arguments {
 };
 
 int parse(int argc, char** argv, Arguments& a) {
-    CLI::App app(
+    program::CommandLine app(
         "Start-up of the 600 kW machine through the resonance of its tower, to operation with an induction generator "
         "at the grid (fixed) or with a converter (variable).\nPrints events, resonances, the largest loads and the "
         "balance of energy; writes PREFIX.h5, .svg, .png, _energy.png and\n_spectrum.png (last 40 s).\n\nThe tower "
@@ -44,19 +44,17 @@ int parse(int argc, char** argv, Arguments& a) {
     a.simulation.out = "wt600_time_history";
     a.simulation.duration = 120;
     program::add_simulation_options(app, a.simulation);
-    app.add_option("--mode", a.mode, "generator")->check(CLI::IsMember({"fixed", "variable"}))->capture_default_str();
-    app.add_option("--wind", a.wind, "wind speed, m/s")->capture_default_str();
-    app.add_option("--pitch-rate", a.pitch_rate, "of the blades from feather into the wind, deg/s")
-        ->capture_default_str();
-    app.add_option("--tower-shadow", a.shadow, "share of the rotor load that is lost when a blade passes the tower")
-        ->capture_default_str();
+    app.add_option("--mode", a.mode, "generator").one_of({"fixed", "variable"});
+    app.add_option("--wind", a.wind, "wind speed, m/s");
+    app.add_option("--pitch-rate", a.pitch_rate, "of the blades from feather into the wind, deg/s");
+    app.add_option("--tower-shadow", a.shadow, "share of the rotor load that is lost when a blade passes the tower");
     program::add_motion_options(app, names, directions, a.motions);
     app.add_flag(
         "--resume", a.simulation.resume,
         "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration. The "
         "rows are those of an uninterrupted run, bit for bit with dirk, erk and alpha, within the tolerance with "
         "bdf and adams");
-    if (const int code = program::parse(app, argc, argv); code >= 0) return code;
+    if (const int code = app.parse(argc, argv); code >= 0) return code;
     program::check_simulation_options(a.simulation);
     require_positive("--pitch-rate", "value", a.pitch_rate);
     return -1;

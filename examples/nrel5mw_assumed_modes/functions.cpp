@@ -39,20 +39,15 @@ AssumedModesBasis Functions::basis(double length) const {
     return basis;
 }
 
-void add_options(CLI::App& app, Functions& functions) {
+void add_options(program::CommandLine& app, Functions& functions) {
     app.add_option("--bending", functions.bending,
                    "in place of the paper's functions: polynomials per piece for each deflection, 2 ... 9; on one "
-                   "piece (x/L)^2, (x/L)^3 ...")
-        ->capture_default_str();
+                   "piece (x/L)^2, (x/L)^3 ...");
     app.add_option("--torsion", functions.torsion,
-                   "in place of the paper's: sines, 1 ... 40, or polynomials per piece, 1 ... 9")
-        ->capture_default_str();
-    app.add_option("--torsion-by", functions.torsion_by, "functions of torsion")
-        ->check(CLI::IsMember({"sines", "polynomials"}))
-        ->capture_default_str();
+                   "in place of the paper's: sines, 1 ... 40, or polynomials per piece, 1 ... 9");
+    app.add_option("--torsion-by", functions.torsion_by, "functions of torsion").one_of({"sines", "polynomials"});
     app.add_option("--pieces", functions.pieces,
-                   "equal pieces of the length for the polynomials, 1 ... 48; 0: from station to station of the table")
-        ->capture_default_str();
+                   "equal pieces of the length for the polynomials, 1 ... 48; 0: from station to station of the table");
 }
 
 }  // namespace cardan::paper2018

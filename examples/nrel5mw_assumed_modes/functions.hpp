@@ -4,8 +4,7 @@
 
 #include "elements/assumed_modes_basis.hpp"
 
-#include <CLI/CLI.hpp>
-
+#include "examples/shared/command_line.hpp"
 #include <string>
 
 namespace cardan::paper2018 {
@@ -27,6 +26,6 @@ struct Functions {
 };
 
 /// --bending, --torsion, --torsion-by, --pieces.
-void add_options(CLI::App& app, Functions& functions);
+void add_options(program::CommandLine& app, Functions& functions);
 
 }  // namespace cardan::paper2018

@@ -1,0 +1,87 @@
+/// @file
+/// The command line of a program: options, flags and subcommands of CLI11, whose headers take a compiler six seconds
+/// and are therefore included by command_line.cpp alone.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace cardan::program {
+
+/// A handle of an option or flag; it is good as long as its command line. What it refuses is wrong usage.
+class Option {
+public:
+    explicit Option(CLI::Option& option) : option_(&option) {}
+
+    Option& required();
+    Option& one_of(const std::vector<std::string>& allowed);
+    Option& range(int least, int most);
+    Option& positive();
+    /// Of the values within one word.
+    Option& delimiter(char character);
+    /// Every use takes one word; a list otherwise takes all words up to the next option.
+    Option& one_word();
+    /// What help calls the value, instead of TEXT, INT or FLOAT.
+    Option& type_name(const std::string& name);
+    /// For values that stand for something else: help is silent about them.
+    Option& hide_default();
+    Option& excludes(const Option& other);
+    Option& needs(const Option& other);
+
+    /// "--name"
+    std::string name() const;
+    /// Was it given?
+    bool given() const;
+
+private:
+    CLI::Option* option_;
+};
+
+/// Options have --help and --version besides. Targets hold the defaults, which help shows but for what is empty, and
+/// must live as long as the command line.
+class CommandLine {
+public:
+    explicit CommandLine(const std::string& description);
+
+    /// @param name  "--name", or "name" for one that is known by its place
+    Option add_option(const std::string& name, int& target, const std::string& what);
+    Option add_option(const std::string& name, double& target, const std::string& what);
+    Option add_option(const std::string& name, std::optional<double>& target, const std::string& what);
+    Option add_option(const std::string& name, std::string& target, const std::string& what);
+    Option add_option(const std::string& name, std::filesystem::path& target, const std::string& what);
+    Option add_option(const std::string& name, std::vector<std::string>& target, const std::string& what);
+    /// @param name  "--name", or "--name,!--opposite"
+    Option add_flag(const std::string& name, bool& target, const std::string& what);
+    /// Behind the options of the help, and of that of subcommands added later.
+    void footer(const std::string& text);
+
+    /// One of the subcommands must be given.
+    CommandLine add_subcommand(const std::string& name, const std::string& what);
+    /// Of a subcommand: the options of the command line may stand behind it as well.
+    void fallthrough();
+    /// The name of the subcommand that was given.
+    std::string subcommand();
+
+    /// Reads the command line.
+    /// @return exit code to end with (0 after --help and --version, 2 for wrong usage), -1: go on
+    [[nodiscard]] int parse(int argc, char** argv);
+    /// Says that two options, read already, do not go together.
+    /// @return 2
+    [[nodiscard]] int refuse(const std::string& option, const std::string& beside);
+
+private:
+    explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+
+    std::shared_ptr<CLI::App> app_;  ///< a subcommand shares its parent's life
+};
+
+}  // namespace cardan::program
