@@ -81,6 +81,7 @@ check_package() {
     cmake --build "$consumer" --parallel "$jobs"
     (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
         ./consumer_sanitized)
+    "$prefix/bin/wt600_campbell" --help >/dev/null
 }
 
 check_tidy() {

@@ -1,4 +1,4 @@
-# Libraries, headers, data and the CMake package `cardan`.
+# Libraries, headers, data, programs and the CMake package `cardan`.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cardan)
@@ -6,6 +6,10 @@ get_property(libraries GLOBAL PROPERTY CARDAN_LIBRARIES)
 list(TRANSFORM libraries REPLACE "^cardan_" "" OUTPUT_VARIABLE CARDAN_COMPONENTS)
 
 install(TARGETS ${libraries} EXPORT cardanTargets)
+get_property(programs GLOBAL PROPERTY CARDAN_PROGRAMS)
+if(programs)
+    install(TARGETS ${programs})
+endif()
 install(EXPORT cardanTargets NAMESPACE cardan:: DESTINATION ${package_dir})
 
 foreach(folder IN ITEMS mbs elements turbines solvers)

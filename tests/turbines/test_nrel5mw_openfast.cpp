@@ -8,7 +8,7 @@
 #include "turbines/csv.hpp"
 #include "turbines/embedded_data.hpp"
 
-#include "examples/nrel5mw_campbell/assumed_shapes.hpp"
+#include "examples/programs/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>
 
 namespace cardan::testing::nrel5mw_openfast {

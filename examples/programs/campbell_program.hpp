@@ -1,0 +1,114 @@
+/// @file
+/// What the programs that compute Campbell diagrams have in common.
+#pragma once
+
+#include "solvers/campbell_csv.hpp"
+#include "solvers/hdf5_campbell.hpp"
+#include "solvers/plot_campbell.hpp"
+
+#include "examples/shared/program.hpp"
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace cardan::program {
+
+inline constexpr auto rpm_format = "numbers and FIRST:LAST:STEP separated by commas, rev/min";
+
+/// The option --rpm: "0:12:1,12.1". That the speeds increase is checked by the solver.
+/// @return rad/s;  @throws InputError
+inline std::vector<double> rotor_speeds(const std::string& given) {
+    const auto refuse = [&] { throw InputError("--rpm", "value", given, rpm_format); };
+    std::vector<double> speeds, range;
+    const char* const end = given.data() + given.size();
+    for (const char* at = given.data();; ++at) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || (next != end && *next != ':' && *next != ',')) refuse();
+        range.push_back(value);
+        at = next;
+        if (at != end && *at == ':') continue;
+        if (range.size() == 1) range = {value, value, 1};
+        if (range.size() != 3) refuse();
+        for (double speed : solvers::rpm_range(range[0], range[1], range[2])) speeds.push_back(speed);
+        range.clear();
+        if (at == end) return speeds;
+    }
+}
+
+inline void speed_progress(int done, int total) {
+    progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
+}
+
+/// What the assembly has to say, before the work.
+template <class Turbine>
+void introduce(const Turbine& turbine, bool summary) {
+    if (summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+}
+
+/// With progress, and to be stopped by Ctrl-C.
+inline solvers::CampbellOptions campbell_options(double max_frequency_hz) {
+    solvers::CampbellOptions options;
+    options.max_frequency_hz = max_frequency_hz;
+    options.progress = speed_progress;
+    options.cancelled = interrupted;
+    return options;
+}
+
+/// To standard output.  @throws FileError
+inline void print_table(const solvers::Campbell& diagram) {
+    if (!(std::cout << solvers::table(diagram) << std::flush))
+        throw FileError("standard output", "the table could not be written");
+}
+
+/// PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png.  @throws FileError
+inline void write_files(const solvers::Campbell& diagram, const std::string& prefix,
+                        const solvers::CampbellPlotOptions& picture = {}) {
+    solvers::write_hdf5(diagram, prefix + ".h5");
+    solvers::write_csv(diagram, prefix + ".csv");
+    for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, prefix + kind, picture);
+}
+
+/// One of several panels: modes of some families (empty: all) with one ordinal (0: all) up to a frequency (0: all).
+inline solvers::CampbellPlotOptions panel(std::vector<std::string> families, std::string title, int ordinal,
+                                          double max_frequency_hz) {
+    solvers::CampbellPlotOptions p;
+    p.families = std::move(families);
+    p.title = std::move(title);
+    p.ordinal = ordinal;
+    p.max_frequency_hz = max_frequency_hz;
+    return p;
+}
+
+/// "1st blade flap (symmetric)" -> "1st_blade_flap_symmetric"
+inline std::string file_name(const std::string& mode) {
+    std::string name;
+    for (char c : mode)
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            name += c;
+        else if (!name.empty() && name.back() != '_')
+            name += '_';
+    while (!name.empty() && name.back() == '_') name.pop_back();
+    return name;
+}
+
+/// Mode shapes at the first and the last rotor speed: FOLDER/<mode>_<rpm>rpm.svg, .png.
+/// @throws FileError
+inline void draw_modes(const solvers::Campbell& diagram, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw FileError(folder.string(), error.message());
+    std::vector<std::size_t> points{0};
+    if (diagram.points.size() > 1) points.push_back(diagram.points.size() - 1);
+    for (const solvers::Branch& branch : diagram.branches)
+        for (std::size_t point : points) {
+            if (branch.mode[point] < 0) continue;
+            const auto rpm = std::lround(diagram.points[point].rotor_speed * 30 / pi);
+            for (const char* kind : {".svg", ".png"})
+                solvers::plot_mode(diagram, branch, point,
+                                   folder / text(file_name(branch.name), "_", rpm, "rpm", kind));
+        }
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,89 @@
+#include "examples/programs/nrel5mw_floating/machine.hpp"
+
+#include "mbs/error.hpp"
+#include "mbs/units.hpp"
+#include "solvers/periodic.hpp"
+
+#include <algorithm>
+
+namespace cardan::floating {
+
+namespace {
+
+turbines::Nrel5mwVariant variant_of(const MachineOptions& options) {
+    using turbines::Nrel5mwVariant;
+    for (const Nrel5mwVariant variant : {Nrel5mwVariant::fast, Nrel5mwVariant::beamdyn})
+        if (options.variant == turbines::variant_name(variant)) return variant;
+    return Nrel5mwVariant::report;
+}
+
+turbines::Turbine machine(const MachineOptions& options, turbines::Nrel5mwTower tower,
+                          const std::optional<turbines::PlatformOptions>& platform) {
+    turbines::Nrel5mwOptions data = turbines::nrel5mw_options(variant_of(options));
+    data.tower = tower;
+    turbines::AssemblyOptions assembly =
+        turbines::nrel5mw_assembly(variant_of(options), options.blade_elements, options.tower_elements);
+    assembly.gravity = turbines::nrel5mw_gravity;
+    assembly.structural_damping = assembly.joint_damping = !options.undamped;
+    assembly.platform = platform;
+    return turbines::assemble(options.data.empty()
+                                  ? turbines::nrel5mw_description(data)
+                                  : turbines::nrel5mw_description(std::filesystem::path(options.data), data),
+                              assembly);
+}
+
+}  // namespace
+
+double unit(std::size_t coordinate) {
+    return coordinate < 3 ? 1 : units::degree;
+}
+
+std::size_t coordinate_index(const std::string& option, const std::string& name) {
+    const auto found = std::ranges::find(coordinate_names, name);
+    if (found == coordinate_names.end())
+        throw InputError(option, "coordinate", name, "surge, sway, heave, roll, pitch, yaw");
+    return static_cast<std::size_t>(found - coordinate_names.begin());
+}
+
+void check_offset(const std::string& option, std::size_t coordinate, double value) {
+    const double largest = coordinate < 3 ? 100 : coordinate == 5 ? 180 : 89;
+    if (!(std::abs(value) <= largest))
+        throw InputError(option, text("displacement [", unit_name(coordinate), "]"), value,
+                         text("at most ", largest, " to either side"));
+}
+
+void check_tolerance(double tolerance) {
+    require_positive("--tolerance", "value", tolerance);
+    if (tolerance > 1e-4) throw InputError("--tolerance", "value", tolerance, "at most 1e-4");
+}
+
+turbines::Turbine on_spar(const MachineOptions& options, CoordinateRole role) {
+    turbines::PlatformOptions platform = turbines::free_floating(
+        options.data.empty() ? turbines::oc3_hywind() : turbines::oc3_hywind(std::filesystem::path(options.data)));
+    platform.coordinates.role = role;
+    return machine(options, turbines::Nrel5mwTower::oc3_hywind, platform);
+}
+
+turbines::Turbine on_land(const MachineOptions& options) {
+    return machine(options, turbines::Nrel5mwTower::land_based, std::nullopt);
+}
+
+solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rotor_speed) {
+    const auto check = [](bool converged, const std::string& message) {
+        if (!converged) throw NumericalError(text("equilibrium: ", message));
+    };
+    if (rotor_speed == 0) {
+        const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin);
+        check(state.converged, state.message);
+        return state.at;
+    }
+    solvers::PeriodicOptions options;
+    options.rotor_speed = rotor_speed;
+    options.harmonics = 4;
+    const solvers::PeriodicSteadyState state =
+        solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
+    check(state.converged, state.message);
+    return state.at(0);
+}
+
+}  // namespace cardan::floating

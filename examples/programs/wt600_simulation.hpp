@@ -1,0 +1,265 @@
+/// @file
+/// What the programs that simulate the 600 kW machine have in common: options, starts, rows, pictures.
+#pragma once
+
+#include "mbs/dynamics.hpp"
+#include "mbs/units.hpp"
+#include "solvers/steady_state.hpp"
+#include "turbines/wt600_operation.hpp"
+
+#include "examples/shared/simulation.hpp"
+
+namespace cardan::program {
+
+struct SimulationArguments {
+    int blade_elements = 3, tower_elements = 3;
+    double duration = 60, step = 0.02, tolerance = 1e-6;
+    int order = 2;
+    std::string method = "dirk", out, data;
+    bool resume = false;
+};
+
+inline void add_simulation_options(CommandLine& app, SimulationArguments& a) {
+    app.add_option("--duration", a.duration, "simulated time, s");
+    app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
+    app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower");
+    app.add_option("--method", a.method, "method of integration").one_of(method_names);
+    app.add_option("--order", a.order, "highest order of bdf (beyond 2, weakly damped modes may grow)");
+    app.add_option("--tolerance", a.tolerance, "relative tolerance of a step");
+    app.add_option("--step", a.step, "time between outputs, s");
+    app.add_option("--out", a.out, "prefix of the files");
+    app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
+}
+
+/// Before any file is begun.  @throws InputError
+inline void check_simulation_options(const SimulationArguments& a) {
+    require_positive("--duration", "value", a.duration);
+    require_positive("--step", "value", a.step);
+}
+
+/// What makes a run but its length, for its file: who goes on with it must want the same.
+inline std::string options_text(const SimulationArguments& a) {
+    return text("blade elements ", a.blade_elements, ", tower elements ", a.tower_elements, ", method ", a.method,
+                ", order ", a.order, ", tolerance ", a.tolerance, ", step ", a.step, " s, data '", a.data, "'");
+}
+
+/// The checkpoint that a run goes on from; none: it begins.
+/// @throws FileError, InputError if the file has no checkpoint or is of another run
+inline std::optional<solvers::Checkpoint> start_of(const SimulationArguments& a, const std::string& description) {
+    if (!a.resume) return std::nullopt;
+    const std::string path = a.out + ".h5";
+    const solvers::HistoryInfo info = solvers::read_history_info(path);
+    if (!info.checkpoint) throw InputError("--resume", path, "without a checkpoint", "a run that was broken off");
+    if (info.about.description != description)
+        throw InputError("--resume", text("options that ", path, " was made with"),
+                         info.about.description.substr(0, info.about.description.find('\n')),
+                         text("those of this run: ", description.substr(0, description.find('\n'))));
+    return info.checkpoint;
+}
+
+inline turbines::Wt600OperationOptions operation_options(const SimulationArguments& a) {
+    turbines::Wt600OperationOptions options;
+    options.assembly.blade_elements = a.blade_elements;
+    options.assembly.tower_elements = a.tower_elements;
+    options.data = a.data;
+    return options;
+}
+
+inline solvers::IntegrationOptions integration_options(const SimulationArguments& a) {
+    return integration_options(a.method, a.tolerance, a.order);
+}
+
+struct Start {
+    Vector q, qd;
+};
+
+/// Constant state under some forces; the spin is held at its azimuth or turns steadily.
+/// @param initial  where the iteration starts and driven coordinates are held; empty: zero
+inline Vector steady_position(const turbines::Turbine& turbine, const ForceSet& forces, double speed, double azimuth,
+                              const Vector& initial = {}) {
+    const System system(turbine.tree(), forces);
+    solvers::SteadyOptions options;
+    options.rotor_speed = speed;
+    options.azimuth = azimuth;
+    options.initial = initial;
+    const solvers::SteadyState state = solvers::steady_state(system, turbine.rotor().spin, options);
+    if (!state.converged) throw NumericalError(text("start of the simulation: ", state.message));
+    return state.at.q;
+}
+
+/// At rest under gravity, blade 1 up.
+/// @param driven  where the driven coordinates are; empty: at zero
+inline Start standing_start(const turbines::Wt600Operation& machine, const Vector& driven = {}) {
+    const Vector q = steady_position(machine.turbine, machine.turbine.forces(), 0, 0, driven);
+    return {q, Vector::Zero(q.size())};
+}
+
+/// Rotor speed at which the torques of rotor load and generator are equal, the blades turned as far as they turn in
+/// their pitch drives: that of a constant rotation without gravity and tower shadow. By the secant method.
+/// @param calm   the machine without gravity and tower shadow
+/// @param guess  rad/s, about right
+/// @throws NumericalError if there is none near the guess
+inline double balanced_speed(const turbines::Wt600Operation& calm, double guess) {
+    const System& system = calm.turbine.system();
+    const int spin = calm.turbine.rotor().spin;
+    Workspace workspace(system.model);
+    Vector Q(system.model.size()), tau(system.model.size());
+    const auto surplus = [&](double speed) {
+        Vector qd = Vector::Zero(system.model.size());
+        const Vector q = steady_position(calm.turbine, calm.turbine.forces(), speed, 0), qdd = qd;
+        qd(spin) = speed;
+        const Kinematics kin = kinematics(system.model, q, workspace);
+        system.forces.generalised_forces(kin, 0, q, qd, Q);
+        inverse_dynamics(kin, VectorIn(qd), VectorIn(qdd), VectorOut(tau));
+        return Q(spin) - tau(spin);
+    };
+    double a = guess, b = 1.001 * guess, fa = surplus(a);
+    for (int i = 0; i < 30; ++i) {
+        const double fb = surplus(b), next = b - fb * (b - a) / (fb - fa);
+        a = b, fa = fb, b = next;
+        if (std::abs(b - a) < 1e-10 * guess) return b;
+    }
+    throw NumericalError(text("start of the simulation: no rotor speed near ", guess / units::rpm,
+                              " rpm at which rotor and generator balance; give one (--rpm)"));
+}
+
+/// In rotation, blade 1 up: the steady state without gravity and tower shadow, and what gravity bends the standing
+/// machine, as the azimuth changes it. This is periodic but for the square of rotor speed over natural frequencies.
+/// @param calm  the same machine without gravity and tower shadow
+inline Start rotating_start(const turbines::Wt600Operation& machine, const turbines::Wt600Operation& calm,
+                            double speed) {
+    constexpr double h = 1e-3;
+    const auto sag = [&](double azimuth) {
+        return Vector(steady_position(machine.turbine, machine.turbine.forces(), 0, azimuth) -
+                      steady_position(calm.turbine, calm.turbine.forces(), 0, azimuth));
+    };
+    const Vector rotating = steady_position(calm.turbine, calm.turbine.forces(), speed, 0);
+    Start start{rotating + sag(0), speed * (sag(h) - sag(-h)) / (2 * h)};
+    start.qd(machine.turbine.rotor().spin) = speed;
+    return start;
+}
+
+/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and tells a terminal how far
+/// things are.
+class Rows {
+public:
+    /// @param description  of the machine, for the file
+    Rows(const std::string& title, const std::string& description, const SimulationArguments& a,
+         solvers::Integrator& integrator, const solvers::Recorder& recorder)
+        : history{title, recorder.channels(), {}, {}},
+          file(a.out + ".h5", {.title = title, .method = a.method, .description = description}, integrator, recorder),
+          duration_(a.duration) {
+        history.values.resize(history.channels.size());
+    }
+    /// Goes on with the file of the same name.
+    Rows(const SimulationArguments& a, solvers::Integrator& integrator, const solvers::Recorder& recorder)
+        : history(solvers::read_history(a.out + ".h5")),
+          file(a.out + ".h5", integrator, recorder),
+          duration_(a.duration) {
+        history.time.resize(file.rows());  // what came after the checkpoint comes again
+        for (std::vector<double>& values : history.values) values.resize(file.rows());
+    }
+    void operator()(double time, const std::vector<double>& values) {
+        if (!file.append(time, values)) return;
+        history.time.push_back(time);
+        for (std::size_t i = 0; i < values.size(); ++i) history.values[i].push_back(values[i]);
+        const double now = watch_.elapsed().wall;
+        if (now < told_ + 0.2) return;
+        told_ = now;
+        progress(text("\rtime ", std::round(time * 10) / 10, " of ", duration_, " s   "));
+    }
+
+    solvers::History history;
+    RowFile file;
+
+private:
+    double duration_, told_ = 0;
+    Stopwatch watch_;
+};
+
+/// Records at equal steps from `from`, as far as they are not past, to `to`.
+inline solvers::Advance record(solvers::Integrator& integrator, solvers::Recorder& recorder, double from, double to,
+                               double step, Rows& rows) {
+    std::vector<double> times = solvers::sample_times(from, to, step);
+    times.erase(times.begin(), std::ranges::lower_bound(times, integrator.time()));
+    solvers::Advance result = solvers::record(
+        integrator, recorder, times, [&](double time, const std::vector<double>& values) { rows(time, values); });
+    if (result.end == solvers::Advance::End::failed) throw NumericalError(result.message);
+    return result;
+}
+
+/// Endings of everything a run leaves behind.
+inline const std::initializer_list<const char*> simulation_outputs{".h5", ".svg", ".png", "_energy.png",
+                                                                   "_spectrum.png"};
+
+/// Coordinates of the platform, if there is one, that are not at rest.
+inline std::vector<std::string> platform_motions(const solvers::History& history) {
+    std::vector<std::string> moving;
+    for (const char* which : {"surge", "sway", "heave", "roll", "pitch", "yaw"}) {
+        const std::string name = text("platform ", which);
+        const auto channel = std::ranges::find(history.channels, name, &Channel::name);
+        if (channel == history.channels.end()) continue;
+        const auto [least, most] = std::ranges::minmax(history[name]);
+        if (least < most) moving.push_back(name);
+    }
+    return moving;
+}
+
+/// Closes the file, draws the pictures and says what there is.
+/// @param complete      the run came to its end
+/// @param spectra_from  s; the spectra are those of the stretch from there to the end
+inline void write_outputs(Rows& rows, const std::string& prefix, bool complete, double spectra_from) {
+    rows.file.close(complete);
+    const solvers::History& history = rows.history;
+    std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << history.channels.size()
+              << " channels)";
+    if (history.time.size() > 1) {
+        std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(platform_motions(history));
+        panels.insert(panels.end(), {{{"RotSpeed"}},
+                                     {{"BldPitch1"}},
+                                     {{"GenTq", "RotTorq"}},
+                                     {{"TTDspFA", "TTDspSS"}},
+                                     {{"TwrBsMyt", "TwrBsMxt"}},
+                                     {{"RootMyb1", "RootMxb1"}}});
+        for (const char* ending : {".svg", ".png"}) solvers::plot(history, panels, prefix + ending);
+        solvers::plot_energies(history, prefix + "_energy.png");
+        std::cout << ", .svg, .png, _energy.png";
+        const std::vector<solvers::HistoryPanel> spectra{{{"YawBrTAxp", "YawBrTAyp"}}, {{"RootMyb1", "RootMxb1"}}};
+        if (plot_spectra(history, spectra, prefix + "_spectrum.png",
+                         {.from = spectra_from, .rotor_speed = history["RotSpeed"].back(), .max_frequency_hz = 8}))
+            std::cout << ", _spectrum.png";
+    }
+    std::cout << "\n";
+}
+
+/// Powers of the machine's elements as recorded, added up over time: all but that of the thrust.
+inline double recorded_work(const solvers::History& history) {
+    double work =
+        integral(history, "rotor load power") - integral(history, "generator power") - integral(history, "brake power");
+    for (int k = 1; k <= 3; ++k) work += integral(history, text("blade ", k, " pitch drive power"));
+    return work;
+}
+
+/// The theorem of energy, twice: what the integration has lost, and recorded powers against the work that it has added
+/// up: those of the machine's elements against the work of all forces without potential. On a platform that moves the
+/// thrust does work as well; then it is the drives of the platform against theirs. Trapezoids are wrong by half an
+/// output step at every jump of a power.
+inline bool check_energy(solvers::Integrator& integrator, const solvers::History& history,
+                         const SimulationArguments& a) {
+    const solvers::EnergyBalance end = integrator.energy();
+    const double scale = largest(history, "kinetic energy").value;
+    std::printf("\n");
+    const bool closes = check_energy(end, scale, 10 * a.tolerance);
+    const std::vector<std::string> moving = platform_motions(history);
+    if (moving.empty())
+        return check("recorded powers against the work of all loads, likewise",
+                     (recorded_work(history) - end.loads) / scale, a.step / 4) &&
+               closes;
+    double work = 0;
+    for (const std::string& name : moving) work += integral(history, name + " drive", name + " rate");
+    return check("recorded powers of the platform's drives against their work", (work - end.drives) / scale,
+                 a.step / 4) &&
+           closes;
+}
+
+}  // namespace cardan::program

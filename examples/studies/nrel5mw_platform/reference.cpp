@@ -1,0 +1,177 @@
+#include "examples/studies/nrel5mw_platform/reference.hpp"
+
+#include "mbs/error.hpp"
+#include "mbs/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace cardan::platform {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int highest = 5;  // harmonic of the references
+
+// What the reference is good for, and the goal: 0.5 % and 1 deg of every harmonic above 0.01 m. Smaller ones, and the
+// harmonics of moments below 1 % of the largest one, are shown only.
+constexpr double goal = 0.005, goal_phase = 1, resolution = 5e-5;  // relative, deg, m
+
+bool is_length(std::size_t signal) {
+    return signal < 2;
+}
+
+double largest_amplitude(const ReferenceSignal& r) {
+    double largest = 0;
+    for (const ReferenceHarmonic& h : r.harmonics) largest = std::max(largest, h.amplitude);
+    return largest;
+}
+
+bool counts(const ReferenceSignal& r, const ReferenceHarmonic& h, bool length) {
+    return h.amplitude >= (length ? 0.01 : 0.01 * largest_amplitude(r));
+}
+
+// Error over what is allowed.
+double used_up(double computed, double reference, bool length) {
+    return std::abs(computed - reference) / (goal * std::abs(reference) + (length ? resolution : 0));
+}
+
+double difference(double degrees, double from) {
+    return std::remainder(degrees - from, 360);
+}
+
+class Table {
+public:
+    explicit Table(int count) : count_(count) {}
+
+    void heading() const {
+        std::cout << std::left << std::setw(22) << "" << std::right << std::setw(10) << "mean" << std::setw(10) << "max"
+                  << std::setw(10) << "min";
+        for (int k = 1; k <= count_; ++k) std::cout << std::setw(10) << text("A", k) << std::setw(11) << "(phase)";
+        std::cout << "\n";
+    }
+    void computed(const char* name, const Harmonics& h, double unit) const {
+        row(name);
+        for (double value : {h.mean, h.max, h.min}) number(value / unit, 10);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
+            number(h.amplitude[k] / unit, 10);
+            angle(h.phase[k] * units::to_degrees);
+        }
+        std::cout << "\n";
+    }
+    void reference(const ReferenceSignal& r) const {
+        row("  reference");
+        for (double value : {r.mean, r.max, r.min}) number(value, 10);
+        each(r, [&](const ReferenceHarmonic& h) {
+            number(h.amplitude, 10);
+            angle(h.phase);
+        });
+    }
+    void errors(const ReferenceSignal& r, const Harmonics& h, double unit) const {
+        row("  error, % (deg)");
+        for (auto [value, exact] : {std::pair(h.mean, r.mean), std::pair(h.max, r.max), std::pair(h.min, r.min)})
+            percent(value / unit / exact - 1, 10);
+        each(r, [&](const ReferenceHarmonic& exact) {
+            const auto i = static_cast<std::size_t>(exact.k - 1);
+            percent(h.amplitude[i] / unit / exact.amplitude - 1, 10);
+            angle(difference(h.phase[i] * units::to_degrees, exact.phase));
+        });
+    }
+
+private:
+    static void row(const char* name) { std::cout << std::left << std::setw(22) << name << std::right; }
+    static void number(double value, int width) {
+        std::cout << std::defaultfloat << std::setprecision(4) << std::setw(width) << value;
+    }
+    static void percent(double value, int width) {
+        std::cout << std::fixed << std::setprecision(2) << std::showpos << std::setw(width) << 100 * value
+                  << std::noshowpos;
+    }
+    static void angle(double degrees) {
+        std::ostringstream out;
+        if (std::isfinite(degrees)) out << "(" << std::fixed << std::setprecision(2) << degrees << ")";
+        std::cout << std::setw(11) << out.str();
+    }
+    template <class Show>
+    void each(const ReferenceSignal& r, Show&& show) const {
+        for (int k = 1; k <= count_; ++k) {
+            const auto known = std::ranges::find(r.harmonics, k, &ReferenceHarmonic::k);
+            if (known != r.harmonics.end())
+                show(*known);
+            else
+                std::cout << std::setw(21) << "";
+        }
+        std::cout << "\n";
+    }
+    int count_;
+};
+
+// The worst of what counts.
+double worst(const ReferenceSignal& r, const Harmonics& h, double unit, bool length) {
+    double used = 0;
+    for (auto [value, exact] : {std::pair(h.mean, r.mean), std::pair(h.max, r.max), std::pair(h.min, r.min)})
+        used = std::max(used, used_up(value / unit, exact, length));
+    for (const ReferenceHarmonic& exact : r.harmonics) {
+        if (!counts(r, exact, length)) continue;
+        const auto i = static_cast<std::size_t>(exact.k - 1);
+        used = std::max(used, used_up(h.amplitude[i] / unit, exact.amplitude, length));
+        if (std::isfinite(exact.phase))
+            used = std::max(used, std::abs(difference(h.phase[i] * units::to_degrees, exact.phase)) / goal_phase);
+    }
+    return used;
+}
+
+}  // namespace
+
+// Converged by a method that shares nothing with the joint chain; good to 0.05 % or 5e-5 m.
+const std::vector<ReferenceCase>& reference_cases() {
+    static const std::vector<ReferenceCase> cases{
+        {"none",
+         1,
+         {{{0.4004, 0.4892, 0.3101, {{1, 0.08952, -112.9}, {2, 0.00158, unknown}}},
+           {0.05080, 0.4951, -0.3934, {{1, 0.4443, -91.21}, {2, 0.00190, unknown}}},
+           {1084, 1217, 950.6, {{1, 133.2, 179.9}}},
+           {-5.71, 3614, -3626, {{1, 3620, 89.56}}}}}},
+        {"pitch",
+         2,
+         {{{0.3985,
+            1.309,
+            -0.5369,
+            {{1, 0.6380, 89.69}, {2, 0.08881, -114.3}, {3, 0.4941, 89.85}, {5, 0.0112, unknown}}},
+           {0.05100, 0.5349, -0.4676, {{1, 0.05079, 74.65}, {2, 0.4369, -91.22}, {3, 0.04199, 106.1}}},
+           {1078, 3348, -1257, {{1, 1987, 89.93}, {2, 138.1, 179.9}, {3, 1180, 89.76}}},
+           {-5.89, 3721, -3714, {{1, 107.7, -179.8}, {2, 3559, 89.56}, {3, 100.9, -9.3}}}}}}};
+    return cases;
+}
+
+const std::array<SignalName, signals>& signal_names() {
+    static const std::array<SignalName, signals> names{{{"blade 1 tip flap deflection", "tip flap w, m", 1},
+                                                        {"blade 1 tip edge deflection", "tip edge v, m", 1},
+                                                        {"blade 1 root My", "root My, kN m", 1000},
+                                                        {"blade 1 root Mz", "root Mz, kN m", 1000}}};
+    return names;
+}
+
+double print_signals(const solvers::History& period, int count, const ReferenceCase* reference) {
+    const Table table(count);
+    table.heading();
+    double used = 0;
+    for (std::size_t i = 0; i < signals; ++i) {
+        const SignalName& signal = signal_names().at(i);
+        const Harmonics h = harmonics(period[signal.channel], std::max(count, highest));
+        table.computed(signal.name, h, signal.unit);
+        if (!reference) continue;
+        const ReferenceSignal& exact = reference->by_signal.at(i);
+        table.reference(exact);
+        table.errors(exact, h, signal.unit);
+        used = std::max(used, worst(exact, h, signal.unit, is_length(i)));
+    }
+    return used;
+}
+
+}  // namespace cardan::platform
