@@ -115,7 +115,7 @@ double mixed_buckling(const BeamLine& line, int elements) {
     const double unit = beam.scales().force;
     setting.force = {-unit, 0, 0};
     const Matrix loaded = mixed_pencil(beam, setting, mixed_steady_state(beam, setting).x).A;
-    const Eigen::EigenSolver<Matrix> solver(at_rest.fullPivLu().solve(at_rest - loaded), false);
+    const Eigen::EigenSolver<Matrix> solver(Matrix(at_rest.partialPivLu().solve(Matrix(at_rest - loaded))), false);
     double largest = 0;
     for (const Complex& value : solver.eigenvalues())
         if (std::abs(value.imag()) < 1e-6 * std::abs(value)) largest = std::max(largest, value.real());
