@@ -106,4 +106,22 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot_of_support() const 
     return pivot;
 }
 
+// A massless leaf is legal if it is driven or carries an armature, and a body with mass can still be singular, so it is
+// the metric of the unknowns that is looked at.
+void Model::check_metric() const {
+    Workspace workspace(*this);
+    ForwardDynamics dynamics(*this);
+    const auto pivot = dynamics.singular_pivot(kinematics(*this, workspace.zero, workspace));
+    if (!pivot) return;
+    const int at = pivot->index;
+    const bool negative = pivot->value < -1e-12 * pivot->scale;
+    throw InputError(text(negative ? "indefinite" : "singular", " metric: coordinate '", coordinates_[at].name,
+                          "' of body '", body(at).name, "' has ", negative ? "negative" : "no",
+                          " inertia of its own (pivot ", pivot->value, ", scale ", pivot->scale,
+                          "; allowed: pivot > 1e-12 scale). ",
+                          negative ? "A negative armature is larger than the inertia that it takes from"
+                                   : "Give the bodies that it carries mass or inertia about its axis, add an "
+                                     "armature, or drive it"));
+}
+
 }  // namespace cardan

@@ -2,7 +2,7 @@
 /// Modes of a rotor with three and more blades under gravity: multi-blade system averaged over the azimuth.
 #pragma once
 
-#include "solvers/campbell.hpp"
+#include "mbs/rotor_map.hpp"
 #include "solvers/coleman.hpp"
 #include "solvers/modes.hpp"
 

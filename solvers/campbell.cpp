@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -328,13 +327,6 @@ Campbell Sweep::finish(const RotorMap& rotor, const std::vector<const PointMetho
 }
 
 }  // namespace
-
-std::vector<int> rotor_multiples(int blades) {
-    if (blades == 2) return {1, 2, 4, 6};
-    std::set<int> n{1, 2, 3};
-    for (int k = 1; k <= 4 && blades > 0; ++k) n.insert(k * blades);
-    return {n.begin(), n.end()};
-}
 
 std::vector<double> rpm_range(double first, double last, double step) {
     if (!std::isfinite(first) || !std::isfinite(last) || !std::isfinite(step) || !(step > 0) || last < first)

@@ -4,6 +4,7 @@
 
 #include "solvers/floquet_mode.hpp"
 #include "solvers/identify.hpp"
+#include "solvers/rotor_spin.hpp"
 
 #include <functional>
 #include <limits>
@@ -15,9 +16,6 @@ namespace cardan::solvers {
 /// Rotor speeds first, first + step, ... up to last (kept if reached within 1e-9 step), rev/min -> rad/s.
 /// @throws InputError: NaN, step not positive, last below first, more than 100000 speeds.
 std::vector<double> rpm_range(double first, double last, double step);
-
-/// The spin coordinate of the rotor: free in the linearised system (its zero pair is left out), or prescribed.
-enum class RotorSpin : std::uint8_t { free, prescribed };
 
 /// Frequencies in which frame.
 enum class CampbellMethod : std::uint8_t {
@@ -196,10 +194,6 @@ struct CampbellCase {
 /// or component modes have other names than those of the first, or a neighbour in the options
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter,
                   const CampbellOptions& options = {});
-
-/// Multiples n of the rotor speed that are drawn and looked for crossings: 1, 2, 3 and B, 2B, 3B, 4B; of two blades 1,
-/// 2, 4, 6.
-std::vector<int> rotor_multiples(int blades);
 
 /// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings, for a
 /// terminal.

@@ -4,7 +4,7 @@
 
 #include "mbs/forces.hpp"
 #include "mbs/workspace.hpp"
-#include "solvers/steady_state.hpp"
+#include "solvers/operating_point.hpp"
 
 namespace cardan::solvers {
 

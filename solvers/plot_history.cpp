@@ -1,10 +1,10 @@
 #include "solvers/plot_history.hpp"
 
 #include "mbs/error.hpp"
-#include "solvers/campbell.hpp"
 #include "solvers/envelope.hpp"
 #include "solvers/plot_gnuplot.hpp"
 #include "solvers/plot_stack.hpp"
+#include "solvers/rotor_spin.hpp"
 #include "solvers/sampling.hpp"
 
 #include <algorithm>

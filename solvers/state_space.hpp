@@ -5,9 +5,9 @@
 #include "mbs/channel.hpp"
 #include "mbs/rotor_map.hpp"
 #include "mbs/system.hpp"
-#include "solvers/campbell.hpp"
 #include "solvers/linear_model.hpp"
 #include "solvers/periodic.hpp"
+#include "solvers/rotor_spin.hpp"
 
 #include <utility>
 

@@ -4,17 +4,12 @@
 
 #include "mbs/rotor_map.hpp"
 #include "mbs/system.hpp"
+#include "solvers/operating_point.hpp"
 
 #include <memory>
 #include <string>
 
 namespace cardan::solvers {
-
-/// Position, velocity and acceleration of all coordinates at a time.
-struct OperatingPoint {
-    Vector q, qd, qdd;
-    double time = 0;
-};
 
 struct SteadyOptions {
     double rotor_speed = 0;    ///< rate of the spin coordinate, rad/s

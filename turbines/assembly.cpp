@@ -5,7 +5,7 @@
 #include "mbs/summary.hpp"
 #include "turbines/assembler.hpp"
 #include "turbines/assembly_settings.hpp"
-#include "turbines/description_yaml.hpp"
+#include "turbines/description_text.hpp"
 
 namespace cardan::turbines {
 
