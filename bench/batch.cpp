@@ -1,9 +1,9 @@
 // Many states on one thread and on two: the ratio of the two times is the speed-up. Both in turn, so that the ratio
 // holds when the machine's speed drifts.
-#include "mbs/batch.hpp"
+#include "mbs/batch/batch.hpp"
 
 #include "bench/trees.hpp"
-#include "mbs/christoffel.hpp"
+#include "mbs/kernels/christoffel.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // Campbell sweeps of the 600 kW and the NREL 5 MW machine against their dense eigenvalue solutions alone: the ratio of
 // the two times is what the linearisation, the steady states, the identification and the tracking cost on top.
-#include "solvers/campbell_point.hpp"
-#include "turbines/nrel5mw_machine.hpp"
-#include "turbines/wt600.hpp"
+#include "solvers/campbell/point.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
 

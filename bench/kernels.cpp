@@ -1,9 +1,9 @@
 // Kernels on the tree of the 600 kW machine (70 coordinates with 3 elements per part; 3 or 12 elements).
-#include "mbs/christoffel.hpp"
-#include "mbs/curvature.hpp"
-#include "mbs/derivatives.hpp"
-#include "mbs/forward_derivatives.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/geometry/curvature.hpp"
+#include "mbs/kernels/christoffel.hpp"
+#include "mbs/kernels/derivatives.hpp"
+#include "mbs/system/forward_derivatives.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // The kernels beside Simbody on the same trees. Both are timed in turn, so that the ratios hold when the machine's
 // speed drifts; the ratio is that of the shortest times. A table at the end puts the ratios beside the aims.
 #include "bench/trees.hpp"
-#include "mbs/christoffel.hpp"
-#include "mbs/derivatives.hpp"
+#include "mbs/kernels/christoffel.hpp"
+#include "mbs/kernels/derivatives.hpp"
 #include "tests/peers/peer_links.hpp"
 #include "tests/peers/simbody_peer.hpp"
 

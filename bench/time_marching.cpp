@@ -2,12 +2,12 @@
 // and of the NREL 5 MW machine (12.1 rpm; 8 elements), beside one evaluation of forward dynamics of the same model in
 // the same run. "x real time" depends on the machine; "step / forward dynamics" and "second / forward dynamics" (per
 // second of simulated time) are the figures to keep.
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "solvers/integrate.hpp"
-#include "solvers/steady_state.hpp"
-#include "turbines/nrel5mw_machine.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/time/integrate.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -2,8 +2,8 @@
 /// Trees for benchmarks. Joint axes point every way and no number is special, so that no engine is favoured.
 #pragma once
 
-#include "mbs/error.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/base/error.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include <Eigen/Geometry>
 

@@ -12,13 +12,10 @@ if(programs)
 endif()
 install(EXPORT cardanTargets NAMESPACE cardan:: DESTINATION ${package_dir})
 
-foreach(folder IN ITEMS mbs elements turbines solvers)
-    file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-    # Inside of the libraries: most of these need headers of HDF5, urdfdom or yaml-cpp.
-    list(FILTER headers EXCLUDE REGEX "(assembler|description_yaml_(fields|node|tree)|windio_beams|hdf5_(checks|driver|impl|storage|structure|text|journal|journal_driver|history_(impl|writer))|urdf_(impl|plan|vocabulary)|newton_matrix|plot_campbell_style|shifted_schur|state_space_impl|stepper(_sundials)?|sundials_memory)[.]hpp$")
-    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/${folder})
-endforeach()
-install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/mbs)
+# All headers but those in detail/, which are the inside of the libraries.
+install(DIRECTORY mbs elements turbines solvers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/base/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/mbs/base)
 
 file(GLOB data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/turbines/data/*.csv)
 install(FILES ${data} DESTINATION ${CMAKE_INSTALL_DATADIR}/cardan/data)

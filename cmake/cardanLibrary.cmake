@@ -18,21 +18,34 @@ function(cardan_precompile target)
             <span>
             <string>
             <vector>
-            ${PROJECT_SOURCE_DIR}/mbs/decompositions.hpp
-            ${PROJECT_SOURCE_DIR}/mbs/system.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/base/decompositions.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/system/system.hpp
             ${arg_HEADERS})
     endif()
 endfunction()
 
-# cardan_add_library(<name> SOURCES <files> [PUBLIC <targets>] [PRIVATE <targets>])
+# cardan_rooms(<out> <room>...): the sources of rooms, which are folders below the current one; detail/ is what is inside.
+function(cardan_rooms out)
+    set(sources "")
+    foreach(room IN LISTS ARGN)
+        file(GLOB found CONFIGURE_DEPENDS ${room}/*.cpp ${room}/detail/*.cpp)
+        list(APPEND sources ${found})
+    endforeach()
+    set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
+# cardan_add_library(<name> [ROOMS <folders>] [SOURCES <files>] [PUBLIC <targets>] [PRIVATE <targets>])
 #
-# Makes the target cardan_<name>, alias and export name cardan::<name>. Without sources it is an INTERFACE library.
-# Headers are included as "<folder>/<file>.hpp": from the root of the source tree, or from include/cardan installed.
+# Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms. Without any it is a
+# name for several libraries. Headers are included as "<folder>/<room>/<file>.hpp": from the root of the source tree, or
+# from include/cardan installed.
 function(cardan_add_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;SOURCES;PUBLIC;PRIVATE")
     set(target cardan_${name})
-    if(arg_SOURCES)
-        add_library(${target} ${arg_SOURCES})
+    cardan_rooms(sources ${arg_ROOMS})
+    list(APPEND sources ${arg_SOURCES})
+    if(sources)
+        add_library(${target} ${sources})
         set(public PUBLIC)
         target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:cardan_warnings>)
         if(name STREQUAL "mbs")
@@ -45,8 +58,7 @@ function(cardan_add_library name)
         set(public INTERFACE)
     endif()
     add_library(cardan::${name} ALIAS ${target})
-    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS OFF)
     target_compile_features(${target} ${public} cxx_std_20)
     target_include_directories(
         ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>

@@ -2,9 +2,9 @@
 /// What the programs that compute Campbell diagrams have in common.
 #pragma once
 
-#include "solvers/campbell_csv.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "solvers/plot_campbell.hpp"
+#include "solvers/campbell/csv.hpp"
+#include "solvers/hdf5/campbell.hpp"
+#include "solvers/pictures/campbell.hpp"
 
 #include "examples/shared/program.hpp"
 #include <cctype>

@@ -2,7 +2,7 @@
 //
 // Reference: docs/file_formats.md, section "Time history". Files that a program is writing at the moment can be looked
 // at and exported as well; nothing but `repair` changes a file.
-#include "solvers/hdf5_history.hpp"
+#include "solvers/hdf5/history.hpp"
 
 #include "examples/shared/program.hpp"
 #include <cerrno>

@@ -8,9 +8,9 @@
 // Reference: OpenFAST 5.0.0 at these speeds, with ElastoDyn's and with BeamDyn's blades, its yaw bearing locked
 // (docs/nrel5mw.md): the same machine is --yaw locked with --variant fast or beamdyn. Found: the differences are those
 // of ElastoDyn's shapes and sums, and of BeamDyn's one element of order 5.
-#include "mbs/error.hpp"
-#include "turbines/nrel5mw_machine.hpp"
-#include "turbines/scaling.hpp"
+#include "mbs/base/error.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/model/scaling.hpp"
 
 #include "examples/programs/campbell_program.hpp"
 #include "examples/programs/nrel5mw_campbell/comparison.hpp"

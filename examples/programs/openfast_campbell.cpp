@@ -6,14 +6,14 @@
 // steady state is periodic and the modes are those of the mean over the azimuth, with two blades they are Floquet's.
 // What the files hold beside the structure, and what is taken otherwise than in the program they were made for, is
 // printed as notes. Frames, signs, and what is read: docs/coming_from_openfast.md.
-#include "mbs/error.hpp"
-#include "mbs/text_file.hpp"
-#include "mbs/units.hpp"
-#include "solvers/campbell_difference.hpp"
-#include "turbines/assembly.hpp"
-#include "turbines/description_yaml.hpp"
-#include "turbines/openfast.hpp"
-#include "turbines/windio.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/text_file.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/campbell/difference.hpp"
+#include "turbines/model/assembly.hpp"
+#include "turbines/readers/openfast.hpp"
+#include "turbines/yaml/description.hpp"
+#include "turbines/yaml/windio.hpp"
 
 #include "examples/programs/campbell_program.hpp"
 #include <algorithm>

@@ -2,13 +2,12 @@
 //
 // Reads histories in HDF5, and tables whose first column is the time: time[s],blade 1 tip flap deflection[m],rotor
 // speed[rad s-1] ...
-#include "solvers/plot_history.hpp"
-
-#include "mbs/error.hpp"
-#include "mbs/types.hpp"
-#include "solvers/hdf5_history.hpp"
-#include "solvers/sampling.hpp"
-#include "turbines/csv.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/types.hpp"
+#include "solvers/hdf5/history.hpp"
+#include "solvers/pictures/history.hpp"
+#include "solvers/signals/sampling.hpp"
+#include "turbines/readers/csv.hpp"
 
 #include "examples/shared/history_parts.hpp"
 #include "examples/shared/program.hpp"

@@ -2,8 +2,8 @@
 /// What the programs about the two-bladed teetered machine have in common: the machine and its periodic system.
 #pragma once
 
-#include "mbs/units.hpp"
-#include "turbines/teetered.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/machines/teetered.hpp"
 
 #include "examples/programs/campbell_program.hpp"
 #include <optional>

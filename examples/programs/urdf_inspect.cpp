@@ -5,11 +5,11 @@
 //     g(q0) x'' + D x' + K x = 0,   K = diag(stiffness), D = diag(damping of the file),
 // with the metric g. Natural frequencies are |lambda| / (2 pi) of its eigenvalues.
 // Reference: docs/urdf.md; the tests hold metric and poses against hand calculation.
-#include "mbs/metric.hpp"
-#include "mbs/summary.hpp"
-#include "mbs/units.hpp"
-#include "mbs/urdf.hpp"
-#include "solvers/modes.hpp"
+#include "mbs/base/units.hpp"
+#include "mbs/kernels/metric.hpp"
+#include "mbs/model/summary.hpp"
+#include "mbs/urdf/urdf.hpp"
+#include "solvers/linear/modes.hpp"
 
 #include "examples/shared/named_values.hpp"
 #include "examples/shared/program.hpp"

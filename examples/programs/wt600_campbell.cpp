@@ -4,10 +4,10 @@
 // its steady state and linearised, M x'' + (C + G) x' + K x = 0; the multi-blade transformation makes the equations
 // constant, their eigenvalues are the natural frequencies and damping ratios in the fixed frame.
 // Reference: the values with 3 elements per blade and tower in docs/wt600.md.
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "solvers/campbell_difference.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/campbell/difference.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include "examples/programs/campbell_program.hpp"
 #include "examples/programs/wt600_generator_option.hpp"

@@ -3,9 +3,9 @@
 // Problem: the machine runs at rated power, 32.9 rpm, with its converter. The grid is lost, the generator's torque
 // vanishes, the rotor speeds up. At the overspeed limit all blades are ordered to feather; below a speed, or after a
 // delay, the brake is applied until the rotor stands. Equations of motion g q'' + Gamma q' q' = Q with gravity and a
-// prescribed load on the rotor (no aerodynamics, see elements/rotor_load.hpp).
+// prescribed load on the rotor (no aerodynamics, see elements/machine/rotor_load.hpp).
 // Checks: the theorem of energy, by the integration and by the recorded powers; the order of events; standstill.
-#include "mbs/units.hpp"
+#include "mbs/base/units.hpp"
 
 #include "examples/programs/wt600_simulation.hpp"
 

@@ -2,10 +2,10 @@
 /// The option --generator of the programs that linearise the 600 kW machine.
 #pragma once
 
-#include "mbs/error.hpp"
-#include "solvers/campbell.hpp"
-#include "turbines/generator_slip.hpp"
-#include "turbines/wt600_operation.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "turbines/machines/wt600_operation.hpp"
+#include "turbines/model/generator_slip.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include <string>

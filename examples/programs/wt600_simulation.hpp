@@ -2,10 +2,10 @@
 /// What the programs that simulate the 600 kW machine have in common: options, starts, rows, pictures.
 #pragma once
 
-#include "mbs/dynamics.hpp"
-#include "mbs/units.hpp"
-#include "solvers/steady_state.hpp"
-#include "turbines/wt600_operation.hpp"
+#include "mbs/base/units.hpp"
+#include "mbs/kernels/dynamics.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "turbines/machines/wt600_operation.hpp"
 
 #include "examples/shared/simulation.hpp"
 

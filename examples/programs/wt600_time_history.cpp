@@ -4,11 +4,11 @@
 // three times its speed (the tower's shadow falls on every blade in turn) passes the first frequency of the tower.
 // --mode fixed: the induction generator (Kloss' law) is connected to the grid when it reaches the synchronous speed;
 // --mode variable: a converter loads it by a table of torque over speed. Gravity and a prescribed load on the rotor (no
-// aerodynamics, see elements/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
+// aerodynamics, see elements/machine/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
 // Checks: the theorem of energy, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
-#include "mbs/units.hpp"
-#include "solvers/campbell.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/campbell/diagram.hpp"
 
 #include "examples/programs/wt600_simulation.hpp"
 #include "examples/shared/motion_option.hpp"

@@ -1,6 +1,6 @@
 #include "examples/shared/command_line.hpp"
 
-#include "mbs/version.hpp"
+#include "mbs/base/version.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -2,7 +2,7 @@
 /// Parts of recorded histories: some channels, a stretch of time, equal steps.
 #pragma once
 
-#include "solvers/sampling.hpp"
+#include "solvers/signals/sampling.hpp"
 
 #include <limits>
 #include <string>

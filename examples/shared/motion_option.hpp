@@ -2,9 +2,9 @@
 /// Options such as --pitch mean=0,amplitude=5,period=10,phase=0: prescribed motions on the command line.
 #pragma once
 
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "solvers/motion.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/time/motion.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include "examples/shared/named_values.hpp"

@@ -2,8 +2,8 @@
 /// Options such as --q elbow=0.5: numbers by name, or one number for all.
 #pragma once
 
-#include "mbs/coordinates.hpp"
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/model/coordinates.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -2,8 +2,8 @@
 /// What the programs have in common: signals, errors and exit codes, progress, a first look at the output files.
 #pragma once
 
-#include "mbs/error.hpp"
-#include "mbs/pending_file.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include <atomic>

@@ -3,11 +3,11 @@
 /// pictures.
 #pragma once
 
-#include "mbs/types.hpp"
-#include "mbs/units.hpp"
-#include "solvers/hdf5_history.hpp"
-#include "solvers/plot_history.hpp"
-#include "solvers/recorder.hpp"
+#include "mbs/base/types.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/hdf5/history.hpp"
+#include "solvers/pictures/history.hpp"
+#include "solvers/time/recorder.hpp"
 
 #include "examples/shared/history_parts.hpp"
 #include "examples/shared/program.hpp"

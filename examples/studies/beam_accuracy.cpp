@@ -6,8 +6,8 @@
 // order of each, error ~ C / N^order.
 // Reference: closed forms and digits of docs/verification.md; where there are none, Hermite elements with all breaks as
 // nodes, extrapolated, in extended precision (docs/beam_accuracy.md). A list of orders and errors is checked.
-#include "mbs/error.hpp"
-#include "mbs/pending_file.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
 
 #include "examples/shared/program.hpp"
 #include "examples/studies/beam_accuracy/figure.hpp"

@@ -6,13 +6,13 @@
 // Reference: converged frequencies of the same blade by a method that shares nothing with the joint chain, exact to
 // 1e-4 Hz (docs/nrel5mw_blade.md). Goals on 1st flap, 1st edge and 2nd flap: 0.1 % with 16 equal elements, 0.5 % with 8
 // refined ones.
-#include "elements/centrifugal_limit.hpp"
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "mbs/version.hpp"
-#include "solvers/campbell_csv.hpp"
-#include "solvers/plot_blade_shapes.hpp"
-#include "turbines/nrel5mw.hpp"
+#include "elements/cardan_beam/centrifugal_limit.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "mbs/base/version.hpp"
+#include "solvers/campbell/csv.hpp"
+#include "solvers/pictures/blade_shapes.hpp"
+#include "turbines/machines/nrel5mw_blade.hpp"
 
 #include "examples/shared/program.hpp"
 #include <array>

@@ -8,7 +8,7 @@
 // Reference: converged response of the same blade by a method that shares nothing with the joint chain, without
 // platform motion and with a pitch of 5 degrees at half the rotor's frequency (docs/nrel5mw_platform.md).
 // Goal: 0.5 % and 1 degree on every harmonic above 0.01 m with 16 elements.
-#include "mbs/units.hpp"
+#include "mbs/base/units.hpp"
 
 #include "examples/shared/motion_option.hpp"
 #include "examples/shared/simulation.hpp"

@@ -1,6 +1,6 @@
 // Beams that must be refused: what, where, the value, what is allowed.
-#include "elements/cardan_beam.hpp"
-#include "tests/elements/cantilever.hpp"
+#include "elements/cardan_beam/cardan_beam.hpp"
+#include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 

@@ -3,7 +3,7 @@
 /// of a reader (another exception, a report of the sanitizers, a crash, a hang) is a finding.
 #pragma once
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <cstddef>
 #include <cstdint>

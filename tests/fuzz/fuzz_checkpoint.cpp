@@ -1,6 +1,6 @@
 // A checkpoint of any numbers: a motion goes on from it, ends with a reason, or is refused.
-#include "mbs/tree.hpp"
-#include "solvers/integrate.hpp"
+#include "mbs/model/tree.hpp"
+#include "solvers/time/integrate.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "tests/fuzz/fuzz.hpp"
-#include "turbines/assembly.hpp"
-#include "turbines/description_yaml.hpp"
+#include "turbines/model/assembly.hpp"
+#include "turbines/yaml/description.hpp"
 
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
 // An input of triples (place, place, byte) changes a good history at these places; one that begins as an HDF5 file does
 // is taken as it is.
-#include "solvers/hdf5_history.hpp"
+#include "solvers/hdf5/history.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 #include <iterator>

@@ -1,7 +1,7 @@
 // The first byte says which of the eight files of a model the rest replaces; the others are those of tests/data.
 #include "tests/fuzz/fuzz.hpp"
-#include "turbines/assembly.hpp"
-#include "turbines/openfast.hpp"
+#include "turbines/model/assembly.hpp"
+#include "turbines/readers/openfast.hpp"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "mbs/urdf.hpp"
+#include "mbs/urdf/urdf.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 #include "tests/fuzz/fuzz.hpp"
-#include "turbines/assembly.hpp"
-#include "turbines/windio.hpp"
+#include "turbines/model/assembly.hpp"
+#include "turbines/yaml/windio.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace cardan;

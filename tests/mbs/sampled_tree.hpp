@@ -1,7 +1,7 @@
 // A random tree at a random state, with some coordinates driven if asked for.
 #pragma once
 
-#include "mbs/metric.hpp"
+#include "mbs/kernels/metric.hpp"
 #include "tests/support/random_tree.hpp"
 
 namespace cardan::testing {

@@ -1,7 +1,7 @@
 // What a description must not contain is refused with a message that names the place and the value; what looks odd but
 // is legal is accepted.
-#include "mbs/dynamics.hpp"
-#include "mbs/system.hpp"
+#include "mbs/kernels/dynamics.hpp"
+#include "mbs/system/system.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"

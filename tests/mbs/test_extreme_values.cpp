@@ -1,5 +1,5 @@
 // Finite numbers whose products are none: refused with the quantity and the value.
-#include "mbs/forces.hpp"
+#include "mbs/system/forces.hpp"
 #include "tests/support/refusal.hpp"
 
 using namespace cardan;

@@ -1,5 +1,5 @@
 // A program that needs the kernel only: a pendulum's generalised force.
-#include "mbs/system.hpp"
+#include "mbs/system/system.hpp"
 
 #include <cmath>
 #include <iostream>

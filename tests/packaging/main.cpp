@@ -1,13 +1,13 @@
 // Uses the installed headers and libraries as a stranger would: a description is changed, modes are computed, a file
 // and a picture are written.
-#include "mbs/batch.hpp"
-#include "mbs/error.hpp"
-#include "mbs/version.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "solvers/matio_state_space.hpp"
-#include "solvers/plot_campbell.hpp"
-#include "solvers/state_space.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/version.hpp"
+#include "mbs/batch/batch.hpp"
+#include "solvers/control/state_space.hpp"
+#include "solvers/hdf5/campbell.hpp"
+#include "solvers/matlab/state_space.hpp"
+#include "solvers/pictures/campbell.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include <cmath>
 #include <iostream>

@@ -1,7 +1,7 @@
 // Models of machines as YAML, from the installed package.
-#include "mbs/error.hpp"
-#include "turbines/description_yaml.hpp"
-#include "turbines/windio.hpp"
+#include "mbs/base/error.hpp"
+#include "turbines/yaml/description.hpp"
+#include "turbines/yaml/windio.hpp"
 
 #include <iostream>
 

@@ -1,8 +1,8 @@
 #include "tests/peers/comparison.hpp"
 
-#include "mbs/christoffel.hpp"
-#include "mbs/dynamics.hpp"
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/christoffel.hpp"
+#include "mbs/kernels/dynamics.hpp"
 #include "tests/support/catch.hpp"
 
 #include <algorithm>

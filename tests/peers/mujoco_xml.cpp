@@ -1,5 +1,5 @@
-#include "mbs/decompositions.hpp"
-#include "mbs/spatial.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "mbs/model/spatial.hpp"
 #include "tests/peers/mujoco_peer.hpp"
 
 #include <Eigen/Geometry>

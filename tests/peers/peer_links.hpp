@@ -2,7 +2,7 @@
 /// A model as other engines are given it.
 #pragma once
 
-#include "mbs/model.hpp"
+#include "mbs/model/model.hpp"
 #include "tests/peers/peer.hpp"
 
 namespace cardan::peers {

@@ -1,7 +1,7 @@
 // URDF robots: MuJoCo reads the same text by itself, so that reader, writer and dynamics are all compared.
-#include "mbs/decompositions.hpp"
-#include "mbs/dynamics.hpp"
-#include "mbs/urdf.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "mbs/kernels/dynamics.hpp"
+#include "mbs/urdf/urdf.hpp"
 #include "tests/peers/mujoco_peer.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"

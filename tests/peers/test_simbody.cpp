@@ -2,7 +2,7 @@
 #include "tests/peers/comparison.hpp"
 #include "tests/peers/simbody_peer.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/wt600.hpp"
+#include "turbines/machines/wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::peers;

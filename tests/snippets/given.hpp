@@ -3,9 +3,9 @@
 /// <!-- given: turbine, integrator -->
 #pragma once
 
-#include "solvers/recorder.hpp"
-#include "turbines/channels.hpp"
-#include "turbines/wt600.hpp"
+#include "solvers/time/recorder.hpp"
+#include "turbines/machines/wt600.hpp"
+#include "turbines/model/channels.hpp"
 
 extern const cardan::turbines::Turbine turbine;
 extern std::vector<cardan::solvers::Drive> drives;

@@ -1,9 +1,9 @@
 // Rotors of point masses on hinged arms, whose frequencies are known in closed form.
 #pragma once
 
-#include "mbs/error.hpp"
-#include "solvers/campbell.hpp"
-#include "solvers/linearise.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "solvers/linear/linearise.hpp"
 #include "tests/support/tree_tools.hpp"
 
 #include <algorithm>

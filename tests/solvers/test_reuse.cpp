@@ -1,5 +1,5 @@
 // Solvers that are used again give what fresh ones give: nothing is kept from one call to the next but memory.
-#include "solvers/campbell_point.hpp"
+#include "solvers/campbell/point.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"

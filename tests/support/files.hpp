@@ -2,7 +2,7 @@
 /// For tests that write files: a folder that goes away, a disk that is full, the text of an error.
 #pragma once
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <csignal>
 #include <filesystem>

@@ -2,7 +2,7 @@
 /// What MATLAB files hold, by libmatio.
 #pragma once
 
-#include "mbs/types.hpp"
+#include "mbs/base/types.hpp"
 #include "tests/support/catch.hpp"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 /// Numbers that tests have in common, and how large differences are.
 #pragma once
 
-#include "mbs/types.hpp"
+#include "mbs/base/types.hpp"
 
 #include <cmath>
 #include <limits>

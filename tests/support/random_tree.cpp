@@ -1,6 +1,6 @@
 #include "tests/support/random_tree.hpp"
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <Eigen/Geometry>
 

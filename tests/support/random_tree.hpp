@@ -2,7 +2,7 @@
 /// Random branched trees with prismatic joints and massless intermediate bodies; random states.
 #pragma once
 
-#include "mbs/system.hpp"
+#include "mbs/system/system.hpp"
 
 #include <random>
 

@@ -2,7 +2,7 @@
 /// Files of ours in the hands of other programs: Debian's python3-xarray, python3-netcdf4 and python3-h5netcdf.
 #pragma once
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
 

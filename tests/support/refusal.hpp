@@ -2,7 +2,7 @@
 /// Input that must be refused: the message has to say what, where and which value.
 #pragma once
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
 
 #include <initializer_list>

@@ -2,8 +2,8 @@
 /// Motion of a system by the classical Runge-Kutta method, with the work done on it.
 #pragma once
 
-#include "mbs/dynamics.hpp"
-#include "mbs/system.hpp"
+#include "mbs/kernels/dynamics.hpp"
+#include "mbs/system/system.hpp"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "tests/support/tree_tools.hpp"
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <Eigen/Geometry>
 

@@ -2,7 +2,7 @@
 /// Trees put together from other trees; momentum.
 #pragma once
 
-#include "mbs/kinematics.hpp"
+#include "mbs/kernels/kinematics.hpp"
 
 namespace cardan::testing {
 

@@ -1,9 +1,9 @@
 // Two Campbell diagrams and two motions of one machine at once, each in a thread of its own: the same numbers as one
 // after the other. Under the thread sanitizer (preset `thread`) it also shows that they share nothing that changes.
-#include "mbs/error.hpp"
-#include "solvers/campbell.hpp"
-#include "solvers/integrate.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "solvers/time/integrate.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include <exception>
 #include <iostream>

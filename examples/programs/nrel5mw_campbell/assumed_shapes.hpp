@@ -2,9 +2,9 @@
 /// A multi-blade system whose tower and blades are limited to the shapes of FAST's ElastoDyn.
 #pragma once
 
-#include "solvers/azimuth_average.hpp"
-#include "turbines/assembly.hpp"
-#include "turbines/nrel5mw_shapes.hpp"
+#include "solvers/periodic/azimuth_average.hpp"
+#include "turbines/machines/nrel5mw_shapes.hpp"
+#include "turbines/model/assembly.hpp"
 
 namespace cardan::nrel5mw_campbell {
 

@@ -2,7 +2,7 @@
 /// Frequencies of the NREL 5 MW machine beside those of OpenFAST.
 #pragma once
 
-#include "solvers/mode_names.hpp"
+#include "solvers/campbell/mode_names.hpp"
 
 #include "examples/programs/nrel5mw_campbell/assumed_shapes.hpp"
 #include <array>

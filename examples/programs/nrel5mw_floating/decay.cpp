@@ -1,10 +1,10 @@
 #include "examples/programs/nrel5mw_floating/decay.hpp"
 
-#include "mbs/units.hpp"
-#include "solvers/campbell.hpp"
-#include "solvers/linearise.hpp"
-#include "solvers/mode_names.hpp"
-#include "turbines/channels.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell/mode_names.hpp"
+#include "solvers/linear/linearise.hpp"
+#include "turbines/model/channels.hpp"
 
 #include "examples/shared/named_values.hpp"
 #include "examples/shared/simulation.hpp"

@@ -1,9 +1,9 @@
 #include "examples/programs/nrel5mw_floating/free_modes.hpp"
 
-#include "solvers/campbell_csv.hpp"
-#include "solvers/hdf5_campbell.hpp"
-#include "solvers/mode_names.hpp"
-#include "solvers/plot_campbell.hpp"
+#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell/mode_names.hpp"
+#include "solvers/hdf5/campbell.hpp"
+#include "solvers/pictures/campbell.hpp"
 
 #include "examples/programs/campbell_program.hpp"
 #include "examples/programs/nrel5mw_floating/pairing.hpp"

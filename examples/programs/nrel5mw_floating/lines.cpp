@@ -1,7 +1,7 @@
 #include "examples/programs/nrel5mw_floating/lines.hpp"
 
-#include "mbs/decompositions.hpp"
-#include "mbs/error.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// Frequencies at which a turning machine under gravity answers to motions of its base, and the amplitudes there.
 #pragma once
 
-#include "mbs/types.hpp"
+#include "mbs/base/types.hpp"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "examples/programs/nrel5mw_floating/machine.hpp"
 
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "solvers/periodic.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/periodic/steady_state.hpp"
 
 #include <algorithm>
 

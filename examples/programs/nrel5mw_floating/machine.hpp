@@ -2,8 +2,8 @@
 /// The machines that are set beside each other: on the free spar, on the held spar, on land.
 #pragma once
 
-#include "solvers/steady_state.hpp"
-#include "turbines/oc3_hywind.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "turbines/machines/oc3_hywind.hpp"
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "examples/programs/nrel5mw_floating/motion.hpp"
 
-#include "mbs/units.hpp"
-#include "turbines/channels.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/model/channels.hpp"
 
 #include "examples/programs/nrel5mw_floating/lines.hpp"
 #include "examples/shared/motion_option.hpp"

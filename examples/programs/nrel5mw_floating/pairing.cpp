@@ -1,8 +1,8 @@
 #include "examples/programs/nrel5mw_floating/pairing.hpp"
 
-#include "mbs/error.hpp"
-#include "solvers/assignment.hpp"
-#include "solvers/azimuth_average.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/assignment.hpp"
+#include "solvers/periodic/azimuth_average.hpp"
 
 #include <algorithm>
 

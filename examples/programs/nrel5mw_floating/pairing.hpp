@@ -2,8 +2,8 @@
 /// Which mode of one machine is which of another: by their shapes, since names may change hands where modes meet.
 #pragma once
 
-#include "solvers/campbell.hpp"
-#include "turbines/assembly.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "turbines/model/assembly.hpp"
 
 namespace cardan::floating {
 

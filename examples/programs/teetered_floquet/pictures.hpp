@@ -2,7 +2,7 @@
 /// Mode shapes of the teetered machine in the arrangement of Figs. 3 to 14 of Lee, Hodges and Patil (2002).
 #pragma once
 
-#include "solvers/campbell.hpp"
+#include "solvers/campbell/diagram.hpp"
 
 #include "examples/programs/teetered_floquet/published.hpp"
 #include <filesystem>

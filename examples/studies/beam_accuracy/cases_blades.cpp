@@ -1,8 +1,8 @@
 // Two blades in bending: both planes, coupled by the twist.
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "turbines/nrel5mw.hpp"
-#include "turbines/wt600.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/machines/nrel5mw_blade.hpp"
+#include "turbines/machines/wt600.hpp"
 
 #include "examples/studies/beam_accuracy/cases.hpp"
 #include "examples/studies/beam_accuracy/chain.hpp"

@@ -1,5 +1,5 @@
 // Uniform cantilevers spinning about their root, mass on a line.
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include "examples/studies/beam_accuracy/cases.hpp"
 #include "examples/studies/beam_accuracy/chain.hpp"

@@ -1,13 +1,13 @@
 #include "examples/studies/beam_accuracy/chain.hpp"
 
-#include "elements/mixed_beam.hpp"
-#include "elements/quadrature.hpp"
-#include "mbs/decompositions.hpp"
-#include "mbs/error.hpp"
-#include "mbs/kinematics.hpp"
-#include "solvers/buckling.hpp"
-#include "solvers/load_path.hpp"
-#include "solvers/modes.hpp"
+#include "elements/reference/mixed_beam.hpp"
+#include "elements/sections/quadrature.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/kinematics.hpp"
+#include "solvers/equilibrium/buckling.hpp"
+#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/linear/modes.hpp"
 
 #include "examples/studies/beam_accuracy/corotational.hpp"
 #include <cmath>

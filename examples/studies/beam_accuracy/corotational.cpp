@@ -1,7 +1,7 @@
 #include "examples/studies/beam_accuracy/corotational.hpp"
 
-#include "mbs/decompositions.hpp"
-#include "mbs/error.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
 
 #include <cmath>
 

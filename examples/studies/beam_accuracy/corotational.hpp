@@ -2,7 +2,7 @@
 /// Large plane deflections by cubic elements that turn with their chord.
 #pragma once
 
-#include "elements/section.hpp"
+#include "elements/sections/section.hpp"
 
 namespace cardan::accuracy {
 

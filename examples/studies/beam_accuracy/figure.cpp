@@ -1,7 +1,7 @@
 #include "examples/studies/beam_accuracy/figure.hpp"
 
-#include "mbs/error.hpp"
-#include "solvers/plot_gnuplot.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/pictures/gnuplot.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "examples/studies/beam_accuracy/hermite_beam.hpp"
 
-#include "mbs/decompositions.hpp"
+#include "mbs/base/decompositions.hpp"
 
 #include <Eigen/SparseCholesky>
 

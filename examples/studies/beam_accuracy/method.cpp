@@ -1,6 +1,6 @@
 #include "examples/studies/beam_accuracy/method.hpp"
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <cmath>
 

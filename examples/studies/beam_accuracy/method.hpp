@@ -2,7 +2,7 @@
 /// The ways to discretise a beam that are compared: one line each in method.cpp.
 #pragma once
 
-#include "elements/cardan_beam.hpp"
+#include "elements/cardan_beam/cardan_beam.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "examples/studies/beam_accuracy/shapes.hpp"
 
-#include "elements/quadrature.hpp"
-#include "mbs/decompositions.hpp"
+#include "elements/sections/quadrature.hpp"
+#include "mbs/base/decompositions.hpp"
 
 namespace cardan::accuracy {
 

@@ -1,6 +1,6 @@
 #include "examples/studies/beam_accuracy/study.hpp"
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #include "examples/studies/nrel5mw_assumed_modes/frequencies.hpp"
 
-#include "mbs/error.hpp"
-#include "mbs/spatial.hpp"
-#include "mbs/units.hpp"
-#include "solvers/campbell.hpp"
-#include "solvers/modes.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "mbs/model/spatial.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "solvers/linear/modes.hpp"
 
 #include <algorithm>
 

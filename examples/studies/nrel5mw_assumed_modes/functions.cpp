@@ -1,6 +1,6 @@
 #include "examples/studies/nrel5mw_assumed_modes/functions.hpp"
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 namespace cardan::paper2018 {
 

@@ -1,7 +1,7 @@
 #include "examples/studies/nrel5mw_assumed_modes/platform_case.hpp"
 
-#include "mbs/error.hpp"
-#include "turbines/nrel5mw_platform.hpp"
+#include "mbs/base/error.hpp"
+#include "turbines/machines/nrel5mw_platform.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 /// Periodic response of the blade to gravity and to a pitching platform, by assumed modes.
 #pragma once
 
-#include "solvers/forced_response.hpp"
-#include "turbines/nrel5mw_assumed_modes.hpp"
+#include "solvers/periodic/forced_response.hpp"
+#include "turbines/studies/nrel5mw_assumed_modes.hpp"
 
 #include <array>
 #include <string>

@@ -1,8 +1,8 @@
 #include "examples/studies/nrel5mw_assumed_modes/shapes.hpp"
 
-#include "mbs/error.hpp"
-#include "mbs/pending_file.hpp"
-#include "solvers/plot_gnuplot.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
+#include "solvers/pictures/gnuplot.hpp"
 
 #include <cmath>
 

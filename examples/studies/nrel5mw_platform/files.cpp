@@ -1,6 +1,6 @@
 #include "examples/studies/nrel5mw_platform/files.hpp"
 
-#include "mbs/pending_file.hpp"
+#include "mbs/base/pending_file.hpp"
 
 #include "examples/shared/simulation.hpp"
 #include <iomanip>

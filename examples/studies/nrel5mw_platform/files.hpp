@@ -2,8 +2,8 @@
 /// What a run leaves behind: which channels are recorded, the table of the last period, the pictures.
 #pragma once
 
-#include "solvers/recorder.hpp"
-#include "turbines/nrel5mw_platform.hpp"
+#include "solvers/time/recorder.hpp"
+#include "turbines/machines/nrel5mw_platform.hpp"
 
 #include <initializer_list>
 #include <string>

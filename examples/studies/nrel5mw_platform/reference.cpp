@@ -1,7 +1,7 @@
 #include "examples/studies/nrel5mw_platform/reference.hpp"
 
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 
 #include <algorithm>
 #include <cmath>

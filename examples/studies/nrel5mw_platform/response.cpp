@@ -1,6 +1,6 @@
 #include "examples/studies/nrel5mw_platform/response.hpp"
 
-#include "mbs/error.hpp"
+#include "mbs/base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// The periodic response of the blades, by integration in time until the transient has died away.
 #pragma once
 
-#include "solvers/recorder.hpp"
+#include "solvers/time/recorder.hpp"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 #include "examples/studies/urdf_arm/tube.hpp"
 
-#include "mbs/decompositions.hpp"
-#include "mbs/error.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
 
 namespace arm {
 

@@ -3,8 +3,8 @@
 /// as a flexible beam.
 #pragma once
 
-#include "elements/cardan_beam.hpp"
-#include "mbs/urdf.hpp"
+#include "elements/cardan_beam/cardan_beam.hpp"
+#include "mbs/urdf/urdf.hpp"
 
 #include <vector>
 

@@ -1,0 +1,53 @@
+# The rooms of the house and what each may include: itself, what stands here, and what those may include. The test
+# `layering` holds all #include lines, and the drawing in CONTRIBUTING.md, against this table.
+#
+# room(<folder> [SEES <rooms>] [USES <libraries>])
+
+room(mbs/base USES decompositions) # errors, files, units, numbers and small vectors
+room(mbs/model SEES mbs/base) # the tree: bodies, joints, coordinates
+room(mbs/kernels SEES mbs/model USES inverses) # kinematics, metric, Christoffel symbols, recursions
+room(mbs/system SEES mbs/kernels) # a model and the forces on it, what its joints carry, channels
+room(mbs/geometry SEES mbs/kernels) # curvature, embedding, change of chart
+room(mbs/batch SEES mbs/kernels USES tbb) # many states at once
+room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files
+
+room(elements/sections SEES mbs/model USES boost) # cross sections, reference lines
+room(elements/machine SEES mbs/system) # joints, drives, brakes, generators, stops, loads
+room(elements/cardan_beam SEES elements/sections elements/machine) # the cardanic joint beam element
+room(elements/reference SEES elements/sections) # other beams to compare with: mixed element, assumed modes
+
+room(solvers/algebra SEES mbs/base USES sundials fft) # eigenvalues, Schur forms, Fourier, collocation
+room(solvers/linear SEES solvers/algebra mbs/system) # operating point, linearisation, modes, Coleman transformation
+room(solvers/equilibrium SEES solvers/linear USES sundials) # steady states, load paths, buckling
+room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Floquet, Hill, forced response
+room(solvers/campbell SEES solvers/periodic) # Campbell diagrams: points, names, tracking, tables
+room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
+room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
+room(solvers/time SEES solvers/signals mbs/geometry USES sundials) # time integration
+room(solvers/hdf5 SEES solvers/campbell solvers/control solvers/time USES hdf5) # diagrams, models, histories as files
+room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB files
+room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
+
+room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
+room(turbines/readers SEES turbines/model) # OpenFAST's files, tables
+room(turbines/yaml SEES turbines/readers USES yaml_cpp) # our own files, windIO's
+room(turbines/machines SEES turbines/readers) # 600 kW, teetered, NREL 5 MW
+room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
+
+room(examples SEES turbines/studies turbines/yaml solvers/hdf5 solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples/shared SEES examples USES cli11) # what programs and studies have in common
+room(examples/programs SEES examples/shared) # installed
+room(examples/studies SEES examples/shared) # of papers and methods
+
+# Headers of libraries that only some rooms may include.
+library(sundials "(sundials|cvode|cvodes|ida|idas|arkode|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/")
+library(hdf5 "(hdf5|H5)")
+library(matio "matio")
+library(yaml_cpp "yaml-cpp/")
+library(boost "boost/")
+library(tbb "(tbb|oneapi)/")
+library(urdfdom "(urdf|tinyxml|console_bridge)")
+library(fft "unsupported/")
+library(cli11 "CLI/")
+library(decompositions "Eigen/(Cholesky|Dense|Eigenvalues|LU|QR|SVD)$") # all others: mbs/base/decompositions.hpp
+library(inverses "Eigen/LU$") # of small matrices

@@ -1,0 +1,254 @@
+#include "elements/cardan_beam/hinge_law.hpp"
+
+#include <algorithm>
+
+namespace cardan {
+
+namespace {
+
+// A function of the element's coordinates (u, phi, ay1, ay2, az1, az2) with its first and second derivatives.
+struct Jet {
+    double value = 0;
+    Vec6 gradient = Vec6::Zero();
+    Mat6 hessian = Mat6::Zero();
+
+    static Jet variable(const Vec6& q, ElementCoordinate kind) {
+        const auto i = static_cast<Eigen::Index>(kind);
+        return {q(i), Vec6::Unit(i), Mat6::Zero()};
+    }
+};
+
+Jet operator+(const Jet& a, const Jet& b) {
+    return {a.value + b.value, a.gradient + b.gradient, a.hessian + b.hessian};
+}
+Jet operator*(double c, const Jet& a) {
+    return {c * a.value, c * a.gradient, c * a.hessian};
+}
+Jet operator*(const Jet& a, const Jet& b) {
+    const Mat6 cross_terms = a.gradient * b.gradient.transpose();
+    return {a.value * b.value, a.value * b.gradient + b.value * a.gradient,
+            a.value * b.hessian + b.value * a.hessian + cross_terms + cross_terms.transpose()};
+}
+// f(a), from f and its derivatives at a.
+Jet chain(const Jet& a, double f, double df, double ddf) {
+    return {f, df * a.gradient, df * a.hessian + ddf * a.gradient * a.gradient.transpose()};
+}
+Jet sin(const Jet& a) {
+    return chain(a, std::sin(a.value), std::cos(a.value), -std::sin(a.value));
+}
+Jet cos(const Jet& a) {
+    return chain(a, std::cos(a.value), -std::sin(a.value), -std::cos(a.value));
+}
+
+// Theta / sin Theta as a function of c = cos Theta; with w = 1 - c it is the sum of n! / (2n + 1)!! w^n.
+Jet angle_over_sine(const Jet& c) {
+    const double w = 1 - c.value;
+    double f = 0, df = 0, ddf = 0;
+    if (w < 0.02) {
+        double coefficient = 1;
+        for (int n = 0; n < 12; ++n) {
+            if (n > 0) coefficient *= n / (2.0 * n + 1);
+            f += coefficient * std::pow(w, n);
+            if (n > 0) df -= n * coefficient * std::pow(w, n - 1);
+            if (n > 1) ddf += n * (n - 1) * coefficient * std::pow(w, n - 2);
+        }
+    } else {
+        const double s2 = (1 - c.value) * (1 + c.value);
+        f = std::acos(c.value) / std::sqrt(s2);
+        df = (c.value * f - 1) / s2;
+        ddf = (f + 3 * c.value * df) / s2;
+    }
+    return chain(c, f, df, ddf);
+}
+
+struct Bend {
+    Jet y, z;
+};
+
+// Swing vector of a cardan joint with angles a about y and b about z, the z joint on the side of the middle of the
+// element.
+Bend swing(const Jet& a, const Jet& b) {
+    const Jet f = angle_over_sine(cos(a) * cos(b));
+    return {f * sin(a) * cos(b), f * sin(b)};
+}
+
+Bend turned(const Bend& bend, const Jet& angle) {
+    const Jet c = cos(angle), s = sin(angle);
+    return {c * bend.y + s * bend.z, c * bend.z + -1.0 * (s * bend.y)};
+}
+
+// The arguments of the springs in the order of ElementCoordinate.
+std::array<Jet, 6> arguments(const HingeLaw& law, const Vec6& q) {
+    using enum ElementCoordinate;
+    const auto at = [&](ElementCoordinate kind) { return Jet::variable(q, kind); };
+    Bend first{at(ay1), at(az1)}, second{at(ay2), at(az2)};
+    if (law.isotropic) {
+        first = swing(first.y, first.z);
+        second = swing(second.y, second.z);
+    }
+    if (law.section_frame) {
+        // Hinges at the Gauss points see this share of the element's torsion, each from its own end.
+        const Jet share = delta_gauss * at(phi);
+        first = turned(first, share);
+        second = turned(second, -1.0 * share);
+    }
+    return {at(u), at(phi), first.y, second.y, first.z, second.z};
+}
+
+// Over the free coordinates of an element, at most six: no allocation while forces are evaluated.
+using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+struct Response {
+    double energy;
+    Coordinates force;  // dV/dq
+    Square stiffness;   // d2V/dq2
+};
+
+// The springs by their arguments y: V = z^T K z / 2 with z of hinge_forces(), its gradient D^T p and second derivatives
+// D^T K D + p . d2z/dy2, D = dz/dy and p = K z.
+Response springs(const HingeLawElement& element, const Coordinates& y) {
+    const Matrix& K = element.stiffness;
+    const Eigen::Index n = y.size();
+    const ShearTilt& tilt = element.tilt;
+    if (tilt.products.empty()) {
+        const Coordinates moment = K.lazyProduct(y);
+        return {y.dot(moment) / 2, moment, K};
+    }
+    // In six dimensions whatever their number, with zeros.
+    Mat6 stiffness = Mat6::Zero(), D = Mat6::Identity();
+    Vec6 all = Vec6::Zero();
+    stiffness.topLeftCorner(n, n) = K;
+    all.head(n) = y;
+    Vec6 z = all;
+    for (const ShearTilt::Product& x : tilt.products) {
+        const double a = x.factor * x.a.dot(all), b = x.factor * x.b.dot(all);
+        z(x.spring) += a * x.b.dot(all);
+        D.row(x.spring) += (a * x.b + b * x.a).transpose();
+    }
+    // The one term of third order, -u |psi|^2 / 2.
+    const Eigen::Index u = tilt.extension;
+    const Eigen::Vector2d psi = tilt.rotation * all;
+    const Vec6 along = tilt.rotation.transpose() * psi;
+    z(u) -= all(u) * psi.squaredNorm() / 2;
+    D.row(u) -= all(u) * along.transpose();
+    D(u, u) -= psi.squaredNorm() / 2;
+
+    const Vec6 p = stiffness * z, gradient = D.transpose() * p;
+    Mat6 tangent = D.transpose() * stiffness * D - p(u) * all(u) * tilt.rotation.transpose() * tilt.rotation;
+    tangent.col(u) -= p(u) * along;
+    tangent.row(u) -= p(u) * along.transpose();
+    for (const ShearTilt::Product& x : tilt.products)
+        tangent += p(x.spring) * x.factor * (x.a * x.b.transpose() + x.b * x.a.transpose());
+    return {z.dot(p) / 2, gradient.head(n), tangent.topLeftCorner(n, n)};
+}
+
+Response respond(const HingeLaw& law, const HingeLawElement& element, const Coordinates& q) {
+    if (law.is_linear()) return springs(element, q);
+    Vec6 all = Vec6::Zero();
+    for (std::size_t i = 0; i < element.kinds.size(); ++i)
+        all(static_cast<Eigen::Index>(element.kinds[i])) = q(static_cast<Eigen::Index>(i));
+    const std::array<Jet, 6> y = arguments(law, all);
+    const auto n = q.size();
+    Coordinates values(n);
+    Square Y(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(i)])];
+        values(i) = jet.value;
+        for (Eigen::Index j = 0; j < n; ++j)
+            Y(i, j) = jet.gradient(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
+    }
+    const Response spring = springs(element, values);
+    Response r{spring.energy, Y.transpose().lazyProduct(spring.force),
+               Y.transpose().lazyProduct(Square(spring.stiffness.lazyProduct(Y)))};
+    for (Eigen::Index k = 0; k < n; ++k) {
+        const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(k)])];
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index j = 0; j < n; ++j)
+                r.stiffness(i, j) += spring.force(k) *
+                                     jet.hessian(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(i)]),
+                                                 static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
+    }
+    return r;
+}
+
+}  // namespace
+
+ShearTilt shear_tilt(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule,
+                     const std::vector<ElementCoordinate>& kinds, const Matrix& stiffness, bool mirrored) {
+    using enum ElementCoordinate;
+    const auto place = [&](ElementCoordinate kind) -> Eigen::Index {
+        return std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
+    };
+    const auto unit = [&](ElementCoordinate kind) { return Vec6(Vec6::Unit(place(kind))); };
+    const auto is_free = [&](ElementCoordinate kind) { return place(kind) < std::ssize(kinds); };
+    if (!is_free(u) || !is_flexible_in_shear(element)) return {};
+    std::vector<int> free;
+    free.reserve(kinds.size());
+    for (ElementCoordinate kind : kinds) free.push_back(static_cast<int>(kind));
+
+    ShearTilt tilt;
+    tilt.rotation.setZero();
+    tilt.rotation.leftCols(std::ssize(kinds)) = shear_rotation(element, hinges, rule)(Eigen::all, free) * stiffness;
+    tilt.extension = place(u);
+    const double d = (hinges.second - hinges.first) * element.chord();
+    const Vec6 psi_y = tilt.rotation.row(0), psi_z = tilt.rotation.row(1);
+    const auto add = [&](ElementCoordinate spring, double factor, const Vec6& a, const Vec6& b) {
+        if (is_free(spring)) tilt.products.push_back({place(spring), factor, a, b});
+    };
+    for (const Vec6& psi : {psi_y, psi_z}) add(u, -d / 2, psi, psi);
+    add(az1, 1 / d, unit(u), psi_y);
+    add(az2, -1 / d, unit(u), psi_y);
+    add(ay1, -1 / d, unit(u), psi_z);
+    add(ay2, 1 / d, unit(u), psi_z);
+    if (!mirrored || !is_free(phi)) return tilt;
+    for (ElementCoordinate spring : {ay1, ay2}) add(spring, 0.5, unit(phi), psi_y);
+    for (ElementCoordinate spring : {az1, az2}) add(spring, 0.5, unit(phi), psi_z);
+    for (ElementCoordinate angle : {az1, az2})
+        if (is_free(angle)) add(phi, -1, psi_z, unit(angle));
+    return tilt;
+}
+
+Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const Vector& q) {
+    return respond(law, element, q).force;
+}
+
+UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements) {
+    // Calls f(indices in the model, response) for every element.
+    const auto each = [law, elements = std::move(elements)](const ForceInput& at, const auto& f) {
+        const Model& model = at.kinematics.model();
+        for (const HingeLawElement& element : elements) {
+            const auto n = static_cast<Eigen::Index>(element.bodies.size());
+            std::array<int, 6> index{};
+            Coordinates q(n);
+            for (std::size_t i = 0; i < element.bodies.size(); ++i) {
+                index[i] = model.index(element.bodies[i]);
+                q(static_cast<Eigen::Index>(i)) = at.q(index[i]);
+            }
+            f(index, respond(law, element, q));
+        }
+    };
+    UserForce force;
+    force.name = name;
+    force.elastic = true;
+    force.force = [each](const ForceInput& at, VectorOut Q) {
+        each(at, [&](const std::array<int, 6>& index, const Response& r) {
+            for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(index[static_cast<std::size_t>(i)]) -= r.force(i);
+        });
+    };
+    force.jacobian = [each](const ForceInput& at, MatrixOut dQ_dq, const MatrixOut&) {
+        each(at, [&](const std::array<int, 6>& index, const Response& r) {
+            for (Eigen::Index i = 0; i < r.force.size(); ++i)
+                for (Eigen::Index j = 0; j < r.force.size(); ++j)
+                    dQ_dq(index[static_cast<std::size_t>(i)], index[static_cast<std::size_t>(j)]) -= r.stiffness(i, j);
+        });
+    };
+    force.energy = [each](const ForceInput& at) {
+        double sum = 0;
+        each(at, [&](const std::array<int, 6>&, const Response& r) { sum += r.energy; });
+        return sum;
+    };
+    return force;
+}
+
+}  // namespace cardan

@@ -1,0 +1,70 @@
+/// @file
+/// Laws of the springs of a cardanic element that are not linear in its joint coordinates: hinges at large angles,
+/// elongation under shear.
+#pragma once
+
+#include "elements/cardan_beam/timoshenko.hpp"
+#include "mbs/system/forces.hpp"
+
+namespace cardan {
+
+/// The springs store q^T K q / 2 in the joint coordinates q. At large angles better arguments y(q) may take their
+/// place; to first order y = q.
+struct HingeLaw {
+    /// Each cardan joint bends by its swing vector (rotation vector of the beam axis) instead of its two angles: a beam
+    /// of equal bending stiffnesses is then as stiff diagonally as along its axes.
+    bool isotropic = false;
+    /// The hinge angles are counted in the section turned by the torsion between the clamped end and the hinge:
+    /// for unequal bending stiffnesses with torsion.
+    bool section_frame = false;
+    /// Where sections give way in shear and extension is free, the springs measure the strains of a rod, not those of
+    /// bodies that shear has tilted (ShearTilt). Without, as in the paper of 2007, more elements converge to another
+    /// rod.
+    bool rod_strains = true;
+    /// As far as large angles go.
+    bool is_linear() const { return !isotropic && !section_frame; }
+};
+
+/// How the bodies between the hinges of an element turn by shear while its sections do not, and what the springs are
+/// not to measure of it. Of the springs' arguments y: psi = (psi_y, psi_z) = Psi y.
+struct ShearTilt {
+    /// z_spring = y_spring + ... + factor (a . y) (b . y)
+    struct Product {
+        Eigen::Index spring;
+        double factor;
+        Vec6 a, b;
+    };
+    Eigen::Matrix<double, 2, 6> rotation = {};  ///< Psi, columns beyond the free coordinates zero
+    Eigen::Index extension = 0;                 ///< place of u among the free coordinates
+    std::vector<Product> products = {};         ///< empty: rigid in shear, nothing to mend
+};
+
+/// Empty without free extension, and for elements rigid in shear.
+/// @param mirrored  order of the cardan joints; with the other one the axis of torsion is left as it is
+ShearTilt shear_tilt(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule,
+                     const std::vector<ElementCoordinate>& kinds, const Matrix& stiffness, bool mirrored);
+
+/// The bent coordinates of one element.
+struct HingeLawElement {
+    std::vector<BodyId> bodies;            ///< free coordinates of the element
+    std::vector<ElementCoordinate> kinds;  ///< what they are
+    Matrix stiffness;                      ///< K over them
+    ShearTilt tilt = {};
+};
+
+/// The forces dV/dq of an element's springs along its joints, against the coordinates. V = z^T K z / 2, with z = y(q)
+/// but for what bodies that are tilted by psi = Psi y do beyond a rod (s = 1 + u / d): by an axial force,
+///     z_u = y_u - s d |psi|^2 / 2,   z_az1 += (s - 1) psi_y, z_az2 -= (s - 1) psi_y,
+///                                    z_ay1 -= (s - 1) psi_z, z_ay2 += (s - 1) psi_z,
+/// since the tilt shortens the chain by more than shear does a rod and shears it by gamma = s d psi / L; and by torsion
+/// about their axis instead of the sections' one,
+///     z_phi -= psi_z (y_az1 + y_az2),   z_ay1, z_ay2 += phi psi_y / 2,   z_az1, z_az2 += phi psi_z / 2.
+///                                                             [docs/theory.md, shear under axial force and torsion]
+/// @param q  coordinates in the order of `kinds`
+Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const Vector& q);
+
+/// The elastic forces Q = -dV/dq of the elements of a beam as one force, with exact Jacobian and energy. Without a law
+/// for large angles (y = q) an element costs a few products of 6 x 6 matrices; nothing is allocated.
+UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements);
+
+}  // namespace cardan

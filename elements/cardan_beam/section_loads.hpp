@@ -1,0 +1,42 @@
+/// @file
+/// Section loads of beams, constitutive and by equilibrium.
+///
+/// Forces (N, Vy, Vz) and moments (T, My, Mz) that the outboard part of the beam exerts on the inboard part, about the
+/// point of the reference line, in the section axes of the rigid segment there (x tangent, y and z those of the line,
+/// not of the principal axes): N > 0 is tension; My' = Vz and Mz' = -Vy without distributed loads.
+#pragma once
+
+#include "elements/cardan_beam/cardan_beam.hpp"
+#include "mbs/system/joint_loads.hpp"
+#include "mbs/system/system.hpp"
+
+namespace cardan {
+
+struct SectionLoads {
+    Vec6 values = Vec6::Zero();  ///< N, Vy, Vz (N), T, My, Mz (N m); what is not known is NaN
+    bool axial_known = true;     ///< false: extension is condensed out, so the springs do not tell the axial force
+    bool torsion_known = true;   ///< false: torsion is condensed out
+};
+
+/// Loads from the springs and dampers of an element: the force and moment that its joints transmit, found from the
+/// forces along their axes. With extension and torsion free a load at the end of the beam comes out as statics of the
+/// bent chain say, at any angle. The force is constant in an element: under loads in between it is good to O(h^2) in
+/// its middle, O(h) elsewhere, and lacks the shear that a distributed moment across the beam asks for (M' = V - m).
+/// What is condensed out counts as zero: at large angles its share in the other components is missing. Damping that is
+/// told by modes of the whole beam has no place along it and is left out.
+/// @param s  place along the reference line, 0 ... length of the beam; at a node: the element inboard of it
+/// @throws InputError if s lies outside of the beam or q, qd have another size than the model
+SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, const Vector& q, const Vector& qd,
+                                double s);
+
+/// Loads by equilibrium of everything outboard of s: inertial forces, gravity and wrenches. What the rigid segment at s
+/// carries between the next hinge and s is counted with the true mass of the line; what its body has beyond that (the
+/// sectional inertia of an end body, masses that the partition has moved) counts in proportion to the length, so that
+/// the loads on both sides of a node agree with every partition. At a node: just
+/// inboard of it, whatever is fixed to the node included; at the root: just outboard of node 0. Wrenches count as the
+/// beam's if their frames were placed on its segments (distributed loads, CardanBeam::Segment::carrier) or nodes, not
+/// merely on the same body. User forces are not known as wrenches and are left out.
+SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
+                               const Transmission& carried, double s);
+
+}  // namespace cardan

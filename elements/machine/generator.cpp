@@ -1,0 +1,93 @@
+#include "elements/machine/generator.hpp"
+
+#include "elements/machine/coordinate_force.hpp"
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cardan {
+
+double InductionMachine::slope(double speed) const {
+    const double r = (speed / synchronous_speed - 1) / breakdown_slip, d = 1 + r * r;
+    return 2 * breakdown_torque * (1 - r * r) / (d * d) / (breakdown_slip * synchronous_speed);
+}
+
+void InductionMachine::check(std::string_view where) const {
+    require_positive(where, "synchronous speed [rad/s]", synchronous_speed);
+    require_positive(where, "breakdown torque [N m]", breakdown_torque);
+    require_positive(where, "breakdown slip", breakdown_slip);
+}
+
+TorqueTable::TorqueTable(std::vector<double> speeds, std::vector<double> torques)
+    : speeds_(std::move(speeds)), torques_(std::move(torques)), slopes_(speeds_.size(), 0.0) {
+    constexpr const char* place = "torque table";
+    const std::size_t n = speeds_.size();
+    if (n < 2) throw InputError(place, "number of speeds", n, ">= 2");
+    if (torques_.size() != n) throw InputError(place, "number of torques", torques_.size(), text(n, ", one per speed"));
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!std::isfinite(speeds_[i]))
+            throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds_[i], "finite");
+        if (!std::isfinite(torques_[i]))
+            throw InputError(place, text("torque ", i + 1, " [N m]"), torques_[i], "finite");
+        if (i > 0 && !(speeds_[i] > speeds_[i - 1]))
+            throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds_[i],
+                             text("> ", speeds_[i - 1], ", the one before"));
+    }
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        const double h = speeds_[i] - speeds_[i - 1], k = speeds_[i + 1] - speeds_[i];
+        const double s = (torques_[i] - torques_[i - 1]) / h, r = (torques_[i + 1] - torques_[i]) / k;
+        if (s * r > 0) slopes_[i] = 3 * (h + k) / ((2 * k + h) / s + (k + 2 * h) / r);
+    }
+}
+
+TorqueTable::Value TorqueTable::at(double speed) const {
+    if (speed <= speeds_.front()) return {torques_.front(), 0};
+    if (speed >= speeds_.back()) return {torques_.back(), 0};
+    const auto i = static_cast<std::size_t>(std::upper_bound(speeds_.begin(), speeds_.end(), speed) - speeds_.begin());
+    const double h = speeds_[i] - speeds_[i - 1], u = speed - speeds_[i - 1];
+    const double s = (torques_[i] - torques_[i - 1]) / h, a = slopes_[i - 1], b = slopes_[i];
+    const double c2 = (3 * s - 2 * a - b) / h, c3 = (a + b - 2 * s) / (h * h);
+    return {torques_[i - 1] + u * (a + u * (c2 + u * c3)), a + u * (2 * c2 + 3 * u * c3)};
+}
+
+double Generator::torque(double rate) const {
+    if (grid && !grid->is_on()) return 0;
+    return std::visit([&](const auto& own) { return own.torque(gear_ratio * rate); }, law);
+}
+
+UserForce generator_force(const Generator& generator) {
+    if (!std::isfinite(generator.gear_ratio) || generator.gear_ratio == 0)
+        throw InputError(generator.name, "gear ratio", generator.gear_ratio, "finite and not zero");
+    if (const auto* machine = std::get_if<InductionMachine>(&generator.law)) machine->check(generator.name);
+    const auto law = [generator](double, double, double rate) -> CoordinateLaw {
+        if (generator.grid && !generator.grid->is_on()) return {};
+        const double ratio = generator.gear_ratio, speed = ratio * rate;
+        return std::visit(
+            [&](const auto& own) {
+                return CoordinateLaw{-ratio * own.torque(speed), 0, -ratio * ratio * own.slope(speed), 0};
+            },
+            generator.law);
+    };
+    return coordinate_force(generator.name, generator.shaft, law, false);
+}
+
+ChannelGroup generator_channels(const Generator& generator) {
+    ChannelGroup group;
+    group.channels = {{.name = generator.name + " torque",
+                       .units = "N m",
+                       .long_name = "torque of the generator on its own shaft, positive: braking",
+                       .frame = "axis of the generator shaft",
+                       .alias = generator.alias},
+                      {.name = generator.name + " power",
+                       .units = "W",
+                       .long_name = "power that the generator takes from its shaft, losses not counted"}};
+    group.sample = [generator](const ChannelInput& in, double* values) {
+        const double rate = in.qd(in.kinematics.model().index(generator.shaft));
+        values[0] = generator.torque(rate);
+        values[1] = generator.power(rate);
+    };
+    return group;
+}
+
+}  // namespace cardan

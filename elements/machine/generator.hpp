@@ -1,0 +1,80 @@
+/// @file
+/// Generators: steady torque over speed, as a force on the coordinate of the shaft.
+///
+/// Signs: the torque of a generator is positive where it brakes positive rotation, Q = -ratio * torque(ratio * qd).
+/// Speeds and torques are those of the machine (the fast side of a gearbox), coordinates those of the tree.
+#pragma once
+
+#include "elements/machine/switch.hpp"
+#include "mbs/system/channel.hpp"
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cardan {
+
+/// Induction machine at a grid of fixed frequency, in steady state, stator resistance neglected: Kloss' formula
+///   T = 2 T_b / (s / s_b + s_b / s),   s = speed / synchronous speed - 1,
+/// with the slip s counted positive where it generates. Regular at s = 0, where the slope is 2 T_b / (s_b w_s).
+///                               [M. Kloss, Archiv fuer Elektrotechnik 5 (1916) 59]
+struct InductionMachine {
+    double synchronous_speed = 0;  ///< 2 pi times the grid's frequency over pairs of poles, rad/s
+    double breakdown_torque = 0;   ///< the largest, N m
+    double breakdown_slip = 0;     ///< where it occurs, > 0
+
+    /// N m at a speed in rad/s.
+    template <class S>
+    S torque(S speed) const {
+        const S r = (speed / synchronous_speed - 1.0) / breakdown_slip;
+        return 2.0 * breakdown_torque * r / (1.0 + r * r);
+    }
+    /// d torque / d speed, N m s/rad.
+    double slope(double speed) const;
+    /// @throws InputError unless all three are finite and positive
+    void check(std::string_view where) const;
+};
+
+/// Torque over speed of a generator with a converter: cubics through points, monotone where the points are, level at
+/// the ends and beyond them; slope continuous.                                          [Fritsch and Butland 1984]
+class TorqueTable {
+public:
+    /// @param speeds   rad/s, at least two, rising
+    /// @param torques  N m; the first one zero, unless the machine is to drive in reverse rotation
+    /// @throws InputError naming the point
+    TorqueTable(std::vector<double> speeds, std::vector<double> torques);
+
+    double torque(double speed) const { return at(speed).torque; }
+    double slope(double speed) const { return at(speed).slope; }
+
+private:
+    struct Value {
+        double torque, slope;
+    };
+    Value at(double speed) const;
+
+    std::vector<double> speeds_, torques_, slopes_;
+};
+
+/// A generator on a shaft.
+struct Generator {
+    std::string name = "generator";
+    BodyId shaft = {};      ///< coordinate that the machine turns with, e.g. its azimuth referred to the slow shaft
+    double gear_ratio = 1;  ///< speed of the machine over the rate of the coordinate; negative: it turns the other way
+    std::variant<InductionMachine, TorqueTable> law = InductionMachine{};
+    std::shared_ptr<const Switch> grid = {};  ///< off: no torque; none: always on
+    std::string alias = "GenTq";  ///< of the channel of its torque; a second generator needs another or none
+
+    /// Of the machine, N m, at a rate of the coordinate, rad/s; and what it takes from the shaft, W.
+    double torque(double rate) const;
+    double power(double rate) const { return torque(rate) * gear_ratio * rate; }
+};
+
+/// @throws InputError for bad numbers
+UserForce generator_force(const Generator& generator);
+
+/// "<name> torque" (of the machine) and "<name> power" (taken from the shaft: without losses).
+ChannelGroup generator_channels(const Generator& generator);
+
+}  // namespace cardan

@@ -1,0 +1,57 @@
+/// @file
+/// Reference lines of curved and pre-bent beams.
+///
+/// Every place has a frame: x tangent, y and z across, carried along without turning about the tangent
+/// (rotation-minimising; Bishop 1975), so that a straight line keeps the beam axes and the structural twist of a
+/// section is counted from them. At the start the frame is the beam axes, turned by the shortest way to the tangent.
+#pragma once
+
+#include "elements/sections/section.hpp"
+
+namespace cardan {
+
+enum class LineShape : std::uint8_t {
+    polyline,  ///< straight between the points, kinks at them
+    spline     ///< cubic with continuous curvature through the points, by their distances; at least four points
+};
+
+/// A curve by arc length.
+class ReferenceLine {
+public:
+    /// Through points in beam axes, m: prebend along z, sweep along y.
+    /// @throws InputError: too few points, a point not finite or equal to the one before it, a kink of 180 degrees
+    static ReferenceLine through(const std::vector<Vec3>& points, LineShape shape);
+
+    /// A parametric curve, e.g. an arc.
+    /// @param position, derivative  m and m per unit of t, for first <= t <= last; the derivative never zero
+    static ReferenceLine curve(std::function<Vec3(double t)> position, std::function<Vec3(double t)> derivative,
+                               double first, double last);
+
+    double length() const { return cells_.back().s; }
+    /// Frame at arc length s, in beam axes. At a kink: that of the piece outboard of it.
+    Placement pose(double s) const;
+    /// Arc length of the points given (of both ends for a curve), m: kinks and joints of the spline.
+    const std::vector<double>& stations() const { return stations_; }
+
+private:
+    struct Cell {  // begins at parameter t and arc length s with frame R
+        double t, s;
+        Mat3 R;
+    };
+    ReferenceLine() = default;
+    void divide(const std::vector<double>& knots, int cells_per_piece);
+    double arc(double from, double to) const;
+
+    std::function<Vec3(double)> position_, derivative_;
+    std::vector<Cell> cells_;
+    std::vector<double> stations_;
+};
+
+/// Sections laid along a curve: their stations count arc length.
+/// @throws InputError if the lengths differ by more than 1e-6 of the length
+BeamLine along(const BeamLine& sections, const ReferenceLine& line);
+
+/// The shortest rotation that takes unit vector a to unit vector b. @throws InputError if b = -a
+Mat3 shortest_rotation(const Vec3& a, const Vec3& b, const std::string& where);
+
+}  // namespace cardan

@@ -1,5 +1,0 @@
-#include "mbs/decompositions.hpp"
-
-namespace Eigen {
-CARDAN_DECOMPOSITIONS(template)
-}

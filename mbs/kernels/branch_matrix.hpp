@@ -1,0 +1,53 @@
+/// @file
+/// Matrices with the pattern of the tree.
+#pragma once
+
+#include "mbs/base/packed.hpp"
+#include "mbs/base/types.hpp"
+
+#include <span>
+
+namespace cardan {
+
+class Model;
+
+/// An n x n matrix A_ab that is zero unless a and b lie on one path from the base, as the metric, its derivatives and
+/// those of the recursions are. Stored by branches: for every coordinate m its row left of the diagonal, diagonal
+/// included, and its column above it. Memory and the cost of filling it grow like n d, d the depth of the tree.
+/// Functions throw InputError for indices that there are not and for arguments of another size.
+template <class S>
+class BranchMatrixT {
+public:
+    /// @throws MemoryError
+    explicit BranchMatrixT(const Model& model);
+    explicit BranchMatrixT(Model&&) = delete;  // the model must live longer
+
+    int size() const { return static_cast<int>(offset_.size()); }
+    const Model& model() const { return *model_; }
+    /// A_ab, any indices.
+    S operator()(int a, int b) const;
+    /// A_ma for a on the path from the base to m, m itself last: entry depth(a) - 1.
+    std::span<const S> row(int m) const;
+    /// A_am for a on the path from the base to m, m itself left out.
+    std::span<const S> column(int m) const;
+    /// The matrix with its zeros. @param A  out, n x n, overwritten
+    void write(Eigen::Ref<MatrixT<S>> A) const;
+    /// y = A x. @param y  out, size n; must not alias x. Cost O(n d), no allocation.
+    void multiply(const Eigen::Ref<const VectorT<S>>& x, Eigen::Ref<VectorT<S>> y) const;
+
+    /// Memory of the kernels: rows and columns by coordinate, those of m from offset()[m] on.
+    Packed3<S>* rows() { return rows_.data(); }
+    Packed3<S>* columns() { return columns_.data(); }
+    const std::size_t* offset() const { return offset_.data(); }
+    /// Adds to A_ab; a and b must lie on one path.
+    void add(int a, int b, const S& value);
+
+private:
+    const Model* model_;
+    std::vector<std::size_t> offset_;
+    std::vector<Packed3<S>> rows_, columns_;
+};
+
+using BranchMatrix = BranchMatrixT<double>;
+
+}  // namespace cardan

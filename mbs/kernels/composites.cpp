@@ -1,0 +1,84 @@
+#include "mbs/kernels/composites.hpp"
+
+namespace cardan {
+
+namespace {
+
+template <class S>
+CARDAN_INLINE void rotate(std::ptrdiff_t n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
+                          Packed33<S>* J) {
+    for (std::ptrdiff_t k = 0; k < n; ++k)
+        if (!links[k].massless) J[k] = rotated(frame[k].E, packed<S>(links[k].J));
+}
+
+// Two bodies about their common centre: the Binet tensors and the reduced mass at their distance.
+template <class S>
+CARDAN_INLINE void merge(std::ptrdiff_t n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
+                         const Packed33<S>* J, typename WorkspaceT<S>::Inertia* composite) {
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        typename WorkspaceT<S>::Inertia& own = composite[k];
+        own.M = S(links[k].subtree_mass);
+        own.C = frame[k].r;
+        own.P = {{Packed3<S>::zero(), Packed3<S>::zero(), Packed3<S>::zero()}};
+        if (!links[k].massless) own.P = binet(J[k]);
+    }
+    for (std::ptrdiff_t k = n - 1; k >= 0; --k) {
+        const Model::Link& link = links[k];
+        if (link.parent < 0) continue;
+        const typename WorkspaceT<S>::Inertia& own = composite[k];
+        typename WorkspaceT<S>::Inertia& parent = composite[link.parent];
+        const Packed3<S> d = own.C - parent.C, moment = S(link.reduced) * d;
+        parent.C += S(link.share) * d;
+        parent.P[0] += own.P[0] + times(moment, broadcast<0>(d));
+        parent.P[1] += own.P[1] + times(moment, broadcast<1>(d));
+        parent.P[2] += own.P[2] + times(moment, broadcast<2>(d));
+    }
+}
+
+CARDAN_VECTORISED void run_rotate(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
+                                  Packed33<double>* J) {
+    rotate<double>(n, links, frame, J);
+}
+void run_rotate(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
+                Packed33<Complex>* J) {
+    rotate<Complex>(n, links, frame, J);
+}
+
+CARDAN_VECTORISED void run_merge(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
+                                 const Packed33<double>* J, Workspace::Inertia* composite) {
+    merge<double>(n, links, frame, J, composite);
+}
+void run_merge(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
+               const Packed33<Complex>* J, WorkspaceT<Complex>::Inertia* composite) {
+    merge<Complex>(n, links, frame, J, composite);
+}
+
+}  // namespace
+
+template <class S>
+void body_inertias(const KinematicsT<S>& kin) {
+    WorkspaceT<S>& ws = kin.workspace();
+    if (ws.inertia_generation == ws.generation) return;
+    const Model& model = kin.model();
+    run_rotate(model.size(), model.links().data(), ws.frame.data(), ws.J.data());
+    ws.inertia_generation = ws.generation;
+}
+
+template <class S>
+void composites(const KinematicsT<S>& kin) {
+    WorkspaceT<S>& ws = kin.workspace();
+    if (ws.composite_generation == ws.generation) return;
+    body_inertias(kin);
+    const Model& model = kin.model();
+    run_merge(model.size(), model.links().data(), ws.frame.data(), ws.J.data(), ws.composite.data());
+    ws.composite_generation = ws.generation;
+}
+
+#define CARDAN_INSTANTIATE(S)                              \
+    template void body_inertias<S>(const KinematicsT<S>&); \
+    template void composites<S>(const KinematicsT<S>&);
+CARDAN_INSTANTIATE(double)
+CARDAN_INSTANTIATE(Complex)
+#undef CARDAN_INSTANTIATE
+
+}  // namespace cardan

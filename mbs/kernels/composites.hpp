@@ -1,0 +1,18 @@
+/// @file
+/// Inertias in base axes, of the bodies and of the subtrees. What several kernels need of one configuration is made
+/// once.
+#pragma once
+
+#include "mbs/kernels/kinematics.hpp"
+
+namespace cardan {
+
+/// Inertia tensors of the bodies about their centres of mass, base axes. Idempotent per q.
+template <class S>
+void body_inertias(const KinematicsT<S>& kin);
+
+/// Subtrees as composite rigid bodies (mass, centre, Binet tensor about the centre), tip to base. Idempotent per q.
+template <class S>
+void composites(const KinematicsT<S>& kin);
+
+}  // namespace cardan

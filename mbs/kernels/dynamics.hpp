@@ -1,0 +1,104 @@
+/// @file
+/// O(n) recursions: inverse dynamics (Newton-Euler) and forward dynamics (articulated body). They never form g or
+/// Gamma.
+#pragma once
+
+#include "mbs/kernels/metric.hpp"
+
+#include <Eigen/LU>
+
+namespace cardan {
+
+/// Inverse dynamics tau_a = g_ab qdd^b + Gamma_abc qd^b qd^c, armatures included.            [Zhao et al. 2007, eq. 4]
+/// @param qd, qdd  joint rates and accelerations, size n
+/// @param tau      out, size n, N m or N; overwritten; must not alias the inputs
+/// Cost O(n), no allocation. Never singular.
+/// @throws InputError for vectors of another size, as all functions here do
+template <class S>
+void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, VectorOutT<S> tau);
+
+/// Generalised inertial forces h_a = Gamma_abc qd^b qd^c.             [Zhao et al. 2007, eq. 4 and 9 (corrected)]
+/// @param h  out, size n, N m or N; overwritten; must not alias qd
+/// Cost O(n), no allocation. Never singular.
+template <class S>
+void inertial_forces(const KinematicsT<S>& kin, VectorInT<S> qd, VectorOutT<S> h);
+
+/// Forward dynamics in hybrid form: accelerations of the free coordinates from generalised forces, forces of the driven
+/// coordinates from their prescribed accelerations. Holds the memory for armatures and the set of driven coordinates.
+class ForwardDynamics {
+public:
+    /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
+    /// @throws InputError if `driven` has another size.
+    explicit ForwardDynamics(const Model& model);
+    explicit ForwardDynamics(Model&&) = delete;  // the model must live longer
+    ForwardDynamics(const Model& model, std::vector<bool> driven);
+
+    /// @param Q    generalised forces, size n; entries of driven coordinates are forces besides the actuator's; must
+    ///             not alias the outputs
+    /// @param qdd  in: accelerations of driven coordinates; out: of all coordinates
+    /// @param actuator  out, size n: force that the drive adds to Q on each driven coordinate, zero on free ones
+    /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.
+    /// @throws InputError for kinematics of another model and vectors of another size
+    void solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator);
+
+    /// A free coordinate that has no inertia of its own: the recursion divides by the pivots of the metric of the free
+    /// coordinates, eliminated from the tips to the base. Named is the most distal of the coordinates that move in the
+    /// motion without inertia.
+    /// @return nullopt if every pivot exceeds 1e-12 of its scale, the sum of what was added up and cancelled in it: a
+    /// slender body that turns about its own axis, and two joints that do the same, leave nothing but rounding, which
+    /// is seen to be small only beside these. After a pivot the object must not solve at this q. Cost O(n) and, with
+    /// armatures over several coordinates, the cube of their number; allocates.
+    std::optional<SingularPivot> singular_pivot(const Kinematics& kin);
+
+    bool is_driven(int a) const {
+        require_index("forward dynamics", "coordinate", a, static_cast<std::ptrdiff_t>(driven_.size()));
+        return driven_[static_cast<std::size_t>(a)] != 0;
+    }
+
+private:
+    /// Articulated inertia about the joint origin, base axes, [A C^T; C M] for [angular; linear]: a subtree whose free
+    /// joints yield. U = I S; yield = 1 / D of the pivot D = S . U.
+    struct Articulated {
+        Packed33<double> A, C, M;
+        Packed3<double> U_angular, U_linear;
+        double yield;
+        Packed3<double> force, moment;    // that pass the joint in the backward sweep
+        Packed3<double> angular, linear;  // acceleration in the forward sweep
+    };
+    /// The same on the way from the base to the coordinates that armatures couple, for one of several loads.
+    struct OnPath {
+        double qdd;  ///< in: load; out: acceleration
+        double reaction;
+        Packed3<double> force, moment, angular, linear;
+    };
+    struct Path {
+        int body;
+        int parent;  ///< on the path, -1: base
+    };
+    struct Arrays;
+    static void factorise(const Arrays& arrays);
+    static void backward(const Arrays& arrays, const double* Q, double* qdd, double* reaction);
+    static void forward(const Arrays& arrays, double* qdd, double* reaction);
+    static void backward_on_path(const Arrays& arrays, std::ptrdiff_t loads);
+    static void forward_on_path(const Arrays& arrays, std::ptrdiff_t loads);
+    void find_support(bool coupled);
+    void find_path();
+    int most_distal(const Kinematics& kin, int at, double scale) const;
+    std::optional<SingularPivot> singular_pivot_of_support() const;
+    void couple(const Arrays& arrays);
+
+    const Model* model_;
+    std::vector<char> driven_;  ///< no vector<bool>: the loops read it through a pointer
+    std::vector<Articulated> articulated_;
+    Vector armature_diagonal_, residual_, correction_, reaction_;
+    std::vector<int> support_;  ///< free coordinates in armatures of several coordinates
+    Matrix coupling_;           ///< off-diagonal part of these armatures on the support
+    std::vector<Path> path_;    ///< all bodies that lead to the support, parents first
+    std::vector<int> at_;       ///< where the support lies on the path
+    std::vector<OnPath> on_path_;
+    Matrix support_inverse_, capacity_;
+    Eigen::PartialPivLU<Matrix> capacity_lu_;
+    Vector support_qdd_, support_load_, support_correction_;
+};
+
+}  // namespace cardan

@@ -1,0 +1,98 @@
+/// @file
+/// Poses of all bodies at q and the kinematic basis functions u, Omega.
+#pragma once
+
+#include "mbs/kernels/workspace.hpp"
+
+#include <cassert>
+
+namespace cardan {
+
+/// View of a workspace after kinematics(): the proof that the stage has been done. It goes stale when the workspace is
+/// used for another q (checked in debug builds).
+template <class S>
+class KinematicsT {
+public:
+    const Model& model() const { return *model_; }
+    WorkspaceT<S>& workspace() const {
+        assert(generation_ == workspace_->generation && "stale kinematics: the workspace was used for another q");
+        return *workspace_;
+    }
+    /// Rotation of body k -> base.
+    Mat3T<S> rotation(int k) const { return frame(k).E.matrix(); }
+    /// Origin of the joint frame of body k, m; the joint axis; the centre of mass, m. Base axes.
+    Vec3T<S> origin(int k) const { return frame(k).o.vector(); }
+    Vec3T<S> axis(int k) const { return frame(k).E[2].vector(); }
+    Vec3T<S> centre_of_mass(int k) const { return frame(k).r.vector(); }
+
+    /// All of these of one body, for kernels.  @throws InputError for a body that there is not, as the others do
+    const typename WorkspaceT<S>::Frame& frame(int k) const {
+        require_index("kinematics", "body", k, static_cast<std::ptrdiff_t>(workspace_->frame.size()));
+        return workspace().frame[static_cast<std::size_t>(k)];
+    }
+
+private:
+    KinematicsT(const Model& model, WorkspaceT<S>& workspace)
+        : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
+    template <class T>
+    friend KinematicsT<T> kinematics(const Model& model, const Eigen::Ref<const VectorT<T>>& q,
+                                     WorkspaceT<T>& workspace);
+
+    const Model* model_;
+    WorkspaceT<S>* workspace_;
+    std::uint64_t generation_;
+};
+
+using Kinematics = KinematicsT<double>;
+
+/// Poses of all bodies.
+/// @param q  coordinates, size n, rad or m
+/// Cost O(n), no allocation.
+/// @throws InputError if q has another size or the workspace is another model's
+template <class S>
+KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace);
+inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspace) {
+    return kinematics<double>(model, q, workspace);
+}
+
+/// Kinematic basis functions of body k for coordinate a, in components of body k; both zero unless a precedes k.
+///   velocity of the centre of mass  v_k = u_ka qd^a,  angular velocity  omega_k = Omega_ka qd^a.
+///                                                                              [Zhao et al. 2007, eq. 6]
+/// @throws InputError for bodies that there are not
+template <class S>
+struct BasisFunctions {
+    Vec3T<S> u;      ///< m/rad or 1
+    Vec3T<S> Omega;  ///< 1 or 0
+};
+template <class S>
+BasisFunctions<S> basis_functions(const KinematicsT<S>& kin, int k, int a);
+
+/// Twist of coordinate a at a point C of a body distal to it: angular part w, velocity v (base axes).
+template <class S>
+struct PointTwist {
+    Vec3T<S> w, v;
+};
+template <class S>
+PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
+    const typename WorkspaceT<S>::Frame& frame = kin.frame(a);
+    const Vec3T<S> e = frame.E[2].vector();
+    if (kin.model().links()[static_cast<std::size_t>(a)].revolute) return {e, cross<S>(e, C - frame.o.vector())};
+    return {Vec3T<S>::Zero(), e};
+}
+
+/// Position and rotation (frame -> base) of a frame.
+template <class S>
+struct Pose {
+    Mat3T<S> R;
+    Vec3T<S> p;
+};
+template <class S>
+Pose<S> pose(const KinematicsT<S>& kin, FrameId frame);
+
+/// Jacobian of a frame: [angular velocity; velocity of its origin] = J qd, base axes.
+/// @param J  out, 6 x n, overwritten
+/// @throws InputError for another size or a frame that there is not
+template <class S>
+void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J);
+
+}  // namespace cardan

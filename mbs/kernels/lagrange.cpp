@@ -1,0 +1,62 @@
+#include "mbs/kernels/lagrange.hpp"
+
+#include <algorithm>
+
+namespace cardan::lagrange {
+
+template <class S>
+S metric(const KinematicsT<S>& kin, int a, int b) {
+    const Model& model = kin.model();
+    for (const int index : {a, b}) require_index("metric", "index", index, model.size());
+    S sum(0);
+    for (int k = std::max(a, b); k < model.size(); ++k) {
+        const BasisFunctions<S> at_a = basis_functions(kin, k, a), at_b = basis_functions(kin, k, b);
+        const Vec3T<S> J_Omega = model.body(k).J.template cast<S>() * at_b.Omega;
+        sum += S(model.body(k).inertia.mass) * dot<S>(at_a.u, at_b.u) + dot<S>(at_a.Omega, J_Omega);
+    }
+    for (const Model::Spin& armature : model.armatures()) {
+        double sa = 0, sb = 0;
+        for (const auto& [index, factor] : armature.spin) {
+            if (index == a) sa += factor;
+            if (index == b) sb += factor;
+        }
+        sum += S(armature.inertia * sa * sb);
+    }
+    return sum;
+}
+
+template <class S>
+S christoffel_first_kind(const KinematicsT<S>& kin, int a, int b, int c) {
+    const Model& model = kin.model();
+    for (const int index : {a, b, c}) require_index("Christoffel symbols", "index", index, model.size());
+    if (b > c) std::swap(b, c);
+    if (!model.precedes(b, c)) return S(0);
+    S sum(0);
+    for (int k = std::max(a, c); k < model.size(); ++k) {
+        const BasisFunctions<S> at_a = basis_functions(kin, k, a), at_b = basis_functions(kin, k, b),
+                                at_c = basis_functions(kin, k, c);
+        if (!model.precedes(a, k) || !model.precedes(c, k)) continue;
+        const Vec3T<S> P_Omega = binet_tensor<double>(model.body(k).J).template cast<S>() * at_b.Omega;
+        sum += S(model.body(k).inertia.mass) * dot<S>(at_a.u, cross<S>(at_b.Omega, at_c.u)) +
+               dot<S>(P_Omega, cross<S>(at_c.Omega, at_a.Omega));
+    }
+    return sum;
+}
+
+double generalised_force(const Kinematics& kin, std::span<const BodyLoad> loads, int a) {
+    require_count("generalised force", "loads", loads.size(), static_cast<std::size_t>(kin.model().size()));
+    double sum = 0;
+    for (int k = a; k < kin.model().body(a).subtree_end; ++k) {
+        const BasisFunctions<double> basis = basis_functions(kin, k, a);
+        const BodyLoad& load = loads[static_cast<std::size_t>(k)];
+        sum += dot<double>(load.force, basis.u) + dot<double>(load.moment, basis.Omega);
+    }
+    return sum;
+}
+
+template double metric<double>(const KinematicsT<double>&, int, int);
+template Complex metric<Complex>(const KinematicsT<Complex>&, int, int);
+template double christoffel_first_kind<double>(const KinematicsT<double>&, int, int, int);
+template Complex christoffel_first_kind<Complex>(const KinematicsT<Complex>&, int, int, int);
+
+}  // namespace cardan::lagrange

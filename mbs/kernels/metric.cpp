@@ -1,0 +1,149 @@
+#include "mbs/kernels/metric.hpp"
+
+#include "mbs/kernels/path_twists.hpp"
+
+namespace cardan {
+
+template <class S>
+void add_armatures(const Model& model, MatrixOutT<S> g) {
+    require_size("metric", "g", g, model.size(), model.size());
+    for (const Model::Spin& armature : model.armatures())
+        for (const auto& [a, sa] : armature.spin)
+            for (const auto& [b, sb] : armature.spin) g(a, b) += armature.inertia * (sa * sb);
+}
+
+namespace {
+
+// Row m of the lower triangle, by depth: g_am = v_a . M v_m + w_a . (tr P - P) w_m, at the centre C of the subtree of
+// m.
+template <class S>
+CARDAN_INLINE void branch_row(const PathTwists<S>& path, const Model::Link& link,
+                              const typename WorkspaceT<S>::Frame& frame, const typename WorkspaceT<S>::Inertia& body,
+                              Packed3<S>* row) {
+    using Columns = Packed3<S>;
+    const Packed3<S>& e = frame.E[2];
+    const Packed3<S> p = body.M * (link.revolute ? cross(e, body.C - frame.o) : e);
+    Packed3<S> spin = Packed3<S>::zero();
+    if (link.revolute) spin = (body.P[0](0) + body.P[1](1) + body.P[2](2)) * e - body.P * e;
+    const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
+    const Columns sx = broadcast<0>(spin), sy = broadcast<1>(spin), sz = broadcast<2>(spin);
+    const Columns px = broadcast<0>(p), py = broadcast<1>(p), pz = broadcast<2>(p);
+    for (std::ptrdiff_t j = 0; j < path.blocks(link.depth); ++j) {
+        const Columns x = cx - path.o(0)[j], y = cy - path.o(1)[j], z = cz - path.o(2)[j];
+        row[j] = times(path.w(0)[j], sx + times(y, pz) - times(z, py)) +
+                 times(path.w(1)[j], sy + times(z, px) - times(x, pz)) +
+                 times(path.w(2)[j], sz + times(x, py) - times(y, px)) +
+                 (times(path.u(0)[j], px) + times(path.u(1)[j], py) + times(path.u(2)[j], pz));
+    }
+}
+
+template <class S, class Sink>
+CARDAN_INLINE void fill(int n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
+                        const typename WorkspaceT<S>::Inertia* composite, const PathTwists<S>& path, const Sink& sink) {
+    for (int first = 0; first < n;) {
+        const int end = set_run(path, links, frame, first, n);
+        for (int m = first; m < end; ++m) {
+            Packed3<S>*const row = sink.row_of(m), *const column = sink.column_of(m);
+            branch_row(path, links[m], frame[m], composite[m], row);
+            for (std::ptrdiff_t j = 0; j < path.blocks(links[m].depth); ++j) column[j] = row[j];
+            sink.written(m);
+        }
+        first = end;
+    }
+}
+
+CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
+                           const Workspace::Inertia* composite, const PathTwists<double>& path,
+                           const DenseSink<double>& g) {
+    fill<double>(n, links, frame, composite, path, g);
+}
+CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
+                           const Workspace::Inertia* composite, const PathTwists<double>& path,
+                           const BranchSink<double>& g) {
+    fill<double>(n, links, frame, composite, path, g);
+}
+template <class Sink>
+void run(int n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
+         const WorkspaceT<Complex>::Inertia* composite, const PathTwists<Complex>& path, const Sink& g) {
+    fill<Complex>(n, links, frame, composite, path, g);
+}
+
+}  // namespace
+
+template <class S>
+void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
+    const Model& model = kin.model();
+    require_size("metric", "g", g, model.size(), model.size());
+    composites(kin);
+    WorkspaceT<S>& ws = kin.workspace();
+    const PathTwists<S> path(ws.branch.data(), ws.stride);
+    run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), path,
+        DenseSink<S>{model.links().data(), model.size(), g.data(), g.outerStride(), path.row(0), path.row(0)});
+    add_armatures<S>(model, g);
+}
+
+template <class S>
+void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g) {
+    const Model& model = kin.model();
+    require_model("metric", "branch matrix", g.model().serial(), model.serial());
+    composites(kin);
+    WorkspaceT<S>& ws = kin.workspace();
+    run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
+        PathTwists<S>(ws.branch.data(), ws.stride), BranchSink<S>{g.rows(), g.columns(), g.offset()});
+    for (const Model::Spin& armature : model.armatures())
+        for (const auto& [a, sa] : armature.spin)
+            for (const auto& [b, sb] : armature.spin) g.add(a, b, S(armature.inertia * (sa * sb)));
+}
+
+std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale) {
+    const Eigen::Index n = g.rows();
+    require_size("singular pivot", "g", g, n, n);
+    require_size("singular pivot", "scale", scale, n);
+    Matrix L = Matrix::Zero(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const double pivot = g(j, j) - L.row(j).head(j).squaredNorm();
+        if (!(pivot > 1e-12 * scale(j))) return SingularPivot{static_cast<int>(j), pivot, scale(j)};
+        L(j, j) = std::sqrt(pivot);
+        for (Eigen::Index i = j + 1; i < n; ++i) L(i, j) = (g(i, j) - L.row(i).head(j).dot(L.row(j).head(j))) / L(j, j);
+    }
+    return std::nullopt;
+}
+
+double kinetic_energy(const Kinematics& kin, VectorIn qd) {
+    Workspace& ws = kin.workspace();
+    const Model& model = kin.model();
+    require_size("kinetic energy", "qd", qd, model.size());
+    double twice = 0;
+    for (int k = 0; k < model.size(); ++k) {
+        const std::size_t i = static_cast<std::size_t>(k);
+        const Model::Link& link = model.links()[i];
+        const Workspace::Frame& frame = ws.frame[i];
+        Workspace::Motion& motion = ws.motion[i];
+        motion.w = motion.v = Packed3<double>::zero();
+        if (link.parent >= 0) {
+            const std::size_t p = static_cast<std::size_t>(link.parent);
+            motion.w = ws.motion[p].w;
+            motion.v = ws.motion[p].v + cross(motion.w, frame.o - ws.frame[p].o);
+        }
+        (link.revolute ? motion.w : motion.v) += qd(k) * frame.E[2];
+        const Packed3<double> v = motion.v + cross(motion.w, frame.r - frame.o);
+        const Packed3<double> w_body = transpose(frame.E) * motion.w;
+        twice += link.mass * dot(v, v) + dot(w_body, link.J * w_body);
+    }
+    for (const Model::Spin& armature : model.armatures()) {
+        double spin = 0;
+        for (const auto& [a, s] : armature.spin) spin += s * qd(a);
+        twice += armature.inertia * spin * spin;
+    }
+    return twice / 2;
+}
+
+#define CARDAN_INSTANTIATE(S)                                      \
+    template void add_armatures<S>(const Model&, MatrixOutT<S>);   \
+    template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>); \
+    template void metric<S>(const KinematicsT<S>&, BranchMatrixT<S>&);
+CARDAN_INSTANTIATE(double)
+CARDAN_INSTANTIATE(Complex)
+#undef CARDAN_INSTANTIATE
+
+}  // namespace cardan

@@ -1,0 +1,77 @@
+/// @file
+/// The memory of the kernels: allocated once per model and thread.
+#pragma once
+
+#include "mbs/model/model.hpp"
+
+#include <cstdint>
+
+namespace cardan {
+
+/// Arrays over bodies, all in base axes. Kernels overwrite each other's scratch; what the kinematics() stage wrote
+/// stays valid until it is called again.
+template <class S>
+class WorkspaceT {
+public:
+    /// @throws MemoryError
+    explicit WorkspaceT(const Model& model);
+
+    struct Frame {
+        Packed33<S> E;  ///< rotation body -> base; its third column is the joint axis
+        Packed3<S> o;   ///< origin of the joint frame, m
+        Packed3<S> r;   ///< centre of mass, m
+    };
+    /// A rigid body, or a subtree as one: mass, centre, inertia or Binet tensor about the centre.
+    struct Inertia {
+        S M;
+        Packed3<S> C;
+        Packed33<S> P;
+    };
+    struct Motion {
+        Packed3<S> w, al;  ///< angular velocity and acceleration
+        Packed3<S> v, a;   ///< velocity and acceleration of the joint origin
+    };
+    struct Load {
+        Packed3<S> F, N;  ///< force, and moment about the joint origin
+    };
+
+    struct Momentum {
+        Packed3<S> p;   ///< sum of m x_dot
+        Packed33<S> G;  ///< sum of m (x - o) x_dot^T about the joint origin
+    };
+
+    /// Psi' and Psi'' of a coordinate (see derivatives.cpp).
+    struct Rates {
+        Packed3<S> psi1_w, psi1_u, psi2_w, psi2_u;
+    };
+
+    /// Model::serial() of the model that it was made for.
+    std::uint64_t model_serial;
+
+    // Written by kinematics().
+    std::uint64_t generation = 0;
+    std::vector<Frame> frame;
+    VectorT<S> sine, cosine;
+
+    std::uint64_t inertia_generation = 0, composite_generation = 0;
+    std::vector<Packed33<S>> J;      ///< inertia tensors about the centres of mass
+    std::vector<Inertia> composite;  ///< subtrees, Binet tensors
+
+    // Scratch of the recursions.
+    std::vector<Motion> motion;
+    std::vector<Load> load;
+    std::vector<Momentum> momentum;
+    std::vector<Rates> rates;
+    /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see
+    /// mbs/kernels/path_twists.hpp).
+    std::ptrdiff_t stride = 0;
+    std::vector<Packed3<S>> branch;
+    VectorT<S> zero;
+
+private:
+    void allocate(const Model& model);
+};
+
+using Workspace = WorkspaceT<double>;
+
+}  // namespace cardan

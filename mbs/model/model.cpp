@@ -1,0 +1,130 @@
+#include "mbs/model/model.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+namespace cardan {
+
+namespace {
+
+std::atomic<std::uint64_t> models = 0;
+
+}  // namespace
+
+Model::Model(const Tree& tree) : serial_(++models) {
+    with_memory([&] { return text("a model of ", tree.bodies().size(), " bodies"); }, [&] { make(tree); });
+}
+
+void Model::make(const Tree& tree) {
+    sort(tree);
+    for (const Tree::Frame& frame : tree.frames())
+        frames_.push_back({frame.name, frame.body < 0 ? -1 : index(BodyId{frame.body}), frame.in_body, frame.parent});
+    for (const Armature& armature : tree.armatures()) {
+        Spin spin{armature.name, armature.inertia, {}};
+        for (const auto& [body, factor] : armature.spin) {
+            const int at = index(body);
+            const auto known = std::find_if(spin.spin.begin(), spin.spin.end(), [&](auto& s) { return s.first == at; });
+            if (known == spin.spin.end())
+                spin.spin.emplace_back(at, factor);
+            else
+                known->second += factor;
+        }
+        armatures_.push_back(spin);
+    }
+    check_metric();
+}
+
+namespace {
+
+Model::Link link(const Model::Body& body, int run) {
+    const bool moves = !body.revolute;  // a prismatic joint shifts its own origin
+    return {body.parent,
+            body.depth,
+            body.subtree_end,
+            run,
+            body.revolute,
+            body.parent >= 0 && !moves && body.joint.p.isZero(0),
+            body.inertia.is_massless(),
+            body.inertia.mass,
+            body.inertia.mass,
+            0,
+            0,
+            Packed33<double>::of(body.joint.R),
+            Packed3<double>::of(body.joint.p),
+            Packed3<double>::of(body.inertia.com),
+            Packed33<double>::of(body.J)};
+}
+
+}  // namespace
+
+void Model::sort(const Tree& tree) {
+    const std::size_t n = tree.bodies().size();
+    if (n == 0) throw InputError("the tree has no bodies");
+    std::vector<std::vector<int>> children(n);
+    std::vector<int> stack;
+    for (std::size_t k = n; k-- > 0;) {
+        const int parent = tree.bodies()[k].parent;
+        (parent < 0 ? stack : children[static_cast<std::size_t>(parent)]).push_back(static_cast<int>(k));
+    }
+    index_of_tree_body_.assign(n, -1);
+    std::vector<CoordinateInfo> rows;
+    while (!stack.empty()) {
+        const int k = stack.back();
+        stack.pop_back();
+        const Tree::Body& source = tree.bodies()[static_cast<std::size_t>(k)];
+        const int parent = source.parent < 0 ? -1 : index(BodyId{source.parent});
+        index_of_tree_body_[static_cast<std::size_t>(k)] = size();
+        bodies_.push_back({source.spec.name, parent, size() + 1, parent < 0 ? 1 : body(parent).depth + 1,
+                           source.spec.joint == JointKind::revolute, source.in_parent, source.spec.inertia,
+                           source.spec.inertia.J});
+        rows.push_back(source.spec.coordinate);
+        for (int child : children[static_cast<std::size_t>(k)]) stack.push_back(child);
+    }
+    for (int k = size() - 1; k >= 0; --k)
+        if (const int p = body(k).parent; p >= 0)
+            bodies_[static_cast<std::size_t>(p)].subtree_end = std::max(body(p).subtree_end, body(k).subtree_end);
+    make_links();
+    by_depth_.resize(bodies_.size());
+    std::iota(by_depth_.begin(), by_depth_.end(), 0);
+    std::stable_sort(by_depth_.begin(), by_depth_.end(), [&](int a, int b) { return body(a).depth < body(b).depth; });
+    coordinates_ = CoordinateTable(std::move(rows));
+}
+
+void Model::make_links() {
+    for (int k = 0; k < size(); ++k) {
+        const bool continues = k > 0 && body(k).parent == k - 1;
+        links_.push_back(link(body(k), continues ? links_.back().run : k));
+    }
+    for (int k = size() - 1; k >= 0; --k) {
+        Link& own = links_[static_cast<std::size_t>(k)];
+        if (own.parent < 0 || own.subtree_mass == 0) continue;
+        double& carrier = links_[static_cast<std::size_t>(own.parent)].subtree_mass;
+        own.share = own.subtree_mass / (carrier + own.subtree_mass);
+        own.reduced = own.share * carrier;
+        carrier += own.subtree_mass;
+    }
+}
+
+int Model::index(BodyId body) const {
+    if (body.index < 0 || body.index >= static_cast<int>(index_of_tree_body_.size()))
+        throw InputError("model", "body", body.index, "a body of the tree that the model was made from");
+    return index_of_tree_body_[static_cast<std::size_t>(body.index)];
+}
+
+FrameId Model::frame(std::string_view name) const {
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+        if (frames_[i].name == name) return FrameId{static_cast<int>(i)};
+    throw InputError(text("unknown frame '", name, "'; the model has ", frames_.size(), " frames, the first of them '",
+                          frames_[0].name, "'"));
+}
+
+double Model::mass() const {
+    double sum = 0;
+    for (const Body& b : bodies_) sum += b.inertia.mass;
+    return sum;
+}
+
+}  // namespace cardan

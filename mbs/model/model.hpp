@@ -1,0 +1,108 @@
+/// @file
+/// The immutable tree: sorted, welded, checked once. Shareable between threads.
+#pragma once
+
+#include "mbs/base/packed.hpp"
+#include "mbs/model/tree.hpp"
+
+namespace cardan {
+
+/// Bodies are sorted depth first, so that body index = coordinate index, every parent precedes its children and the
+/// subtree of body i is the index range [i, subtree_end(i)). Cost and memory are O(n) (n log n for names): matrices,
+/// dense or with the pattern of the branches, are made by those who need them.
+class Model {
+public:
+    struct Body {
+        std::string name;
+        int parent;       ///< -1: base
+        int subtree_end;  ///< one past the last body of the subtree
+        int depth;        ///< number of bodies on the path to the base, itself included
+        bool revolute;    ///< else prismatic
+        Placement joint;  ///< joint frame at q = 0 in the parent body's frame
+        RigidInertia inertia;
+        Mat3 J;  ///< inertia tensor about the centre of mass, body axes
+    };
+    /// The numbers of a body that the kernels read, close together.
+    struct Link {
+        int parent, depth, subtree_end;
+        int run;  ///< first of the consecutive indices run, run + 1, ... that lead to this body, each the parent of the
+                  ///< next
+        bool revolute;
+        bool coincident;  ///< joint origin and parent's joint origin are one point, whatever q
+        bool massless;
+        double mass;
+        double subtree_mass;  ///< kg
+        /// When the subtree is joined to the parent and the later children: its share of the mass, and the reduced mass
+        /// M1 M2 / (M1 + M2) of the two, kg.
+        double share, reduced;
+        Packed33<double> R;   ///< joint frame at q = 0 in the parent body's frame
+        Packed3<double> p;    ///< its origin
+        Packed3<double> com;  ///< centre of mass, body axes
+        Packed33<double> J;   ///< inertia tensor about it
+    };
+    struct Frame {
+        std::string name;
+        int body;  ///< -1: base
+        Placement in_body;
+        int parent;  ///< frame of the same body that it was placed on; -1: the body's own frame
+    };
+    /// Armature in model order; the indices lie on one branch, each occurs once.
+    struct Spin {
+        std::string name;
+        double inertia;
+        std::vector<std::pair<int, double>> spin;
+    };
+
+    /// @throws InputError if the metric of the free coordinates at q = 0 is singular (a pivot below 1e-12 of its
+    /// scale; see ForwardDynamics::singular_pivot()): the coordinate is named.
+    /// @throws MemoryError
+    explicit Model(const Tree& tree);
+
+    int size() const { return static_cast<int>(bodies_.size()); }
+    /// @throws InputError for an index that there is not
+    const Body& body(int index) const {
+        require_index("model", "body", index, size());
+        return bodies_[static_cast<std::size_t>(index)];
+    }
+    const std::vector<Body>& bodies() const { return bodies_; }
+    const std::vector<Link>& links() const { return links_; }
+    /// Indices sorted by depth: in this order, too, every parent comes before its children.
+    const std::vector<int>& by_depth() const { return by_depth_; }
+    const std::vector<Frame>& frames() const { return frames_; }
+    const std::vector<Spin>& armatures() const { return armatures_; }
+    const CoordinateTable& coordinates() const { return coordinates_; }
+
+    /// Coordinate (= body) index in the model of a body of the tree.
+    int index(BodyId body) const;
+    int index(std::string_view coordinate) const { return coordinates_.index(coordinate); }
+    FrameId frame(std::string_view name) const;
+    /// @throws InputError for a frame that there is not
+    const Frame& frame(FrameId id) const {
+        require_index("model", "frame", id.index, static_cast<std::ptrdiff_t>(frames_.size()));
+        return frames_[static_cast<std::size_t>(id.index)];
+    }
+    /// True if a lies on the path from the base to b (or a == b).
+    bool precedes(int a, int b) const { return a <= b && b < body(a).subtree_end; }
+    /// Number of this model: its copies have the same, every other model has another. What is bound to a model knows it
+    /// by this number.
+    std::uint64_t serial() const { return serial_; }
+    /// Total mass, kg.
+    double mass() const;
+
+private:
+    void make(const Tree& tree);
+    void sort(const Tree& tree);
+    void make_links();
+    void check_metric() const;
+
+    std::vector<Body> bodies_;
+    std::vector<Link> links_;
+    std::vector<int> by_depth_;
+    std::vector<Frame> frames_;
+    std::vector<Spin> armatures_;
+    CoordinateTable coordinates_;
+    std::vector<int> index_of_tree_body_;
+    std::uint64_t serial_;
+};
+
+}  // namespace cardan

@@ -1,0 +1,95 @@
+/// @file
+/// Editable description of a tree of rigid bodies; made once into an immutable Model.
+#pragma once
+
+#include "mbs/model/coordinates.hpp"
+#include "mbs/model/dh.hpp"
+#include "mbs/model/inertia.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace cardan {
+
+/// What a body needs to be added to a tree. Its own frame has z along the joint axis.
+struct BodySpec {
+    std::string name = {};     ///< unique
+    FrameId inboard = {};      ///< frame that carries the joint
+    Placement placement = {};  ///< joint frame at q = 0 in the inboard frame (see also DhParameters::placement)
+    JointKind joint = JointKind::revolute;
+    RigidInertia inertia = {};       ///< in the body's own frame; none for massless intermediate bodies
+    CoordinateInfo coordinate = {};  ///< an empty name becomes the body's name
+};
+
+/// A constant kinetic energy J (s . qd)^2 / 2 of something that spins with s . qd relative to its carrier
+/// (generator, gear wheel seen from the slow side): no Christoffel symbols, no reaction on the carrier.
+struct Armature {
+    std::string name = {};
+    double inertia = 0;  ///< J, kg m^2 (rad) or kg (m); negative values are legal as long as the metric stays positive
+    std::vector<std::pair<BodyId, double>> spin = {};  ///< the vector s: coordinates on one branch and their factors
+};
+
+/// A tree of bodies, each carried through one joint with one coordinate by a frame of another body or of the base.
+/// Everything is named; bad input throws InputError naming the body, the value and the allowed range. Ids are places in
+/// this tree: one of another tree is refused where it is out of range, and means another body where it is not.
+/// Cost of an addition: O(log n); memory O(n).
+class Tree {
+public:
+    struct Body {
+        BodySpec spec;
+        int parent = -1;      ///< body index, -1: base
+        Placement in_parent;  ///< joint frame at q = 0 in the parent body's own frame
+        FrameId frame;        ///< own frame
+    };
+    struct Frame {
+        std::string name;
+        int body = -1;  ///< -1: base
+        Placement in_body;
+        int parent = -1;  ///< frame of the same body that it was placed on; -1: the body's own frame
+    };
+    /// One inertia as it was given, before bodies welded together were merged.
+    struct Piece {
+        std::string part;
+        int body = -1;         ///< -1: base
+        RigidInertia inertia;  ///< in the body's own frame
+    };
+
+    Tree();
+
+    static FrameId base() { return FrameId{0}; }
+
+    BodyId add_body(BodySpec spec);
+    BodyId add_body(BodySpec spec, const DhParameters& dh);
+    /// A frame fixed to the body of `parent`, at `placement` in it.
+    FrameId add_frame(FrameId parent, const Placement& placement, std::string name);
+    /// Fixes a rigid inertia, given in components of `frame`, to the body of that frame. On the base it moves nothing
+    /// but counts in the summary.
+    /// @param part  what the inertia belongs to ("tower", "hub"): the summary adds up masses by part
+    void weld(FrameId frame, const RigidInertia& inertia, std::string_view part = "welded body");
+    void add_armature(const Armature& armature);
+
+    FrameId frame_of(BodyId body) const;
+    FrameId frame(std::string_view name) const;
+    BodyId body(std::string_view name) const;
+
+    const std::vector<Body>& bodies() const { return bodies_; }
+    const std::vector<Frame>& frames() const { return frames_; }
+    const std::vector<Armature>& armatures() const { return armatures_; }
+    const std::vector<Piece>& pieces() const { return pieces_; }
+
+private:
+    void require_new_frame(const std::string& name, std::string_view where) const;
+    void require(FrameId frame, std::string_view where) const;
+    void require(BodyId body, std::string_view where) const;
+
+    std::vector<Body> bodies_;
+    std::vector<Frame> frames_;
+    std::vector<Armature> armatures_;
+    std::vector<Piece> pieces_;
+    std::map<std::string, int, std::less<>> frame_index_;  ///< of every name of a frame or body
+    std::set<std::string, std::less<>> coordinate_names_;
+};
+
+}  // namespace cardan

@@ -1,0 +1,40 @@
+/// @file
+/// What can be recorded of a motion: named quantities with units, and how they follow from the state.
+#pragma once
+
+#include "mbs/system/joint_loads.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cardan {
+
+/// A quantity that is recorded over time.
+struct Channel {
+    std::string name;        ///< unique within a history, e.g. "blade 1 tip flap deflection"
+    std::string units;       ///< SI, e.g. "m", "N m"; "1" for a pure number
+    std::string long_name;   ///< one line
+    std::string frame = {};  ///< axes in which a vector's component is given, e.g. "ground", "blade 1 root"
+    std::string point = {};  ///< where
+    std::string alias = {};  ///< name of the channel in OpenFAST, e.g. "RootMyb1"; empty: it has none
+};
+
+/// A state with all that follows from it.
+struct ChannelInput {
+    double time;
+    const Vector &q, &qd, &qdd;
+    const Vector& actuator;  ///< what drives add to Q on their coordinates, N m or N
+    const Kinematics& kinematics;
+    const Forces& forces;
+    const Transmission& carried;  ///< motion and joint loads of all bodies
+};
+
+/// Channels that are computed together.
+struct ChannelGroup {
+    std::vector<Channel> channels;
+    /// @param values  out, one per channel
+    std::function<void(const ChannelInput&, double* values)> sample;
+};
+
+}  // namespace cardan

@@ -1,0 +1,125 @@
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/system/forces.hpp"
+
+#include <cmath>
+
+namespace cardan {
+
+namespace {
+
+constexpr double largest_magnitude = 1e100;  // squares and products stay numbers
+
+void require_semidefinite(const Matrix& A, std::size_t n, const std::string& where, std::string_view quantity) {
+    if (A.rows() != static_cast<Eigen::Index>(n) || A.cols() != A.rows())
+        throw InputError(where, text(quantity, " size"), text(A.rows(), " x ", A.cols()), text(n, " x ", n));
+    if (!A.allFinite()) throw InputError(where, quantity, A, "finite");
+    if (!(A.cwiseAbs().maxCoeff() <= largest_magnitude)) throw InputError(where, quantity, A, "magnitudes up to 1e100");
+    if ((A - A.transpose()).norm() > 1e-9 * A.norm()) throw InputError(where, quantity, A, "symmetric");
+    // Scaled to unit diagonal first: entries of rotations and translations differ by many decades.
+    Matrix unit = A;
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+        if (A(i, i) < 0) throw InputError(where, quantity, A(i, i), ">= 0 on the diagonal");
+        const double scale = A(i, i) > 0 ? 1 / std::sqrt(A(i, i)) : 1.0;
+        unit.row(i) *= scale;
+        unit.col(i) *= scale;
+    }
+    const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(unit, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    if (lowest < -1e-9) throw InputError(where, text(quantity, ", lowest scaled eigenvalue"), lowest, ">= 0");
+}
+
+}  // namespace
+
+void ForceSet::add_spring(std::string name, BodyId coordinate, double stiffness, double damping, double rest) {
+    LinearLaw law{std::move(name), {coordinate}, Matrix::Constant(1, 1, stiffness), {}, Vector::Constant(1, rest)};
+    if (damping != 0) law.damping = Matrix::Constant(1, 1, damping);
+    add_law(std::move(law));
+}
+
+void ForceSet::add_law(LinearLaw law) {
+    const std::string where = text("force element '", law.name, "'");
+    const std::size_t n = law.coordinates.size();
+    if (n == 0) throw InputError(where, "number of coordinates", 0, "at least one");
+    if (law.damping.size() == 0) law.damping = Matrix::Zero(law.stiffness.rows(), law.stiffness.cols());
+    if (law.rest.size() == 0) law.rest = Vector::Zero(static_cast<Eigen::Index>(n));
+    require_semidefinite(law.stiffness, n, where, "stiffness");
+    require_semidefinite(law.damping, n, where, "damping");
+    if (law.rest.size() != static_cast<Eigen::Index>(n) || !law.rest.allFinite())
+        throw InputError(where, "rest position", law.rest.transpose(), text(n, " finite values"));
+    laws_.push_back(std::move(law));
+}
+
+void ForceSet::add_wrench(FrameLoad load) {
+    if (!load.wrench.force.allFinite() || !load.wrench.moment.allFinite())
+        throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
+                         text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()), "finite");
+    if (!(load.wrench.force.cwiseAbs().maxCoeff() <= largest_magnitude &&
+          load.wrench.moment.cwiseAbs().maxCoeff() <= largest_magnitude))
+        throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
+                         text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()),
+                         "magnitudes up to 1e100");
+    loads_.push_back(std::move(load));
+}
+
+void ForceSet::add_user(UserForce force) {
+    if (!force.force) throw InputError(text("user force '", force.name, "': the function `force` is missing"));
+    users_.push_back(std::move(force));
+}
+
+void ForceSet::set_gravity(const Vec3& g) {
+    if (!g.allFinite()) throw InputError("gravity", "vector [m/s^2]", g.transpose(), "finite");
+    gravity_ = g;
+}
+
+Forces::Forces(const ForceSet& set, const Model& model)
+    : loads_(set.loads()), gravity_(set.gravity()), model_(model.serial()), size_(model.size()) {
+    for (const UserForce& force : set.users()) users_.push_back({force});
+    for (const LinearLaw& law : set.laws()) {
+        Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
+        for (BodyId body : law.coordinates) {
+            if (body.index < 0 || body.index >= model.size())
+                throw InputError(text("force element '", law.name, "'"), "body", body.index, "a body of the tree");
+            bound.at.push_back(model.index(body));
+        }
+        laws_.push_back(std::move(bound));
+    }
+    for (const FrameLoad& load : loads_)
+        if (load.frame.index < 0 || load.frame.index >= static_cast<int>(model.frames().size()))
+            throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
+}
+
+std::string Forces::stiffest_law(int coordinate) const {
+    require_index("forces", "coordinate", coordinate, size_);
+    std::string name;
+    double stiffest = 0;
+    for (const Law& law : laws_)
+        for (std::size_t i = 0; i < law.at.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            if (law.at[i] != coordinate || !(law.K(row, row) > stiffest)) continue;
+            stiffest = law.K(row, row);
+            name = law.name;
+        }
+    return name;
+}
+
+Forces Forces::with_gravity(const Vec3& g) const {
+    if (!g.allFinite()) throw InputError("gravity", "vector [m/s^2]", g.transpose(), "finite");
+    Forces other = *this;
+    other.gravity_ = g;
+    return other;
+}
+
+Forces Forces::with_load_factor(double factor, bool gravity_too) const {
+    if (!std::isfinite(factor)) throw InputError("forces", "load factor", factor, "finite");
+    Forces other = *this;
+    for (FrameLoad& load : other.loads_) {
+        load.wrench.force *= factor;
+        load.wrench.moment *= factor;
+    }
+    for (User& user : other.users_)
+        if (!user.own.elastic) user.factor *= factor;
+    if (gravity_too) other.gravity_ *= factor;
+    return other;
+}
+
+}  // namespace cardan

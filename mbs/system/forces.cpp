@@ -1,0 +1,270 @@
+#include "mbs/system/forces.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/path_twists.hpp"
+
+#include <utility>
+
+namespace cardan {
+
+namespace {
+
+// Memory for user forces under a factor, kept by every thread. A user force that evaluates other forces borrows again
+// and gets fresh memory.
+struct Scratch {
+    Vector Q;
+    Matrix by_q, by_qd;
+};
+class BorrowedScratch {
+public:
+    BorrowedScratch() : own_(std::move(kept())) {}
+    ~BorrowedScratch() { kept() = std::move(own_); }
+    BorrowedScratch(const BorrowedScratch&) = delete;
+    BorrowedScratch& operator=(const BorrowedScratch&) = delete;
+    Scratch* operator->() { return &own_; }
+
+private:
+    static Scratch& kept() {
+        thread_local Scratch scratch;
+        return scratch;
+    }
+    Scratch own_;
+};
+
+// Central differences of a user force, at a workspace of its own: the caller's kinematics must stay valid.
+void difference(const UserForce& user, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+    constexpr double step = 1e-6;
+    const Eigen::Index n = at.q.size();
+    const Model& model = at.kinematics.model();
+    Workspace own(model);
+    const auto force = [&](const Vector& q, const Vector& qd) {
+        Vector Q = Vector::Zero(n);
+        user.force({at.time, q, qd, kinematics(model, q, own)}, Q);
+        return Q;
+    };
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const Vector d = step * Vector::Unit(n, j);
+        by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
+        by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
+    }
+}
+
+}  // namespace
+
+template <class S>
+void Forces::require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const {
+    require_model("forces", "kinematics", kin.model().serial(), model_);
+    require_size("forces", "q", q, size_);
+    require_size("forces", "qd", qd, size_);
+}
+
+template <class S>
+void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
+    const auto n = static_cast<Eigen::Index>(law.at.size());
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const int b = law.at[static_cast<std::size_t>(j)];
+        const S x = q(b) - law.rest(j), v = qd(b);
+        for (Eigen::Index i = 0; i < n; ++i)
+            Q(law.at[static_cast<std::size_t>(i)]) -= law.K(i, j) * x + law.D(i, j) * v;
+    }
+}
+
+// Every coordinate lifts its subtree as one body: Q_a = M_a g . v_a(C_a).
+template <class S>
+void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
+    composites(kin);
+    const Vec3T<S> g = gravity_.template cast<S>();
+    for (int a = 0; a < kin.model().size(); ++a) {
+        const auto& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        Q(a) += subtree.M * dot<S>(g, own_twist_at(kin, a, subtree.C.vector()).v);
+    }
+}
+
+template <class S>
+void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, VectorOutT<S> Q) const {
+    const Pose<S> at = pose(kin, load.frame);
+    Vec3T<S> force = load.wrench.force.template cast<S>(), moment = load.wrench.moment.template cast<S>();
+    if (load.axes == WrenchAxes::frame) {
+        force = at.R * force;
+        moment = at.R * moment;
+    }
+    for (int a = kin.model().frame(load.frame).body; a >= 0; a = own_parent(kin.model(), a)) {
+        const PointTwist<S> t = own_twist_at(kin, a, at.p);
+        Q(a) += dot<S>(force, t.v) + dot<S>(moment, t.w);
+    }
+}
+
+template <class S>
+void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
+                                            VectorOutT<S> Q) const {
+    require_state<S>(kin, q, qd);
+    require_size("forces", "Q", Q, size_);
+    Q.setZero();
+    for (const Law& law : laws_) add_law<S>(law, q, qd, Q);
+    if (has_gravity()) add_gravity<S>(kin, Q);
+    for (const FrameLoad& load : loads_) add_wrench<S>(load, kin, Q);
+}
+
+void Forces::generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                                VectorOut Q) const {
+    generalised_forces_of_elements<double>(kin, q, qd, Q);
+    for (const User& user : users_) add_user(user, {time, q, qd, kin}, Q);
+}
+
+// A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
+void Forces::add_user(const User& user, const ForceInput& at, VectorOut& Q) const {
+    if (user.factor == 1) {
+        user.own.force(at, Q);
+        return;
+    }
+    BorrowedScratch scratch;
+    scratch->Q.setZero(Q.size());
+    user.own.force(at, scratch->Q);
+    Q += user.factor * scratch->Q;
+}
+
+// d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
+void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
+    composites(kin);
+    for (int a = 0; a < kin.model().size(); ++a) {
+        const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        const Vec3 C = subtree.C.vector(), lift = own_twist_at(kin, a, C).v;
+        for (int b = a; b >= 0; b = own_parent(kin.model(), b)) {
+            const Vec3 w = own_twist_at(kin, b, C).w;
+            const double dQ = subtree.M * gravity_.dot(cross<double>(w, lift));
+            K(a, b) -= dQ;
+            if (b != a) K(b, a) -= dQ;
+        }
+    }
+}
+
+Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin) const {
+    if (load.axes == WrenchAxes::base) return load.wrench;
+    const Mat3 R = pose(kin, load.frame).R;
+    return {R * load.wrench.force, R * load.wrench.moment};
+}
+
+void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const {
+    const Pose<double> at = pose(kin, load.frame);
+    const bool follower = load.axes == WrenchAxes::frame;
+    const auto [force, moment] = at_frame(load, kin);
+    const Model& model = kin.model();
+    const int tip = model.frame(load.frame).body;
+    for (int a = tip; a >= 0; a = own_parent(model, a))
+        for (int b = tip; b >= 0; b = own_parent(model, b)) {
+            const PointTwist<double> ta = own_twist_at(kin, a, at.p), tb = own_twist_at(kin, b, at.p);
+            const bool b_proximal = b <= a;
+            double dQ = force.dot(b_proximal ? cross<double>(tb.w, ta.v) : cross<double>(ta.w, tb.v));
+            if (b_proximal) dQ += moment.dot(cross<double>(tb.w, ta.w));
+            if (follower) dQ += cross<double>(tb.w, force).dot(ta.v) + cross<double>(tb.w, moment).dot(ta.w);
+            K(a, b) -= dQ;
+        }
+}
+
+void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const {
+    Matrix& stiffness = user.own.elastic ? out.elastic : out.loads;
+    if (user.own.jacobian && user.factor == 1) {
+        // It adds dQ/dq where -dQ/dq is gathered; changes of sign are exact.
+        stiffness *= -1;
+        out.damping *= -1;
+        user.own.jacobian(at, stiffness, out.damping);
+        stiffness *= -1;
+        out.damping *= -1;
+        return;
+    }
+    const Eigen::Index n = at.q.size();
+    BorrowedScratch scratch;
+    scratch->by_q.setZero(n, n);
+    scratch->by_qd.setZero(n, n);
+    if (user.own.jacobian)
+        user.own.jacobian(at, scratch->by_q, scratch->by_qd);
+    else
+        difference(user.own, at, scratch->by_q, scratch->by_qd);
+    stiffness -= user.factor * scratch->by_q;
+    out.damping -= user.factor * scratch->by_qd;
+}
+
+void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                         ForceDerivatives& out) const {
+    require_state<double>(kin, q, qd);
+    const Eigen::Index n = q.size();
+    for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
+    for (const Law& law : laws_)
+        for (std::size_t i = 0; i < law.at.size(); ++i)
+            for (std::size_t j = 0; j < law.at.size(); ++j) {
+                const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+                out.elastic(law.at[i], law.at[j]) += law.K(r, c);
+                out.damping(law.at[i], law.at[j]) += law.D(r, c);
+            }
+    if (has_gravity()) gravity_stiffness(kin, out.gravity);
+    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, out.loads);
+    for (const User& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
+}
+
+double Forces::dissipation(const Vector& qd) const {
+    require_size("dissipation", "qd", qd, size_);
+    double power = 0;
+    for (const Law& law : laws_)
+        for (Eigen::Index j = 0; j < law.D.cols(); ++j)
+            for (Eigen::Index i = 0; i < law.D.rows(); ++i)
+                power +=
+                    qd(law.at[static_cast<std::size_t>(i)]) * law.D(i, j) * qd(law.at[static_cast<std::size_t>(j)]);
+    return power;
+}
+
+double Forces::gravity_energy(const Kinematics& kin) const {
+    double energy = 0;
+    for (int k = 0; k < kin.model().size(); ++k)
+        energy -= kin.model().body(k).inertia.mass * gravity_.dot(kin.centre_of_mass(k));
+    return energy;
+}
+
+std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    require_state<double>(kin, q, qd);
+    std::vector<ForceReport> reports;
+    Vector Q = Vector::Zero(q.size());
+    const auto power = [&] {
+        const double P = Q.dot(qd);
+        Q.setZero();
+        return P;
+    };
+    for (const Law& law : laws_) {
+        Vector x(law.K.rows());
+        for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = q(law.at[static_cast<std::size_t>(i)]) - law.rest(i);
+        add_law<double>(law, q, qd, Q);
+        reports.push_back({law.name, x.dot(law.K * x) / 2, power()});
+    }
+    if (has_gravity()) {
+        add_gravity<double>(kin, Q);
+        reports.push_back({"gravity", gravity_energy(kin), power()});
+    }
+    for (const FrameLoad& load : loads_) {
+        add_wrench<double>(load, kin, Q);
+        std::optional<double> energy;  // only a dead force has a potential
+        if (load.axes == WrenchAxes::base && load.wrench.moment.isZero(0))
+            energy = -load.wrench.force.dot(pose(kin, load.frame).p);
+        reports.push_back({load.name, energy, power()});
+    }
+    for (const User& user : users_) {
+        const ForceInput at{time, q, qd, kin};
+        VectorOut sum = Q;
+        add_user(user, at, sum);
+        std::optional<double> energy;
+        if (user.own.energy) energy = user.factor * user.own.energy(at);
+        reports.push_back({user.own.name, energy, power()});
+    }
+    return reports;
+}
+
+double Forces::potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    double sum = 0;
+    for (const ForceReport& element : report(kin, time, q, qd)) sum += element.energy.value_or(0.0);
+    return sum;
+}
+
+template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,
+                                                             VectorInT<double>, VectorOutT<double>) const;
+template void Forces::generalised_forces_of_elements<Complex>(const KinematicsT<Complex>&, VectorInT<Complex>,
+                                                              VectorInT<Complex>, VectorOutT<Complex>) const;
+
+}  // namespace cardan

@@ -1,0 +1,171 @@
+/// @file
+/// Force elements in batches per kind; every one reports its energy and power.
+#pragma once
+
+#include "mbs/kernels/metric.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace cardan {
+
+/// Force and moment at a frame's origin, N and N m.
+struct Wrench {
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+};
+/// Axes in which a wrench is constant: those of the base (dead load) or those of the frame (follower load).
+enum class WrenchAxes : std::uint8_t { base, frame };
+
+/// State handed to user forces.
+struct ForceInput {
+    double time;
+    const Vector& q;
+    const Vector& qd;
+    const Kinematics& kinematics;
+};
+
+/// A force of the user's own. Without `jacobian` it is differenced (central, step 1e-6), in double precision, which
+/// allocates; else the library allocates nothing around it.
+struct UserForce {
+    std::string name = {};
+    /// Adds its generalised forces to Q (size n). What is there belongs to other elements: add, do not assign or read.
+    std::function<void(const ForceInput&, VectorOut Q)> force = {};
+    /// Adds dQ/dq and dQ/dqd (n x n) to what is there, in the same way.
+    std::function<void(const ForceInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
+    /// Potential energy, J, if there is one.
+    std::function<double(const ForceInput&)> energy = {};
+    /// A spring rather than a load: -dQ/dq counts as elastic stiffness.
+    bool elastic = false;
+};
+
+/// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint spring).
+struct LinearLaw {
+    std::string name = {};
+    std::vector<BodyId> coordinates = {};
+    Matrix stiffness = {};  ///< symmetric; N m/rad, N/m or N per coordinate pair
+    Matrix damping = {};    ///< empty: none
+    Vector rest = {};       ///< q0; empty: zero
+};
+
+struct FrameLoad {
+    std::string name = {};
+    FrameId frame = {};
+    Wrench wrench = {};
+    WrenchAxes axes = WrenchAxes::base;
+};
+
+/// Editable list of force elements on the bodies of a Tree. Bad values throw InputError.
+class ForceSet {
+public:
+    void add_spring(std::string name, BodyId coordinate, double stiffness, double damping = 0, double rest = 0);
+    void add_law(LinearLaw law);
+    void add_wrench(FrameLoad load);
+    void add_user(UserForce force);
+    /// Gravity vector in base axes, m/s^2, e.g. (0, 0, -9.80665).
+    void set_gravity(const Vec3& g);
+
+    const std::vector<LinearLaw>& laws() const { return laws_; }
+    const std::vector<FrameLoad>& loads() const { return loads_; }
+    const std::vector<UserForce>& users() const { return users_; }
+    const Vec3& gravity() const { return gravity_; }
+
+private:
+    std::vector<LinearLaw> laws_;
+    std::vector<FrameLoad> loads_;
+    std::vector<UserForce> users_;
+    Vec3 gravity_ = Vec3::Zero();
+};
+
+/// Energy stored in, and power delivered by, one force element at a state.
+struct ForceReport {
+    std::string name;
+    std::optional<double> energy;  ///< potential energy, J; none for loads that have no potential
+    double power;                  ///< Q . qd, W
+};
+
+/// Stiffness and damping of the force elements at a state: -dQ/dq and -dQ/dqd, n x n, by origin.
+struct ForceDerivatives {
+    Matrix elastic;  ///< -dQ/dq of linear laws and elastic user forces
+    Matrix gravity;  ///< -dQ/dq of gravity
+    Matrix loads;    ///< -dQ/dq of wrenches and other user forces
+    Matrix damping;  ///< -dQ/dqd of all
+};
+
+/// A force set bound to a model: indices resolved, ready to evaluate. All functions throw InputError for kinematics of
+/// another model and for vectors of another size.
+class Forces {
+public:
+    /// @throws InputError for bodies and frames that the model does not have
+    Forces(const ForceSet& set, const Model& model);
+
+    /// Q_a of all elements.
+    /// @param Q  out, size n, N m or N; overwritten, no alias of q or qd.  Cost O(n d), no allocation but what user
+    /// forces make.
+    void generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd, VectorOut Q) const;
+    /// Without user forces, on any scalar (tests).
+    template <class S>
+    void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
+                                        VectorOutT<S> Q) const;
+    /// -dQ/dq and -dQ/dqd by origin.
+    /// @param out  overwritten; matrices of the right size are used again.  Cost O(n^2), no allocation then, unless a
+    /// user force has no Jacobian.
+    void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                     ForceDerivatives& out) const;
+
+    /// Potential energy of everything that has one, J.
+    double potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
+    std::vector<ForceReport> report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
+
+    const std::vector<FrameLoad>& loads() const { return loads_; }
+    /// A load as it acts now: force and moment at the frame's origin, base axes.
+    Wrench at_frame(const FrameLoad& load, const Kinematics& kin) const;
+    const Vec3& gravity() const { return gravity_; }
+    /// Model::serial() of the model that it is bound to.
+    std::uint64_t model_serial() const { return model_; }
+    bool has_gravity() const { return !gravity_.isZero(0); }
+    /// Name of the linear law that is stiffest on a coordinate; empty: there is none.
+    std::string stiffest_law(int coordinate) const;
+    /// Power that the dampers of the linear laws take away, qd^T D qd, W.  Cost O(n), no allocation.
+    double dissipation(const Vector& qd) const;
+    /// The same forces under another gravity.  @throws InputError if it is not finite
+    Forces with_gravity(const Vec3& g) const;
+    /// The same forces with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian
+    /// and energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
+    /// @throws InputError if the factor is not finite.
+    Forces with_load_factor(double factor, bool gravity_too) const;
+
+private:
+    struct Law {
+        std::string name;
+        std::vector<int> at;
+        Matrix K, D;
+        Vector rest;
+    };
+    struct User {
+        UserForce own;
+        double factor = 1;
+    };
+    template <class S>
+    void add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const;
+    template <class S>
+    void add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const;
+    template <class S>
+    void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, VectorOutT<S> Q) const;
+    void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
+    void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const;
+    void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
+    void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
+    double gravity_energy(const Kinematics& kin) const;
+    template <class S>
+    void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;
+
+    std::vector<Law> laws_;
+    std::vector<FrameLoad> loads_;
+    std::vector<User> users_;
+    Vec3 gravity_;
+    std::uint64_t model_;  ///< Model::serial()
+    int size_;             ///< number of coordinates
+};
+
+}  // namespace cardan

@@ -1,0 +1,51 @@
+#include "mbs/system/joint_loads.hpp"
+
+namespace cardan {
+
+namespace {
+
+// Moves a wrench about `from` to the point `to` and adds it.
+void add_at(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double factor) {
+    sum.force += factor * wrench.force;
+    sum.moment += factor * (wrench.moment + cross<double>(from - to, wrench.force));
+}
+
+}  // namespace
+
+Transmission transmission(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd) {
+    const Model& model = kin.model();
+    require_model("transmission", "set of forces", forces.model_serial(), model.serial());
+    const Workspace& ws = kin.workspace();
+    Vector tau(model.size());
+    inverse_dynamics<double>(kin, qd, qdd, tau);
+    Transmission t;
+    for (int k = 0; k < model.size(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const Workspace::Motion& motion = ws.motion[i];
+        t.motion.push_back({kin.origin(k), motion.a.vector(), motion.w.vector(), motion.al.vector()});
+        t.joint.push_back({ws.load[i].F.vector(), ws.load[i].N.vector()});
+    }
+    std::vector<Wrench> applied(t.joint.size());
+    for (int k = 0; k < model.size(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const Wrench weight{model.body(k).inertia.mass * forces.gravity(), Vec3::Zero()};
+        add_at(applied[i], weight, kin.centre_of_mass(k), kin.origin(k), 1);
+    }
+    for (const FrameLoad& load : forces.loads()) {
+        const int body = model.frame(load.frame).body;
+        if (body < 0) continue;
+        const auto i = static_cast<std::size_t>(body);
+        add_at(applied[i], forces.at_frame(load, kin), pose(kin, load.frame).p, kin.origin(body), 1);
+    }
+    for (int k = model.size() - 1; k >= 0; --k) {
+        const auto i = static_cast<std::size_t>(k);
+        add_at(t.joint[i], applied[i], kin.origin(k), kin.origin(k), -1);
+        if (model.body(k).parent >= 0) {
+            const auto p = static_cast<std::size_t>(model.body(k).parent);
+            add_at(applied[p], applied[i], kin.origin(k), kin.origin(model.body(k).parent), 1);
+        }
+    }
+    return t;
+}
+
+}  // namespace cardan

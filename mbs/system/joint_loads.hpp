@@ -1,0 +1,35 @@
+/// @file
+/// What the joints carry: forces and moments transmitted through the tree in motion.
+#pragma once
+
+#include "mbs/kernels/dynamics.hpp"
+#include "mbs/system/forces.hpp"
+
+namespace cardan {
+
+/// Motion of a body, base axes.
+struct BodyMotion {
+    Vec3 origin;        ///< of its joint frame, m
+    Vec3 acceleration;  ///< of the origin, m/s^2
+    Vec3 angular_velocity, angular_acceleration;
+    /// Acceleration of the body's point at r (base axes), m/s^2.
+    Vec3 at(const Vec3& r) const {
+        const Vec3 arm = r - origin;
+        return acceleration + cross<double>(angular_acceleration, arm) +
+               cross<double>(angular_velocity, cross<double>(angular_velocity, arm));
+    }
+};
+
+/// Motion and joint loads of all bodies at one state.
+struct Transmission {
+    std::vector<BodyMotion> motion;  ///< one per body
+    /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
+    /// inertial forces of the subtree less gravity and wrenches on it, base axes. User forces are not known as wrenches
+    /// and are left out; armatures have no reaction.
+    std::vector<Wrench> joint;
+};
+
+/// @param qd, qdd  rates and accelerations, size n
+Transmission transmission(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd);
+
+}  // namespace cardan

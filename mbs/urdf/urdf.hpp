@@ -1,0 +1,86 @@
+/// @file
+/// Robots described in URDF as trees, and trees as URDF. Target cardan::urdf; the guide is docs/urdf.md.
+///
+/// URDF and Cardan place the joint differently. The frame of a URDF link is the joint frame turned by the joint, and
+/// the axis is any unit vector in it; the frame of a Cardan body has z along its axis. A link with another axis than z
+/// becomes a body named after its joint and a frame on it named after the link, and its inertia is welded to that
+/// frame. So `tree.frame("link name")` is the frame of the URDF link in every case.
+#pragma once
+
+#include "mbs/model/tree.hpp"
+#include "mbs/system/forces.hpp"
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cardan {
+
+/// A URDF <mimic>: coordinate = multiplier * other coordinate + offset. Never applied: coordinates are independent.
+struct UrdfMimic {
+    std::string joint = {};  ///< name of the other joint
+    double multiplier = 1;
+    double offset = 0;  ///< rad or m
+};
+
+/// What URDF says about a joint and a Tree does not hold. A joint with a limit of infinity has none.
+struct UrdfJoint {
+    std::string coordinate = {};                                ///< name of the coordinate
+    double lower = -std::numeric_limits<double>::infinity();    ///< rad or m
+    double upper = std::numeric_limits<double>::infinity();     ///< rad or m
+    double velocity = std::numeric_limits<double>::infinity();  ///< largest speed, rad/s or m/s
+    double effort = std::numeric_limits<double>::infinity();    ///< largest drive torque or force, N m or N
+    double damping = 0;                                         ///< viscous, N m s/rad or N s/m
+    double friction = 0;                                        ///< Coulomb, N m or N
+    std::optional<UrdfMimic> mimic = {};
+};
+
+/// A robot read from URDF.
+struct UrdfModel {
+    std::string robot_name = {};
+    Tree tree = {};                       ///< the root link is the base
+    std::vector<UrdfJoint> joints = {};   ///< one per coordinate, joints[i] belongs to BodyId{i}
+    std::vector<std::string> notes = {};  ///< what was passed over, ignored or renamed, "<source>:<line>: ..."
+};
+
+/// Reads a URDF file through urdfdom. Calls from several threads take turns; nothing is printed.
+///
+/// Revolute, continuous and prismatic joints become one coordinate with the name of the joint; floating joints six
+/// ("<joint> translation x" ... "<joint> rotation z", about body-fixed x, y, z in this order), planar joints three
+/// ("<joint> translation x", "... y", "<joint> rotation", in the plane whose normal is the axis), on massless
+/// intermediate bodies. A fixed link becomes a frame with its name, and its inertia is welded there. Coordinates,
+/// bodies and frames come in the order of the joints in the file as far as parents precede children.
+/// @throws FileError if the file cannot be read, ParseError if it is no text in UTF-8, InputError ("<file>:<line>:
+/// ...") if it is not XML or not URDF, if the links are no tree, if a value is no finite number, if an axis is zero, if
+/// an inertia is impossible, or if a link at the end of a branch moves and nothing there has an inertia.
+[[nodiscard]] UrdfModel read_urdf(const std::filesystem::path& file);
+/// The same of URDF text; `source_name` stands for the file in messages.
+[[nodiscard]] UrdfModel parse_urdf(std::string_view xml, std::string_view source_name = "URDF text");
+
+/// Dampers with the viscous damping of the joints, named "<coordinate> damping". (Coulomb friction has no law.)
+/// @throws InputError if the tree has no such coordinate or a damping is negative
+[[nodiscard]] ForceSet joint_damping(const Tree& tree, const std::vector<UrdfJoint>& joints);
+
+/// What is written beside the tree.
+struct UrdfExport {
+    std::string robot_name = "cardan";
+    std::vector<UrdfJoint> joints = {};  ///< for some or all coordinates; the others have no limits and no damping
+};
+
+/// A tree as URDF text. Every body is a link of its name on a joint about or along its z with the name of the
+/// coordinate; every frame is a massless link on a fixed joint; inertias that were welded under a part name of their
+/// own are links on fixed joints, carried by the frame with the name of the part if there is one. Numbers are written
+/// with the digits that give the same double again. What URDF cannot say stands in a comment at the top, see
+/// urdf_losses().
+/// @throws InputError if joint data name no coordinate or one twice, or are impossible; if a name cannot stand in XML
+[[nodiscard]] std::string to_urdf(const Tree& tree, const UrdfExport& with = {});
+/// What is lost on the way to URDF: armatures, roles and parts of coordinates, reduced inertias, missing limits.
+[[nodiscard]] std::vector<std::string> urdf_losses(const Tree& tree, const UrdfExport& with = {});
+/// Writes to_urdf() to a file that has its name only when it is complete; until then it is "<file>.partial".
+/// @throws FileError if it cannot be written, and what to_urdf() throws
+void write_urdf(const std::filesystem::path& file, const Tree& tree, const UrdfExport& with = {});
+
+}  // namespace cardan

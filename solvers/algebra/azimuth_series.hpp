@@ -1,0 +1,20 @@
+/// @file
+/// Real Fourier series of vectors over the azimuth.
+#pragma once
+
+#include "mbs/base/types.hpp"
+
+namespace cardan::solvers {
+
+/// (1, cos psi, sin psi, cos 2 psi, ...) or a derivative by psi, 2 harmonics + 1 entries. A series is a matrix with a
+/// column per entry; its value is the product of the two.
+Vector fourier_basis(double psi, int harmonics, int derivative = 0);
+
+/// What a sample at psi, of `count` equidistant ones, contributes to the coefficients of the series.
+/// Exact for series of up to `harmonics` harmonics if count > 2 harmonics.
+Vector fourier_weights(double psi, int harmonics, int count);
+
+/// Coefficients of the series through equidistant samples (one per column, from azimuth 0 on).
+Matrix fourier_coefficients(const Matrix& samples, int harmonics);
+
+}  // namespace cardan::solvers

@@ -1,0 +1,46 @@
+/// @file
+/// Dense kernels that take no memory from the heap, whatever the size.
+///
+/// Eigen's blocked products and factorisations do, for matrices of more than about a hundred rows; these go through the
+/// same products in pieces small enough for the stack.
+#pragma once
+
+#include "mbs/base/types.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace cardan::solvers {
+
+/// Distance of 1 to the next number.
+inline constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
+
+/// C += sign A B.
+/// @param C  no alias of A or B
+void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign = 1);
+
+/// B := A^-1 B by elimination with row exchanges; zero pivots give infinite or undefined entries.
+/// @param A  destroyed.  Cost 2/3 n^3 + 2 n^2 columns of B
+void solve_in_place(Matrix& A, Matrix& B);
+
+/// A matrix in triangular factors, to be solved with many times.
+class LuFactors {
+public:
+    explicit LuFactors(Eigen::Index n) : lu_(n, n), exchanges_(static_cast<std::size_t>(n)) {}
+    /// To be filled before factorise(), which overwrites it.
+    Matrix& matrix() { return lu_; }
+    /// By elimination with row exchanges. Zero pivots give infinite or undefined solutions.  Cost 2/3 n^3
+    void factorise();
+    /// b := A^-1 b.  Cost 2 n^2
+    void solve(Vector& b) const;
+
+private:
+    Matrix lu_;
+    std::vector<Eigen::Index> exchanges_;  ///< row that was exchanged with row k
+};
+
+/// Whether a symmetric matrix is positive definite, by Cholesky's factorisation.
+/// @param A  the lower triangle is read; destroyed.  Cost n^3/3
+bool positive_definite(Matrix& A);
+
+}  // namespace cardan::solvers

@@ -1,0 +1,255 @@
+#include "solvers/algebra/product_eigen.hpp"
+
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/dense.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+std::size_t at(Index k) {
+    return static_cast<std::size_t>(k);
+}
+
+// x_{k+1} = (a_k x_k + b_k) / g_k around the circle, or run backward where that grows.
+struct Circle {
+    const ComplexVector& a;
+    const ComplexVector& b;
+    const ComplexVector& g;
+
+    ComplexVector solve() const {
+        const Index p = a.size();
+        double log_ratio = 0;
+        for (Index k = 0; k < p; ++k) log_ratio += std::log(std::abs(a(k)) / std::abs(g(k)));
+        ComplexVector x(p);
+        const bool forward = log_ratio <= 0;
+        Complex end = 0, factor = 1;  // what comes of x = 0, and of x = 1 without b
+        for (Index i = 0; i < p; ++i) {
+            const Index k = forward ? i : p - 1 - i;
+            end = forward ? (a(k) * end + b(k)) / g(k) : (g(k) * end - b(k)) / a(k);
+            factor *= forward ? a(k) / g(k) : g(k) / a(k);
+        }
+        // Double eigenvalues: a large multiple of the other eigenvector instead of an infinite one.
+        const Complex gap = 1.0 - factor;
+        Complex value = end / (std::abs(gap) < machine_epsilon ? Complex(machine_epsilon) : gap);
+        if (forward) {
+            for (Index k = 0; k < p; ++k) {
+                x(k) = value;
+                value = (a(k) * value + b(k)) / g(k);
+            }
+        } else {
+            for (Index k = p - 1; k >= 0; --k) {
+                value = (g(k) * value - b(k)) / a(k);
+                x(k) = value;
+            }
+        }
+        return x;
+    }
+};
+
+}  // namespace
+
+void ProductEigen::start(const std::vector<Matrix>& factors) {
+    if (factors.empty()) throw InputError("eigenvalues of a product", "number of factors", 0, ">= 1");
+    const Index n = factors.front().rows();
+    T_.clear();
+    Q_.assign(factors.size(), ComplexMatrix::Identity(n, n));
+    norms_.clear();
+    for (const Matrix& F : factors) {
+        if (F.rows() != n || F.cols() != n || n == 0)
+            throw InputError("eigenvalues of a product", "size of a factor", text(F.rows(), " x ", F.cols()),
+                             text("square, all of one size (the first: ", n, ")"));
+        if (!F.allFinite()) throw InputError("eigenvalues of a product", "a factor", "not finite", "finite numbers");
+        const double norm = F.norm();
+        norms_.push_back(norm > 0 ? norm : 1);
+        T_.emplace_back((F / norms_.back()).cast<Complex>());
+    }
+}
+
+// Q_k's columns i, i + 1 by G: what comes out of factor k and what goes into factor k + 1.
+// `whole`: the last factor is not a Hessenberg matrix yet.
+void ProductEigen::rotate(Index space, Index i, const Rotation& G, bool whole) {
+    const Index p = factors(), n = size();
+    ComplexMatrix& after = T_[at(space)];
+    ComplexMatrix& before = T_[at((space + p - 1) % p)];
+    const Index from = whole ? 0 : std::max<Index>(i - 1, 0), rows = whole ? n : std::min(n, i + 3);
+    before.rightCols(n - from).applyOnTheLeft(i, i + 1, G.adjoint());
+    after.topRows(rows).applyOnTheRight(i, i + 1, G);
+    Q_[at(space)].applyOnTheRight(i, i + 1, G);
+}
+
+// After a rotation of space 0 the triangular factors are made triangular again, one after the other. Zeros on their
+// diagonals would stop what is chased: rounding takes their place.
+void ProductEigen::chase(Index i, bool whole) {
+    Rotation G;
+    for (Index k = 0; k + 1 < factors(); ++k) {
+        ComplexMatrix& T = T_[at(k)];
+        G.makeGivens(T(i, i), T(i + 1, i));
+        rotate(k + 1, i, G, whole);
+        T(i + 1, i) = 0;
+        for (Index j : {i, i + 1})
+            if (std::abs(T(j, j)) < 0.1 * machine_epsilon) T(j, j) = 0.1 * machine_epsilon;
+    }
+}
+
+// All factors but the last triangular, the last one a Hessenberg matrix.
+void ProductEigen::reduce() {
+    const Index p = factors(), n = size();
+    for (Index k = 0; k + 1 < p; ++k) {
+        const Eigen::HouseholderQR<ComplexMatrix> qr(T_[at(k)]);
+        Q_[at(k + 1)] = qr.householderQ();
+        T_[at(k)] = qr.matrixQR().triangularView<Eigen::Upper>();
+        T_[at(k + 1)] = T_[at(k + 1)] * Q_[at(k + 1)];
+    }
+    Rotation G;
+    for (Index j = 0; j + 2 < n; ++j)
+        for (Index i = n - 2; i > j; --i) {
+            if (H()(i + 1, j) == 0.0) continue;
+            G.makeGivens(H()(i, j), H()(i + 1, j));
+            rotate(0, i, G, true);
+            H()(i + 1, j) = 0;
+            chase(i, true);
+        }
+}
+
+// Row from which the block that ends at `last` is unreduced.
+Index ProductEigen::active_from(Index last, double negligible) {
+    for (Index i = last; i > 0; --i) {
+        double near = std::abs(H()(i, i)) + std::abs(H()(i - 1, i - 1));
+        if (near == 0) near = machine_epsilon;
+        if (std::abs(H()(i, i - 1)) <= std::max(machine_epsilon * near, negligible)) {
+            H()(i, i - 1) = 0;
+            return i;
+        }
+    }
+    return 0;
+}
+
+// Of the last 2 x 2 block of the product, the eigenvalue next to its last entry.
+Complex ProductEigen::shift(Index last) const {
+    const Index from = std::max<Index>(last - 2, 0), width = last - from + 1;
+    ComplexMatrix W = ComplexMatrix::Identity(width, width);
+    for (Index k = 0; k + 1 < factors(); ++k) W = T_[at(k)].block(from, from, width, width) * W;
+    const ComplexMatrix B = H().block(last - 1, from, 2, width) * W.rightCols(2);
+    const Complex half = (B(0, 0) - B(1, 1)) / 2.0, root = std::sqrt(half * half + B(0, 1) * B(1, 0));
+    const Complex plus = half + root, minus = half - root;
+    return B(1, 1) + (std::abs(plus) < std::abs(minus) ? plus : minus);
+}
+
+void ProductEigen::sweep(Index first, Index last, Complex sigma) {
+    Complex t = 1;
+    for (Index k = 0; k + 1 < factors(); ++k) t *= T_[at(k)](first, first);
+    const Complex own = H()(first, first), below = H()(first + 1, first);
+    Rotation G;
+    // Where the shift would drown the rest there is none.
+    if (std::abs(sigma) * 1e-10 > std::abs(t) * (std::abs(own) + std::abs(below)) || t == 0.0)
+        G.makeGivens(own, below);
+    else
+        G.makeGivens(own * t - sigma, below * t);
+    for (Index i = first; i < last; ++i) {
+        if (i > first) G.makeGivens(H()(i, i - 1), H()(i + 1, i - 1));
+        rotate(0, i, G, false);
+        if (i > first) H()(i + 1, i - 1) = 0;
+        chase(i, false);
+    }
+}
+
+bool ProductEigen::iterate() {
+    const Index n = size();
+    for (int i = 0; n > 1 && i < 2; ++i) sweep(0, n - 1, 0);
+    int iterations = 0;
+    for (Index last = n - 1; last > 0;) {
+        // Late, entries that are small beside the whole matrix count as zero.
+        const Index first = active_from(last, iterations > 30 ? machine_epsilon : 0);
+        if (first == last) {
+            --last;
+            iterations = 0;
+            continue;
+        }
+        if (++iterations > 90) return false;
+        const Complex sigma = iterations % 10 == 0 ? Complex(0) : shift(last);
+        sweep(first, last, sigma);
+    }
+    return true;
+}
+
+bool ProductEigen::compute(const std::vector<Matrix>& factors) {
+    start(factors);
+    reduce();
+    return iterate();
+}
+
+ComplexVector ProductEigen::diagonal(Index j) const {
+    ComplexVector d(factors());
+    for (Index k = 0; k < d.size(); ++k) d(k) = T_[at(k)](j, j);
+    return d;
+}
+
+Complex ProductEigen::logarithm(Index i) const {
+    double size = 0, angle = 0;
+    for (Index k = 0; k < factors(); ++k) {
+        size += std::log(std::abs(T_[at(k)](i, i))) + std::log(norms_[at(k)]);
+        angle += std::arg(T_[at(k)](i, i));
+    }
+    angle = std::remainder(angle, 2 * pi);
+    return {size, angle <= -pi ? pi : angle};
+}
+
+double ProductEigen::mean_level(Index i) const {
+    double sum = 0;
+    for (Index k = 0; k < factors(); ++k) sum += std::log(std::abs(T_[at(k)](i, i)));
+    return sum / static_cast<double>(factors());
+}
+
+// In the bases Q: x_k has entries 0 ... j, the last one is 1. From row j - 1 upwards each entry goes around the circle
+// T_ii x_k(i) + sum_{l > i} T_il x_k(l) = T_jj x_{k+1}(i).
+ComplexMatrix ProductEigen::right_coefficients(Index j) const {
+    const Index p = factors();
+    ComplexMatrix x = ComplexMatrix::Zero(size(), p), sums = ComplexMatrix::Zero(size(), p);
+    x.row(j).setOnes();
+    const ComplexVector g = diagonal(j);
+    for (Index i = j; i >= 0; --i) {
+        if (i < j) x.row(i) = Circle{diagonal(i), sums.row(i).transpose(), g}.solve().transpose();
+        for (Index k = 0; k < p; ++k) sums.col(k).head(i) += x(i, k) * T_[at(k)].col(i).head(i);
+    }
+    return x;
+}
+
+// y_k has entries j ... n - 1, the first one is 1: y_{k+1}(i) T_ii + sum_{l < i} y_{k+1}(l) T_li = T_jj y_k(i), which
+// runs the circle the other way round.
+ComplexMatrix ProductEigen::left_coefficients(Index j) const {
+    const Index p = factors(), n = size();
+    ComplexMatrix y = ComplexMatrix::Zero(n, p);
+    y.row(j).setOnes();
+    const ComplexVector g = diagonal(j).reverse();
+    for (Index i = j + 1; i < n; ++i) {
+        ComplexVector b(p);
+        for (Index k = 0; k < p; ++k)
+            b(p - 1 - k) = T_[at(k)].col(i).segment(j, i - j).cwiseProduct(y.col((k + 1) % p).segment(j, i - j)).sum();
+        // Place m of the reversed circle is k + 1 = p - m.
+        const ComplexVector own = Circle{diagonal(i).reverse(), b, g}.solve();
+        for (Index m = 0; m < p; ++m) y(i, (p - m) % p) = own(m);
+    }
+    return y;
+}
+
+ProductEigen::Vectors ProductEigen::vectors(Index i) const {
+    const Index p = factors();
+    const ComplexMatrix x = right_coefficients(i), y = left_coefficients(i);
+    Vectors v{ComplexMatrix(size(), p), ComplexMatrix(size(), p), diagonal(i), 0};
+    for (Index k = 0; k < p; ++k) {
+        v.growth(k) *= norms_[at(k)];
+        v.right.col(k) = Q_[at(k)] * x.col(k);
+        v.left.col(k) = Q_[at(k)].conjugate() * y.col(k);
+        v.condition = std::max(v.condition, x.col(k).norm() * y.col(k).norm());
+    }
+    return v;
+}
+
+}  // namespace cardan::solvers

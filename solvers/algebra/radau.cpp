@@ -1,0 +1,101 @@
+#include "solvers/algebra/radau.hpp"
+
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+// Eigenvalues of the symmetric tridiagonal matrix of the Legendre recursion, its last diagonal entry changed so that 1
+// is one of them.      [Golub, Some modified matrix eigenvalue problems, SIAM Review 15 (1973), section 7]
+Vector nodes(int stages) {
+    const Index s = stages;
+    const auto beta = [](Index k) { return static_cast<double>(k * k) / static_cast<double>(4 * k * k - 1); };
+    Matrix T = Matrix::Zero(s, s);
+    for (Index k = 1; k < s; ++k) T(k, k - 1) = T(k - 1, k) = std::sqrt(beta(k));
+    double before = 0, now = 1;  // monic polynomials of degree k - 1 and k at 1
+    for (Index k = 1; k < s; ++k) {
+        const double next = now - (k > 1 ? beta(k - 1) * before : 0.0);
+        before = now;
+        now = next;
+    }
+    T(s - 1, s - 1) = s > 1 ? 1 - beta(s - 1) * before / now : 1;
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(T, Eigen::EigenvaluesOnly);
+    Vector c = (eigen.eigenvalues().array() + 1) / 2;
+    c(s - 1) = 1;
+    return c;
+}
+
+}  // namespace
+
+RadauIIA::RadauIIA(int stages) {
+    if (stages < 1 || stages > 9) throw InputError("Radau IIA", "number of stages", stages, "1 ... 9");
+    c = nodes(stages);
+    // In Legendre polynomials of y = 2 x - 1: values at the nodes, and integrals from 0 to the nodes,
+    // (P_{k+1} - P_{k-1}) / (2 (2 k + 1)), with -1 for P_{-1}.
+    const Index s = c.size();
+    Matrix values(s, s + 1), integrals(s, s);
+    for (Index i = 0; i < s; ++i) {
+        const double y = 2 * c(i) - 1;
+        values(i, 0) = 1;
+        values(i, 1) = y;
+        for (Index k = 1; k < s; ++k)
+            values(i, k + 1) =
+                (static_cast<double>(2 * k + 1) * y * values(i, k) - static_cast<double>(k) * values(i, k - 1)) /
+                static_cast<double>(k + 1);
+        for (Index k = 0; k < s; ++k)
+            integrals(i, k) =
+                (values(i, k + 1) - (k > 0 ? values(i, k - 1) : -1.0)) / (2 * static_cast<double>(2 * k + 1));
+    }
+    const Matrix basis = values.leftCols(s).transpose();
+    A = basis.partialPivLu().solve(integrals.transpose()).transpose();
+    A2 = A * A;
+}
+
+RadauStage::RadauStage(const RadauIIA& method, Index coordinates)
+    : method_(&method),
+      n_(coordinates),
+      left_(method.stages() * coordinates, method.stages() * coordinates),
+      C_(static_cast<std::size_t>(method.stages())),
+      K_(C_.size()) {}
+
+void RadauStage::set(Index stage, double h, const Matrix& M, const Matrix& C, const Matrix& K) {
+    C_[static_cast<std::size_t>(stage)] = C;
+    K_[static_cast<std::size_t>(stage)] = K;
+    for (Index j = 0; j < method_->stages(); ++j) {
+        auto block = left_.block(stage * n_, j * n_, n_, n_);
+        block.noalias() = h * method_->A(stage, j) * C + h * h * method_->A2(stage, j) * K;
+        if (j == stage) block += M;
+    }
+}
+
+void RadauStage::factorise() {
+    lu_.compute(left_);
+}
+
+void RadauStage::solve(Matrix& f) const {
+    f = lu_.solve(f).eval();
+}
+
+void RadauStage::advance(double h, Matrix& X) {
+    const Index s = method_->stages();
+    const auto q = X.topRows(n_), v = X.bottomRows(n_);
+    right_.resize(s * n_, X.cols());
+    for (Index i = 0; i < s; ++i) {
+        auto f = right_.middleRows(i * n_, n_);
+        f.noalias() = -K_[static_cast<std::size_t>(i)] * (q + method_->c(i) * h * v);
+        f.noalias() -= C_[static_cast<std::size_t>(i)] * v;
+    }
+    solve(right_);
+    X.topRows(n_) += h * v;
+    for (Index j = 0; j < s; ++j) {
+        const auto a = right_.middleRows(j * n_, n_);
+        X.topRows(n_) += h * h * method_->A2(s - 1, j) * a;
+        X.bottomRows(n_) += h * method_->A(s - 1, j) * a;
+    }
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,54 @@
+/// @file
+/// Eigenvalues and eigenvectors of real matrices, one after the other in the same memory.
+#pragma once
+
+#include "mbs/base/decompositions.hpp"
+#include "solvers/algebra/schur.hpp"
+
+#include <vector>
+
+namespace cardan::solvers {
+
+/// A x = mu x for general real matrices (entries from 1e-140 to 1e140) of one size: Hessenberg form, real Schur form,
+/// back substitution. Backward stable, without balancing: ||A||-relative errors of the order of rounding. Of every
+/// eigenvector the first rows only are made, for a state matrix the positions, which saves half of the transformations.
+///
+/// Its own rather than Eigen's or LAPACK's: see docs/dependencies.md.
+class RealEigen {
+public:
+    /// @param rows  number of rows wanted of the eigenvectors, 0 ... size
+    RealEigen(Eigen::Index size, Eigen::Index rows);
+
+    /// One real eigenvalue, or the member of a complex pair with positive imaginary part.
+    struct Value {
+        Complex mu;
+        Eigen::Index column;  ///< of vectors(): x, or Re x with Im x in the next column (complex eigenvalues)
+    };
+
+    /// @returns false if the iteration does not converge.  Cost about 10 size^3; no allocation.
+    [[nodiscard]] bool compute(const Matrix& A);
+
+    /// In the order of the Schur form.
+    const std::vector<Value>& values() const { return values_; }
+    /// rows x size, of no particular length.
+    const Matrix& vectors() const { return vectors_; }
+
+private:
+    void reduce_to_hessenberg(const Matrix& A);
+    void back_substitute(Complex mu, Eigen::Index top);
+    void eliminate(Complex mu, Eigen::Index i);
+    void eliminate_pair(Complex mu, Eigen::Index i);
+    void subtract_column(Eigen::Index i, Eigen::Index above);
+    Complex y(Eigen::Index i) const { return {y_(i, 0), y_(i, 1)}; }
+    void set_y(Eigen::Index i, Complex value) { y_(i, 0) = value.real(), y_(i, 1) = value.imag(); }
+
+    Eigen::HessenbergDecomposition<Matrix> hessenberg_;
+    SchurIteration schur_;
+    Matrix T_, Z_, vectors_;
+    Eigen::Matrix<double, Eigen::Dynamic, 2> y_;  // eigenvector of T: real and imaginary part
+    Vector row_;
+    double small_ = 0;  // smaller pivots than this are rounding
+    std::vector<Value> values_;
+};
+
+}  // namespace cardan::solvers

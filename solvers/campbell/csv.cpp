@@ -1,0 +1,57 @@
+#include "solvers/campbell/csv.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
+#include "mbs/base/version.hpp"
+
+#include <fstream>
+
+namespace cardan::solvers {
+
+namespace {
+
+// A comment is one line.
+std::string one_line(std::string words) {
+    for (char& c : words)
+        if (c == '\n' || c == '\r') c = ' ';
+    return words;
+}
+
+}  // namespace
+
+std::string csv_field(std::string_view words) {
+    if (words.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(words);
+    std::string quoted = "\"";
+    for (char c : words) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
+    PendingFile pending(path);
+    std::ofstream out(pending.partial());
+    out.precision(10);
+    out << "# Campbell diagram: " << one_line(diagram.machine) << "; " << diagram.method << "; cardan " << version()
+        << "\n";
+    if (!diagram.warning.empty()) out << "# warning: " << one_line(diagram.warning) << "\n";
+    if (!diagram.complete) out << "# the sweep was interrupted\n";
+    out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"
+           "mostly[-],kind[-],growth_rate[1/s],stability_margin[1/s]"
+        << (diagram.parameter.empty() ? "" : ",") << csv_field(diagram.parameter) << "\n";
+    for (std::size_t i = 0; i < diagram.points.size(); ++i)
+        for (const Branch& branch : diagram.branches) {
+            const CampbellMode* mode = diagram.mode(branch, i);
+            if (!mode) continue;
+            out << diagram.points[i].rotor_speed * 30 / pi << ',' << csv_field(branch.name) << ','
+                << diagram.natural_hz(branch, i) << ',' << diagram.damped_hz(branch, i) << ','
+                << diagram.damping_ratio(branch, i) << ',' << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0)
+                << ',' << csv_field(branch.mostly[i]) << ',' << mode->kind_name() << ',' << mode->mode.eigenvalue.real()
+                << ',' << diagram.points[i].stability_margin;
+            if (!diagram.parameters.empty()) out << ',' << diagram.parameters[i];
+            out << '\n';
+        }
+    out.close();
+    if (!out) throw FileError(path.string(), "the table could not be written completely (is the disk full?)");
+    pending.commit();
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,310 @@
+#include "solvers/campbell/energy_shares.hpp"
+
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+// Joint axes at q = 0, base axes; which of the part's axes each coordinate follows.
+std::vector<std::string> coordinate_families(const Model& model, const PartAxes& part, const std::vector<int>& own) {
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, Vector::Zero(model.size()), workspace);
+    const Mat3 axes = pose(kin, part.axes).R;
+    std::vector<std::string> families;
+    for (int a : own) {
+        const Vec3 along = axes.transpose() * kin.axis(a);
+        Eigen::Index axis = 0;
+        along.cwiseAbs().maxCoeff(&axis);
+        const auto& names = model.body(a).revolute ? part.rotation : part.translation;
+        const std::string& name = names[static_cast<std::size_t>(axis)];
+        families.push_back(name.empty() ? part.part : name);
+    }
+    return families;
+}
+
+std::string family_of(const Vector& v, const Matrix& K, const std::vector<std::string>& families) {
+    std::map<std::string, double> energy;
+    const Vector force = K * v;
+    for (std::size_t i = 0; i < families.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        energy[families[i]] += v(row) * force(row);
+    }
+    return std::max_element(energy.begin(), energy.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+// Modes of a clamped part that store elastic energy, by frequency; shapes with x^T K x = 1.
+struct ComponentModes {
+    Vector omega;  // rad/s
+    Matrix shapes;
+};
+
+ComponentModes component_modes(const Matrix& K, const Matrix& M, const std::string& part) {
+    using Solver = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>;
+    const auto check = [&](const Solver& solver) {
+        if (solver.info() != Eigen::Success)
+            throw NumericalError(text("component modes of part '", part, "' could not be computed"));
+    };
+    const Eigen::Index n = K.rows();
+    if (Eigen::LLT<Matrix>(K).info() == Eigen::Success) {
+        // Every coordinate has a spring: as flexibilities the low modes are exact however stiff the high ones are.
+        const Solver solver(M, K);
+        check(solver);
+        return {solver.eigenvalues().reverse().cwiseSqrt().cwiseInverse(), solver.eigenvectors().rowwise().reverse()};
+    }
+    const Solver solver(K, M);
+    check(solver);
+    const Vector& squared = solver.eigenvalues();
+    const Eigen::Index rigid = (squared.array() <= 1e-12 * squared.cwiseAbs().maxCoeff()).count();
+    const Vector omega = squared.tail(n - rigid).cwiseSqrt();
+    return {omega, solver.eigenvectors().rightCols(n - rigid) * omega.cwiseInverse().asDiagonal()};
+}
+
+const char* ordinal_name(int n) {
+    constexpr std::array names{"1st", "2nd", "3rd"};
+    return n <= 3 ? names[static_cast<std::size_t>(n - 1)] : nullptr;
+}
+
+}  // namespace
+
+double WhirlShare::of(RotorPattern pattern) const {
+    switch (pattern) {
+        case RotorPattern::backward:
+            return (cosine + sine) * (1 - whirl) / 2;
+        case RotorPattern::forward:
+            return (cosine + sine) * (1 + whirl) / 2;
+        case RotorPattern::cosine:
+            return cosine;
+        case RotorPattern::sine:
+            return sine;
+        default:
+            return 0;
+    }
+}
+
+double Share::of(RotorPattern pattern, int harmonic) const {
+    if (pattern == RotorPattern::none || pattern == RotorPattern::collective || pattern == RotorPattern::symmetric)
+        return collective;
+    if (pattern == RotorPattern::differential || pattern == RotorPattern::antisymmetric) return differential;
+    if (harmonic == 1) return WhirlShare{cosine, sine, whirl}.of(pattern);
+    const auto at = static_cast<std::size_t>(harmonic - 2);
+    return at < higher.size() ? higher[at].of(pattern) : 0;
+}
+
+double Share::total() const {
+    double sum = collective + cosine + sine + differential;
+    for (const WhirlShare& pair : higher) sum += pair.cosine + pair.sine;
+    return sum;
+}
+
+Identification::Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                               const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
+    : two_blades_(rotor.blades.size() == 2) {
+    check(rotor, model);
+    require_count("identification", "rows", rows.size(), coordinates.size());
+    require_size("identification", "elastic stiffness", lin.elastic, model.size(), model.size());
+    for (const int coordinate : coordinates) require_index("identification", "coordinate", coordinate, model.size());
+    for (const PartAxes& part : rotor.parts) {
+        Block block{}, shaft{};
+        std::vector<int> own_plane;  // of rotating pairs: the one plane tells the component modes of both
+        const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {
+            harmonics_ = std::max(harmonics_, harmonic);
+            lists.resize(std::max(lists.size(), static_cast<std::size_t>(harmonic)));
+            return lists[static_cast<std::size_t>(harmonic - 1)];
+        };
+        std::vector<int> own;  // model indices: of the part, or of the part in blade 1
+        bool blades = false;
+        for (std::size_t i = 0; i < coordinates.size(); ++i) {
+            const CoordinateInfo& info = lin.coordinates[coordinates[i]];
+            if (info.part != part.part) continue;
+            const int row = static_cast<int>(i);
+            if (rows[i].blade_coordinate < 0 && rows[i].kind != MultiBlade::none) {
+                const bool cosine = rows[i].kind == MultiBlade::cosine;
+                at_harmonic(cosine ? shaft.cosine : shaft.sine, 1).push_back(row);
+                if (cosine) own_plane.push_back(coordinates[i]);
+                continue;
+            }
+            switch (rows[i].kind) {
+                case MultiBlade::none:
+                    block.collective.push_back(row);
+                    break;
+                case MultiBlade::collective:
+                    block.collective.push_back(row), blades = true;
+                    break;
+                case MultiBlade::cosine:
+                    at_harmonic(block.cosine, rows[i].harmonic).push_back(row);
+                    break;
+                case MultiBlade::sine:
+                    at_harmonic(block.sine, rows[i].harmonic).push_back(row);
+                    break;
+                case MultiBlade::differential:
+                    block.differential.push_back(row);
+                    break;
+            }
+            // The collective row stands in the place of blade 1.
+            if (rows[i].kind == MultiBlade::none || rows[i].kind == MultiBlade::collective)
+                own.push_back(coordinates[i]);
+        }
+        if (!own.empty()) add_part(lin, model, part, blades, own, std::move(block));
+        if (!own_plane.empty()) add_part(lin, model, part, false, own_plane, std::move(shaft));
+    }
+}
+
+void Identification::add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
+                              const std::vector<int>& own, Block block) {
+    const Matrix K = lin.elastic(own, own), M = lin.mass(own, own);
+    const std::vector<std::string> families = coordinate_families(model, part, own);
+    const ComponentModes modes = component_modes(K, M, part.part);
+    const bool whirls = !blades && !block.cosine.empty();
+    block.first_component = static_cast<int>(components_.size());
+    std::map<std::string, int> count;
+    for (Eigen::Index i = 0; i < modes.shapes.cols(); ++i) {
+        const std::string family = family_of(modes.shapes.col(i), K, families);
+        components_.push_back({part.part, family, ++count[family], modes.omega(i) / (2 * pi), blades, whirls});
+    }
+    block.weights = K * modes.shapes;
+    blocks_.push_back(std::move(block));
+}
+
+Complex Identification::amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
+                                  const Mode& mode) {
+    const auto weights = block.weights.col(component);
+    double re = 0, im = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double weight = weights(static_cast<Eigen::Index>(i));
+        const Complex x = mode.shape(rows[i]);
+        re += weight * x.real();
+        im += weight * x.imag();
+    }
+    return {re, im};
+}
+
+// Energies, not yet divided by their sum. `higher` lends its memory.
+Share Identification::share(const Block& block, Eigen::Index component, const Mode& mode,
+                            std::vector<WhirlShare> higher) {
+    Share share;
+    share.component = static_cast<int>(block.first_component + component);
+    share.collective = std::norm(amplitude(block, component, block.collective, mode));
+    share.differential = std::norm(amplitude(block, component, block.differential, mode));
+    higher.clear();
+    for (std::size_t n = 0; n < block.cosine.size(); ++n) {
+        const Complex c = amplitude(block, component, block.cosine[n], mode),
+                      s = amplitude(block, component, block.sine[n], mode);
+        const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
+        const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
+        if (n == 0)
+            share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
+        else
+            higher.push_back({std::norm(c), std::norm(s), whirl});
+    }
+    share.higher = std::move(higher);
+    return share;
+}
+
+void Identification::shares(const Mode& mode, std::vector<Share>& out) const {
+    out.resize(components_.size());
+    double total = 0;
+    for (const Block& block : blocks_)
+        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
+            Share& own = out[static_cast<std::size_t>(block.first_component + i)];
+            own = share(block, i, mode, std::move(own.higher));
+            total += own.total();
+        }
+    divide_by(total, out);
+}
+
+void Identification::divide_by(double total, std::vector<Share>& shares) {
+    const double scale = total > 0 ? 1 / total : 0.0;
+    for (Share& own : shares) {
+        for (double* part : {&own.collective, &own.cosine, &own.sine, &own.differential}) *part *= scale;
+        for (WhirlShare& pair : own.higher) pair.cosine *= scale, pair.sine *= scale;
+    }
+}
+
+std::vector<Share> Identification::shares(const Mode& mode) const {
+    std::vector<Share> all;
+    shares(mode, all);
+    return all;
+}
+
+namespace {
+
+// What turns the other way at a negative frequency whirls the other way. The whirl of a sum is the mean by energy.
+WhirlShare sum_of(const WhirlShare& a, WhirlShare b, bool reversed) {
+    if (reversed) b.whirl = -b.whirl;
+    const double size_a = a.cosine + a.sine, size_b = b.cosine + b.sine, size = size_a + size_b;
+    return {a.cosine + b.cosine, a.sine + b.sine, size > 0 ? (size_a * a.whirl + size_b * b.whirl) / size : 0.0};
+}
+
+void add(Share& sum, const Share& one, bool reversed) {
+    sum.collective += one.collective;
+    sum.differential += one.differential;
+    const WhirlShare first = sum_of({sum.cosine, sum.sine, sum.whirl}, {one.cosine, one.sine, one.whirl}, reversed);
+    sum.cosine = first.cosine, sum.sine = first.sine, sum.whirl = first.whirl;
+    sum.higher.resize(one.higher.size());
+    for (std::size_t n = 0; n < one.higher.size(); ++n) sum.higher[n] = sum_of(sum.higher[n], one.higher[n], reversed);
+}
+
+}  // namespace
+
+std::vector<Share> Identification::shares(std::span<const Mode> harmonics) const {
+    std::vector<Share> all(components_.size());
+    double total = 0;
+    for (const Block& block : blocks_)
+        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
+            Share& own = all[static_cast<std::size_t>(block.first_component + i)];
+            own.component = static_cast<int>(block.first_component + i);
+            for (const Mode& one : harmonics) add(own, share(block, i, one, {}), one.eigenvalue.imag() < 0);
+            total += own.total();
+        }
+    divide_by(total, all);
+    return all;
+}
+
+std::string Identification::name(int component, RotorPattern pattern, int harmonic) const {
+    const Component& c = components_[static_cast<std::size_t>(component)];
+    const bool only_one = std::count_if(components_.begin(), components_.end(),
+                                        [&](const Component& other) { return other.family == c.family; }) == 1;
+    std::string name;
+    if (!only_one) {
+        const char* ordinal = ordinal_name(c.ordinal);
+        name = ordinal ? text(ordinal, " ") : text(c.ordinal, "th ");
+    }
+    name += c.family;
+    return pattern == RotorPattern::none
+               ? name
+               : text(name, " (", pattern_name(pattern), harmonic > 1 ? text(", ", harmonic) : "", ")");
+}
+
+const char* pattern_name(RotorPattern pattern) {
+    switch (pattern) {
+        case RotorPattern::none:
+            return "none";
+        case RotorPattern::collective:
+            return "collective";
+        case RotorPattern::backward:
+            return "backward";
+        case RotorPattern::forward:
+            return "forward";
+        case RotorPattern::cosine:
+            return "cosine";
+        case RotorPattern::sine:
+            return "sine";
+        case RotorPattern::differential:
+            return "differential";
+        case RotorPattern::symmetric:
+            return "symmetric";
+        case RotorPattern::antisymmetric:
+            return "antisymmetric";
+    }
+    return "";
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,107 @@
+/// @file
+/// What a mode is: shares of elastic energy by component mode and rotor pattern; names.
+#pragma once
+
+#include "solvers/linear/coleman.hpp"
+#include "solvers/linear/modes.hpp"
+
+#include <span>
+#include <string>
+
+namespace cardan::solvers {
+
+/// How the blades take part: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
+/// whirls and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Two
+/// blades deflect alike, each seen from its own root (symmetric), or against each other (antisymmetric); so both flap
+/// out of the plane in the same direction in a symmetric mode, and both lag behind the rotor.      [Lee et al. 2002,
+/// results] Other parts have no pattern.
+enum class RotorPattern : std::uint8_t {
+    none,
+    collective,
+    backward,
+    forward,
+    cosine,
+    sine,
+    differential,
+    symmetric,
+    antisymmetric
+};
+
+/// "none", "collective", "backward" ...
+const char* pattern_name(RotorPattern pattern);
+
+/// One mode of a part with everything else clamped.
+struct Component {
+    std::string part;
+    std::string family;  ///< "tower fore-aft", "blade flap", ...
+    int ordinal = 1;     ///< within its family, by frequency
+    double clamped_hz = 0;
+    bool of_blades = false;
+    bool whirls = false;  ///< in two planes alike, as a shaft with a disc does: backward and forward, nothing else
+};
+
+/// Energy of a whirling pair of one harmonic n of the azimuth.
+struct WhirlShare {
+    double cosine = 0, sine = 0;
+    double whirl = 0;  ///< (forward - backward) / (forward + backward) in -1 ... 1
+    double of(RotorPattern pattern) const;
+};
+
+/// The elastic energy of a mode in one component.
+struct Share {
+    int component = -1;
+    /// Parts of the total elastic energy; `collective` holds it all where there is no pattern.
+    double collective = 0, cosine = 0, sine = 0, differential = 0;
+    double whirl = 0;  ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
+    std::vector<WhirlShare> higher = {};  ///< harmonics 2, 3, ... (five and more blades)
+    double total() const;
+    double of(RotorPattern pattern, int harmonic = 1) const;
+};
+
+/// Decomposes modes into component modes. In joint coordinates the elastic stiffness is block diagonal by part, and the
+/// component modes of a part are orthogonal in it: the shares add up to one exactly.
+class Identification {
+public:
+    /// @param lin   linearisation whose elastic stiffness and mass define the component modes (standstill, say)
+    /// @param rows  what the rows of the system are (ColemanTransform::rows)
+    Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                   const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
+
+    const std::vector<Component>& components() const { return components_; }
+    /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it had
+    /// as many of this identification before
+    void shares(const Mode& mode, std::vector<Share>& out) const;
+    std::vector<Share> shares(const Mode& mode) const;
+    /// Of a motion of several harmonics, each with its own shape and eigenvalue (of either sign of the frequency):
+    /// their energies are added up.
+    std::vector<Share> shares(std::span<const Mode> harmonics) const;
+    /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
+    std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
+    /// Largest harmonic of the azimuth: 1 for three and four blades, 2 for five and six.
+    int harmonics() const { return harmonics_; }
+    /// Patterns are symmetric and antisymmetric.
+    bool two_blades() const { return two_blades_; }
+
+private:
+    // The rows of one part, by pattern (blades) or all together.
+    struct Block {
+        std::vector<int> collective, differential;
+        std::vector<std::vector<int>> cosine, sine;  // by harmonic, from 1
+        Matrix weights;                              // K V: energy amplitude of each component mode by column
+        int first_component;
+    };
+    static Complex amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
+                             const Mode& mode);
+    static Share share(const Block& block, Eigen::Index component, const Mode& mode, std::vector<WhirlShare> higher);
+    void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
+                  const std::vector<int>& own, Block block);
+
+    static void divide_by(double total, std::vector<Share>& shares);
+
+    int harmonics_ = 1;
+    bool two_blades_ = false;
+    std::vector<Component> components_;
+    std::vector<Block> blocks_;
+};
+
+}  // namespace cardan::solvers

@@ -1,0 +1,283 @@
+#include "solvers/campbell/floquet_point.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+// Share of the energy that a vibration named after its springs has in them: half where no other stiffness acts, less
+// where the centrifugal force holds the blades.
+constexpr double elastic_limit = 0.05;
+// Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
+// a double zero by their square root.
+constexpr double rigid_per_radian = 1e-4;
+// The same of the free spin in the mean over the azimuth, where gravity on bent blades makes a weak pendulum of it.
+constexpr double free_spin_limit = 0.05;
+// Residual over stiffness of the harmonics that a steady state leaves out.
+constexpr double small_remainder = 1e-5;
+// Of the blades, over the diagonals: more is no rounding.
+constexpr double small_difference = 1e-4;
+// Harmonics at the ends that hold less are left out.
+constexpr double negligible_participation = 1e-12;
+
+// Kinetic energies of the rows alone; of joint coordinates each carries all that is outboard.
+Vector kinetic_by_row(const SecondOrderSystem& system, const ComplexVector& shape, Complex eigenvalue) {
+    return std::norm(eigenvalue) * system.M.diagonal().cwiseProduct(shape.cwiseAbs2());
+}
+
+int largest(const Vector& v) {
+    Index at = 0;
+    v.maxCoeff(&at);
+    return static_cast<int>(at);
+}
+
+// Every harmonic as a mode of its own.
+std::vector<Mode> harmonics_of(const FloquetMode& mode) {
+    std::vector<Mode> all;
+    for (Index i = 0; i < mode.harmonics.cols(); ++i) {
+        const double j = mode.first_harmonic + static_cast<double>(i);
+        all.push_back({mode.exponent + Complex(0, 2 * pi * j / mode.period), mode.harmonics.col(i)});
+    }
+    return all;
+}
+
+// A rigid displacement has no other harmonics, and no energy: what is there is rounding.
+void keep_displacement(FloquetMode& mode) {
+    mode.harmonics = ComplexMatrix(mode.harmonics.col(-mode.first_harmonic));
+    mode.participation = Vector::Ones(1);
+    mode.first_harmonic = 0;
+}
+
+void leave_out_ends(FloquetMode& mode) {
+    Index first = 0, last = mode.harmonics.cols() - 1;
+    const Index principal = -mode.first_harmonic;
+    while (first < principal && mode.participation(first) < negligible_participation) ++first;
+    while (last > principal && mode.participation(last) < negligible_participation) --last;
+    mode.harmonics = mode.harmonics.middleCols(first, last - first + 1).eval();
+    mode.participation = mode.participation.segment(first, last - first + 1).eval();
+    mode.first_harmonic += static_cast<int>(first);
+}
+
+double lowest_elastic(const CampbellPoint& point) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : point.modes)
+        if (m.row < 0 && m.mode.oscillates()) lowest = std::min(lowest, std::abs(m.mode.eigenvalue));
+    return std::isfinite(lowest) ? lowest : 0;
+}
+
+}  // namespace
+
+int naming_row(const SecondOrderSystem& system, const Mode& mode) {
+    const double elastic = hermitian_form(system.K_elastic, mode.shape),
+                 kinetic = std::norm(mode.eigenvalue) * hermitian_form(system.M, mode.shape);
+    if (elastic > elastic_limit * (elastic + kinetic)) return -1;
+    return largest(kinetic_by_row(system, mode.shape, mode.eigenvalue));
+}
+
+PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
+    : system_(system), rotor_(rotor), options_(options), standstill_(system, rotor, options) {
+    if (rotor.spin < 0) throw InputError(rotor.machine, "rotor", "none", "one, for Floquet's theory");
+    const CampbellFloquetOptions& o = options.floquet;
+    if (!(o.per_period >= 0))
+        throw InputError(rotor.machine, "frequency per revolution up to which modes are accurate", o.per_period,
+                         ">= 0");
+    if (o.most_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.most_steps, ">= 0");
+}
+
+void PeriodicPointSolver::warn(const std::string& what) {
+    if (warning_.empty() && !what.empty()) warning_ = what;
+}
+
+void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
+    if (rotor_speed == 0) {
+        standstill_.solve(0, point);
+        mean_ = standstill_.system();
+        for (CampbellMode& m : point.modes) m.row = naming_row(mean_, m.mode);
+        if (options_.method == CampbellMethod::averaged) leave_out_free_spin(lowest_elastic(point), point);
+        return;
+    }
+    find_steady_state(rotor_speed);
+    const PeriodicSystem periodic = multi_blade_system();
+    set_mean(periodic);
+    if (!identification()) standstill_.identify(linearise(system_, state_->at(0)));
+    point.rotor_speed = rotor_speed;
+    point.at = state_->at(0);
+    point.periodic = state_;
+    point.modes.clear();
+    if (options_.method == CampbellMethod::averaged) {
+        warn_of_differing_blades(periodic);
+        set_mean_modes(point);
+    } else {
+        set_floquet_modes(periodic, point);
+    }
+    set_stability_margin(point);
+}
+
+void PeriodicPointSolver::find_steady_state(double rotor_speed) {
+    PeriodicOptions options;
+    options.harmonics = options_.floquet.harmonics;
+    options.held = options_.floquet.held;
+    // The known state first: from it the next one is approached in parts if it has to be.
+    std::vector<double> speeds{rotor_speed};
+    if (state_) {
+        options.start = state_->coefficients;
+        speeds.insert(speeds.begin(), state_->rotor_speed);
+    }
+    PeriodicSteadyState found = periodic_sweep(system_, rotor_.spin, speeds, options).back();
+    const int most = 4 * options.harmonics;
+    while (found.converged && found.remainder > small_remainder && options.harmonics < most) {
+        options.harmonics = std::min(most, options.harmonics + (options.harmonics + 1) / 2);
+        options.start = found.coefficients;
+        const std::array same_speed{rotor_speed};
+        found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
+    }
+    if (!found.converged)
+        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * 30 / pi, " rpm: ", found.message));
+    if (!found.note.empty()) warn(text("at ", rotor_speed * 30 / pi, " rpm ", found.note));
+    if (found.remainder > small_remainder)
+        warn(text("at ", rotor_speed * 30 / pi, " rpm ", found.harmonics(),
+                  " harmonics leave a residual over stiffness of ", found.remainder,
+                  " in the periodic steady state: take more"));
+    state_ = std::move(found);
+}
+
+PeriodicSystem PeriodicPointSolver::multi_blade_system() const {
+    PeriodicSystem raw = linearised(system_, *state_, unknowns());
+    const ColemanTransform* T = standstill_.coleman();
+    return T ? in_multi_blade_rows(std::move(raw), *T, state_->rotor_speed) : raw;
+}
+
+void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
+    const int samples = std::max({24, 2 * static_cast<int>(rotor_.blades.size()) + 1, 4 * (state_->harmonics() + 1)});
+    mean_ = mean_over_period(periodic, samples);
+}
+
+// x(t + T/Q) in multi-blade rows: there equal blades look alike, but for signs.
+BladeSymmetry PeriodicPointSolver::renumbering() const {
+    const ColemanTransform* T = standstill_.coleman();
+    if (!T || rotor_.blades.empty()) return {};
+    std::vector<int> odd = options_.floquet.odd;
+    std::erase_if(odd, [&](int i) { return std::find(unknowns().begin(), unknowns().end(), i) == unknowns().end(); });
+    BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
+    found.P = (T->matrix(0).transpose() * found.P * T->matrix(2 * pi / found.parts)).eval();
+    found.P = found.P.unaryExpr([](double p) { return std::abs(p - std::round(p)) < 1e-12 ? std::round(p) : p; });
+    return found;
+}
+
+// None if the blades differ.
+BladeSymmetry PeriodicPointSolver::symmetry(const PeriodicSystem& periodic) const {
+    BladeSymmetry found = renumbering();
+    return asymmetry(periodic, found) < 1e-8 ? found : BladeSymmetry{};
+}
+
+// A mode that is at home in one blade has no frequency in the fixed frame: the mean invents one.
+void PeriodicPointSolver::warn_of_differing_blades(const PeriodicSystem& periodic) {
+    const double difference = asymmetry(periodic, renumbering());
+    if (difference > small_difference)
+        warn(text("at ", state_->rotor_speed * 30 / pi,
+                  " rpm the rotor is not the same when its blades are renumbered (", difference,
+                  " of the diagonals): blades or hub differ, and the mean over the azimuth may have "
+                  "frequencies that no motion of the machine has. Take CampbellMethod::floquet"));
+}
+
+FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& periodic) const {
+    const CampbellFloquetOptions& own = options_.floquet;
+    FloquetOptions options;
+    options.symmetry = symmetry(periodic);
+    options.per_period =
+        own.per_period > 0 ? own.per_period : options_.max_frequency_hz * 2 * pi / std::abs(state_->rotor_speed);
+    if (options.per_period > 1e4)
+        throw InputError(rotor_.machine, text("frequency per revolution at ", state_->rotor_speed * 30 / pi, " rpm"),
+                         options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
+    options.tolerance = own.tolerance;
+    options.most_steps =
+        own.most_steps > 0 ? own.most_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
+    return options;
+}
+
+void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
+    Floquet result = floquet(periodic, floquet_options(periodic));
+    if (!result.message.empty()) warn(text("at ", state_->rotor_speed * 30 / pi, " rpm ", result.message));
+    for (FloquetMode& mode : result.modes) {
+        const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
+                   pair = mode.kind == FloquetKind::oscillation;
+        if (slow) mode.kind = FloquetKind::rigid;
+        if (slow && pair) point.modes.push_back(make(FloquetMode(mode)));
+        point.modes.push_back(make(std::move(mode)));
+    }
+    std::stable_sort(point.modes.begin(), point.modes.end(), [](const CampbellMode& a, const CampbellMode& b) {
+        return a.mode.natural_hz() < b.mode.natural_hz();
+    });
+}
+
+CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
+    CampbellMode out;
+    FloquetMode& mode = out.floquet.emplace(std::move(found));
+    const bool rigid = mode.kind == FloquetKind::rigid;
+    if (rigid)
+        keep_displacement(mode);
+    else
+        leave_out_ends(mode);
+    const ComplexVector principal = mode.harmonics.col(-mode.first_harmonic);
+    // A rigid displacement has no energy.
+    const double energy = rigid ? hermitian_form(mean_.M, principal) : 2 * mode.share(0),
+                 factor = energy > 0 ? std::sqrt(2 / energy) : 1.0;
+    if (rigid) mode.harmonics *= factor;
+    out.mode = {mode.exponent, factor * principal};
+    const std::vector<Mode> harmonics = harmonics_of(mode);
+    out.shares = identification()->shares(harmonics);
+    if (rigid)
+        for (Share& share : out.shares) share = Share{};
+    Vector elastic = Vector::Zero(mean_.M.rows()), kinetic = elastic;
+    for (const Mode& one : harmonics) {
+        const ComplexVector force = mean_.K_elastic * one.shape;
+        elastic += (one.shape.conjugate().array() * force.array()).real().matrix();
+        kinetic += kinetic_by_row(mean_, one.shape, one.eigenvalue);
+    }
+    const double total = elastic.sum();
+    out.row_shares = total > 0 && !rigid ? Vector(elastic / total) : Vector::Zero(elastic.size());
+    if (rigid)
+        out.row = largest(kinetic_by_row(mean_, principal, 1));
+    else if (total < 2 * elastic_limit)  // of the energy, which is 2 in these units
+        out.row = largest(kinetic);
+    return out;
+}
+
+void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) const {
+    for (Mode& mode : modes(mean_)) {
+        if (std::abs(mode.eigenvalue) < rigid_per_radian * std::abs(state_->rotor_speed)) continue;
+        CampbellMode& m = point.modes.emplace_back();
+        if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
+            m.row = naming_row(mean_, mode);
+        m.row_shares = energy_by_row(mean_, mode);
+        m.shares = identification()->shares(mode);
+        m.mode = std::move(mode);
+    }
+    leave_out_free_spin(std::abs(state_->rotor_speed), point);
+}
+
+// Gravity on bent blades keeps it from being exactly zero.
+void PeriodicPointSolver::leave_out_free_spin(double scale, CampbellPoint& point) const {
+    std::erase_if(point.modes, [&](const CampbellMode& m) {
+        if (std::abs(m.mode.eigenvalue) >= free_spin_limit * scale) return false;
+        const int row = largest(kinetic_by_row(mean_, m.mode.shape, m.mode.eigenvalue));
+        return unknowns()[static_cast<std::size_t>(row)] == rotor_.spin;
+    });
+    set_stability_margin(point);
+}
+
+std::unique_ptr<PointMethod> point_method(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
+    if (options.method == CampbellMethod::floquet || options.method == CampbellMethod::averaged)
+        return std::make_unique<PeriodicPointSolver>(system, rotor, options);
+    return std::make_unique<PointSolver>(system, rotor, options);
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,55 @@
+/// @file
+/// One point of a Campbell diagram by Floquet's theory.
+#pragma once
+
+#include "solvers/campbell/point.hpp"
+#include "solvers/periodic/floquet.hpp"
+
+namespace cardan::solvers {
+
+/// Periodic steady state (harmonic balance, begun from the one before), linearisation about it in multi-blade rows,
+/// Floquet modes with their shares of energy, or the modes of the mean over the azimuth; at one rotor speed after the
+/// other. At standstill as PointSolver. Keeps references to system and machine; one per thread.
+class PeriodicPointSolver : public PointMethod {
+public:
+    /// @throws InputError without a rotor, for two blades unless the method is Floquet's, and as ColemanTransform
+    PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options);
+
+    /// @throws InputError for options out of range; NumericalError where no periodic steady state is found (where a
+    /// mean load acts on a coordinate that nothing holds, for one), and as floquet(); the solver can be used again
+    void solve(double rotor_speed, CampbellPoint& point) override;
+
+    const std::vector<int>& unknowns() const override { return standstill_.unknowns(); }
+    std::vector<std::string> row_names() const override { return standstill_.row_names(); }
+    const SecondOrderSystem& system() const override { return mean_; }
+    const Identification* identification() const override { return standstill_.identification(); }
+    Matrix rotating_coordinates() const override { return standstill_.rotating_coordinates(); }
+    const std::string& warning() const override { return warning_; }
+
+private:
+    void find_steady_state(double rotor_speed);
+    PeriodicSystem multi_blade_system() const;
+    void set_mean(const PeriodicSystem& periodic);
+    BladeSymmetry renumbering() const;
+    void warn_of_differing_blades(const PeriodicSystem& periodic);
+    BladeSymmetry symmetry(const PeriodicSystem& periodic) const;
+    FloquetOptions floquet_options(const PeriodicSystem& periodic) const;
+    void set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point);
+    void set_mean_modes(CampbellPoint& point) const;
+    void leave_out_free_spin(double scale, CampbellPoint& point) const;
+    CampbellMode make(FloquetMode&& found) const;
+    void warn(const std::string& what);
+
+    const System& system_;
+    const RotorMap& rotor_;
+    CampbellOptions options_;
+    PointSolver standstill_;  // also: rows, names, identification
+    std::optional<PeriodicSteadyState> state_;
+    SecondOrderSystem mean_;
+    std::string warning_;
+};
+
+/// Row with most kinetic energy if the mode has (almost) no elastic energy, else -1; for modes of constant systems.
+int naming_row(const SecondOrderSystem& system, const Mode& mode);
+
+}  // namespace cardan::solvers

@@ -1,0 +1,104 @@
+#include "solvers/campbell/neighbour_names.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/assignment.hpp"
+#include "solvers/campbell/floquet_mac.hpp"
+#include "solvers/campbell/tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr double rival_part = 0.8;  // of the MAC: above it another mode competes
+
+// Index of the point at a rotor speed; -1: none.
+int point_at_speed(const Campbell& diagram, double speed) {
+    const auto same = [&](const CampbellPoint& p) { return std::abs(p.rotor_speed - speed) <= 1e-9 * speed; };
+    const auto found = std::find_if(diagram.points.begin(), diagram.points.end(), same);
+    return found == diagram.points.end() ? -1 : static_cast<int>(found - diagram.points.begin());
+}
+
+}  // namespace
+
+void NeighbourNames::check(const Campbell& diagram) const {
+    constexpr auto place = "neighbouring Campbell diagram";
+    if (!neighbour_.parameter.empty())
+        throw InputError(place, "parameter", neighbour_.parameter, "none: a diagram over the rotor speed");
+    if (neighbour_.method != diagram.method)
+        throw InputError(place, "method", neighbour_.method, text("'", diagram.method, "', as the other"));
+    if (neighbour_.blades != diagram.blades)
+        throw InputError(place, "number of blades", neighbour_.blades, text(diagram.blades, ", as the other"));
+    const auto [own, other] =
+        std::mismatch(diagram.rows.begin(), diagram.rows.end(), neighbour_.rows.begin(), neighbour_.rows.end());
+    if (own == diagram.rows.end() && other == neighbour_.rows.end()) return;
+    throw InputError(place, text("row ", own - diagram.rows.begin() + 1, " of the modes"),
+                     other == neighbour_.rows.end() ? "none" : *other,
+                     own == diagram.rows.end() ? "none, as the other" : text("'", *own, "', as the other"));
+}
+
+void NeighbourNames::add(const SecondOrderSystem& system, const CampbellPoint& point) {
+    Matrix& mac = mac_.emplace_back();
+    const int there = point_at_speed(neighbour_, point.rotor_speed);
+    if (there < 0) return;
+    std::vector<const CampbellMode*> modes;
+    std::vector<std::size_t> branches;
+    for (std::size_t b = 0; b < neighbour_.branches.size(); ++b)
+        if (const CampbellMode* m = neighbour_.mode(neighbour_.branches[b], static_cast<std::size_t>(there))) {
+            modes.push_back(m);
+            branches.push_back(b);
+        }
+    const Matrix found = periodic_likeness(system, modes, point.modes).mac;
+    mac = Matrix::Zero(static_cast<Eigen::Index>(neighbour_.branches.size()), found.cols());
+    for (std::size_t i = 0; i < branches.size(); ++i)
+        mac.row(static_cast<Eigen::Index>(branches[i])) = found.row(static_cast<Eigen::Index>(i));
+}
+
+void NeighbourNames::pair(const std::vector<Branch>& branches) {
+    const auto others = static_cast<Eigen::Index>(neighbour_.branches.size());
+    Matrix sum = Matrix::Zero(static_cast<Eigen::Index>(branches.size()), others);
+    Vector count = Vector::Zero(sum.rows());
+    bool common = mac_.empty();
+    for (std::size_t i = 0; i < mac_.size(); ++i) {
+        if (mac_[i].size() == 0) continue;
+        common = true;
+        for (std::size_t b = 0; b < branches.size(); ++b) {
+            if (branches[b].mode[i] < 0) continue;
+            const auto row = static_cast<Eigen::Index>(b);
+            sum.row(row) += mac_[i].col(branches[b].mode[i]).transpose();
+            ++count(row);
+        }
+    }
+    if (!common)
+        throw InputError("neighbouring Campbell diagram", "number of rotor speeds that both diagrams have", 0,
+                         "at least one with modes");
+    partner_ = assign(sum);
+    for (std::size_t b = 0; b < partner_.size(); ++b) {
+        const auto row = static_cast<Eigen::Index>(b);
+        if (partner_[b] >= 0 && !(sum(row, partner_[b]) >= least_score * std::max(1.0, count(row)))) partner_[b] = -1;
+    }
+}
+
+const Branch* NeighbourNames::partner(std::size_t branch) const {
+    const int index = partner_.at(branch);
+    return index < 0 ? nullptr : &neighbour_.branches[static_cast<std::size_t>(index)];
+}
+
+bool NeighbourNames::doubtful(std::size_t branch, std::size_t point, int mode) const {
+    const int index = partner_.at(branch);
+    if (index < 0) return true;
+    const Matrix& mac = mac_.at(point);
+    if (mac.size() == 0 || mac.row(index).isZero(0)) return false;  // the neighbour has nothing there
+    const double own = mac(index, mode);
+    if (own < sure_mac) return true;
+    double rival = 0;
+    for (Eigen::Index b = 0; b < mac.rows(); ++b)
+        if (b != index) rival = std::max(rival, mac(b, mode));
+    for (Eigen::Index m = 0; m < mac.cols(); ++m)
+        if (m != mode) rival = std::max(rival, mac(index, m));
+    return rival > rival_part * own;
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,203 @@
+#include "solvers/campbell/point.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/linear/problem_size.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
+    check(rotor, system.model);
+    const std::size_t blades = rotor.blades.size();
+    if (blades == 2 && options.method != CampbellMethod::floquet)
+        throw InputError(rotor.machine, "number of blades", blades,
+                         "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
+    const bool spin_is_unknown = options.spin == RotorSpin::free && blades != 1;
+    std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
+    check_number_of_unknowns(rotor.machine, unknowns.size());
+    return unknowns;
+}
+
+// The coordinate alone, beside the lowest: ten times what no certain mode has.
+constexpr double rigid_ratio = 10 * most_certain_ratio;
+
+}  // namespace
+
+double lowest_vibration(const std::vector<CampbellMode>& modes) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : modes)
+        if (m.kind() != FloquetKind::rigid && m.mode.oscillates())
+            lowest = std::min(lowest, std::abs(m.mode.eigenvalue));
+    return lowest;
+}
+
+void set_stability_margin(CampbellPoint& point) {
+    const double lowest = lowest_vibration(point.modes);
+    double growth = -std::numeric_limits<double>::infinity();
+    for (const CampbellMode& m : point.modes) {
+        const double size = std::abs(m.mode.eigenvalue), own = m.mode.eigenvalue.real();
+        if (m.kind() == FloquetKind::rigid || size > most_certain_ratio * lowest) continue;
+        const double scale = std::isfinite(lowest) ? std::max(size, lowest) : size;
+        growth = std::max(growth, std::abs(own) < 1e-8 * scale ? 0 : own);
+    }
+    point.stability_margin = growth == 0 ? 0 : -growth;
+}
+
+PointSolver::PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
+    : system_(system),
+      rotor_(rotor),
+      method_(options.method),
+      unknowns_(unknowns_of(system, rotor, options)),
+      plain_rows_(unknowns_.size()),
+      steady_solver_(system, rotor.spin),
+      lineariser_(system),
+      mode_solver_(static_cast<Eigen::Index>(unknowns_.size())) {
+    const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
+    if (disc || rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
+}
+
+void PointSolver::find_steady_state(double rotor_speed) {
+    steady_options_.rotor_speed = rotor_speed;
+    steady_solver_.solve(steady_options_, steady_);
+    if (!steady_.converged)
+        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * 30 / pi, " rpm: ", steady_.message));
+    steady_options_.initial = steady_.at.q;
+}
+
+// At the first point: the components, and memory that it may not need itself (nothing is averaged at standstill).
+void PointSolver::start() {
+    if (!identification_) identify(lin_);
+    restrict_to(lin_, unknowns_, rotor_.spin, other_);
+    turned_ = steady_.at;
+    note_rigid_springs();
+}
+
+// A spring meant to be rigid: where its coordinate alone would vibrate beyond what eigenvalues can tell.
+void PointSolver::note_rigid_springs() {
+    Vector omega(other_.M.rows());
+    for (Eigen::Index i = 0; i < omega.size(); ++i) omega(i) = std::sqrt(other_.K_elastic(i, i) / other_.M(i, i));
+    double lowest = std::numeric_limits<double>::infinity();
+    for (double w : omega)
+        if (w > 0) lowest = std::min(lowest, w);
+    std::string names;
+    for (Eigen::Index i = 0; i < omega.size(); ++i)
+        if (const int k = unknowns_[static_cast<std::size_t>(i)]; omega(i) > rigid_ratio * lowest)
+            names += text(names.empty() ? "'" : ", '", system_.forces.stiffest_law(k), "' (", other_.K_elastic(i, i),
+                          " on the coordinate '", system_.model.coordinates()[k].name, "')");
+    if (!names.empty())
+        warning_ =
+            text("springs so stiff that growth and decay of their modes are rounding: ", names,
+                 "; such modes count for no stability margin. Drive the coordinate instead, or let it be softer");
+}
+
+void PointSolver::identify(const Linearisation& lin) {
+    identification_.emplace(lin, system_.model, rotor_, unknowns_, rows());
+}
+
+// Eigenvalues at a frozen azimuth tell nothing about stability.
+void PointSolver::set_margin(CampbellPoint& point) const {
+    const bool motions = method_ != CampbellMethod::frozen_azimuth || rotor_.blades.size() < 3;
+    if (motions)
+        set_stability_margin(point);
+    else
+        point.stability_margin = std::numeric_limits<double>::quiet_NaN();
+}
+
+void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
+    find_steady_state(rotor_speed);
+    lineariser_.linearise(steady_.at, lin_);
+    if (turned_.q.size() == 0) start();
+    set_system(rotor_speed);
+    point.rotor_speed = rotor_speed;
+    point.at = steady_.at;
+    set_count(point.modes, mode_solver_.solve(current_));
+    for (std::size_t i = 0; i < point.modes.size(); ++i) {
+        CampbellMode& m = point.modes[i];
+        mode_solver_.copy(i, m.mode);
+        mode_solver_.energy_by_row(i, m.row_shares);
+        identification_->shares(m.mode, m.shares);
+        m.row = -1;
+        m.floquet.reset();
+    }
+    point.periodic.reset();
+    set_margin(point);
+}
+
+// Modes come and go with the rotor speed (a pair may turn into two aperiodic motions). What goes keeps its memory here,
+// and there is memory for as many as there can be.
+void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count) {
+    const std::size_t most = 2 * unknowns_.size();
+    modes.reserve(most);
+    spare_.reserve(most);
+    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    const std::size_t components = identification_->components().size();
+    const auto higher = static_cast<std::size_t>(identification_->harmonics() - 1);
+    while (modes.size() + spare_.size() < most) {
+        CampbellMode& blank = spare_.emplace_back();
+        blank.mode.shape.resize(n);
+        blank.row_shares.resize(n);
+        blank.shares.resize(components);
+        for (Share& share : blank.shares) share.higher.reserve(higher);
+    }
+    for (; modes.size() < count; spare_.pop_back()) modes.push_back(std::move(spare_.back()));
+    for (; modes.size() > count; modes.pop_back()) spare_.push_back(std::move(modes.back()));
+}
+
+void PointSolver::set_system(double rotor_speed) {
+    restrict_to(lin_, unknowns_, rotor_.spin, current_);
+    if (!coleman_) return;
+    const bool frozen = method_ == CampbellMethod::frozen_azimuth;
+    coleman_->transform_in_place(current_, 0, frozen ? 0 : rotor_speed);
+    if (!frozen && rotor_speed != 0 && rotor_.spin >= 0) average_if_periodic(rotor_speed);
+}
+
+void PointSolver::set_other_azimuth(double psi, double rotor_speed) {
+    turned_ = steady_.at;
+    turned_.q(rotor_.spin) += psi;
+    lineariser_.linearise(turned_, lin_);
+    restrict_to(lin_, unknowns_, rotor_.spin, other_);
+    coleman_->transform_in_place(other_, psi, rotor_speed);
+}
+
+// The transformed matrices of an isotropic rotor are constant; else their mean over the azimuth is taken and said.
+void PointSolver::average_if_periodic(double rotor_speed) {
+    SecondOrderSystem& z = current_;
+    set_other_azimuth(1.0, rotor_speed);
+    const double remainder = (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
+                             (other_.M - z.M).norm() / z.M.norm();
+    if (remainder < 1e-9) return;
+    const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
+    for (int i = 1; i < azimuths; ++i) {
+        set_other_azimuth(2 * pi * i / azimuths, rotor_speed);
+        z.M += other_.M, z.C += other_.C, z.K += other_.K, z.K_elastic += other_.K_elastic;
+    }
+    z.M /= azimuths, z.C /= azimuths, z.K /= azimuths, z.K_elastic /= azimuths;
+    if (warning_.find("not isotropic") == std::string::npos)
+        warning_ += text(warning_.empty() ? "" : "; ",
+                         "the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,
+                         " (relative); its mean over the azimuth is used, which is an approximation");
+}
+
+std::vector<std::string> PointSolver::row_names() const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+        const MultiBladeRow& row = rows()[i];
+        const bool blade = row.blade_coordinate >= 0;
+        const int coordinate = blade ? rotor_.blades[0][static_cast<std::size_t>(row.blade_coordinate)] : unknowns_[i];
+        const std::string& name = system_.model.coordinates()[coordinate].name;
+        names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);
+    }
+    return names;
+}
+
+Matrix PointSolver::rotating_coordinates() const {
+    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    return coleman_ ? coleman_->matrix(0) : Matrix(Matrix::Identity(n, n));
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,107 @@
+/// @file
+/// One point of a Campbell diagram: everything at one rotor speed.
+#pragma once
+
+#include "solvers/campbell/diagram.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace cardan::solvers {
+
+/// Modes at one rotor speed after the other, by some method.
+class PointMethod {
+public:
+    PointMethod() = default;
+    PointMethod(const PointMethod&) = delete;
+    PointMethod& operator=(const PointMethod&) = delete;
+    virtual ~PointMethod() = default;
+
+    /// @param rotor_speed  rad/s
+    /// @param point  overwritten
+    virtual void solve(double rotor_speed, CampbellPoint& point) = 0;
+    /// Model index of every row of the modes' shapes.
+    virtual const std::vector<int>& unknowns() const = 0;
+    /// Their names; blade coordinates are named after blade 1, with the pattern that their row stands for.
+    virtual std::vector<std::string> row_names() const = 0;
+    /// Of the last point: the (transformed) system, in the mean over the azimuth.
+    virtual const SecondOrderSystem& system() const = 0;
+    /// By the first point; null before.
+    virtual const Identification* identification() const = 0;
+    /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
+    virtual Matrix rotating_coordinates() const = 0;
+    /// What has to be said about the results so far; mostly empty.
+    virtual const std::string& warning() const = 0;
+};
+
+/// CampbellPoint::stability_margin by its modes, rigid ones left out. A growth or decay that is no more than rounding
+/// counts as none: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above
+/// most_certain_ratio times the lowest do not count.
+void set_stability_margin(CampbellPoint& point);
+
+/// Steady state, linearisation, Coleman transformation, modes and their shares of energy at one rotor speed after the
+/// other. Its memory, some twenty matrices over the coordinates, is made with the first point. Keeps references to
+/// system and machine; one per thread.
+class PointSolver : public PointMethod {
+public:
+    /// @throws InputError for two blades unless the method is Floquet's (then standstill only), and as ColemanTransform
+    PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
+
+    /// The steady state is sought from that of the point before. From the second call on with the same `point` nothing
+    /// is allocated.
+    /// @throws NumericalError where no constant steady state exists or is found, and as ModeSolver; the solver can be
+    /// used again
+    void solve(double rotor_speed, CampbellPoint& point) override;
+
+    const std::vector<int>& unknowns() const override { return unknowns_; }
+    std::vector<std::string> row_names() const override;
+    const SecondOrderSystem& system() const override { return current_; }
+    const Identification* identification() const override { return identification_ ? &*identification_ : nullptr; }
+    Matrix rotating_coordinates() const override;
+    const std::string& warning() const override { return warning_; }
+
+    /// Null without blades to transform.
+    const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
+    /// The components by another linearisation than that of the first point, before it.
+    void identify(const Linearisation& lin);
+
+private:
+    const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
+    void find_steady_state(double rotor_speed);
+    void start();
+    void note_rigid_springs();
+    void set_margin(CampbellPoint& point) const;
+    void set_system(double rotor_speed);
+    void set_other_azimuth(double psi, double rotor_speed);
+    void average_if_periodic(double rotor_speed);
+    void set_count(std::vector<CampbellMode>& modes, std::size_t count);
+
+    const System& system_;
+    const RotorMap& rotor_;
+    CampbellMethod method_;
+    std::vector<int> unknowns_;
+    std::optional<ColemanTransform> coleman_;
+    std::vector<MultiBladeRow> plain_rows_;
+    std::optional<Identification> identification_;
+    std::string warning_;
+
+    SteadySolver steady_solver_;
+    Lineariser lineariser_;
+    ModeSolver mode_solver_;
+    SteadyOptions steady_options_;
+    SteadyState steady_;
+    OperatingPoint turned_;
+    Linearisation lin_;
+    SecondOrderSystem current_, other_;
+    std::vector<CampbellMode> spare_;  // memory for modes beyond those of the last point
+};
+
+/// Smallest |eigenvalue| of those that oscillate, rigid ones left out; infinite without any. Growth and decay above
+/// most_certain_ratio times as much are rounding.
+double lowest_vibration(const std::vector<CampbellMode>& modes);
+
+/// The solver for the method of the options.
+/// @throws InputError as the solvers
+std::unique_ptr<PointMethod> point_method(const System& system, const RotorMap& rotor, const CampbellOptions& options);
+
+}  // namespace cardan::solvers

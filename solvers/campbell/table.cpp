@@ -1,0 +1,153 @@
+#include "mbs/base/error.hpp"
+#include "solvers/campbell/diagram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+FloquetKind CampbellMode::kind() const {
+    if (floquet) return floquet->kind;
+    return mode.oscillates() ? FloquetKind::oscillation : FloquetKind::aperiodic;
+}
+
+std::string CampbellMode::kind_name() const {
+    switch (kind()) {
+        case FloquetKind::oscillation:
+            return "oscillation";
+        case FloquetKind::aperiodic:
+            return "aperiodic";
+        case FloquetKind::synchronous:
+            return text("locked at ", std::lround(floquet->per_period()), " per rev");
+        case FloquetKind::subharmonic:
+            return text("locked at ", std::lround(2 * floquet->per_period()), "/2 per rev");
+        case FloquetKind::rigid:
+            break;
+    }
+    return "rigid";
+}
+
+const CampbellMode* Campbell::mode(const Branch& branch, std::size_t point) const {
+    const int index = branch.mode.at(point);
+    return index < 0 ? nullptr : &points[point].modes[static_cast<std::size_t>(index)];
+}
+
+std::vector<double> Campbell::rotor_speeds() const {
+    std::vector<double> speeds;
+    for (const CampbellPoint& point : points) speeds.push_back(point.rotor_speed);
+    return speeds;
+}
+
+double Campbell::natural_hz(const Branch& branch, std::size_t point) const {
+    const CampbellMode* m = mode(branch, point);
+    return m ? m->mode.natural_hz() : nan;
+}
+
+double Campbell::damped_hz(const Branch& branch, std::size_t point) const {
+    const CampbellMode* m = mode(branch, point);
+    return m ? m->mode.damped_hz() : nan;
+}
+
+double Campbell::damping_ratio(const Branch& branch, std::size_t point) const {
+    const CampbellMode* m = mode(branch, point);
+    return m && m->kind() != FloquetKind::rigid ? m->mode.damping_ratio() : nan;
+}
+
+const Branch& Campbell::branch(std::string_view name) const {
+    std::string known;
+    for (const Branch& b : branches) {
+        if (b.name == name) return b;
+        known += text(known.empty() ? "'" : ", '", b.name, "'");
+    }
+    throw InputError(text("unknown mode '", name, "'; the diagram has ", known));
+}
+
+std::vector<FrameMotion> Campbell::motion(const Branch& branch, std::size_t point) const {
+    if (point >= motions.size() || branch.mode.at(point) < 0)
+        throw InputError(machine, "mode shape of", text("'", branch.name, "' at point ", point),
+                         "a point where the branch has a mode, in a diagram made with keep_shapes");
+    return motions[point][static_cast<std::size_t>(branch.mode[point])];
+}
+
+namespace {
+
+// "    0.9581 ( -4.53) ?", "-" without a mode.
+std::string entry(const Campbell& diagram, const Branch& branch, std::size_t point) {
+    std::ostringstream out;
+    if (branch.mode[point] < 0) {
+        out << std::setw(21) << "-";
+        return out.str();
+    }
+    const double damping = diagram.damping_ratio(branch, point);
+    out << std::fixed << std::setw(10) << std::setprecision(4) << diagram.natural_hz(branch, point) << " ("
+        << std::setw(6) << std::setprecision(2);
+    if (std::isfinite(damping))
+        out << (std::abs(damping) < 5e-5 ? 0 : 100 * damping);  // not -0.00
+    else
+        out << "-";
+    out << ")" << (branch.doubtful[point] ? " ?" : "  ");
+    return out.str();
+}
+
+std::string margins(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
+    if (!std::isfinite(diagram.points[0].stability_margin)) return {};
+    std::ostringstream out;
+    out << "\n" << std::left << std::setw(width) << "stability margin, 1/s" << std::right << std::setprecision(4);
+    for (std::size_t i : shown) {
+        out << std::setw(19) << diagram.points[i].stability_margin << "  ";
+    }
+    out << "\n";
+    return out.str();
+}
+
+}  // namespace
+
+std::string table(const Campbell& diagram) {
+    std::ostringstream out;
+    if (diagram.points.empty()) return "no rotor speeds computed\n";
+    std::vector<std::size_t> shown{0};
+    for (std::size_t i : {diagram.points.size() / 2, diagram.points.size() - 1})
+        if (i != shown.back()) shown.push_back(i);
+    std::size_t longest = 32;
+    for (const Branch& branch : diagram.branches) longest = std::max(longest, branch.name.size());
+    const int width = static_cast<int>(longest) + 2;
+    out << diagram.machine << ": natural frequency, Hz (damping ratio, %); " << diagram.method << "\n\n"
+        << (diagram.parameter.empty() ? std::string() : text("over ", diagram.parameter, "\n\n")) << std::left
+        << std::setw(width) << "mode" << std::right << std::fixed;
+    for (std::size_t i : shown) {
+        if (diagram.parameters.empty())
+            out << std::setw(15) << std::setprecision(1) << diagram.points[i].rotor_speed * 30 / pi << " rpm  ";
+        else
+            out << std::setw(19) << text(diagram.parameters[i]) << "  ";
+    }
+    out << "\n";
+    for (const Branch& branch : diagram.branches) {
+        out << std::left << std::setw(width) << branch.name << std::right;
+        for (std::size_t i : shown) out << entry(diagram, branch, i);
+        out << "\n";
+    }
+    out << margins(diagram, shown, width);
+    out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";
+    if (!diagram.crossings.empty()) {
+        out << "\ncrossings with multiples of the rotor speed\n";
+        for (const Crossing& crossing : diagram.crossings)
+            out << "  " << std::setw(2) << crossing.multiple << "P at " << std::setw(6) << std::setprecision(2)
+                << crossing.rotor_speed * 30 / pi << " rpm, " << std::setw(7) << std::setprecision(4)
+                << crossing.frequency_hz << " Hz: " << diagram.branches[static_cast<std::size_t>(crossing.branch)].name
+                << "\n";
+    }
+    if (!diagram.warning.empty()) out << "\nwarning: " << diagram.warning << "\n";
+    if (!diagram.complete) out << "\nthe sweep was interrupted: only the rotor speeds above were computed\n";
+    return out.str();
+}
+
+}  // namespace cardan::solvers

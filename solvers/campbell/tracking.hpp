@@ -1,0 +1,46 @@
+/// @file
+/// Modes followed over rotor speed, or over another parameter.
+#pragma once
+
+#include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell/neighbour_names.hpp"
+
+namespace cardan::solvers {
+
+/// Of a likeness of two modes between 0 and 1: below they are not the same mode at all.
+inline constexpr double least_score = 0.1;
+
+/// Links the modes of consecutive points by optimal assignment on the complex energy MAC, never by frequency order.
+/// Points may differ in anything but their rows. Oscillations begin a track, and motions named after a coordinate.
+class Tracker {
+public:
+    /// @param system  the (transformed) system of the point: its energy product weighs the MAC
+    void add(const SecondOrderSystem& system, const CampbellPoint& point);
+    /// With likenesses of one's own, such as periodic_likeness(): a row per track (see last()), a column per mode.
+    /// @param score  the assignment makes its sum largest; below least_score a track ends
+    /// @param mac    kept with the branch
+    /// @throws InputError for matrices of another size
+    void add(const Matrix& score, const Matrix& mac, const CampbellPoint& point);
+    /// Last known mode of every track.
+    std::vector<const CampbellMode*> last() const;
+
+    /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
+    /// the sweep, or the coordinate that moves most, no name twice (assignment again).
+    /// @param rows  names of the rows (PointMethod::row_names)
+    /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
+    /// @param neighbour  with all points; null: none
+    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const Identification& identification,
+                                 const std::vector<std::string>& rows, bool whirl,
+                                 NeighbourNames* neighbour = nullptr) const;
+
+private:
+    struct Track {
+        std::vector<int> mode;
+        std::vector<double> mac;
+    };
+    std::vector<Track> tracks_;
+    std::vector<CampbellMode> last_;
+    std::size_t points_ = 0;
+};
+
+}  // namespace cardan::solvers

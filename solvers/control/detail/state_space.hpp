@@ -1,0 +1,80 @@
+/// @file
+/// Steps of state_space(). Internal: not for users of the library.
+#pragma once
+
+#include "solvers/control/state_space.hpp"
+#include "solvers/linear/linearise.hpp"
+
+#include <optional>
+
+namespace cardan::solvers::detail {
+
+/// What a change of every state (first) and input does to the whole machine: a column each, a row per coordinate.
+struct Directions {
+    Matrix q, qd;     ///< change of positions and rates
+    Matrix qdd;       ///< of accelerations, by the linear model
+    Matrix actuator;  ///< of what drives add to Q on their coordinates
+    Matrix Q;         ///< generalised forces of inputs
+};
+
+/// States, driven coordinates and columns of a model, from the inputs.
+class Layout {
+public:
+    /// @throws InputError, see state_space()
+    Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
+           const StateSpaceOptions& options);
+
+    Eigen::Index states() const { return 2 * static_cast<Eigen::Index>(coordinates.size()); }
+    Eigen::Index columns() const { return states() + static_cast<Eigen::Index>(input_signals.size()); }
+
+    std::vector<int> coordinates;       ///< whose positions and rates are states
+    std::vector<int> unknowns, driven;  ///< coordinates with an equation of motion, and the others
+    std::vector<Signal> state_signals, input_signals;
+
+    /// Directions as far as they are known without equations of motion, at the poses of `kin`.
+    void begin(const Kinematics& kin, Directions& out) const;
+    /// Values of the inputs at an operating point.
+    Vector input_values(const OperatingPoint& at) const;
+    /// A wrench per unit of the input of a column; none for other columns.
+    std::optional<FrameLoad> wrench_of(Eigen::Index column) const;
+
+private:
+    struct Column {
+        std::size_t input;
+        int derivative;  ///< 0, 1, 2 of a motion: position, rate, acceleration
+    };
+    void check(const LinearInput& input) const;
+    std::string units(const LinearInput& input) const;
+    void add_columns(const std::vector<LinearInput>& inputs);
+    void name_states();
+
+    const System& system_;
+    const std::vector<LinearInput>& inputs_;
+    std::vector<Column> columns_;
+};
+
+/// Channels at a state and their derivatives along Directions.
+class OutputDifferences {
+public:
+    OutputDifferences(const System& system, const std::vector<ChannelGroup>& groups,
+                      const std::vector<std::string>& wanted);
+
+    const std::vector<Signal>& signals() const { return signals_; }
+    /// Values at a state.
+    Vector at(const OperatingPoint& state, const Vector& actuator, const Forces& forces);
+    /// @param error, size  in and out: largest estimated error of a difference, and largest difference, per output;
+    /// empty at first
+    Matrix along(const OperatingPoint& state, const Vector& actuator, const Directions& directions,
+                 const Layout& layout, Vector& error, Vector& size);
+
+private:
+    const System& system_;
+    const std::vector<ChannelGroup>& groups_;
+    std::vector<Signal> signals_;
+    std::vector<std::size_t> at_;  ///< of the wanted channels among all
+    std::vector<bool> angle_;      ///< may jump by 2 pi
+    std::size_t count_ = 0;
+    Workspace workspace_;
+};
+
+}  // namespace cardan::solvers::detail

@@ -1,0 +1,117 @@
+// Channels along directions of the state by central differences.
+#include "mbs/base/error.hpp"
+#include "solvers/control/detail/state_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cardan::solvers::detail {
+
+namespace {
+
+// Wrenches and gravity of a system, and one wrench more.
+Forces with_wrench(const System& system, FrameLoad load, double factor) {
+    ForceSet set;
+    set.set_gravity(system.forces.gravity());
+    for (const FrameLoad& own : system.forces.loads()) set.add_wrench(own);
+    load.wrench.force *= factor;
+    load.wrench.moment *= factor;
+    set.add_wrench(std::move(load));
+    return Forces(set, system.model);
+}
+
+std::string listed(const std::vector<ChannelGroup>& groups) {
+    std::string names;
+    for (const ChannelGroup& group : groups)
+        for (const Channel& channel : group.channels) names += text(names.empty() ? "" : ", ", "'", channel.name, "'");
+    return names;
+}
+
+}  // namespace
+
+OutputDifferences::OutputDifferences(const System& system, const std::vector<ChannelGroup>& groups,
+                                     const std::vector<std::string>& wanted)
+    : system_(system), groups_(groups), workspace_(system.model) {
+    std::vector<const Channel*> all;
+    for (const ChannelGroup& group : groups) {
+        if (!group.sample) throw InputError("linear model", "group of channels", "without a function", "one with");
+        for (const Channel& channel : group.channels) all.push_back(&channel);
+    }
+    count_ = all.size();
+    const auto take = [&](std::size_t i) {
+        const Channel& c = *all[i];
+        at_.push_back(i);
+        angle_.push_back(c.units == "rad");
+        signals_.push_back({c.name, c.units, c.long_name, c.alias, blade_number(c.name)});
+    };
+    if (wanted.empty())
+        for (std::size_t i = 0; i < count_; ++i) take(i);
+    for (const std::string& name : wanted) {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const Channel* c) {
+            return c->name == name || (!name.empty() && c->alias == name);
+        });
+        if (found == all.end())
+            throw InputError("linear model", "output", text("'", name, "'"), text("one of ", listed(groups)));
+        take(static_cast<std::size_t>(found - all.begin()));
+    }
+}
+
+Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator, const Forces& forces) {
+    const Kinematics kin = kinematics(system_.model, state.q, workspace_);
+    const Transmission carried = transmission(kin, forces, state.qd, state.qdd);
+    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, carried};
+    std::vector<double> all(count_);
+    double* next = all.data();
+    for (const ChannelGroup& group : groups_) {
+        group.sample(input, next);
+        next += group.channels.size();
+    }
+    Vector values(static_cast<Eigen::Index>(at_.size()));
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        if (!std::isfinite(all[at_[i]]))
+            throw NumericalError(text("linear model: the channel '", signals_[i].name, "' is ", all[at_[i]]));
+        values(static_cast<Eigen::Index>(i)) = all[at_[i]];
+    }
+    return values;
+}
+
+Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actuator, const Directions& directions,
+                                const Layout& layout, Vector& error, Vector& size) {
+    const auto rows = static_cast<Eigen::Index>(at_.size());
+    Matrix slopes = Matrix::Zero(rows, layout.columns());
+    if (size.size() == 0) error = size = Vector::Zero(rows);
+    if (rows == 0) return slopes;
+    for (Eigen::Index j = 0; j < layout.columns(); ++j) {
+        const auto q = directions.q.col(j), qd = directions.qd.col(j), qdd = directions.qdd.col(j);
+        const std::optional<FrameLoad> load = layout.wrench_of(j);
+        // Positions: the error of the extrapolated difference, h^4, and rounding, 1e-16 / h, are about alike. Channels
+        // are quadratic in the rates and linear in accelerations and forces: a large step has the least rounding.
+        // By the largest entry of the direction: the factor of an input of motion may be anything.
+        const auto largest = [](const auto& direction) { return direction.cwiseAbs().maxCoeff(); };
+        const double h = !q.isZero(0)     ? 1e-3 / largest(q)
+                         : !qd.isZero(0)  ? 1e-2 / largest(qd)
+                         : !qdd.isZero(0) ? 100 / largest(qdd)
+                                          : 1;
+        const auto value = [&](double step) {
+            OperatingPoint moved = state;
+            moved.q += step * q;
+            moved.qd += step * qd;
+            moved.qdd += step * qdd;
+            const Vector forced = actuator + step * directions.actuator.col(j);
+            return load ? at(moved, forced, with_wrench(system_, *load, step)) : at(moved, forced, system_.forces);
+        };
+        const auto difference = [&](double step) {
+            Vector d = value(step) - value(-step);
+            for (Eigen::Index i = 0; i < rows; ++i)
+                if (angle_[static_cast<std::size_t>(i)]) d(i) = std::remainder(d(i), 2 * pi);
+            return Vector(d / (2 * step));
+        };
+        const Vector fine = difference(h), coarse = difference(2 * h);
+        slopes.col(j) = fine + (fine - coarse) / 3;
+        error = error.cwiseMax(h / 3 * (fine - coarse).cwiseAbs());
+        size = size.cwiseMax(h * slopes.col(j).cwiseAbs());
+    }
+    return slopes;
+}
+
+}  // namespace cardan::solvers::detail

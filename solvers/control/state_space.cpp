@@ -1,0 +1,194 @@
+#include "solvers/control/state_space.hpp"
+
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/dynamics.hpp"
+#include "solvers/control/detail/state_space.hpp"
+#include "solvers/linear/problem_size.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace cardan::solvers {
+
+namespace {
+
+using detail::Directions;
+using detail::Layout;
+using detail::OutputDifferences;
+using Index = Eigen::Index;
+
+class Builder {
+public:
+    Builder(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
+            const std::vector<ChannelGroup>& outputs, const StateSpaceOptions& options)
+        : system_(system),
+          rotor_(rotor),
+          layout_(system, rotor, inputs, options),
+          differences_(system, outputs, options.outputs),
+          lineariser_(system),
+          workspace_(system.model) {}
+
+    LinearModel empty(double rotor_speed) const;
+    void add(const OperatingPoint& at, double psi, LinearModel& model);
+    void finish(LinearModel& model) const;
+
+private:
+    void solve(const Matrix& right);
+    void find_forces(const OperatingPoint& at, LinearModel& model);
+
+    const System& system_;
+    const RotorMap& rotor_;
+    Layout layout_;
+    OutputDifferences differences_;
+    Lineariser lineariser_;
+    Workspace workspace_;
+    Linearisation lin_;
+    Directions directions_;
+    Vector actuator_;
+    Vector error_, size_;  // of the outputs' differences
+};
+
+LinearModel Builder::empty(double rotor_speed) const {
+    LinearModel model;
+    model.machine = rotor_.machine;
+    model.description = rotor_.description;
+    model.rotor_speed = rotor_speed;
+    model.blades = static_cast<int>(rotor_.blades.size());
+    model.states = layout_.state_signals;
+    model.inputs = layout_.input_signals;
+    model.outputs = differences_.signals();
+    model.coordinates = layout_.coordinates;
+    return model;
+}
+
+// Accelerations of the unknowns along every direction, and forces of drives:
+// M qdd + C qd + K q = Q + actuator, zero on the unknowns.
+void Builder::solve(const Matrix& right) {
+    const std::vector<int>&f = layout_.unknowns, &d = layout_.driven;
+    const Matrix M = lin_.mass(f, f);
+    const Eigen::LLT<Matrix> mass(M);
+    if (mass.info() != Eigen::Success)
+        throw NumericalError(
+            text(in_linear_model, ": the mass matrix of the free coordinates is not positive definite"));
+    const Matrix accelerations = mass.solve(Matrix(right(f, Eigen::all)));
+    directions_.qdd(f, Eigen::all) = accelerations;
+    if (!directions_.qdd.allFinite()) throw NumericalError(text(in_linear_model, ": accelerations are not finite"));
+    // `right` holds the prescribed accelerations already.
+    directions_.actuator(d, Eigen::all) = Matrix(lin_.mass(d, f)) * accelerations - Matrix(right(d, Eigen::all));
+}
+
+// What the drives, that of the spin among them, carry at the operating point, and what no drive carries.
+void Builder::find_forces(const OperatingPoint& at, LinearModel& model) {
+    const Index n = system_.model.size();
+    const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+    Vector tau(n), Q(n);
+    inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
+    system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+    const Vector missing = tau - Q;
+    actuator_ = Vector::Zero(n);
+    for (int i : layout_.driven) actuator_(i) = missing(i);
+    Vector on_unknowns = missing(layout_.unknowns);
+    for (std::size_t row = 0; row < layout_.unknowns.size(); ++row)
+        if (layout_.unknowns[row] == rotor_.spin) {
+            actuator_(rotor_.spin) = missing(rotor_.spin);
+            on_unknowns(static_cast<Index>(row)) = 0;
+        }
+    const Matrix M = lin_.mass(layout_.unknowns, layout_.unknowns);
+    const Vector off = M.llt().solve(on_unknowns);
+    if (off.size() > 0) model.imbalance = std::max(model.imbalance, off.cwiseAbs().maxCoeff());
+}
+
+void Builder::add(const OperatingPoint& at, double psi, LinearModel& model) {
+    lineariser_.linearise(at, lin_);
+    layout_.begin(kinematics(system_.model, at.q, workspace_), directions_);
+    // Prescribed accelerations stand in qdd already; the others are zero and follow.
+    const Matrix right = directions_.Q - lin_.mass * directions_.qdd - lin_.velocity() * directions_.qd -
+                         lin_.stiffness() * directions_.q;
+    solve(right);
+    find_forces(at, model);
+
+    const Index states = layout_.states(), half = states / 2, inputs = layout_.columns() - states;
+    LinearSample sample;
+    sample.azimuth = psi;
+    sample.time = at.time;
+    Matrix rates(states, layout_.columns());
+    rates.topRows(half) = directions_.qd(layout_.coordinates, Eigen::all);
+    rates.bottomRows(half) = directions_.qdd(layout_.coordinates, Eigen::all);
+    sample.A = rates.leftCols(states);
+    sample.B = rates.rightCols(inputs);
+    sample.x.resize(states);
+    sample.x << at.q(layout_.coordinates), at.qd(layout_.coordinates);
+    sample.xdot.resize(states);
+    sample.xdot << at.qd(layout_.coordinates), at.qdd(layout_.coordinates);
+    sample.u = layout_.input_values(at);
+    sample.y = differences_.at(at, actuator_, system_.forces);
+    const Matrix slopes = differences_.along(at, actuator_, directions_, layout_, error_, size_);
+    sample.C = slopes.leftCols(states);
+    sample.D = slopes.rightCols(inputs);
+
+    model.samples.push_back(std::move(sample));
+}
+
+void Builder::finish(LinearModel& model) const {
+    model.output_error = Vector::Zero(size_.size());
+    for (Index i = 0; i < size_.size(); ++i)
+        if (size_(i) > 0) model.output_error(i) = error_(i) / size_(i);
+}
+
+LinearModel build(const System& system, const RotorMap& rotor, double rotor_speed, int azimuths,
+                  const std::function<OperatingPoint(double psi)>& at, double first,
+                  const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
+                  const StateSpaceOptions& options) {
+    check_number_of_unknowns(rotor.machine, system.model.coordinates().free().size());
+    Builder builder(system, rotor, inputs, outputs, options);
+    LinearModel model = builder.empty(rotor_speed);
+    for (int s = 0; s < azimuths; ++s) {
+        const double psi = azimuths == 1 ? first : 2 * pi * s / azimuths;
+        builder.add(at(psi), psi, model);
+    }
+    builder.finish(model);
+    return model;
+}
+
+}  // namespace
+
+LinearModel state_space(const System& system, const RotorMap& rotor, const PeriodicSteadyState& about,
+                        const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
+                        const StateSpaceOptions& options) {
+    if (!about.converged) throw InputError(in_linear_model, "periodic steady state", "not converged", "converged");
+    if (about.coefficients.rows() != system.model.size() || about.spin != rotor.spin || rotor.spin < 0)
+        throw InputError(in_linear_model, "coordinates and spin of the periodic steady state",
+                         text(about.coefficients.rows(), ", ", about.spin),
+                         text(system.model.size(), ", ", rotor.spin));
+    if (options.azimuths < 3) throw InputError(in_linear_model, "number of azimuths", options.azimuths, ">= 3");
+    return build(
+        system, rotor, about.rotor_speed, options.azimuths, [&](double psi) { return about.at(psi); }, 0, inputs,
+        outputs, options);
+}
+
+LinearModel state_space(const System& system, const RotorMap& rotor, const OperatingPoint& about,
+                        const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
+                        const StateSpaceOptions& options) {
+    for (const Vector* v : {&about.q, &about.qd, &about.qdd})
+        if (v->size() != system.model.size() || !v->allFinite())
+            throw InputError(in_linear_model, "coordinates of the operating point", v->size(),
+                             text(system.model.size(), ", all finite"));
+    if (rotor.spin >= system.model.size())
+        throw InputError(in_linear_model, "index of the spin coordinate", rotor.spin,
+                         text("-1 ... ", system.model.size() - 1));
+    const double speed = rotor.spin < 0 ? 0 : about.qd(rotor.spin), first = rotor.spin < 0 ? 0 : about.q(rotor.spin);
+    const int azimuths = speed == 0 ? 1 : options.azimuths;
+    if (speed != 0 && azimuths < 3) throw InputError(in_linear_model, "number of azimuths", azimuths, ">= 3");
+    const auto at = [&](double psi) {
+        OperatingPoint turned = about;
+        if (speed == 0) return turned;
+        turned.q(rotor.spin) = psi;
+        turned.time = psi / speed;
+        return turned;
+    };
+    return build(system, rotor, speed, azimuths, at, first, inputs, outputs, options);
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,288 @@
+#include "solvers/equilibrium/steady_state.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/derivatives.hpp"
+#include "solvers/algebra/detail/sundials_memory.hpp"
+
+#include <kinsol/kinsol.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <memory>
+
+namespace cardan::solvers {
+
+namespace {
+
+void free_kinsol(void* memory) {
+    KINFree(&memory);
+}
+
+// Residual and Jacobian on the unknowns (free coordinates without the spin).
+class Residual {
+public:
+    Residual(const System& system, int spin)
+        : unknowns(system.model.coordinates().free_without(spin)),
+          system_(system),
+          spin_(spin),
+          workspace_(system.model) {
+        const int n = system.model.size();
+        for (Vector* v : {&at.q, &at.qd, &at.qdd, &tau_, &Q_}) v->setZero(n);
+        by_q_.setZero(n, n);
+        by_qd_.setZero(n, n);
+    }
+
+    void start(const SteadyOptions& options) {
+        if (options.initial.size() > 0)
+            at.q = options.initial;
+        else
+            at.q.setZero();
+        if (spin_ >= 0) {
+            at.q(spin_) = options.azimuth;
+            at.qd(spin_) = options.rotor_speed;
+        }
+        thrown = nullptr;
+    }
+    void set(const double* x) {
+        for (std::size_t i = 0; i < unknowns.size(); ++i) at.q(unknowns[i]) = x[i];
+    }
+    void turn_to(double azimuth) { at.q(spin_) = azimuth; }
+    void evaluate(double* r) {
+        const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+        inverse_dynamics<double>(kin, at.qd, at.qdd, tau_);
+        system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
+        for (std::size_t i = 0; i < unknowns.size(); ++i) r[i] = tau_(unknowns[i]) - Q_(unknowns[i]);
+    }
+    /// @param J  out, over the unknowns, column-major
+    void jacobian(double* J) {
+        const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+        inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, by_q_, by_qd_);
+        system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+        by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
+        for (int b : unknowns)
+            for (int a : unknowns) *J++ = by_q_(a, b);
+    }
+    // Of the springs alone, at the place of the last call of jacobian().
+    double elastic_diagonal(std::size_t i) const { return forces_.elastic(unknowns[i], unknowns[i]); }
+
+    std::vector<int> unknowns;
+    OperatingPoint at;
+    std::exception_ptr thrown;
+
+private:
+    const System& system_;
+    int spin_;
+    Workspace workspace_;
+    Vector tau_, Q_;
+    Matrix by_q_, by_qd_;
+    ForceDerivatives forces_;
+};
+
+// Exceptions must not cross KINSOL: kept and rethrown outside.
+template <class F>
+int guarded(void* user, F f) {
+    auto* residual = static_cast<Residual*>(user);
+    try {
+        f(*residual);
+        return 0;
+    } catch (...) {
+        residual->thrown = std::current_exception();
+        return -1;
+    }
+}
+
+int residual_callback(N_Vector x, N_Vector r, void* user) {
+    return guarded(user, [&](Residual& residual) {
+        residual.set(N_VGetArrayPointer(x));
+        residual.evaluate(N_VGetArrayPointer(r));
+    });
+}
+
+int jacobian_callback(N_Vector x, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector) {
+    return guarded(user, [&](Residual& residual) {
+        residual.set(N_VGetArrayPointer(x));
+        residual.jacobian(SUNDenseMatrix_Data(J));
+    });
+}
+
+const char* reason(int flag) {
+    switch (flag) {
+        case KIN_LINESEARCH_NONCONV:
+            return "the line search found no point with a smaller residual";
+        case KIN_MAXITER_REACHED:
+            return "the limit of iterations was reached";
+        case KIN_MXNEWT_5X_EXCEEDED:
+            return "five steps in a row were as long as the allowed step";
+        case KIN_LINESEARCH_BCFAIL:
+            return "the line search could not reduce the residual enough";
+        case KIN_LSETUP_FAIL:
+        case KIN_LSOLVE_FAIL:
+        case KIN_LINSOLV_NO_RECOVERY:
+            return "the stiffness matrix is singular (a mechanism, or buckling)";
+        case KIN_SYSFUNC_FAIL:
+        case KIN_FIRST_SYSFUNC_ERR:
+            return "the residual could not be evaluated";
+        default:
+            return "KINSOL reported an error";
+    }
+}
+
+}  // namespace
+
+class SteadySolver::Memory {
+public:
+    Memory(const System& system, int spin);
+    void solve(const SteadyOptions& options, SteadyState& result);
+
+private:
+    void check(const SteadyOptions& options) const;
+    void set_scale();
+    double largest_residual();
+    void check_constant(const SteadyOptions& options);
+
+    int spin_, coordinates_;
+    Residual residual_;
+    Vector scale_, r_;
+    // In this order: KINSOL goes before what it uses, the context last.
+    SundialsContext context_;
+    SundialsVector x_, x_scale_, f_scale_;
+    SundialsMatrix J_;
+    SundialsLinear linear_;
+    std::unique_ptr<void, SundialsDeleter<free_kinsol>> kinsol_;
+};
+
+SteadySolver::Memory::Memory(const System& system, int spin)
+    : spin_(spin), coordinates_(system.model.size()), residual_(system, spin) {
+    const auto n = static_cast<sunindextype>(residual_.unknowns.size());
+    if (n == 0) return;
+    scale_.resize(n);
+    r_.resize(n);
+    context_ = make_sundials_context();
+    SUNContext context = context_.get();
+    for (SundialsVector* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
+    N_VConst(1.0, x_scale_.get());
+    J_.reset(SUNDenseMatrix(n, n, context));
+    linear_.reset(SUNLinSol_Dense(x_.get(), J_.get(), context));
+    kinsol_.reset(KINCreate(context));
+    void* kin = kinsol_.get();
+    const bool ok = KINInit(kin, residual_callback, x_.get()) == 0 && KINSetUserData(kin, &residual_) == 0 &&
+                    KINSetErrHandlerFn(kin, sundials_quiet, nullptr) == 0 &&
+                    KINSetLinearSolver(kin, linear_.get(), J_.get()) == 0 && KINSetJacFn(kin, jacobian_callback) == 0 &&
+                    KINSetMaxSetupCalls(kin, 1) == 0 && KINSetScaledStepTol(kin, 1e-14) == 0 &&
+                    KINSetMaxNewtonStep(kin, 10.0) == 0;
+    if (!ok) throw NumericalError("SUNDIALS: KINSOL could not be set up");
+}
+
+void SteadySolver::Memory::check(const SteadyOptions& options) const {
+    if (!std::isfinite(options.rotor_speed) || !std::isfinite(options.azimuth))
+        throw InputError("steady state", "rotor speed [rad/s], azimuth [rad]",
+                         text(options.rotor_speed, ", ", options.azimuth), "finite");
+    if (spin_ < 0 && options.rotor_speed != 0)
+        throw InputError("steady state", "rotor speed [rad/s]", options.rotor_speed, "0 for a system without rotor");
+    if (options.initial.size() != 0 && options.initial.size() != coordinates_)
+        throw InputError("steady state", "size of the starting point", options.initial.size(),
+                         text(coordinates_, ", one per coordinate, or empty"));
+    for (Eigen::Index i = 0; i < options.initial.size(); ++i)
+        if (!std::isfinite(options.initial(i)))
+            throw InputError("steady state", text("coordinate number ", i, " of the starting point"),
+                             options.initial(i), "finite");
+    require_positive("steady state", "tolerance", options.tolerance);
+    if (options.iterations < 1) throw InputError("steady state", "limit of iterations", options.iterations, ">= 1");
+}
+
+// Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the
+// springs at least, for at a critical load they and the loads cancel.
+void SteadySolver::Memory::set_scale() {
+    residual_.jacobian(SUNDenseMatrix_Data(J_.get()));
+    const auto n = static_cast<std::size_t>(scale_.size());
+    const auto stiffness = [&](std::size_t i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (n + 1)]); };
+    const auto spring = [&](std::size_t i) { return std::abs(residual_.elastic_diagonal(i)); };
+    double stiffest = 1e-280;
+    for (std::size_t i = 0; i < n; ++i) stiffest = std::max({stiffest, stiffness(i), spring(i)});
+    for (std::size_t i = 0; i < n; ++i) {
+        const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
+        scale_(static_cast<Eigen::Index>(i)) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
+    }
+}
+
+double SteadySolver::Memory::largest_residual() {
+    residual_.evaluate(r_.data());
+    if (!r_.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+    return r_.cwiseProduct(scale_).cwiseAbs().maxCoeff();
+}
+
+void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
+    // An angle that is no multiple of the spacing of any usual number of blades.
+    for (double turn : {1.0, 2.5}) {
+        residual_.turn_to(options.azimuth + turn);
+        const double largest = largest_residual();
+        if (!(largest < 1e-7))
+            throw NumericalError(text(
+                "no constant steady state at ", options.rotor_speed, " rad/s: with the rotor turned by ", turn,
+                " rad the forces leave a residual of ", largest,
+                " (residual over stiffness, rad or m; allowed 1e-7). Gravity in rotation, an unbalanced or a "
+                "two-bladed rotor have a periodic steady state: see harmonic_balance(); or leave gravity out or stop "
+                "the rotor"));
+    }
+    residual_.turn_to(options.azimuth);
+}
+
+void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& result) {
+    result.converged = false;  // until it is known to be, also if something throws
+    result.message.clear();
+    check(options);
+    residual_.start(options);
+    if (residual_.unknowns.empty()) {
+        result.converged = true;
+        result.at = residual_.at;
+        result.residual = result.iterations = 0;
+        return;
+    }
+    set_scale();
+    double* x = N_VGetArrayPointer(x_.get());
+    for (std::size_t i = 0; i < residual_.unknowns.size(); ++i) x[i] = residual_.at.q(residual_.unknowns[i]);
+    void* kin = kinsol_.get();
+    if (KINSetNumMaxIters(kin, options.iterations) != 0 || KINSetFuncNormTol(kin, options.tolerance) != 0)
+        throw NumericalError("SUNDIALS: KINSOL could not be set up");
+    const int flag = KINSol(kin, x_.get(), KIN_LINESEARCH, x_scale_.get(), f_scale_.get());
+    if (residual_.thrown) std::rethrow_exception(residual_.thrown);
+
+    long iterations = 0;
+    KINGetNumNonlinSolvIters(kin, &iterations);
+    residual_.set(x);
+    result.residual = largest_residual();
+    result.iterations = static_cast<int>(iterations);
+    // A step too small to improve on is as good as the arithmetic allows if the residual is small as well.
+    const bool converged = flag >= 0 && result.residual < std::max(1e-8, options.tolerance);
+    result.at = residual_.at;
+    if (!converged)
+        result.message = text("steady state not found after ", iterations, " iterations (residual over stiffness ",
+                              result.residual, ", wanted ", options.tolerance, "): ", reason(flag),
+                              "; start from a neighbouring state or approach the load in steps");
+    if (converged && spin_ >= 0 && options.rotor_speed != 0) check_constant(options);
+    result.converged = converged;
+}
+
+SteadySolver::SteadySolver(const System& system, int spin) {
+    if (spin < -1 || spin >= system.model.size())
+        throw InputError("steady state", "index of the spin coordinate", spin,
+                         text("-1 (none) ... ", system.model.size() - 1));
+    memory_ = std::make_unique<Memory>(system, spin);
+}
+
+SteadySolver::~SteadySolver() = default;
+
+void SteadySolver::solve(const SteadyOptions& options, SteadyState& result) {
+    memory_->solve(options, result);
+}
+
+SteadyState steady_state(const System& system, int spin, const SteadyOptions& options) {
+    SteadyState result;
+    SteadySolver(system, spin).solve(options, result);
+    return result;
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,61 @@
+/// @file
+/// Equilibrium at standstill and in steady rotation.
+#pragma once
+
+#include "mbs/model/rotor_map.hpp"
+#include "mbs/system/system.hpp"
+#include "solvers/linear/operating_point.hpp"
+
+#include <memory>
+#include <string>
+
+namespace cardan::solvers {
+
+struct SteadyOptions {
+    double rotor_speed = 0;    ///< rate of the spin coordinate, rad/s
+    double azimuth = 0;        ///< its position, rad
+    Vector initial = {};       ///< starting point of the iteration; empty: zero
+    double tolerance = 1e-11;  ///< residual over stiffness (rad, m), largest entry
+    int iterations = 60;
+};
+
+/// Result of steady_state(); `at` is the last iterate also if it did not converge.
+struct [[nodiscard]] SteadyState {
+    bool converged = false;
+    OperatingPoint at;
+    double residual = 0;  ///< largest residual over stiffness, rad or m
+    int iterations = 0;
+    std::string message;  ///< why it did not converge and what to do, empty if it did
+};
+
+/// Constant free coordinates while only the spin coordinate moves: r(q) = Gamma_abc qd^b qd^c - Q_a = 0 on the free
+/// coordinates, the spin being prescribed. KINSOL's Newton iteration with line search and the exact Jacobian.
+///
+/// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady
+/// state periodic, there is no such constant and NumericalError says so.
+///
+/// Made once for a system and its spin: the memory of KINSOL and of the kernels is kept from one state to the next,
+/// nothing else is. Keeps a reference to the system; one per thread.
+class SteadySolver {
+public:
+    /// @param spin  index of the spin coordinate, -1: none (then rotor_speed must be zero)
+    /// @throws InputError if there is no such coordinate
+    SteadySolver(const System& system, int spin);
+    ~SteadySolver();
+    SteadySolver(const SteadySolver&) = delete;
+    SteadySolver& operator=(const SteadySolver&) = delete;
+
+    /// @param result  overwritten, also where it does not converge. From the second call on with the same `result`
+    /// nothing is allocated, unless the solution fails or a user force does so.  Cost O(n^3) per iteration.
+    /// @throws InputError, NumericalError; the solver can be used again
+    void solve(const SteadyOptions& options, SteadyState& result);
+
+private:
+    class Memory;
+    std::unique_ptr<Memory> memory_;
+};
+
+/// The same, once.
+SteadyState steady_state(const System& system, int spin, const SteadyOptions& options = {});
+
+}  // namespace cardan::solvers

@@ -1,0 +1,60 @@
+/// @file
+/// Drivers of HDF5's virtual file layer, which says how bytes come to a file and from it.
+/// Internal: includes hdf5.h, not for users of the library.
+#pragma once
+
+#include "solvers/hdf5/detail/storage.hpp"
+
+#include <cstddef>
+#include <mutex>
+
+namespace cardan::solvers::detail {
+
+/// What both drivers leave to HDF5: to gather small pieces; their files are plain ones.
+inline herr_t query_features(const H5FD_t*, unsigned long* flags) noexcept {
+    if (flags != nullptr) {
+        *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+                 H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+    }
+    return 0;
+}
+
+/// Identifier of a driver: a class of static functions that are called by the C library and let no exception out.
+/// Registered with that library at first use, and again should the host program have closed the library since.
+template <class Driver>
+hid_t registered() {
+    static std::mutex mutex;
+    static hid_t id = -1;
+    const std::lock_guard lock(mutex);
+    if (id < 0 || H5Iget_type(id) != H5I_VFL) {
+        H5FD_class_t table{};  // zeros: no driver block in the file, one free list for each kind of data
+        table.name = Driver::driver_name;
+        table.maxaddr = Driver::max_address;
+        table.fc_degree = H5F_CLOSE_WEAK;
+        table.fapl_size = sizeof(typename Driver::Access);
+        table.open = Driver::open;
+        table.close = Driver::close;
+        table.cmp = Driver::compare;
+        table.query = query_features;
+        table.get_eoa = Driver::end_allocated;
+        table.set_eoa = Driver::set_end_allocated;
+        table.get_eof = Driver::end_of_file;
+        table.read = Driver::read;
+        table.write = Driver::write;
+        table.truncate = Driver::truncate;
+        id = H5FDregister(&table);
+    }
+    return id;
+}
+
+/// File access list that carries `access` to Driver::open(). Its files have the format of HDF5 1.8.
+template <class Driver>
+Handle access_through(const typename Driver::Access& access) {
+    Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (list.valid() && (H5Pset_driver(list.get(), registered<Driver>(), &access) < 0 ||
+                         H5Pset_libver_bounds(list.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0))
+        list.close();
+    return list;
+}
+
+}  // namespace cardan::solvers::detail

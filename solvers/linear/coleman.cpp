@@ -1,0 +1,193 @@
+#include "solvers/linear/coleman.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+int row_of(const std::vector<int>& coordinates, int coordinate) {
+    const auto found = std::find(coordinates.begin(), coordinates.end(), coordinate);
+    return found == coordinates.end() ? -1 : static_cast<int>(found - coordinates.begin());
+}
+
+// Which multi-blade coordinate stands in the place of blade k (from 0).
+MultiBladeRow row_kind(int k, int blades, int coordinate) {
+    if (k == 0) return {MultiBlade::collective, 0, coordinate};
+    if (blades % 2 == 0 && k == blades - 1) return {MultiBlade::differential, 0, coordinate};
+    return {k % 2 == 1 ? MultiBlade::cosine : MultiBlade::sine, (k + 1) / 2, coordinate};
+}
+
+// [blade][multi-blade coordinate] at azimuth 0.
+Matrix block_at_zero(int blades) {
+    const double B = blades, once = std::sqrt(1 / B), twice = std::sqrt(2 / B);
+    Matrix block(blades, blades);
+    for (int j = 0; j < blades; ++j) {
+        const MultiBladeRow z = row_kind(j, blades, 0);
+        for (int k = 0; k < blades; ++k) {
+            const double psi_k = 2 * pi * k / B;
+            if (z.kind == MultiBlade::cosine)
+                block(k, j) = twice * std::cos(z.harmonic * psi_k);
+            else if (z.kind == MultiBlade::sine)
+                block(k, j) = twice * std::sin(z.harmonic * psi_k);
+            else
+                block(k, j) = z.kind == MultiBlade::differential && k % 2 ? -once : once;
+        }
+    }
+    return block;
+}
+
+}  // namespace
+
+std::string multi_blade_name(const MultiBladeRow& row) {
+    switch (row.kind) {
+        case MultiBlade::none:
+            return {};
+        case MultiBlade::collective:
+            return "collective";
+        case MultiBlade::cosine:
+            return text("cosine ", row.harmonic);
+        case MultiBlade::sine:
+            return text("sine ", row.harmonic);
+        case MultiBlade::differential:
+            return "differential";
+    }
+    return {};
+}
+
+ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
+    : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
+    if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))
+        throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
+    if (blades_ > most_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", most_blades));
+    for (const std::vector<int>& blade : rotor.blades)
+        if (blade.size() != rotor.blades[0].size())
+            throw InputError(rotor.machine, "coordinates of a blade", blade.size(),
+                             text(rotor.blades[0].size(), ", as blade 1 has"));
+    blade_block_ = block_at_zero(blades_);
+    for (std::size_t i = 0; blades_ > 0 && i < rotor.blades[0].size(); ++i) {
+        std::vector<int> rows;
+        for (const std::vector<int>& blade : rotor.blades) rows.push_back(row_of(coordinates, blade[i]));
+        if (std::all_of(rows.begin(), rows.end(), [](int r) { return r < 0; })) continue;
+        if (std::any_of(rows.begin(), rows.end(), [](int r) { return r < 0; }))
+            throw InputError(rotor.machine, "blade coordinate number", i + 1, "free on all blades or on none of them");
+        at_.push_back(rows);
+        for (int k = 0; k < blades_; ++k) {
+            const int row = rows[static_cast<std::size_t>(k)];
+            const MultiBladeRow z = row_kind(k, blades_, static_cast<int>(i));
+            rows_[static_cast<std::size_t>(row)] = z;
+            if (z.kind == MultiBlade::cosine)
+                pairs_.push_back({row, rows[static_cast<std::size_t>(k) + 1], static_cast<double>(z.harmonic)});
+        }
+    }
+    // A vector fixed in space, seen from a part that turns by sense * psi about its x axis.
+    for (const RotatingPair& pair : rotor.rotating_pairs) {
+        const int y = row_of(coordinates, pair.y), z = row_of(coordinates, pair.z);
+        if (y < 0 || z < 0) continue;
+        if (pair.turns) pairs_.push_back({y, z, pair.sense});
+        if (blades_ > 0) continue;
+        rows_[static_cast<std::size_t>(y)].kind = pair.sense > 0 ? MultiBlade::cosine : MultiBlade::sine;
+        rows_[static_cast<std::size_t>(z)].kind = pair.sense > 0 ? MultiBlade::sine : MultiBlade::cosine;
+        for (const int row : {y, z}) rows_[static_cast<std::size_t>(row)].harmonic = 1;
+    }
+}
+
+// A T: every row alike.
+void ColemanTransform::transform_columns(double psi, Matrix& A) const {
+    std::array<double, most_blades> x{};
+    for (const std::vector<int>& rows : at_)
+        for (Eigen::Index i = 0; i < A.rows(); ++i) {
+            for (int k = 0; k < blades_; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                x[at] = A(i, rows[at]);
+            }
+            for (int j = 0; j < blades_; ++j) {
+                double sum = 0;
+                for (int k = 0; k < blades_; ++k) sum += x[static_cast<std::size_t>(k)] * blade_block_(k, j);
+                A(i, rows[static_cast<std::size_t>(j)]) = sum;
+            }
+        }
+    if (psi == 0) return;
+    for (const TurningPair& pair : pairs_) {
+        const double c = std::cos(pair.factor * psi), s = std::sin(pair.factor * psi);
+        for (Eigen::Index i = 0; i < A.rows(); ++i) {
+            const double a = A(i, pair.a), b = A(i, pair.b);
+            A(i, pair.a) = c * a - s * b;
+            A(i, pair.b) = s * a + c * b;
+        }
+    }
+}
+
+// T^T A: every column alike.
+void ColemanTransform::transform_rows(double psi, Matrix& A) const {
+    std::array<double, most_blades> x{};
+    for (Eigen::Index column = 0; column < A.cols(); ++column) {
+        for (const std::vector<int>& rows : at_) {
+            for (int k = 0; k < blades_; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                x[at] = A(rows[at], column);
+            }
+            for (int j = 0; j < blades_; ++j) {
+                double sum = 0;
+                for (int k = 0; k < blades_; ++k) sum += x[static_cast<std::size_t>(k)] * blade_block_(k, j);
+                A(rows[static_cast<std::size_t>(j)], column) = sum;
+            }
+        }
+    }
+    if (psi == 0) return;
+    for (const TurningPair& pair : pairs_) {
+        const double c = std::cos(pair.factor * psi), s = std::sin(pair.factor * psi);
+        for (Eigen::Index j = 0; j < A.cols(); ++j) {
+            const double a = A(pair.a, j), b = A(pair.b, j);
+            A(pair.a, j) = c * a - s * b;
+            A(pair.b, j) = s * a + c * b;
+        }
+    }
+}
+
+void ColemanTransform::congruence(double psi, Matrix& A) const {
+    transform_columns(psi, A);
+    transform_rows(psi, A);
+}
+
+Matrix ColemanTransform::matrix(double psi, int derivative) const {
+    if (derivative < 0) throw InputError("multi-blade transformation", "derivative", derivative, ">= 0");
+    const auto n = static_cast<Eigen::Index>(rows_.size());
+    Matrix T = Matrix::Identity(n, n);
+    transform_columns(psi, T);
+    for (int d = 0; d < derivative; ++d) {
+        Matrix next = Matrix::Zero(n, n);
+        for (const TurningPair& pair : pairs_) {
+            next.col(pair.a) = -pair.factor * T.col(pair.b);
+            next.col(pair.b) = pair.factor * T.col(pair.a);
+        }
+        T = std::move(next);
+    }
+    return T;
+}
+
+void ColemanTransform::transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const {
+    const auto size = static_cast<Eigen::Index>(rows_.size());
+    for (const Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic})
+        require_size("multi-blade transformation", "matrix of the system", *A, size, size);
+    for (Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic}) congruence(psi, *A);
+    for (const TurningPair& pair : pairs_) {
+        const double n = pair.factor * rotor_speed;
+        auto &M = system.M, &C = system.C, &K = system.K;
+        K.col(pair.a) -= n * C.col(pair.b) + (n * n) * M.col(pair.a);
+        K.col(pair.b) += n * C.col(pair.a) - (n * n) * M.col(pair.b);
+        C.col(pair.a) -= 2 * n * M.col(pair.b);
+        C.col(pair.b) += 2 * n * M.col(pair.a);
+    }
+}
+
+SecondOrderSystem ColemanTransform::transform(SecondOrderSystem system, double psi, double rotor_speed) const {
+    transform_in_place(system, psi, rotor_speed);
+    return system;
+}
+
+}  // namespace cardan::solvers

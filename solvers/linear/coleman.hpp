@@ -1,0 +1,72 @@
+/// @file
+/// Multi-blade (Coleman) transformation of a linearised machine to the fixed frame.
+#pragma once
+
+#include "solvers/linear/linearise.hpp"
+
+#include <string>
+
+namespace cardan::solvers {
+
+/// What a row of a transformed system is: a coordinate itself, or one multi-blade combination of a blade coordinate.
+enum class MultiBlade : std::uint8_t { none, collective, cosine, sine, differential };
+
+struct MultiBladeRow {
+    MultiBlade kind = MultiBlade::none;
+    int harmonic = 0;           ///< of cosine and sine: 1 ... (B - 1) / 2
+    int blade_coordinate = -1;  ///< place in RotorMap::blades[k]; -1: not a blade coordinate (without blades cosine and
+                                ///< sine are the members of a rotating pair, in the order in which forward is + i)
+};
+
+/// "collective", "cosine 1", "sine 1", "differential"; empty for a coordinate itself.
+std::string multi_blade_name(const MultiBladeRow& row);
+
+/// x = T(psi) z over a set of coordinates: blade coordinate i of blade k at azimuth psi_k = psi + 2 pi (k - 1) / B is
+///   x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
+/// T is orthogonal, so symmetric matrices stay symmetric and energies keep their meaning. Rotating pairs (shaft
+/// bending) are turned into the fixed frame. z rows replace the blades' coordinates one to one: the collective row
+/// stands in the place of blade 1, cosine and sine in those of blades 2 and 3, and so on.
+class ColemanTransform {
+public:
+    /// Of two blades there are the collective and the differential row, T is constant and the system stays periodic
+    /// (see floquet()).
+    /// Without blades rotating pairs are all there is to turn.
+    /// @throws InputError if there is one blade or more than 32, or if they differ in their number of coordinates.
+    ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
+
+    /// T, dT/dpsi or its second derivative at azimuth psi, as a full matrix.
+    Matrix matrix(double psi, int derivative = 0) const;
+    const std::vector<MultiBladeRow>& rows() const { return rows_; }
+
+    /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
+    /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G
+    /// constant and of 2 x 2 blocks [0 n; -n 0],
+    ///   M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
+    /// T couples no more than the B blades' rows of one coordinate, and T(psi) is T(0) with these pairs of columns
+    /// turned by n psi.  Cost O(n^2 B).
+    /// @param system  is overwritten by its transform; nothing is allocated
+    void transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const;
+    /// The same, on a copy.
+    SecondOrderSystem transform(SecondOrderSystem system, double psi, double rotor_speed) const;
+
+private:
+    static constexpr int most_blades = 32;
+
+    // Two columns that turn into one another: a' = -factor b, b' = factor a (derivatives by psi); in one, T turns them
+    // by factor * psi.
+    struct TurningPair {
+        int a, b;
+        double factor;
+    };
+    void transform_columns(double psi, Matrix& A) const;
+    void transform_rows(double psi, Matrix& A) const;
+    void congruence(double psi, Matrix& A) const;
+
+    int blades_;
+    std::vector<std::vector<int>> at_;  ///< [coordinate in blade][blade] -> row
+    std::vector<TurningPair> pairs_;
+    Matrix blade_block_;  ///< T(0) of one coordinate: [blade][multi-blade coordinate]
+    std::vector<MultiBladeRow> rows_;
+};
+
+}  // namespace cardan::solvers

@@ -1,0 +1,95 @@
+#include "solvers/linear/linearise.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/derivatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr const char* in_linearisation = "linearisation";
+
+void require_finite(const CoordinateTable& table, const char* what, const Vector& values) {
+    require_size(in_linearisation, what, values, table.size());
+    if (values.allFinite()) return;
+    for (int i = 0; i < table.size(); ++i)
+        if (!std::isfinite(values(i)))
+            throw InputError(text(in_linearisation, ": coordinate '", table[i].name, "'"), what, values(i), "finite");
+}
+
+void check(const CoordinateTable& table, const OperatingPoint& at) {
+    require_finite(table, "position", at.q);
+    require_finite(table, "rate", at.qd);
+    require_finite(table, "acceleration", at.qdd);
+    if (!std::isfinite(at.time)) throw InputError(in_linearisation, "time [s]", at.time, "finite");
+}
+
+}  // namespace
+
+Lineariser::Lineariser(const System& system) : system_(system), workspace_(system.model) {}
+
+void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
+    const Eigen::Index n = system_.model.size();
+    check(system_.model.coordinates(), at);
+    const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+    out.at = at;
+    out.coordinates = system_.model.coordinates();
+    for (Matrix* m : {&out.mass, &out.gyroscopic, &out.inertial, &out.elastic, &out.gravity, &out.loads, &out.damping})
+        m->resize(n, n);
+    metric(kin, out.mass);
+    inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, out.inertial, out.gyroscopic);
+    system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+    // Exchanged, not moved: the next call writes into the matrices that `out` had.
+    std::swap(out.elastic, forces_.elastic);
+    std::swap(out.gravity, forces_.gravity);
+    std::swap(out.loads, forces_.loads);
+    std::swap(out.damping, forces_.damping);
+}
+
+Linearisation linearise(const System& system, const OperatingPoint& at) {
+    Linearisation lin;
+    with_memory([&] { return text("the linearisation of ", system.model.size(), " coordinates"); },
+                [&] { Lineariser(system).linearise(at, lin); });
+    return lin;
+}
+
+void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out) {
+    const auto n = static_cast<Eigen::Index>(coordinates.size());
+    const Eigen::Index all = lin.mass.rows();
+    for (const Matrix* m :
+         {&lin.mass, &lin.damping, &lin.gyroscopic, &lin.elastic, &lin.gravity, &lin.loads, &lin.inertial})
+        require_size("restriction", "matrix of a linearisation", *m, all, all);
+    for (const int coordinate : coordinates) require_index("restriction", "coordinate", coordinate, all);
+    out.coordinates = coordinates;
+    out.cyclic = -1;
+    for (Matrix* m : {&out.M, &out.C, &out.K, &out.K_elastic}) m->resize(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const int b = coordinates[static_cast<std::size_t>(j)];
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const int a = coordinates[static_cast<std::size_t>(i)];
+            out.M(i, j) = lin.mass(a, b);
+            out.C(i, j) = lin.damping(a, b) + lin.gyroscopic(a, b);
+            out.K(i, j) = lin.elastic(a, b) + (lin.gravity(a, b) + lin.loads(a, b) + lin.inertial(a, b));
+            out.K_elastic(i, j) = lin.elastic(a, b);
+        }
+    }
+    const auto row = std::find(coordinates.begin(), coordinates.end(), spin);
+    if (row == coordinates.end()) return;
+    const auto at = row - coordinates.begin();
+    if (out.K.col(at).norm() < 1e-9 * out.K.norm() && out.K_elastic.col(at).isZero(0)) {
+        out.cyclic = static_cast<int>(at);
+        out.K.col(at).setZero();
+    }
+}
+
+SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin) {
+    SecondOrderSystem system;
+    restrict_to(lin, coordinates, spin, system);
+    return system;
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,65 @@
+/// @file
+/// Linearisation about an operating point, exact and with its parts kept apart.
+#pragma once
+
+#include "mbs/kernels/workspace.hpp"
+#include "mbs/system/forces.hpp"
+#include "solvers/linear/operating_point.hpp"
+
+namespace cardan::solvers {
+
+/// M dq'' + (damping + gyroscopic) dq' + (elastic + gravity + loads + inertial) dq = 0 over all coordinates.
+/// `gyroscopic` is the whole velocity matrix of the inertial forces, 2 Omega Gamma_{a c spin} for a steady spin; at one
+/// azimuth its symmetric part is Mdot (G = 2 C_coriolis and C + C^T = Mdot), so it is skew only after a multi-blade
+/// transformation.
+struct Linearisation {
+    Matrix mass;        ///< g_ab
+    Matrix damping;     ///< -dQ/dqd
+    Matrix gyroscopic;  ///< d(Gamma qd qd)/dqd
+    Matrix elastic;     ///< -dQ/dq of the linear laws
+    Matrix gravity;     ///< -dQ/dq of gravity
+    Matrix loads;       ///< -dQ/dq of wrenches and user forces
+    Matrix inertial;    ///< d(g qdd + Gamma qd qd)/dq
+    OperatingPoint at;
+    CoordinateTable coordinates;
+
+    Matrix velocity() const { return damping + gyroscopic; }
+    Matrix geometric() const { return gravity + loads + inertial; }
+    Matrix stiffness() const { return elastic + geometric(); }
+};
+
+/// Linearises a system about one operating point after the other. Exact: analytic derivatives of the recursions and of
+/// the force elements (user forces without a Jacobian are differenced). Keeps a reference to the system; one per
+/// thread.
+class Lineariser {
+public:
+    explicit Lineariser(const System& system);
+
+    /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
+    /// does so or is differenced.  Cost O(n^2).
+    /// @throws InputError for vectors of another size, and for values that are not finite, with the coordinate's name
+    void linearise(const OperatingPoint& at, Linearisation& out);
+
+private:
+    const System& system_;
+    Workspace workspace_;
+    ForceDerivatives forces_;
+};
+
+/// The same, once.  @throws also MemoryError
+Linearisation linearise(const System& system, const OperatingPoint& at);
+
+/// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
+struct SecondOrderSystem {
+    Matrix M, C, K, K_elastic;
+    std::vector<int> coordinates;  ///< model index of every row
+    int cyclic = -1;               ///< row of a coordinate on which nothing depends (a free spin), -1: none
+};
+
+/// The rows and columns of `coordinates`. The spin is cyclic if it is among them and no force depends on it.
+/// @param out  overwritten; allocates nothing if it has the right size already.  Cost O(n^2).
+/// @throws InputError for coordinates that there are not and matrices of different sizes
+void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out);
+SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin = -1);
+
+}  // namespace cardan::solvers

@@ -1,0 +1,211 @@
+#include "solvers/linear/modes.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/dense.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace cardan::solvers {
+
+namespace {
+
+// A frequency near the lowest elastic one: the smallest Rayleigh quotient of a single coordinate. Where there is no
+// spring at all, a small stiffness is what rounding leaves of loads that cancel.
+double lowest_scale(const SecondOrderSystem& system) {
+    double lowest = std::numeric_limits<double>::infinity();
+    const double rounding = 1e-14 * system.K.norm();
+    for (Eigen::Index i = 0; i < system.M.rows(); ++i) {
+        const double k = std::abs(system.K(i, i)), spring = std::abs(system.K_elastic(i, i));
+        if (k > rounding || (spring > 0 && k > 1e-3 * spring)) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
+    }
+    return std::isfinite(lowest) ? lowest : 1.0;
+}
+
+// Size of (lambda^2 M + lambda C + K) x beside that of its terms, rows weighed by `d`.
+template <class Shape>
+double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda, const Shape& shape) {
+    double rest = 0, terms = 0;
+    for (Eigen::Index i = 0; i < d.size(); ++i) {
+        Complex inertial = 0, damping = 0, stiffness = 0;
+        for (Eigen::Index j = 0; j < d.size(); ++j) {
+            const Complex x = shape(j);
+            inertial += system.M(i, j) * x, damping += system.C(i, j) * x, stiffness += system.K(i, j) * x;
+        }
+        inertial *= lambda * lambda, damping *= lambda;
+        const double weight = d(i) * d(i);
+        rest += weight * std::norm(inertial + damping + stiffness);
+        terms += weight * (std::norm(inertial) + std::norm(damping) + std::norm(stiffness));
+    }
+    return std::sqrt(rest / terms);
+}
+
+constexpr double high = 1e6;           // times the lowest frequency: what is above may be rounding
+constexpr double largest_rest = 0.01;  // of the equations' terms
+
+}  // namespace
+
+namespace {
+
+void require_shape(const SecondOrderSystem& system, const Mode& mode) {
+    const Eigen::Index n = system.M.rows();
+    require_size("modes", "mass matrix", system.M, n, n);
+    require_size("modes", "elastic stiffness", system.K_elastic, n, n);
+    require_size("modes", "shape of a mode", mode.shape, n);
+}
+
+}  // namespace
+
+Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y) {
+    require_shape(system, x);
+    require_shape(system, y);
+    return x.shape.dot(system.K_elastic * y.shape) +
+           std::conj(x.eigenvalue) * y.eigenvalue * x.shape.dot(system.M * y.shape);
+}
+
+Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
+    require_shape(system, mode);
+    const ComplexVector force = system.K_elastic * mode.shape;
+    const Vector energy = (mode.shape.conjugate().array() * force.array()).real();
+    const double total = energy.sum();
+    return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());
+}
+
+ModeSolver::ModeSolver(Eigen::Index rows)
+    : eigen_(2 * rows, rows),
+      d_(rows),
+      K_s_(rows, rows),
+      right_(rows, 2 * rows),
+      S_(2 * rows, 2 * rows),
+      shapes_(rows, 2 * rows),
+      elastic_(rows, 2 * rows),
+      inertial_(rows, 2 * rows) {
+    found_.reserve(static_cast<std::size_t>(2 * rows));
+}
+
+// The eigenvalues of S = (A - sigma)^-1, A the state matrix, sigma real, positive and below the lowest frequency:
+//   x = -K_s^-1 [(C + sigma M) a + M b],  y = a + sigma x,  K_s = K + sigma C + sigma^2 M.
+// In joint coordinates flexibilities are known with small relative error, so the low modes, which are the large
+// eigenvalues of S, come out to working precision however stiff the high ones are; rigid-body modes stay at lambda = 0.
+std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
+    found_.clear();
+    const Eigen::Index n = d_.size();
+    for (const Matrix* m : {&system.M, &system.C, &system.K, &system.K_elastic})
+        if (m->rows() != n || m->cols() != n)
+            throw InputError("modes", "size of a system matrix", text(m->rows(), " x ", m->cols()), text(n, " x ", n));
+    if (n == 0) return 0;
+    if (!system.M.allFinite() || !system.C.allFinite() || !system.K.allFinite())
+        throw NumericalError("modes: a system matrix is not finite");
+    K_s_ = system.M;
+    if (!positive_definite(K_s_)) throw NumericalError("modes: the mass matrix is not positive definite");
+    const double scale = lowest_scale(system), sigma = 0.1 * scale, s = sigma / scale;
+    set_state_matrix(system, scale, s);
+    if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
+    collect(scale, s, 1e-3 * sigma);
+    std::erase_if(found_, [&](const Found& found) {
+        if (std::abs(found.eigenvalue) < high * scale) return false;
+        const bool complex = found.eigenvalue.imag() != 0;
+        const auto shape = [&](Eigen::Index j) {
+            return Complex(shapes_(j, found.column), complex ? shapes_(j, found.column + 1) : 0.0);
+        };
+        return !(residual(system, d_, found.eigenvalue, shape) < largest_rest);
+    });
+    normalise(system);
+    return found_.size();
+}
+
+// Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
+void ModeSolver::set_state_matrix(const SecondOrderSystem& system, double scale, double s) {
+    const Eigen::Index n = d_.size();
+    d_ = system.M.diagonal().cwiseSqrt().cwiseInverse();
+    for (Eigen::Index j = 0; j < n; ++j)
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double unit = d_(i) * d_(j), M = unit * system.M(i, j), C = unit * system.C(i, j) / scale,
+                         K = unit * system.K(i, j) / (scale * scale);
+            K_s_(i, j) = K + s * C + s * s * M;
+            right_(i, j) = -(C + s * M);
+            right_(i, n + j) = -M;
+        }
+    solve_in_place(K_s_, right_);
+    S_.topRows(n) = right_;
+    S_.bottomRows(n) = s * right_;
+    S_.bottomLeftCorner(n, n).diagonal().array() += 1;
+}
+
+// Eigenvalues that are wanted, in order, and their shapes side by side.
+void ModeSolver::collect(double scale, double s, double least) {
+    Eigen::Index columns = 0;
+    for (const RealEigen::Value& value : eigen_.values()) {
+        // 1 / mu turns the sign of the imaginary part: x belongs to the other member of the pair.
+        const Complex lambda = scale * (s + 1.0 / std::conj(value.mu));
+        if (std::abs(lambda) < least || !std::isfinite(std::abs(lambda))) continue;
+        const bool complex = value.mu.imag() != 0;
+        shapes_.col(columns) = d_.cwiseProduct(eigen_.vectors().col(value.column));
+        if (complex) shapes_.col(columns + 1) = -d_.cwiseProduct(eigen_.vectors().col(value.column + 1));
+        found_.push_back({complex ? lambda : Complex(lambda.real()), columns});
+        columns += complex ? 2 : 1;
+    }
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        const bool first = a.eigenvalue.imag() > 0, second = b.eigenvalue.imag() > 0;
+        return first != second ? first : std::abs(a.eigenvalue) < std::abs(b.eigenvalue);
+    });
+    shapes_.rightCols(shapes_.cols() - columns).setZero();
+}
+
+// To unit modal energy.
+void ModeSolver::normalise(const SecondOrderSystem& system) {
+    elastic_.setZero();
+    inertial_.setZero();
+    add_product(elastic_, system.K_elastic, shapes_);
+    add_product(inertial_, system.M, shapes_);
+    const auto square = [&](const Matrix& force, const Found& found) {
+        const Eigen::Index j = found.column;
+        const auto re = shapes_.col(j);
+        const auto f = force.col(j);
+        if (found.eigenvalue.imag() == 0) return Complex(re.dot(f));
+        const auto im = shapes_.col(j + 1);
+        const auto g = force.col(j + 1);
+        return Complex(re.dot(f) + im.dot(g), re.dot(g) - im.dot(f));
+    };
+    for (const Found& found : found_) {
+        const Complex energy = square(elastic_, found) + std::norm(found.eigenvalue) * square(inertial_, found);
+        const double factor = std::sqrt(2 / std::abs(energy));
+        const Eigen::Index columns = found.eigenvalue.imag() == 0 ? 1 : 2;
+        shapes_.middleCols(found.column, columns) *= factor;
+        elastic_.middleCols(found.column, columns) *= factor;
+    }
+}
+
+void ModeSolver::copy(std::size_t mode, Mode& out) const {
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), static_cast<std::ptrdiff_t>(found_.size()));
+    const Found& found = found_[mode];
+    out.eigenvalue = found.eigenvalue;
+    out.shape.resize(d_.size());
+    out.shape.real() = shapes_.col(found.column);
+    if (out.oscillates())
+        out.shape.imag() = shapes_.col(found.column + 1);
+    else
+        out.shape.imag().setZero();
+}
+
+void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), static_cast<std::ptrdiff_t>(found_.size()));
+    const Found& found = found_[mode];
+    const Eigen::Index j = found.column;
+    out = shapes_.col(j).cwiseProduct(elastic_.col(j));
+    if (found.eigenvalue.imag() > 0) out += shapes_.col(j + 1).cwiseProduct(elastic_.col(j + 1));
+    const double total = out.sum();
+    if (total > 0)
+        out /= total;
+    else
+        out.setZero();
+}
+
+std::vector<Mode> modes(const SecondOrderSystem& system) {
+    ModeSolver solver(system.M.rows());
+    std::vector<Mode> all(solver.solve(system));
+    for (std::size_t i = 0; i < all.size(); ++i) solver.copy(i, all[i]);
+    return all;
+}
+
+}  // namespace cardan::solvers

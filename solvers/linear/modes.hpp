@@ -1,0 +1,75 @@
+/// @file
+/// Complex modes of a second-order system.
+#pragma once
+
+#include "solvers/algebra/real_eigen.hpp"
+#include "solvers/linear/linearise.hpp"
+
+namespace cardan::solvers {
+
+/// x(t) = Re(shape exp(eigenvalue t)); for oscillations the member of the conjugate pair with Im(eigenvalue) > 0.
+struct Mode {
+    Complex eigenvalue;   ///< 1/s
+    ComplexVector shape;  ///< over the rows of the system, unit modal energy x^H K_e x + |lambda|^2 x^H M x = 2 (J)
+
+    bool oscillates() const { return eigenvalue.imag() > 0; }
+    double natural_hz() const { return std::abs(eigenvalue) / (2 * pi); }
+    double damped_hz() const { return eigenvalue.imag() / (2 * pi); }
+    /// Fraction of critical damping, -Re(lambda) / |lambda|.
+    double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
+};
+
+/// How many times the lowest frequency a mode may have before rounding is as large as what is computed of it: see
+/// ModeSolver.
+inline constexpr double most_certain_ratio = 1e7;
+
+/// All oscillating modes by natural frequency, then the aperiodic ones (real eigenvalues). Rigid-body modes (|lambda|
+/// below 1e-4 of the lowest single-coordinate frequency, as the zero pair of a free rotor) are left out. Low modes come
+/// out to working precision however stiff others are; a mode at r times the lowest frequency has an error of about
+/// 1e-16 r^2. Above 1e6 times the lowest frequency (a coordinate almost without mass) one that does not satisfy the
+/// equations to a hundredth is rounding and left out.
+///
+/// Made once for a number of rows: the memory is kept from one system to the next, nothing else is. One per thread.
+class ModeSolver {
+public:
+    explicit ModeSolver(Eigen::Index rows);
+
+    /// Results are valid until the next call. Cost of one real eigenvalue problem of twice the size; nothing is
+    /// allocated.
+    /// @returns the number of modes
+    /// @throws NumericalError if a matrix is not finite, the mass matrix is not positive definite or the eigenvalue
+    /// iteration fails; the solver can be used again
+    std::size_t solve(const SecondOrderSystem& system);
+
+    /// @param out  overwritten; nothing is allocated if its shape has the right size already
+    void copy(std::size_t mode, Mode& out) const;
+    /// See the function of the same name.
+    void energy_by_row(std::size_t mode, Vector& out) const;
+
+private:
+    struct Found {
+        Complex eigenvalue;
+        Eigen::Index column;  // of shapes_: real part, with the imaginary part in the next column
+    };
+    void set_state_matrix(const SecondOrderSystem& system, double scale, double s);
+    void collect(double scale, double s, double least);
+    void normalise(const SecondOrderSystem& system);
+
+    RealEigen eigen_;
+    Vector d_;                            // inverse roots of the diagonal of the mass matrix
+    Matrix K_s_, right_, S_;              // shifted stiffness, right sides, inverse of the shifted state matrix
+    Matrix shapes_, elastic_, inertial_;  // of all modes side by side; K_e x, M x
+    std::vector<Found> found_;
+};
+
+/// The same, once.
+std::vector<Mode> modes(const SecondOrderSystem& system);
+
+/// Energy product x^H K_e y + conj(lambda_x) lambda_y x^H M y of two modes; complex MAC = |xy|^2 / (xx yy).
+Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y);
+
+/// Share of every row in the elastic energy of a mode, Re conj(x_i) (K_e x)_i over the total: sums to one. Entries of
+/// coupled rows (the six coordinates of a beam element) may be negative.
+Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode);
+
+}  // namespace cardan::solvers

@@ -1,0 +1,238 @@
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/periodic/rotor_equations.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+constexpr const char* in_harmonic_balance = "harmonic balance";
+
+// Unknowns are the coefficients column after column: entry l n + i is coefficient l of unknown i.
+class Balance {
+public:
+    Balance(const System& system, int spin, const PeriodicOptions& options);
+    PeriodicSteadyState solve();
+
+private:
+    int samples() const { return static_cast<int>(azimuths_.size()); }
+    void hold();
+    void set_scales();
+    bool evaluate(const Matrix& x, Matrix& R);
+    Matrix jacobian();
+    double largest(const Matrix& R) const;
+    double norm(const Matrix& R) const;
+    bool step(Matrix& dx);
+    Vector shortest_solution(const Matrix& J, const Vector& right);
+    void describe(const Vector& null_vector);
+    bool search(const Matrix& dx);
+    void finish(PeriodicSteadyState& result, bool small);
+
+    PeriodicOptions options_;
+    RotorEquations equations_;
+    std::vector<double> azimuths_;
+    Matrix basis_[3];  // by derivative, times the power of the rotor speed: a column per azimuth
+    Matrix weights_;   // of the projection on the harmonics: a column per azimuth
+    std::vector<Index> held_;
+    Vector scale_, unit_;  // of residuals, per unknown; of entries for the linear system
+    Matrix x_, R_;
+    std::string why_ = "the limit of iterations was reached";
+    std::vector<std::string> open_;  // what the equations do not determine
+    bool open_mean_ = false;
+};
+
+Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
+    : options_(options), equations_(system, spin, options, in_harmonic_balance) {
+    const int least = 2 * options.harmonics + 1;
+    const int count = options.samples > 0 ? options.samples : 4 * (options.harmonics + 1);
+    if (options.samples < 0 || count < least)
+        throw InputError(in_harmonic_balance, "number of samples", options.samples, text(">= ", least, ", or 0"));
+    const double Omega = options.rotor_speed;
+    for (Matrix* m : {&basis_[0], &basis_[1], &basis_[2], &weights_}) m->resize(least, count);
+    for (int s = 0; s < count; ++s) {
+        azimuths_.push_back(2 * pi * s / count);
+        for (int d = 0; d < 3; ++d)
+            basis_[d].col(s) = std::pow(Omega, d) * fourier_basis(azimuths_.back(), options.harmonics, d);
+        weights_.col(s) = fourier_weights(azimuths_.back(), options.harmonics, count);
+    }
+    hold();
+    x_ = equations_.start(options.harmonics);
+    R_.setZero(x_.rows(), x_.cols());
+}
+
+void Balance::hold() {
+    for (int coordinate : options_.held) {
+        const Index row = equations_.row_of(coordinate);
+        if (row < 0)
+            throw InputError(in_harmonic_balance, "coordinate whose mean is held", coordinate,
+                             "a free coordinate besides the spin");
+        held_.push_back(row);
+    }
+}
+
+// Harmonic j is measured by j^2 times the inertia where that is more than the stiffness.
+void Balance::set_scales() {
+    scale_ = equations_.scale(x_);
+    const double stiffest = scale_.size() > 0 ? scale_.maxCoeff() : 1.0;
+    scale_ = scale_.cwiseMax(1e-12 * stiffest);
+    unit_.resize(x_.size());
+    for (Index l = 0; l < x_.cols(); ++l) {
+        const Index harmonic = (l + 1) / 2;
+        const auto j = static_cast<double>(harmonic);
+        unit_.segment(l * x_.rows(), x_.rows()) = (scale_ * std::max(1.0, j * j)).cwiseSqrt().cwiseInverse();
+    }
+}
+
+// R = harmonics of the residual on the series x. False if it is not finite.
+bool Balance::evaluate(const Matrix& x, Matrix& R) {
+    Vector r(x.rows());
+    R.setZero(x.rows(), x.cols());
+    for (int s = 0; s < samples(); ++s) {
+        equations_.set_azimuth(azimuths_[static_cast<std::size_t>(s)]);
+        equations_.set(x * basis_[0].col(s), x * basis_[1].col(s), x * basis_[2].col(s));
+        equations_.residual(r);
+        R += r * weights_.col(s).transpose();
+    }
+    return R.allFinite();
+}
+
+// Block (k, l): mean over the azimuth of w_k (b''_l M + b'_l C + b_l K).
+Matrix Balance::jacobian() {
+    const Index n = x_.rows(), columns = x_.cols();
+    Matrix J = Matrix::Zero(x_.size(), x_.size()), block(n, n);
+    SecondOrderSystem at;
+    for (int s = 0; s < samples(); ++s) {
+        equations_.set_azimuth(azimuths_[static_cast<std::size_t>(s)]);
+        equations_.set(x_ * basis_[0].col(s), x_ * basis_[1].col(s), x_ * basis_[2].col(s));
+        equations_.linearise(at);
+        for (Index l = 0; l < columns; ++l) {
+            block = basis_[2](l, s) * at.M + basis_[1](l, s) * at.C + basis_[0](l, s) * at.K;
+            for (Index k = 0; k < columns; ++k) J.block(k * n, l * n, n, n) += weights_(k, s) * block;
+        }
+    }
+    return J;
+}
+
+// Held means have no equation.
+double Balance::largest(const Matrix& R) const {
+    if (R.size() == 0) return 0;
+    Matrix over = (R.array().colwise() / scale_.array()).abs();
+    for (Index row : held_) over(row, 0) = 0;
+    return over.allFinite() ? over.maxCoeff() : std::numeric_limits<double>::infinity();
+}
+
+double Balance::norm(const Matrix& R) const {
+    Matrix over = R.array().colwise() / scale_.array();
+    for (Index row : held_) over(row, 0) = 0;
+    return over.allFinite() ? over.norm() : std::numeric_limits<double>::infinity();
+}
+
+// Newton's step, by elimination or, if the Jacobian is singular, the shortest of all.
+bool Balance::step(Matrix& dx) {
+    Matrix J = unit_.asDiagonal() * jacobian() * unit_.asDiagonal();
+    if (!J.allFinite()) {
+        why_ = "a derivative is not finite";
+        return false;
+    }
+    Vector right = -unit_.cwiseProduct(R_.reshaped());
+    for (Index row : held_) {
+        J.row(row).setZero();
+        J.col(row).setZero();
+        J(row, row) = 1;
+        right(row) = 0;
+    }
+    const Eigen::PartialPivLU<Matrix> lu(J);
+    const Vector y = lu.rcond() > 1e-14 ? Vector(lu.solve(right)) : shortest_solution(J, right);
+    dx = unit_.cwiseProduct(y).reshaped(x_.rows(), x_.cols());
+    return dx.allFinite();
+}
+
+Vector Balance::shortest_solution(const Matrix& J, const Vector& right) {
+    Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
+    qr.setThreshold(1e-12);
+    qr.compute(J);
+    open_.clear();
+    open_mean_ = false;
+    const Index missing = J.rows() - qr.rank();
+    if (missing > 0) {
+        const Matrix null_space = qr.colsPermutation() * qr.matrixZ().transpose().rightCols(missing);
+        for (Index i = 0; i < missing; ++i) describe(null_space.col(i));
+    }
+    return qr.solve(right);
+}
+
+void Balance::describe(const Vector& null_vector) {
+    Index at = 0;
+    null_vector.cwiseAbs().maxCoeff(&at);
+    const Index harmonic = (at / x_.rows() + 1) / 2;
+    const std::string& name = equations_.name(at % x_.rows());
+    open_mean_ = open_mean_ || harmonic == 0;
+    std::string words = harmonic == 0
+                            ? text("the mean of '", name, "' is held by nothing and stays near where it started")
+                            : text("harmonic ", harmonic, " of '", name,
+                                   "' is not determined (a natural frequency at this multiple of the rotor speed)");
+    if (std::find(open_.begin(), open_.end(), words) == open_.end()) open_.push_back(std::move(words));
+}
+
+// Halves the step until the residual falls.
+bool Balance::search(const Matrix& dx) {
+    const double before = norm(R_);
+    Matrix x, R;
+    double part = 1;
+    for (int halvings = 0; halvings < 20; ++halvings, part /= 2) {
+        x = x_ + part * dx;
+        if (!evaluate(x, R) || !(norm(R) <= (1 - 1e-4 * part) * before)) continue;
+        x_ = x;
+        R_ = R;
+        return true;
+    }
+    why_ = "no part of Newton's step makes the residual smaller";
+    return false;
+}
+
+PeriodicSteadyState Balance::solve() {
+    PeriodicSteadyState result;
+    set_scales();
+    bool finite = evaluate(x_, R_);
+    if (!finite) why_ = "the residual at the start is not finite";
+    Matrix dx;
+    while (finite && largest(R_) > options_.tolerance && result.iterations < options_.iterations) {
+        finite = step(dx) && search(dx);
+        ++result.iterations;
+    }
+    // No smaller residual than that is as good as the arithmetic allows if it is small.
+    finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : 1e-8));
+    return result;
+}
+
+void Balance::finish(PeriodicSteadyState& result, bool small) {
+    result.converged = small;
+    result.rotor_speed = options_.rotor_speed;
+    result.spin = equations_.spin();
+    result.coefficients = equations_.all(x_);
+    result.residual = largest(R_);
+    result.remainder = equations_.largest_residual(x_, samples(), scale_);
+    for (std::size_t i = 0; i < held_.size(); ++i) result.held.push_back({options_.held[i], R_(held_[i], 0)});
+    for (const std::string& words : open_) result.note += (result.note.empty() ? "" : "; ") + words;
+    if (small) return;
+    result.message =
+        text("periodic steady state at ", options_.rotor_speed, " rad/s not found after ", result.iterations,
+             " iterations (residual over stiffness ", result.residual, ", wanted ", options_.tolerance, "): ", why_,
+             open_mean_ ? "; the mean load on a coordinate that nothing holds does not vanish: hold its mean or add a "
+                          "spring ("
+                        : "; start from a neighbouring state, or take other harmonics",
+             open_mean_ ? result.note + ")" : "");
+}
+
+}  // namespace
+
+PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options) {
+    return Balance(system, spin, options).solve();
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,254 @@
+#include "solvers/periodic/periodic_system.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+constexpr const char* in_blade_symmetry = "blade symmetry";
+
+void check(const char* name, double time, const Matrix& A, Index rows) {
+    if (A.rows() != rows || A.cols() != rows)
+        throw NumericalError(text("periodic system: ", name, " at ", time, " s is ", A.rows(), " x ", A.cols(),
+                                  "; wanted: ", rows, " x ", rows));
+    if (!A.allFinite()) throw NumericalError(text("periodic system: ", name, " at ", time, " s is not finite"));
+}
+
+// The matrices at a time, that of the highest derivative last.
+struct Coefficients {
+    Coefficients(const PeriodicSystem& system, double time) {
+        if (system.is_second_order()) {
+            SecondOrderSystem own;
+            system.at(time, own);
+            matrices = {own.K, own.C, own.M};
+        } else {
+            matrices.resize(2);
+            system.at(time, matrices[1], matrices[0]);
+        }
+    }
+    // Diagonals added up at the frequency omega: what entries of a row are measured by.
+    Vector size(double omega) const {
+        Vector sum = Vector::Zero(matrices[0].rows());
+        double factor = 1;
+        for (const Matrix& m : matrices) {
+            sum += factor * m.diagonal().cwiseAbs();
+            factor *= omega;
+        }
+        return sum.cwiseMax(1e-12 * sum.maxCoeff());
+    }
+    std::vector<Matrix> matrices;
+};
+
+}  // namespace
+
+PeriodicSystem::PeriodicSystem(double period, Index rows) : period_(period), rows_(rows) {
+    require_positive("periodic system", "period [s]", period);
+    if (rows < 1) throw InputError("periodic system", "number of rows", rows, ">= 1");
+}
+
+PeriodicSystem PeriodicSystem::second_order(double period, Index coordinates, SecondOrder at) {
+    if (!at) throw InputError("periodic system: the function of M, C and K is empty");
+    PeriodicSystem system(period, coordinates);
+    system.second_ = std::move(at);
+    return system;
+}
+
+PeriodicSystem PeriodicSystem::first_order(double period, Index states, FirstOrder at) {
+    if (!at) throw InputError("periodic system: the function of E and A is empty");
+    PeriodicSystem system(period, states);
+    system.first_ = std::move(at);
+    return system;
+}
+
+void PeriodicSystem::at(double time, SecondOrderSystem& out) const {
+    if (!second_) throw InputError("periodic system", "order", 1, "2 for M, C and K");
+    second_(time, out);
+    check("M", time, out.M, rows_);
+    check("C", time, out.C, rows_);
+    check("K", time, out.K, rows_);
+    if (out.K_elastic.size() == 0) out.K_elastic.setZero(rows_, rows_);
+    check("K_elastic", time, out.K_elastic, rows_);
+}
+
+void PeriodicSystem::at(double time, Matrix& E, Matrix& A) const {
+    if (first_) {
+        first_(time, E, A);
+        check("E", time, E, rows_);
+        check("A", time, A, rows_);
+        return;
+    }
+    SecondOrderSystem own;
+    at(time, own);
+    const Index n = rows_;
+    E.setIdentity(2 * n, 2 * n);
+    E.bottomRightCorner(n, n) = own.M;
+    A.setZero(2 * n, 2 * n);
+    A.topRightCorner(n, n).setIdentity();
+    A.bottomLeftCorner(n, n) = -own.K;
+    A.bottomRightCorner(n, n) = -own.C;
+}
+
+PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns) {
+    const char* here = "linearised system";
+    const int size = system.model.size();
+    if (!about.converged) throw InputError(here, "periodic steady state", "not converged", "converged");
+    if (about.coefficients.rows() != size)
+        throw InputError(here, "rows of the periodic steady state", about.coefficients.rows(),
+                         text(size, ", one per coordinate"));
+    for (int i : unknowns)
+        if (i < 0 || i >= size) throw InputError(here, "index of a coordinate", i, text("0 ... ", size - 1));
+    struct Memory {
+        Lineariser lineariser;
+        Linearisation lin;
+        PeriodicSteadyState about;
+        std::vector<int> unknowns;
+    };
+    const auto n = static_cast<Index>(unknowns.size());
+    const auto memory =
+        std::make_shared<Memory>(Memory{Lineariser(system), Linearisation{}, about, std::move(unknowns)});
+    return PeriodicSystem::second_order(
+        2 * pi / std::abs(about.rotor_speed), n, [memory](double time, SecondOrderSystem& out) {
+            const PeriodicSteadyState& state = memory->about;
+            memory->lineariser.linearise(state.at(state.rotor_speed * time), memory->lin);
+            restrict_to(memory->lin, memory->unknowns, state.spin, out);
+        });
+}
+
+PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about) {
+    return linearised(system, about, system.model.coordinates().free_without(about.spin));
+}
+
+PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed) {
+    const double period = system.period();
+    const Index rows = system.rows();
+    return PeriodicSystem::second_order(
+        period, rows,
+        [raw = std::move(system), T = std::move(transform), rotor_speed](double t, SecondOrderSystem& out) {
+            raw.at(t, out);
+            T.transform_in_place(out, rotor_speed * t, rotor_speed);
+        });
+}
+
+SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples) {
+    if (samples < 1) throw InputError("mean over a period", "number of samples", samples, ">= 1");
+    SecondOrderSystem mean, at;
+    system.at(0, mean);
+    for (int s = 1; s < samples; ++s) {
+        system.at(system.period() * s / samples, at);
+        mean.M += at.M, mean.C += at.C, mean.K += at.K, mean.K_elastic += at.K_elastic;
+    }
+    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
+    return mean;
+}
+
+namespace {
+
+// P of a symmetry, piece by piece.
+class Permutation {
+public:
+    explicit Permutation(const std::vector<int>& coordinates)
+        : P(Matrix::Identity(static_cast<Index>(coordinates.size()), static_cast<Index>(coordinates.size()))),
+          coordinates_(coordinates) {}
+
+    void renumber(const std::vector<std::vector<int>>& blades, std::size_t coordinate, bool backward);
+    void turn(const RotatingPair& pair, double angle);
+    void reverse(int coordinate);
+
+    Matrix P;
+
+private:
+    Index row(int coordinate) const {
+        return std::find(coordinates_.begin(), coordinates_.end(), coordinate) - coordinates_.begin();
+    }
+    bool has(int coordinate) const { return row(coordinate) < P.rows(); }
+
+    const std::vector<int>& coordinates_;
+};
+
+void Permutation::renumber(const std::vector<std::vector<int>>& blades, std::size_t coordinate, bool backward) {
+    const std::size_t Q = blades.size();
+    const auto there = static_cast<std::size_t>(
+        std::count_if(blades.begin(), blades.end(), [&](const auto& blade) { return has(blade[coordinate]); }));
+    if (there == 0) return;
+    if (there < Q)
+        throw InputError(in_blade_symmetry, text("blades whose coordinate number ", coordinate, " is an unknown"),
+                         there, text("none or all ", Q));
+    for (std::size_t k = 0; k < Q; ++k) {
+        const Index here = row(blades[k][coordinate]), next = row(blades[(k + 1) % Q][coordinate]);
+        P(here, here) = 0;
+        (backward ? P(here, next) : P(next, here)) = 1;
+    }
+}
+
+void Permutation::turn(const RotatingPair& pair, double angle) {
+    if (!has(pair.y) && !has(pair.z)) return;
+    if (!has(pair.y) || !has(pair.z))
+        throw InputError(in_blade_symmetry, "coordinates of a rotating pair", 1, "none or both of a pair");
+    const Index y = row(pair.y), z = row(pair.z);
+    const double c = std::cos(angle), s = pair.sense * std::sin(angle);
+    P(y, y) = P(z, z) = c;
+    P(y, z) = -s;
+    P(z, y) = s;
+}
+
+void Permutation::reverse(int coordinate) {
+    if (!has(coordinate)) throw InputError(in_blade_symmetry, "odd coordinate", coordinate, "one of the unknowns");
+    P.row(row(coordinate)) *= -1;
+}
+
+}  // namespace
+
+BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coordinates, double rotor_speed,
+                             const std::vector<int>& odd) {
+    const std::size_t Q = rotor.blades.size();
+    if (Q < 2) throw InputError(in_blade_symmetry, "number of blades", Q, ">= 2");
+    if (!odd.empty() && Q != 2)
+        throw InputError(in_blade_symmetry, "number of blades", Q,
+                         "2 where coordinates change sign after a part of a turn");
+    for (const auto& blade : rotor.blades)
+        if (blade.size() != rotor.blades[0].size())
+            throw InputError(in_blade_symmetry, "coordinates of a blade", blade.size(),
+                             text(rotor.blades[0].size(), " as of blade 1"));
+    Permutation permutation(coordinates);
+    for (std::size_t i = 0; i < rotor.blades[0].size(); ++i) permutation.renumber(rotor.blades, i, rotor_speed < 0);
+    for (const RotatingPair& pair : rotor.rotating_pairs)
+        permutation.turn(pair, (rotor_speed < 0 ? -2 : 2) * pi / static_cast<double>(Q));
+    for (int coordinate : odd) permutation.reverse(coordinate);
+    return {static_cast<int>(Q), permutation.P};
+}
+
+double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
+    if (symmetry.parts < 2) return 0;
+    const Index n = system.rows();
+    if (symmetry.P.rows() != n || symmetry.P.cols() != n)
+        throw InputError(in_blade_symmetry, "size of P", text(symmetry.P.rows(), " x ", symmetry.P.cols()),
+                         text(n, " x ", n));
+    Matrix all = symmetry.P;
+    for (int i = 1; i < symmetry.parts; ++i) all = all * symmetry.P;
+    const double off = (all - Matrix::Identity(n, n)).cwiseAbs().maxCoeff();
+    if (!(off < 1e-9))
+        throw InputError(in_blade_symmetry, text("difference of P^", symmetry.parts, " and the unit matrix"), off,
+                         "below 1e-9");
+    const double part = system.period() / symmetry.parts, omega = system.frequency();
+    double largest = 0;
+    for (double fraction : {0.07, 0.38, 0.81}) {
+        const Coefficients now(system, fraction * part), later(system, (fraction + 1) * part);
+        const Vector size = now.size(omega);
+        for (std::size_t m = 0; m < now.matrices.size(); ++m) {
+            const Matrix difference = symmetry.P * later.matrices[m] * symmetry.P.transpose() - now.matrices[m];
+            const double factor = std::pow(omega, static_cast<double>(m));
+            for (Index j = 0; j < n; ++j)
+                for (Index i = 0; i < n; ++i)
+                    largest = std::max(largest, factor * std::abs(difference(i, j)) / std::sqrt(size(i) * size(j)));
+        }
+    }
+    return largest;
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,60 @@
+/// @file
+/// Equations of motion of a system whose spin coordinate turns at constant speed, at one azimuth after the other.
+#pragma once
+
+#include "solvers/algebra/azimuth_series.hpp"
+#include "solvers/linear/linearise.hpp"
+#include "solvers/periodic/steady_state.hpp"
+
+namespace cardan::solvers {
+
+/// Residual g qdd + Gamma qd qd - Q and its derivatives on the free coordinates without the spin, the unknowns.
+class RotorEquations {
+public:
+    /// @throws InputError for a wrong spin, rotor speed or start; `place` names the caller
+    RotorEquations(const System& system, int spin, const PeriodicOptions& options, std::string_view place);
+
+    const std::vector<int>& unknowns() const { return unknowns_; }
+    Eigen::Index size() const { return static_cast<Eigen::Index>(unknowns_.size()); }
+    const System& system() const { return system_; }
+    int spin() const { return spin_; }
+    double rotor_speed() const { return rotor_speed_; }
+    /// Row of a coordinate; -1: not an unknown.
+    Eigen::Index row_of(int coordinate) const;
+    const std::string& name(Eigen::Index row) const;
+
+    /// Spin and driven coordinates at an azimuth.
+    void set_azimuth(double psi);
+    /// Unknowns, their rates and accelerations.
+    void set(VectorIn q, VectorIn qd, VectorIn qdd);
+    /// All of this on a series of the unknowns.
+    void set_on(const Matrix& own, double psi);
+    void residual(VectorOut r);
+    /// M, C, K: derivatives of the residual by accelerations, rates and positions.
+    void linearise(SecondOrderSystem& out);
+
+    /// Coefficients of the unknowns at the start, with as many harmonics as wanted; and the other way round, with the
+    /// prescribed rows.
+    Matrix start(int harmonics) const;
+    Matrix all(const Matrix& own) const;
+    /// What a residual is measured by: the larger of stiffness and inertia at the rotor speed of each unknown, in the
+    /// mean over a revolution of the series.
+    Vector scale(const Matrix& own);
+    /// Largest residual over scale of the series at `count` azimuths half way between equidistant ones; NaN if it
+    /// cannot be evaluated.
+    double largest_residual(const Matrix& own, int count, const Vector& scale);
+
+private:
+    const System& system_;
+    int spin_;
+    double rotor_speed_;
+    Matrix given_;  // coefficients of all coordinates as given
+    std::vector<int> unknowns_;
+    OperatingPoint at_;
+    Workspace workspace_;
+    Lineariser lineariser_;
+    Linearisation lin_;
+    Vector tau_, Q_;
+};
+
+}  // namespace cardan::solvers

@@ -1,0 +1,210 @@
+#include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/radau.hpp"
+#include "solvers/periodic/rotor_equations.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+constexpr const char* in_shooting = "shooting";
+
+// Time is the azimuth here, rates and accelerations are by azimuth.
+class Shooting {
+public:
+    Shooting(const System& system, int spin, const PeriodicOptions& options);
+    PeriodicSteadyState solve();
+
+private:
+    bool revolve();
+    bool step(double psi);
+    bool stages(double psi);
+    void evaluate(Index stage, double psi);
+    Vector newton_step();
+    bool search(const Vector& step);
+    double miss() const;
+    void finish(PeriodicSteadyState& result, bool small);
+
+    PeriodicOptions options_;
+    RotorEquations equations_;
+    RadauIIA method_;
+    RadauStage algebra_;
+    int steps_;
+    Vector start_, x_;      // (q, q'), at azimuth 0 and after the steps made
+    Matrix accelerations_;  // at the stages, by column
+    Vector scale_;          // of residuals
+    Matrix right_;          // residuals at the stages
+    Matrix transition_;     // derivative of x_ by start_
+    Matrix path_;           // positions at the beginnings of the steps
+    SecondOrderSystem at_;
+    std::string why_ = "the limit of iterations was reached";
+    std::string note_;
+};
+
+int number_of_steps(const PeriodicOptions& options) {
+    if (!options.held.empty())
+        throw InputError(in_shooting, "number of held means", options.held.size(),
+                         "0 (harmonic balance can hold them)");
+    const int steps = options.steps > 0 ? options.steps : std::max(64, 8 * options.harmonics);
+    if (options.steps < 0 || steps < 2 * options.harmonics + 1)
+        throw InputError(in_shooting, "steps per revolution", options.steps,
+                         text(">= ", 2 * options.harmonics + 1, ", or 0"));
+    return steps;
+}
+
+Shooting::Shooting(const System& system, int spin, const PeriodicOptions& options)
+    : options_(options),
+      equations_(system, spin, options, in_shooting),
+      method_(options.stages),
+      algebra_(method_, equations_.size()),
+      steps_(number_of_steps(options)),
+      path_(equations_.size(), steps_) {
+    const Index n = equations_.size();
+    const Matrix own = equations_.start(static_cast<int>(std::max<Index>(options.start.cols(), 1) / 2));
+    const int harmonics = static_cast<int>(own.cols() / 2);
+    start_.resize(2 * n);
+    start_ << own * fourier_basis(0, harmonics), own * fourier_basis(0, harmonics, 1);
+    accelerations_.resize(n, method_.stages());
+    accelerations_.colwise() = Vector(own * fourier_basis(0, harmonics, 2));
+    scale_ = equations_.scale(own);
+    scale_ = scale_.cwiseMax(1e-12 * (n > 0 ? scale_.maxCoeff() : 1.0));
+}
+
+// Residual and derivatives at a stage, divided by the scale.
+void Shooting::evaluate(Index stage, double psi) {
+    const Index n = equations_.size();
+    const double h = 2 * pi / steps_, Omega = equations_.rotor_speed();
+    const auto q = x_.head(n), v = x_.tail(n);
+    const Vector position = q + method_.c(stage) * h * v + h * h * (accelerations_ * method_.A2.row(stage).transpose());
+    const Vector rate = v + h * (accelerations_ * method_.A.row(stage).transpose());
+    equations_.set_azimuth(psi + method_.c(stage) * h);
+    equations_.set(position, Omega * rate, Omega * Omega * accelerations_.col(stage));
+    Vector r(n);
+    equations_.residual(r);
+    right_.block(stage * n, 0, n, 1) = -r.cwiseQuotient(scale_);
+    equations_.linearise(at_);
+    const auto unit = scale_.cwiseInverse().asDiagonal();
+    algebra_.set(stage, h, Omega * Omega * (unit * at_.M), Omega * (unit * at_.C), unit * at_.K);
+}
+
+// Accelerations at the stages by Newton's method, begun from those of the step before.
+bool Shooting::stages(double psi) {
+    const Index n = equations_.size(), s = method_.stages();
+    accelerations_.colwise() = Vector(accelerations_.col(s - 1));
+    double last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 25; ++i) {
+        right_.resize(s * n, 1);
+        for (Index stage = 0; stage < s; ++stage) evaluate(stage, psi);
+        if (!right_.allFinite()) return false;
+        algebra_.factorise();
+        algebra_.solve(right_);
+        accelerations_ += right_.reshaped(n, s);
+        const double h = 2 * pi / steps_, change = h * right_.cwiseAbs().maxCoeff(),
+                     size = 1 + h * accelerations_.cwiseAbs().maxCoeff();
+        if (!std::isfinite(change)) return false;
+        // Quadratic convergence: what comes next is rounding.
+        if (change < 1e-9 * size || (change < 1e-6 * size && change > 0.5 * last)) return true;
+        last = change;
+    }
+    return false;
+}
+
+bool Shooting::step(double psi) {
+    const Index n = equations_.size(), s = method_.stages();
+    const double h = 2 * pi / steps_;
+    if (!stages(psi)) {
+        why_ = text("the integration fails at azimuth ", psi, " rad");
+        return false;
+    }
+    algebra_.advance(h, transition_);
+    x_.head(n) += h * x_.tail(n) + h * h * (accelerations_ * method_.A2.row(s - 1).transpose());
+    x_.tail(n) += h * (accelerations_ * method_.A.row(s - 1).transpose());
+    return true;
+}
+
+bool Shooting::revolve() {
+    const Index n = equations_.size();
+    x_ = start_;
+    transition_.setIdentity(2 * n, 2 * n);
+    for (int i = 0; i < steps_; ++i) {
+        path_.col(i) = x_.head(n);
+        if (!step(2 * pi * i / steps_)) return false;
+    }
+    return true;
+}
+
+double Shooting::miss() const {
+    return x_.size() == 0 ? 0 : (x_ - start_).cwiseAbs().maxCoeff();
+}
+
+// Newton's step on x(2 pi) - x(0) = 0; the shortest one where a multiplier is 1, as far as the integration can tell.
+Vector Shooting::newton_step() {
+    const Matrix J = transition_ - Matrix::Identity(start_.size(), start_.size());
+    const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const double least = 1e-9 * std::max(1.0, transition_.cwiseAbs().maxCoeff());
+    const Vector& sizes = svd.singularValues();
+    const Index rank = (sizes.array() > least).count(), missing = sizes.size() - rank;
+    note_ = missing == 0 ? ""
+                         : text(missing,
+                                " Floquet multiplier(s) of 1: a motion that nothing holds, or a natural frequency at a "
+                                "multiple of the rotor speed; the nearest periodic motion is taken");
+    const Vector right = svd.matrixU().leftCols(rank).transpose() * (start_ - x_);
+    return svd.matrixV().leftCols(rank) * right.cwiseQuotient(sizes.head(rank));
+}
+
+// Halves the step until the motion comes nearer to its beginning; else start_ is as it was.
+bool Shooting::search(const Vector& step) {
+    const Vector from = start_;
+    const double before = miss();
+    double part = 1;
+    for (int halvings = 0; halvings < 10; ++halvings, part /= 2) {
+        start_ = from + part * step;
+        if (revolve() && miss() < (1 - 1e-4 * part) * before) return true;
+    }
+    start_ = from;
+    revolve();
+    why_ = "no part of Newton's step leads nearer to where the revolution began";
+    return false;
+}
+
+PeriodicSteadyState Shooting::solve() {
+    PeriodicSteadyState result;
+    bool possible = revolve();
+    const bool begun = possible;
+    while (possible && miss() > options_.tolerance && result.iterations < options_.iterations) {
+        possible = search(newton_step());
+        ++result.iterations;
+    }
+    if (begun) (void)newton_step();  // for the note
+    // No nearer than that is as good as the arithmetic allows if it is near.
+    finish(result, begun && miss() <= std::max(options_.tolerance, possible ? 0 : 1e-8));
+    return result;
+}
+
+void Shooting::finish(PeriodicSteadyState& result, bool small) {
+    const Matrix own = fourier_coefficients(path_, options_.harmonics);
+    result.converged = small;
+    result.rotor_speed = options_.rotor_speed;
+    result.spin = equations_.spin();
+    result.coefficients = equations_.all(own);
+    result.residual = miss();
+    result.remainder = equations_.largest_residual(own, 4 * (options_.harmonics + 1), scale_);
+    result.note = note_;
+    if (!small)
+        result.message =
+            text("periodic steady state at ", options_.rotor_speed, " rad/s not found after ", result.iterations,
+                 " revolutions (misses its beginning by ", result.residual, ", wanted ", options_.tolerance,
+                 "): ", why_, "; start from a neighbouring state, or take more steps per revolution");
+}
+
+}  // namespace
+
+PeriodicSteadyState shooting(const System& system, int spin, const PeriodicOptions& options) {
+    return Shooting(system, spin, options).solve();
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,121 @@
+#include "solvers/periodic/transition.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/radau.hpp"
+
+#include <memory>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+class Step {
+public:
+    virtual ~Step() = default;
+    virtual void advance(double t, double h, Matrix& X) = 0;
+};
+
+class RadauSecondOrder : public Step {
+public:
+    RadauSecondOrder(const PeriodicSystem& system, int stages)
+        : system_(system), method_(stages), algebra_(method_, system.rows()) {}
+
+    void advance(double t, double h, Matrix& X) override {
+        for (Index i = 0; i < method_.stages(); ++i) {
+            system_.at(t + method_.c(i) * h, at_);
+            algebra_.set(i, h, at_.M, at_.C, at_.K);
+        }
+        algebra_.factorise();
+        algebra_.advance(h, X);
+    }
+
+private:
+    const PeriodicSystem& system_;
+    RadauIIA method_;
+    RadauStage algebra_;
+    SecondOrderSystem at_;
+};
+
+// Unknowns are the rates at the stages: E_i k_i = A_i (x + h sum_j a_ij k_j). For algebraic rows, where E is zero, the
+// last stage makes them hold at the end of the step.
+class RadauFirstOrder : public Step {
+public:
+    RadauFirstOrder(const PeriodicSystem& system, int stages) : system_(system), method_(stages) {}
+
+    void advance(double t, double h, Matrix& X) override {
+        const Index n = system_.rows(), s = method_.stages();
+        Matrix left(s * n, s * n), right(s * n, X.cols());
+        for (Index i = 0; i < s; ++i) {
+            system_.at(t + method_.c(i) * h, E_, A_);
+            for (Index j = 0; j < s; ++j) left.block(i * n, j * n, n, n) = -h * method_.A(i, j) * A_;
+            left.block(i * n, i * n, n, n) += E_;
+            right.middleRows(i * n, n).noalias() = A_ * X;
+        }
+        const Matrix k = left.partialPivLu().solve(right);
+        for (Index j = 0; j < s; ++j) X += h * method_.A(s - 1, j) * k.middleRows(j * n, n);
+    }
+
+private:
+    const PeriodicSystem& system_;
+    RadauIIA method_;
+    Matrix E_, A_;
+};
+
+// x_m = (x_i + x_f) / 2 from E (x_m - x_i) = h/2 A x_m. What E does not touch is algebraic: constant over the step.
+class Midpoint : public Step {
+public:
+    explicit Midpoint(const PeriodicSystem& system) : system_(system) {}
+
+    void advance(double t, double h, Matrix& X) override {
+        system_.at(t + h / 2, E_, A_);
+        const Matrix middle = Matrix(E_ - h / 2 * A_).partialPivLu().solve(E_ * X);
+        for (Index i = 0; i < X.rows(); ++i) {
+            if (E_.col(i).isZero(0))
+                X.row(i) = middle.row(i);
+            else
+                X.row(i) = 2 * middle.row(i) - X.row(i);
+        }
+    }
+
+private:
+    const PeriodicSystem& system_;
+    Matrix E_, A_;
+};
+
+std::unique_ptr<Step> make_step(const PeriodicSystem& system, const TransitionOptions& options) {
+    if (options.method == TransitionMethod::midpoint) return std::make_unique<Midpoint>(system);
+    if (system.is_second_order()) return std::make_unique<RadauSecondOrder>(system, options.stages);
+    return std::make_unique<RadauFirstOrder>(system, options.stages);
+}
+
+}  // namespace
+
+std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double t1, int intervals, int steps,
+                                const TransitionOptions& options) {
+    if (intervals < 1) throw InputError("transition matrix", "number of intervals", intervals, ">= 1");
+    if (steps < 1) throw InputError("transition matrix", "number of steps", steps, ">= 1");
+    const std::unique_ptr<Step> step = make_step(system, options);
+    const Index n = system.states();
+    const double h = (t1 - t0) / intervals / steps;
+    std::vector<Matrix> all;
+    for (int i = 0; i < intervals; ++i) {
+        Matrix X = Matrix::Identity(n, n);
+        for (int j = 0; j < steps; ++j) {
+            const double t = t0 + h * (static_cast<double>(i) * steps + j);
+            step->advance(t, h, X);
+            if (!X.allFinite())
+                throw NumericalError(text("transition matrix: no solution of the step at ", t,
+                                          " s (singular matrices, or the step is too long)"));
+        }
+        all.push_back(std::move(X));
+    }
+    return all;
+}
+
+Matrix monodromy(const PeriodicSystem& system, int steps, const TransitionOptions& options) {
+    return transitions(system, 0, system.period(), 1, steps, options).front();
+}
+
+}  // namespace cardan::solvers

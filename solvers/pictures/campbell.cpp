@@ -1,0 +1,223 @@
+#include "solvers/pictures/campbell.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/pictures/detail/campbell_style.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Only of what vibrates or is locked: motions that just die away would set the scale.
+double damping(const Campbell& diagram, const Branch& branch, std::size_t point) {
+    const CampbellMode* mode = diagram.mode(branch, point);
+    return mode && mode->kind() != FloquetKind::aperiodic ? diagram.damping_ratio(branch, point) : nan;
+}
+
+// Colours by family in order of appearance in the whole diagram, so that all panels agree.
+std::size_t colour_index(const Campbell& diagram, const Branch& branch) {
+    std::vector<std::string> seen;
+    for (const Branch& b : diagram.branches) {
+        if (b.family == branch.family) return seen.size();
+        if (std::find(seen.begin(), seen.end(), b.family) == seen.end()) seen.push_back(b.family);
+    }
+    return seen.size();
+}
+
+// One panel pair of one diagram as a gnuplot script.
+class Panels {
+public:
+    Panels(const Campbell& diagram, const CampbellPlotOptions& options, const std::string& prefix)
+        : d_(diagram), options_(options), prefix_(prefix) {
+        for (const Branch& branch : diagram.branches)
+            if (shows(diagram, branch)) branches_.push_back(&branch);
+        rpm_ = abscissae(diagram);
+        for (const Branch* branch : branches_)
+            for (std::size_t i = 0; i < rpm_.size(); ++i) {
+                const double f = diagram.damped_hz(*branch, i), zeta = damping(diagram, *branch, i);
+                if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
+                if (std::isfinite(zeta)) {
+                    zeta_min_ = std::min(zeta_min_, 100 * zeta);
+                    zeta_max_ = std::max(zeta_max_, 100 * zeta);
+                }
+            }
+        f_max_ = options.max_frequency_hz > 0 ? options.max_frequency_hz : 1.05 * f_max_;
+        if (f_max_ == 0) f_max_ = 1;  // rigid motions only
+    }
+
+    std::string data() const {
+        std::string script;
+        for (std::size_t b = 0; b < branches_.size(); ++b) script += branch_data(d_, *branches_[b], name(b), rpm_);
+        if (const Campbell* blade = options_.isolated_blade)
+            for (std::size_t b = 0; b < blade->branches.size(); ++b) {
+                script += branch_data(*blade, blade->branches[b], blade_name(b), abscissae(*blade));
+            }
+        return script;
+    }
+
+    std::string frequency_panel(bool legend, bool x_label) const {
+        std::string s = text(
+            "set title ", gnuplot_text(title()), title().size() > 75 ? " font ',10'\n" : "\n", x_range(),
+            "set yrange [0:", f_max_, "]\n", "set format y '%g'\nset ylabel 'damped frequency, Hz'\n",
+            x_label_command(x_label), multiples_labels(),
+            legend ? text("set key at screen 0.71,0.945 left top Left reverse", long_names() ? " font ',9'\n" : "\n")
+                   : "set key at graph 0.5,-0.22 center top Left reverse font ',9'\n");
+        std::string plots;
+        for (int n : rotor_multiples(d_.blades))
+            plots +=
+                text(plots.empty() ? "" : ", ", n, "*", per_rev(), " with lines lc rgb '#999999' dt 3 lw 1 notitle");
+        for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 2, 4, true);
+        if (const Campbell* blade = options_.isolated_blade)
+            for (std::size_t b = 0; b < blade->branches.size(); ++b) {
+                const Branch& branch = blade->branches[b];
+                if (!shows(*blade, branch)) continue;
+                plots += text(", $", blade_name(b), " using 1:2 with lines lc rgb '#000000' dt 1 lw 1 title ",
+                              gnuplot_text(text("isolated blade: ", branch.name)));
+            }
+        return s + "plot " + plots + "\nunset label\n";
+    }
+
+    std::string damping_panel() const {
+        const double low = std::min(0.0, 1.1 * zeta_min_), high = zeta_max_ > 1e-6 ? 1.1 * zeta_max_ : 1.0;
+        std::string s =
+            text("unset title\n", x_range(), "set yrange [", low, ":", high,
+                 "]\nset format y '%g'\nset ylabel 'damping ratio, %'\n", x_label_command(true), "unset key\n");
+        std::string plots;
+        for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 3, 5, false);
+        return s + "plot 0 with lines lc rgb '#999999' lw 1 notitle" + plots + "\n";
+    }
+
+private:
+    std::string name(std::size_t b) const { return text("b", prefix_, "_", b); }
+    std::string blade_name(std::size_t b) const { return text("i", prefix_, "_", b); }
+    bool shows(const Campbell& d, const Branch& branch) const {
+        const auto& families = options_.families;
+        if (!families.empty() && std::find(families.begin(), families.end(), branch.family) == families.end())
+            return false;
+        if (options_.ordinal > 0 &&
+            (branch.component < 0 ||
+             d.components[static_cast<std::size_t>(branch.component)].ordinal != options_.ordinal))
+            return false;
+        double lowest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < d.points.size(); ++i) {
+            const double f = d.damped_hz(branch, i);
+            if (f < lowest) lowest = f;
+        }
+        return options_.max_frequency_hz <= 0 || lowest <= options_.max_frequency_hz;
+    }
+    std::string title() const {
+        const std::string given = options_.title.empty() ? d_.machine : options_.title;
+        const std::string method = d_.method.substr(0, d_.method.find(" ("));
+        return options_.families.empty() && !d_.warning.empty() ? text(given, ": ", method, ", see warning") : given;
+    }
+    bool long_names() const {
+        return std::any_of(branches_.begin(), branches_.end(), [](const Branch* b) { return b->name.size() > 30; });
+    }
+
+    // Columns: rpm, frequency, damping in %, and both again where doubtful only.
+    static std::string branch_data(const Campbell& d, const Branch& branch, const std::string& name,
+                                   const std::vector<double>& rpm) {
+        std::vector<double> f, zeta, f_doubtful, zeta_doubtful;
+        for (std::size_t i = 0; i < rpm.size(); ++i) {
+            f.push_back(d.damped_hz(branch, i));
+            zeta.push_back(100 * damping(d, branch, i));
+            f_doubtful.push_back(branch.doubtful[i] ? f.back() : nan);
+            zeta_doubtful.push_back(branch.doubtful[i] ? zeta.back() : nan);
+        }
+        const std::vector<std::span<const double>> columns{rpm, f, zeta, f_doubtful, zeta_doubtful};
+        return gnuplot_data(name, columns);
+    }
+
+    std::string curve(std::size_t b, int column, int doubtful_column, bool titled) const {
+        const Branch& branch = *branches_[b];
+        const std::string colour_name(colour(colour_index(d_, branch)).hex);
+        const std::string line = text(", $", name(b), " using 1:", column, " with lines lc rgb '", colour_name, "' dt ",
+                                      dash(branch.pattern), " lw ", branch.pattern == RotorPattern::none ? 2.4 : 1.8);
+        return line + (titled ? " title " + gnuplot_text(branch.name) : std::string(" notitle")) +
+               text(", $", name(b), " using 1:", doubtful_column, " with points lc rgb '", colour_name,
+                    "' pt 6 ps 0.7 notitle");
+    }
+
+    std::string x_range() const {
+        const double low = rpm_.front(), high = rpm_.back() > low ? rpm_.back() : low + 1;
+        // Over decades in decades.
+        const bool decades = !d_.parameters.empty() && low > 0 && high > 50 * low;
+        return text(decades ? "set logscale x\n" : "", "set xrange [", low, ":", high, "]\n");
+    }
+    std::string x_label_command(bool shown) const {
+        if (!shown) return "unset xlabel\nset format x ''\n";
+        return text("set xlabel ", gnuplot_text(abscissa_label(d_)), "\nset format x '%g'\n");
+    }
+    // The rotor frequency in Hz as an expression in x; over another parameter that of the first point.
+    std::string per_rev() const { return d_.parameters.empty() ? "x/60.0" : text(d_.points[0].rotor_speed / (2 * pi)); }
+
+    std::string multiples_labels() const {
+        std::string labels;
+        const double x_max = rpm_.back() > rpm_.front() ? rpm_.back() : rpm_.front() + 1;
+        for (int n : rotor_multiples(d_.blades)) {
+            if (!d_.parameters.empty()) {
+                const double f = n * d_.points[0].rotor_speed / (2 * pi);
+                if (f <= f_max_)
+                    labels += text("set label '", n, "P' at ", x_max, ",", f,
+                                   " left offset 0.3,0 font ',9' tc rgb '#666666'\n");
+                continue;
+            }
+            const bool leaves_on_top = n * x_max / 60 > f_max_;
+            const double x = leaves_on_top ? f_max_ * 60 / n : x_max, y = leaves_on_top ? f_max_ : n * x_max / 60;
+            if (x <= rpm_.front()) continue;
+            labels +=
+                text("set label '", n, "P' at ", x, ",", y,
+                     leaves_on_top ? " center offset 0,0.5" : " left offset 0.3,0", " font ',9' tc rgb '#666666'\n");
+        }
+        return labels;
+    }
+
+    const Campbell& d_;
+    const CampbellPlotOptions& options_;
+    std::string prefix_;
+    std::vector<const Branch*> branches_;
+    std::vector<double> rpm_;
+    double f_max_ = 0, zeta_min_ = 0, zeta_max_ = 0;
+};
+
+void require_points(const Campbell& diagram) {
+    if (diagram.points.empty() || diagram.branches.empty())
+        throw InputError(diagram.machine, "rotor speeds in the diagram", diagram.points.size(),
+                         "at least one, with modes");
+}
+
+}  // namespace
+
+void plot(const Campbell& diagram, const std::filesystem::path& path, const CampbellPlotOptions& options) {
+    require_points(diagram);
+    const Panels panels(diagram, options, "0");
+    std::string script = panels.data() + "set multiplot\nset lmargin at screen 0.07\nset rmargin at screen 0.665\n";
+    if (options.damping_panel) {
+        script += "set tmargin at screen 0.94\nset bmargin at screen 0.36\n" + panels.frequency_panel(true, false);
+        script += "set tmargin at screen 0.33\nset bmargin at screen 0.08\n" + panels.damping_panel();
+    } else {
+        script += "set tmargin at screen 0.94\nset bmargin at screen 0.09\n" + panels.frequency_panel(true, true);
+    }
+    static_cast<void>(Gnuplot().write_picture(path, script + "unset multiplot\n", {1200, 860}));
+}
+
+void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
+                 const std::vector<CampbellPlotOptions>& panels) {
+    require_points(diagram);
+    if (panels.empty()) throw InputError("Campbell panels", "number of panels", 0, "at least one");
+    const std::size_t rows = (panels.size() + 1) / 2;
+    std::string script;
+    for (std::size_t i = 0; i < panels.size(); ++i) script += Panels(diagram, panels[i], text(i)).data();
+    script += text("set multiplot layout ", rows, ",2\nset lmargin 9\nset rmargin 4\nset bmargin 9\n");
+    for (std::size_t i = 0; i < panels.size(); ++i)
+        script += Panels(diagram, panels[i], text(i)).frequency_panel(false, true);
+    static_cast<void>(
+        Gnuplot().write_picture(path, script + "unset multiplot\n", {1200, static_cast<int>(520 * rows)}));
+}
+
+}  // namespace cardan::solvers

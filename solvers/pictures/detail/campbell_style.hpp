@@ -1,0 +1,21 @@
+/// @file
+/// What pictures of Campbell diagrams and of their differences have in common.  Internal.
+#pragma once
+
+#include "solvers/campbell/diagram.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cardan::solvers {
+
+/// gnuplot's dash type by which one pattern of the rotor is told from another of the same family.
+int dash(RotorPattern pattern);
+
+/// Rotor speeds in rev/min, or the values of another parameter.
+std::vector<double> abscissae(const Campbell& diagram);
+
+/// What `abscissae` are, with the unit.
+std::string abscissa_label(const Campbell& diagram);
+
+}  // namespace cardan::solvers

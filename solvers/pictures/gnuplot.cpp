@@ -1,0 +1,242 @@
+#include "solvers/pictures/gnuplot.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+namespace cardan::solvers {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string system_reason(int number) {
+    return std::generic_category().message(number);
+}
+
+bool is_control(char c) {
+    return std::iscntrl(static_cast<unsigned char>(c)) != 0;
+}
+
+/// A file under the folder for temporary ones that goes away with the object.
+class ScratchFile {
+public:
+    ScratchFile() {
+        std::error_code code;
+        const fs::path folder = fs::temp_directory_path(code);
+        if (code) throw FileError("the folder for temporary files (TMPDIR)", code.message());
+        path_ = (folder / "cardan_plot_XXXXXX").string();
+        fd_ = ::mkostemp(path_.data(), O_CLOEXEC);
+        if (fd_ < 0) throw FileError(path_, text("cannot be created: ", system_reason(errno)));
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ScratchFile(ScratchFile&&) = delete;
+    ScratchFile& operator=(ScratchFile&&) = delete;
+    ~ScratchFile() {
+        ::close(fd_);
+        ::unlink(path_.c_str());
+    }
+
+    [[nodiscard]] int fd() const { return fd_; }
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+    void write(std::string_view all) const {
+        while (!all.empty()) {
+            const ssize_t n = ::write(fd_, all.data(), all.size());
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) throw FileError(path_, text("cannot be written: ", system_reason(errno)));
+            all.remove_prefix(static_cast<std::size_t>(n));
+        }
+    }
+
+    /// The contents without blanks and line ends around them.
+    [[nodiscard]] std::string trimmed() const {
+        std::ifstream in(path_, std::ios::binary);
+        std::string all{std::istreambuf_iterator<char>(in), {}};
+        const char* const blanks = " \t\r\n\f";
+        all.erase(0, all.find_first_not_of(blanks));
+        all.erase(all.find_last_not_of(blanks) + 1);
+        return all;
+    }
+
+private:
+    std::string path_;
+    int fd_ = -1;
+};
+
+/// Starts the program with nothing to read and all it prints going to `log`; waits for it.
+/// @return what waitpid says
+int run_and_wait(const std::string& program, const std::string& script_path, int log) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
+    std::vector<std::string> words{program, "-d", script_path};
+    std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t child = 0;
+    const int code = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    // EACCES for a bare name: a folder of PATH that may not be searched.
+    if (code == ENOENT || (code == EACCES && program.find('/') == std::string::npos)) {
+        throw FileError(program, "not found; pictures need gnuplot (Debian: apt install gnuplot-nox)");
+    }
+    if (code != 0) throw FileError(program, text("cannot be run: ", system_reason(code)));
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) throw Error(text(program, ": cannot be waited for: ", system_reason(errno)));
+    }
+    return status;
+}
+
+struct Kind {
+    std::string_view ending;
+    std::string_view terminal;  ///< without size and font
+    std::string_view beginning;
+    std::string_view end;  ///< somewhere in the last bytes of a complete file
+};
+
+constexpr std::array<Kind, 3> kinds{{
+    {".svg", "svg enhanced rounded background '#ffffff'", "<?xml", "</svg>"},
+    {".png", "pngcairo enhanced rounded background '#ffffff'", "\x89PNG\r\n\x1a\n", "IEND"},
+    {".pdf", "pdfcairo enhanced color rounded background '#ffffff'", "%PDF-", "%%EOF"},
+}};
+
+const Kind& kind_of(const fs::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const Kind& kind : kinds) {
+        if (kind.ending == ending) return kind;
+    }
+    throw FileError(path.string(), "a picture ends in .svg, .png or .pdf");
+}
+
+std::string terminal(const Kind& kind, PictureSize size) {
+    if (kind.ending != ".pdf")
+        return text(kind.terminal, " size ", size.width, ",", size.height, " font 'DejaVu Sans,13'");
+    constexpr double per_inch = 96.0;
+    return text(kind.terminal, " size ", size.width / per_inch, "in,", size.height / per_inch,
+                "in font 'DejaVu Sans,10'");
+}
+
+std::string line_types() {
+    std::string lines;
+    for (std::size_t k = 0; k < palette.size(); ++k) {
+        lines += text("set linetype ", k + 1, " linecolor rgb '", palette[k].hex, "' linewidth 1.8\n");
+    }
+    return lines + text("set linetype cycle ", palette.size(), "\n");
+}
+
+/// gnuplot does not notice a full disk; a picture that is cut off does not end as it should.
+bool complete(const std::string& path, const Kind& kind) {
+    std::error_code code;
+    if (!fs::is_regular_file(path, code)) return false;
+    std::ifstream in(path, std::ios::binary);
+    const std::string all{std::istreambuf_iterator<char>(in), {}};
+    constexpr std::size_t tail = 64;
+    return all.starts_with(kind.beginning) &&
+           all.find(kind.end, all.size() - std::min(tail, all.size())) != std::string::npos;
+}
+
+}  // namespace
+
+std::string gnuplot_text(std::string_view shown) {
+    std::string quoted = "'";
+    for (const char c : shown) {
+        if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) quoted += '\\';
+        if (c == '\'') quoted += '\'';
+        quoted += is_control(c) ? ' ' : c;
+    }
+    return quoted + "'";
+}
+
+std::string gnuplot_data(std::string_view name, std::span<const std::span<const double>> columns) {
+    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0 ||
+        !std::all_of(name.begin(), name.end(), allowed)) {
+        throw InputError("gnuplot data", "name", name, "letters, digits and underscores, no digit in front");
+    }
+    const std::size_t rows = columns.empty() ? 0 : columns.front().size();
+    std::string block = text("$", name, " << EOD\n");
+    for (const auto& column : columns) {
+        if (column.size() != rows) throw InputError(text("gnuplot data ", name), "length", column.size(), text(rows));
+    }
+    std::array<char, 32> digits{};
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (const auto& column : columns) {
+            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), column[row]).ptr;
+            block += std::isfinite(column[row]) ? std::string_view(digits.data(), end) : "NaN";
+            block += ' ';
+        }
+        block.back() = '\n';
+    }
+    return block + "EOD\n";
+}
+
+std::string Gnuplot::run(std::string_view script) const {
+    const ScratchFile commands;
+    const ScratchFile log;
+    commands.write(script);
+    commands.write("\n");
+    const int status = run_and_wait(program_, commands.path(), log.fd());
+    std::string said = log.trimmed();
+    for (std::size_t at = said.find(commands.path()); at != std::string::npos; at = said.find(commands.path())) {
+        said.replace(at, commands.path().size(), "script");
+    }
+    if (WIFSIGNALED(status)) throw Error(text(program_, ": ended by signal ", WTERMSIG(status), "\n", said));
+    if (WEXITSTATUS(status) != 0) throw Error(text(program_, ": failed:\n", said));
+    return said;
+}
+
+std::string Gnuplot::write_picture(const fs::path& path, std::string_view body, PictureSize size) const {
+    const Kind& kind = kind_of(path);
+    if (size.width < 50 || size.height < 50 || size.width > 20000 || size.height > 20000) {
+        throw InputError(path.string(), "size", text(size.width, " x ", size.height), "50 to 20000 pixels each way");
+    }
+    // An absolute path: gnuplot runs "|program" as a program and expands "~".
+    const fs::path absolute = fs::absolute(path);
+    const std::string name = absolute.string();
+    if (std::any_of(name.begin(), name.end(), is_control)) {
+        throw FileError(path.string(), "a path must not contain control characters");
+    }
+    const PendingFile file(absolute);
+    std::string output;
+    for (const char c : file.partial()) output += c == '\'' ? "''" : std::string(1, c);
+    const std::string script = text(
+        "set encoding utf8\nset terminal ", terminal(kind, size), "\n", line_types(),
+        "set border linewidth 1 linecolor rgb '#404040'\nset grid linetype 1 linecolor rgb '#e4e4e4' linewidth 0.6\n",
+        "set output '", output, "'\n", body, "\nunset multiplot\nset output\n");
+    try {
+        std::string said = run(script);
+        if (!complete(file.partial(), kind)) {
+            throw FileError(path.string(), text("the picture is not complete: is the disk full, or does the script "
+                                                "draw nothing or elsewhere?",
+                                                said.empty() ? "" : "\n", said));
+        }
+        file.commit();
+        return said;
+    } catch (...) {
+        file.discard();
+        throw;
+    }
+}
+
+}  // namespace cardan::solvers

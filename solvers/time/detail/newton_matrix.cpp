@@ -1,0 +1,75 @@
+#include "solvers/time/detail/newton_matrix.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <nvector/nvector_serial.h>
+
+namespace cardan::solvers {
+
+namespace {
+
+SUNMatrix_ID matrix_id(SUNMatrix) {
+    return SUNMATRIX_CUSTOM;
+}
+SUNLinearSolver_Type solver_type(SUNLinearSolver) {
+    return SUNLINEARSOLVER_DIRECT;
+}
+SUNLinearSolver_ID solver_id(SUNLinearSolver) {
+    return SUNLINEARSOLVER_CUSTOM;
+}
+int no_setup(SUNLinearSolver, SUNMatrix) {
+    return 0;  // factorised when it was formed
+}
+int solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    static_cast<NewtonMatrix*>(solver->content)->solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+    return 0;
+}
+
+}  // namespace
+
+NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
+    : equations_(equations),
+      rates_(equations.size()),
+      reduced_(equations.size()),
+      matrix_(SUNMatNewEmpty(context)),
+      solver_(SUNLinSolNewEmpty(context)) {
+    if (!matrix_ || !solver_) throw NumericalError("SUNDIALS: no memory for a linear solver");
+    matrix_->ops->getid = matrix_id;
+    solver_->content = this;
+    solver_->ops->gettype = solver_type;
+    solver_->ops->getid = solver_id;
+    solver_->ops->setup = no_setup;
+    solver_->ops->solve = solve_callback;
+}
+
+bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
+    if (fresh || !has_jacobian_) {
+        has_jacobian_ = false;
+        if (!equations_.jacobian(time, x)) return false;
+        has_jacobian_ = true;
+        ++jacobians;
+    }
+    c_ = c;
+    reduced_.matrix() = -c * equations_.by_qd() - c * c * equations_.by_q();
+    reduced_.matrix().diagonal().array() += 1;
+    reduced_.factorise();
+    ++factorisations;
+    return true;
+}
+
+void NewtonMatrix::solve(const double* b, double* x) {
+    const Eigen::Index m = rates_.size();
+    const Eigen::Map<const Vector> b1(b, m), b2(b + m, m);
+    rates_ = b2;
+    // The rows of the positions are linear: the first iteration leaves of their residual nothing but rounding. It
+    // reaches the rates as b_1 / c at most, however stiff A is.
+    if (b1.lpNorm<Eigen::Infinity>() > 1e-6 * c_ * b2.lpNorm<Eigen::Infinity>())
+        rates_.noalias() += c_ * (equations_.by_q() * b1);
+    reduced_.solve(rates_);
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x[i] = b[i] + c_ * rates_(i);
+        x[m + i] = rates_(i);
+    }
+}
+
+}  // namespace cardan::solvers

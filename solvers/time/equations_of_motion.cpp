@@ -1,0 +1,231 @@
+#include "solvers/time/equations_of_motion.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/kernels/derivatives.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+void check_start(const Model& model, double time, const Vector& q, const Vector& qd) {
+    if (!std::isfinite(time)) throw InputError(in_integration, "first time [s]", time, "finite");
+    for (const Vector* v : {&q, &qd}) {
+        if (v->size() != model.size())
+            throw InputError(in_integration, v == &q ? "number of positions" : "number of rates", v->size(),
+                             text(model.size(), ", one per coordinate"));
+        for (int i = 0; i < model.size(); ++i)
+            if (!std::isfinite((*v)(i)))
+                throw InputError(text(in_integration, ": '", model.coordinates()[i].name, "'"),
+                                 v == &q ? "position at the start" : "rate at the start", (*v)(i), "finite");
+    }
+}
+
+std::vector<Drive> all_drives(const Model& model, std::vector<Drive> drives, double time, const Vector& q,
+                              const Vector& qd) {
+    check_start(model, time, q, qd);
+    std::vector<bool> given(static_cast<std::size_t>(model.size()));
+    for (const Drive& drive : drives) {
+        if (drive.coordinate < 0 || drive.coordinate >= model.size())
+            throw InputError(in_integration, "index of a driven coordinate", drive.coordinate,
+                             text("0 ... ", model.size() - 1));
+        const auto i = static_cast<std::size_t>(drive.coordinate);
+        if (given[i])
+            throw InputError(in_integration, "motions of one coordinate", model.coordinates()[drive.coordinate].name,
+                             "one at most");
+        given[i] = true;
+    }
+    for (int i = 0; i < model.size(); ++i)
+        if (model.coordinates()[i].role == CoordinateRole::driven && !given[static_cast<std::size_t>(i)])
+            drives.push_back({i, Motion::constant_rate(q(i), qd(i), time)});
+    return drives;
+}
+
+std::vector<bool> flags(const Model& model, const std::vector<Drive>& drives) {
+    std::vector<bool> driven(static_cast<std::size_t>(model.size()));
+    for (const Drive& drive : drives) driven[static_cast<std::size_t>(drive.coordinate)] = true;
+    return driven;
+}
+
+}  // namespace
+
+EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> drives, double time, const Vector& q,
+                                     const Vector& qd)
+    : system_(&system),
+      forces_(&system.forces),
+      drives_(all_drives(system.model, std::move(drives), time, q, qd)),
+      driven_(flags(system.model, drives_)),
+      workspace_(system.model),
+      forward_(system.model, driven_),
+      derivatives_(system.model, driven_),
+      inside_(time) {
+    const int n = system.model.size();
+    for (int i = 0; i < n; ++i)
+        if (!driven_[static_cast<std::size_t>(i)]) free_.push_back(i);
+    for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_}) v->setZero(n);
+    for (Matrix* m : {&g_, &tau_q_, &tau_qd_}) m->setZero(n, n);
+    for (Matrix* m : {&by_q_, &by_qd_}) m->setZero(size(), size());
+}
+
+void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
+    const auto drive =
+        std::find_if(drives_.begin(), drives_.end(), [&](const Drive& d) { return d.coordinate == coordinate; });
+    if (drive == drives_.end())
+        throw InputError(in_integration, "index of a driven coordinate", coordinate,
+                         "one that was driven from the start");
+    const MotionState before = drive->motion.at(time, inside_), after = motion.at(time);
+    const auto jumps = [](double a, double b) { return !(std::abs(a - b) <= 1e-8 * (1 + std::abs(a))); };
+    const std::string where =
+        text(in_integration, ": new motion of '", model().coordinates()[coordinate].name, "' at ", time, " s");
+    if (jumps(before.position, after.position))
+        throw InputError(where, "position", after.position, text("as before, ", before.position));
+    if (jumps(before.velocity, after.velocity))
+        throw InputError(where, "rate", after.velocity, text("as before, ", before.velocity));
+    drive->motion = std::move(motion);
+}
+
+void EquationsOfMotion::set_forces(const Forces* forces) {
+    forces_ = forces ? forces : &system_->forces;
+}
+
+std::vector<double> EquationsOfMotion::breaks() const {
+    std::vector<double> all;
+    for (const Drive& drive : drives_)
+        all.insert(all.end(), drive.motion.breaks().begin(), drive.motion.breaks().end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+void EquationsOfMotion::drive_at(double time) {
+    for (const Drive& drive : drives_) {
+        const MotionState state = drive.motion.at(time, inside_);
+        q_(drive.coordinate) = state.position;
+        qd_(drive.coordinate) = state.velocity;
+        qdd_(drive.coordinate) = state.acceleration;
+    }
+}
+
+void EquationsOfMotion::expand(double time, const double* x) {
+    time_ = time;
+    const std::size_t m = free_.size();
+    for (std::size_t i = 0; i < m; ++i) {
+        q_(free_[i]) = x[i];
+        qd_(free_[i]) = x[m + i];
+    }
+    drive_at(time);
+}
+
+bool EquationsOfMotion::all_finite(const Vector& values, const char* quantity) {
+    if (values.allFinite()) return true;
+    int i = 0;
+    while (std::isfinite(values(i))) ++i;
+    problem_ = text("the ", quantity, " of '", model().coordinates()[i].name, "' at ", time_, " s is ", values(i));
+    return false;
+}
+
+bool EquationsOfMotion::solve(double time, const double* x) {
+    expand(time, x);
+    if (!all_finite(q_, "position") || !all_finite(qd_, "rate")) return false;
+    const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
+    forces_->generalised_forces(kin, time, q_, qd_, Q_);
+    if (!all_finite(Q_, "generalised force")) return false;
+    forward_.solve(kin, qd_, Q_, qdd_, actuator_);
+    return all_finite(qdd_, "acceleration");
+}
+
+bool EquationsOfMotion::accelerations(double time, const double* x, double* qdd) {
+    if (!solve(time, x)) return false;
+    for (std::size_t i = 0; i < free_.size(); ++i) qdd[i] = qdd_(free_[i]);
+    return true;
+}
+
+bool EquationsOfMotion::jacobian(double time, const double* x) {
+    if (!solve(time, x)) return false;
+    const Kinematics& kin = *kin_;
+    forces_->derivatives(kin, time, q_, qd_, force_derivatives_);
+    if (const PivotStatus status = derivatives_.compute(kin, qd_, qdd_, &force_derivatives_); !status) {
+        problem_ = text("at ", time, " s: ", status.message());
+        return false;
+    }
+    for (int b = 0; b < size(); ++b)
+        for (int a = 0; a < size(); ++a) {
+            const int i = free_[static_cast<std::size_t>(a)], j = free_[static_cast<std::size_t>(b)];
+            by_q_(a, b) = derivatives_.dqdd_dq()(i, j);
+            by_qd_(a, b) = derivatives_.dqdd_dqd()(i, j);
+        }
+    return true;
+}
+
+bool EquationsOfMotion::residual(double time, const double* x, const double* qdd, double* r) {
+    expand(time, x);
+    for (std::size_t i = 0; i < free_.size(); ++i) qdd_(free_[i]) = qdd[i];
+    if (!all_finite(q_, "position") || !all_finite(qd_, "rate") || !all_finite(qdd_, "acceleration")) return false;
+    const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
+    forces_->generalised_forces(kin, time, q_, qd_, Q_);
+    inverse_dynamics<double>(kin, qd_, qdd_, tau_);
+    for (std::size_t i = 0; i < free_.size(); ++i) r[i] = tau_(free_[i]) - Q_(free_[i]);
+    return all_finite(tau_, "inertial force") && all_finite(Q_, "generalised force");
+}
+
+void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) {
+    const Kinematics& kin = *kin_;
+    forces_->derivatives(kin, time_, q_, qd_, force_derivatives_);
+    metric<double>(kin, g_);
+    inverse_dynamics_derivatives<double>(kin, qd_, qdd_, tau_q_, tau_qd_);
+    const ForceDerivatives& d = force_derivatives_;
+    for (int b = 0; b < size(); ++b)
+        for (int a = 0; a < size(); ++a) {
+            const int i = free_[static_cast<std::size_t>(a)], j = free_[static_cast<std::size_t>(b)];
+            K(a, b) = c_qdd * g_(i, j) + c_qd * (tau_qd_(i, j) + d.damping(i, j)) +
+                      c_q * (tau_q_(i, j) + d.elastic(i, j) + d.gravity(i, j) + d.loads(i, j));
+        }
+}
+
+bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out) {
+    if (!solve(time, x)) return false;
+    out.time = time;
+    out.q = q_;
+    out.qd = qd_;
+    out.qdd = qdd_;
+    out.actuator = actuator_;
+    return true;
+}
+
+void EquationsOfMotion::positions(double time, const double* x, DynamicState& out) {
+    expand(time, x);
+    out.time = time;
+    out.q = q_;
+    out.qd = qd_;
+}
+
+bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
+    if (!solve(time, x)) return false;
+    out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_)};
+    return true;
+}
+
+double EquationsOfMotion::kinetic_energy(const DynamicState& at) {
+    return cardan::kinetic_energy(kinematics(model(), at.q, workspace_), at.qd);
+}
+
+double EquationsOfMotion::potential_energy(const DynamicState& at) {
+    return forces_->potential_energy(kinematics(model(), at.q, workspace_), at.time, at.q, at.qd);
+}
+
+double EquationsOfMotion::evaluate(const std::function<double(const ForceInput&)>& function, double time,
+                                   const double* x) {
+    expand(time, x);
+    const Kinematics kin = kinematics(model(), q_, workspace_);
+    return function({time, q_, qd_, kin});
+}
+
+std::string EquationsOfMotion::name_of(int entry) const {
+    const bool rate = entry >= size();
+    const int coordinate = free_[static_cast<std::size_t>(rate ? entry - size() : entry)];
+    return text(rate ? "rate of '" : "position of '", model().coordinates()[coordinate].name, "'");
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,400 @@
+#include "solvers/time/integrate.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/time/detail/stepper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+constexpr int watched_steps = 1000;
+constexpr double never = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+// Two times closer than this are one.
+double resolution(double time) {
+    return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
+}
+
+// Less than this in the mean of a thousand steps is no progress.
+double shortest_step(double time) {
+    return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
+}
+
+int sign(double value) {
+    return (value > 0) - (value < 0);
+}
+
+std::unique_ptr<Stepper> make_stepper(EquationsOfMotion& equations, const IntegrationOptions& options) {
+    switch (options.method) {
+        case Method::bdf:
+        case Method::adams:
+            return make_cvode_stepper(equations, options);
+        case Method::dirk:
+        case Method::erk:
+            return make_arkode_stepper(equations, options);
+        case Method::generalised_alpha:
+            break;
+    }
+    return make_alpha_stepper(equations, options);
+}
+
+}  // namespace
+
+class Integrator::While {
+public:
+    While(Doing& doing, Doing now) : doing_(doing), before_(std::exchange(doing, now)) {}
+    ~While() { doing_ = before_; }
+    While(const While&) = delete;
+    While& operator=(const While&) = delete;
+
+private:
+    Doing& doing_;
+    Doing before_;
+};
+
+Integrator::Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
+                       IntegrationOptions options)
+    : options_(std::move(options)), equations_(system, std::move(drives), time, q, qd) {
+    check_options(time);
+    const Eigen::Index m = equations_.size();
+    if (m == 0) throw InputError(in_integration, "number of free coordinates", m, ">= 1");
+    x_.resize(2 * m);
+    x_between_.resize(2 * m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x_(i) = q(equations_.unknowns()[static_cast<std::size_t>(i)]);
+        x_(m + i) = qd(equations_.unknowns()[static_cast<std::size_t>(i)]);
+    }
+    stepper_ = make_stepper(equations_, options_);
+    values_.resize(options_.events.size());
+    sides_.resize(options_.events.size());
+    state_.time = time;
+    since_ = moved_ = time;
+    positions_ = q;
+    for (Vector* v : {&seen_end_, &now_}) v->setZero(m);
+    find_breaks();
+    begin_piece();
+    if (!equations_.complete(time, x_.data(), state_))
+        throw NumericalError(text(in_integration, ": no start: ", equations_.problem()));
+    kinetic_at_start_ = equations_.kinetic_energy(state_);
+    potential_at_start_ = equations_.potential_energy(state_);
+    x_between_ = x_;
+    for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, time);
+    set_sides(-1);
+}
+
+Integrator::~Integrator() = default;
+
+void Integrator::check_options(double time) const {
+    const Tolerances& tolerances = options_.tolerances;
+    require_positive(in_integration, "relative tolerance", tolerances.relative);
+    for (double value : {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed})
+        require_positive(in_integration, "absolute tolerance", value);
+    const std::array steps{std::pair{"largest step [s]", options_.max_step},
+                           std::pair{"first step [s]", options_.first_step},
+                           std::pair{"fixed step [s]", options_.fixed_step}};
+    for (const auto& [name, step] : steps) require_not_negative(in_integration, name, step);
+    for (const auto& [name, step] : steps)
+        if (step > 0 && step < shortest_step(time))
+            throw InputError(in_integration, name, step,
+                             text("0, or >= ", shortest_step(time), ", which the clock can tell"));
+    if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
+        throw InputError(in_integration, "fixed step [s]", options_.fixed_step,
+                         text("at most the largest step, ", options_.max_step));
+    const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
+    if (options_.max_order < 0 || options_.max_order > highest)
+        throw InputError(in_integration, "highest order", options_.max_order,
+                         text("0 ... ", highest, " with this method"));
+    if (!(options_.spectral_radius >= 0 && options_.spectral_radius <= 1))
+        throw InputError(in_integration, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
+    for (double jump : options_.breaks)
+        if (!std::isfinite(jump)) throw InputError(in_integration, "time of a break [s]", jump, "finite");
+    for (const Event& event : options_.events) {
+        if (!event.function) throw InputError(in_integration, "event", event.name, "one with a function");
+        if (event.direction < -1 || event.direction > 1)
+            throw InputError(text(in_integration, ": event '", event.name, "'"), "direction", event.direction,
+                             "-1, 0 or 1");
+    }
+}
+
+void Integrator::find_breaks() {
+    breaks_ = equations_.breaks();
+    breaks_.insert(breaks_.end(), options_.breaks.begin(), options_.breaks.end());
+    std::sort(breaks_.begin(), breaks_.end());
+}
+
+// From now to the next break.
+void Integrator::begin_piece() {
+    const double now = state_.time;
+    const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), now + resolution(now));
+    piece_end_ = next == breaks_.end() ? infinity : *next;
+    equations_.set_piece(next == breaks_.end() ? now + 1 : (now + piece_end_) / 2);
+    start_pending_ = true;
+    repeat_pending_ = false;
+}
+
+double Integrator::event_value(std::size_t event, double time) {
+    const double value = equations_.evaluate(options_.events[event].function, time, x_between_.data());
+    if (!std::isfinite(value))
+        throw NumericalError(text(in_integration, ": the function of the event '", options_.events[event].name, "' at ",
+                                  time, " s is ", value));
+    return value;
+}
+
+bool Integrator::due(std::size_t event) const {
+    const int now = sign(values_[event]), before = sides_[event], direction = options_.events[event].direction;
+    return before != 0 && now != before && (direction == 0 || direction == -before);
+}
+
+// What is due together with the event that happened keeps its side and comes next.
+void Integrator::set_sides(int happened) {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const bool own = static_cast<int>(i) == happened;
+        if (own && sign(values_[i]) == 0)
+            sides_[i] = 0;  // it has happened; its side will be the one it leaves zero to
+        else if (sign(values_[i]) != 0 && (own || !due(i)))
+            sides_[i] = sign(values_[i]);
+    }
+}
+
+// Where the function has just changed its sign, by halving and false position in turn.
+double Integrator::root(std::size_t event, double to) {
+    double a = state_.time, b = to, value_b = values_[event];
+    stepper_->state_at(a, x_between_.data());
+    double value_a = event_value(event, a);
+    if (sign(value_a) == sign(value_b)) return a;  // it was due at the start already
+    for (int i = 0; i < 200 && b - a > resolution(b); ++i) {
+        const double secant = a + (b - a) * value_a / (value_a - value_b);
+        const double trial = i % 3 != 2 && secant > a && secant < b ? secant : a + (b - a) / 2;
+        stepper_->state_at(trial, x_between_.data());
+        const double value = event_value(event, trial);
+        if (sign(value) == sides_[event]) {
+            a = trial;
+            value_a = value;
+        } else {
+            b = trial;
+            value_b = value;
+        }
+    }
+    return b;
+}
+
+// The first event until `to`, or -1.
+int Integrator::first_event(double to, double& at) {
+    int first = -1;
+    at = to;
+    stepper_->state_at(to, x_between_.data());
+    for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, to);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        if (!due(i)) continue;
+        if (const double when = root(i, to); first < 0 || when < at) {
+            first = static_cast<int>(i);
+            at = when;
+        }
+    }
+    return first;
+}
+
+// Gauss' formula, as exact as the interpolation within a step: of order 6 beside the long steps of Runge-Kutta methods,
+// of order 4 beside the short ones of the others.
+bool Integrator::accumulate(double to) {
+    if (!options_.works) return true;
+    struct Node {
+        double at, weight;  // on -1 ... 1
+    };
+    static constexpr std::array<Node, 3> three{
+        {{-0.77459666924148338, 5.0 / 9}, {0, 8.0 / 9}, {0.77459666924148338, 5.0 / 9}}};
+    static constexpr std::array<Node, 2> two{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
+    const bool long_steps = options_.method == Method::dirk || options_.method == Method::erk;
+    const double half = (to - state_.time) / 2, middle = state_.time + half;
+    Works sum = works_;  // kept as it was if a user force throws
+    for (const Node& node : long_steps ? std::span<const Node>(three) : std::span<const Node>(two)) {
+        const double time = middle + node.at * half, weight = node.weight * half;
+        stepper_->state_at(time, x_between_.data());
+        Powers power;
+        if (!equations_.powers(time, x_between_.data(), power)) return false;
+        sum.forces += weight * power.forces;
+        sum.dissipation += weight * power.dissipation;
+        sum.drives += weight * power.drives;
+    }
+    works_ = sum;
+    return true;
+}
+
+void Integrator::complete(Advance& result) {
+    result.time = state_.time;
+    if (equations_.complete(state_.time, x_.data(), state_)) return;
+    result.end = Advance::End::failed;
+    result.message = text("no forces at ", state_.time, " s: ", equations_.problem());
+}
+
+AfterEvent Integrator::act(int event) {
+    const Event& happened = options_.events[static_cast<std::size_t>(event)];
+    if (!equations_.complete(state_.time, x_.data(), state_))
+        throw NumericalError(
+            text(in_integration, ": no state at the event '", happened.name, "': ", equations_.problem()));
+    const While acting(doing_, Doing::acting);
+    return happened.action ? happened.action(*this) : AfterEvent::stop;
+}
+
+// From the present time to one within the last step. False: an event stops here.
+bool Integrator::process(double to, Advance& result) {
+    double at = to;
+    const int event = sides_.empty() ? -1 : first_event(to, at);
+    if (!accumulate(at)) {
+        result.end = Advance::End::failed;
+        result.message = text("no forces within the last step: ", equations_.problem());
+        return false;
+    }
+    stepper_->state_at(at, x_.data());
+    equations_.positions(at, x_.data(), state_);
+    if (sides_.empty()) return true;
+    if (event >= 0 && at < to) {
+        x_between_ = x_;
+        for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
+    }
+    // An action that throws is due again when the run goes on.
+    AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
+    set_sides(event);
+    if (event < 0) return true;
+    if (after == AfterEvent::go_on && accelerations_changed()) after = AfterEvent::restart;
+    if (after != AfterEvent::go_on) begin_piece();
+    if (after != AfterEvent::stop) return true;
+    result.end = Advance::End::event;
+    result.message = options_.events[static_cast<std::size_t>(event)].name;
+    return false;
+}
+
+// Those at the end of the step, once for each step that outputs lie in.
+void Integrator::note_accelerations() {
+    const double end = stepper_->time();
+    if (start_pending_ || !(end > state_.time) || end == seen_at_) return;
+    stepper_->state_at(end, x_between_.data());
+    if (equations_.accelerations(end, x_between_.data(), seen_end_.data())) seen_at_ = end;
+}
+
+// Have forces changed since the present state was completed, or since the method has stepped beyond it?
+bool Integrator::accelerations_changed() {
+    if (start_pending_) return false;
+    if (!equations_.accelerations(state_.time, x_.data(), now_.data())) return true;
+    for (Eigen::Index i = 0; i < now_.size(); ++i)
+        if (now_(i) != state_.qdd(equations_.unknowns()[static_cast<std::size_t>(i)])) return true;
+    if (seen_at_ != stepper_->time() || seen_at_ <= state_.time) return false;
+    stepper_->state_at(seen_at_, x_between_.data());
+    return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
+}
+
+// Nothing but tiny steps, one after the other.
+bool Integrator::stands_still() {
+    if (++steps_ < watched_steps) return false;
+    const bool still = stepper_->time() - moved_ < watched_steps * shortest_step(stepper_->time());
+    steps_ = 0;
+    moved_ = stepper_->time();
+    return still;
+}
+
+// One step of the method.  False: it ends here.
+bool Integrator::take_step(double horizon, Advance& result) {
+    if (options_.cancelled && options_.cancelled()) {
+        result.end = Advance::End::cancelled;
+        return false;
+    }
+    if (start_pending_) {
+        stepper_->start(state_.time, x_.data(), piece_end_);
+        ++starts_;
+        start_pending_ = false;
+        seen_at_ = never;
+    }
+    const bool done = stepper_->step(horizon), still = done && stands_still();
+    if (done && !still) {
+        if (options_.progress) options_.progress(stepper_->time(), statistics());
+        return true;
+    }
+    result.end = Advance::End::failed;
+    result.message =
+        !done ? stepper_->failure()
+              : text("no progress at ", state_.time, " s: ", watched_steps, " steps in less than ",
+                     watched_steps * shortest_step(state_.time),
+                     " s; look for forces or stiffnesses that are far too large, or take an implicit method");
+    start_pending_ = true;
+    return false;
+}
+
+Advance Integrator::advance(double target, bool one_step) try {
+    const While advancing(doing_, Doing::advancing);
+    Advance result;
+    if (repeat_pending_)
+        repeat_steps();
+    else if (accelerations_changed())
+        begin_piece();
+    bool stepped = false;
+    while (one_step ? !stepped : state_.time < target) {
+        if (state_.time >= piece_end_) begin_piece();
+        if ((start_pending_ || stepper_->time() <= state_.time) && !take_step(one_step ? infinity : target, result))
+            break;
+        stepped = true;
+        if (!process(one_step ? stepper_->time() : std::min(target, stepper_->time()), result)) break;
+    }
+    note_accelerations();
+    complete(result);
+    return result;
+} catch (...) {
+    start_pending_ = true;  // the method may have been left in the middle of a step
+    throw;
+}
+
+void Integrator::check_allowed(const char* what, Doing latest) const {
+    if (doing_ <= latest) return;
+    throw InputError(in_integration, what,
+                     doing_ == Doing::acting ? "called in the action of an event" : "called within advance()",
+                     latest == Doing::nothing ? "after advance() has returned; an action may stop it"
+                                              : "between two calls of advance(), or in the action of an event");
+}
+
+Advance Integrator::advance(double time) {
+    check_allowed("advance()", Doing::nothing);
+    if (!std::isfinite(time) || time < state_.time)
+        throw InputError(in_integration, "time to advance to [s]", time, text("finite and >= ", state_.time));
+    return advance(time, false);
+}
+
+Advance Integrator::step() {
+    check_allowed("step()", Doing::nothing);
+    return advance(infinity, true);
+}
+
+Advance Integrator::run(const std::vector<double>& times, const std::function<void(Integrator&)>& output) {
+    check_allowed("run()", Doing::nothing);
+    Advance result;
+    result.time = state_.time;
+    for (double time : times) {
+        result = advance(time);
+        if (!result.reached()) break;
+        if (output) output(*this);
+    }
+    return result;
+}
+
+void Integrator::set_motion(int coordinate, Motion motion) {
+    check_allowed("set_motion()", Doing::acting);
+    equations_.set_motion(coordinate, std::move(motion), state_.time);
+    find_breaks();
+    begin_piece();
+}
+
+void Integrator::set_forces(const Forces* forces) {
+    check_allowed("set_forces()", Doing::acting);
+    equations_.set_forces(forces);
+    begin_piece();
+}
+
+void Integrator::restart() {
+    check_allowed("restart()", Doing::acting);
+    begin_piece();
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,118 @@
+// What an integrator knows of its past: energies, counters, and how it goes on from a checkpoint.
+#include "mbs/base/error.hpp"
+#include "solvers/time/detail/stepper.hpp"
+#include "solvers/time/integrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+void check(const Checkpoint& from) {
+    for (const auto& [what, value] : {std::pair{"work of forces [J]", from.works.forces},
+                                      std::pair{"dissipated energy [J]", from.works.dissipation},
+                                      std::pair{"work of drives [J]", from.works.drives},
+                                      std::pair{"kinetic energy at the start [J]", from.kinetic_at_start},
+                                      std::pair{"potential energy at the start [J]", from.potential_at_start},
+                                      std::pair{"time of the first start [s]", from.method.since}})
+        if (!std::isfinite(value)) throw InputError("checkpoint", what, value, "finite");
+    for (const auto& [name, value] : from.notes)
+        if (!std::isfinite(value)) throw InputError("checkpoint", text("note '", name, "'"), value, "finite");
+    for (const double value : from.method.positions)
+        if (!std::isfinite(value)) throw InputError("checkpoint", "position at the first start", value, "finite");
+}
+
+// What its role drives at a constant rate goes on in the digits of the first start.
+std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from) {
+    check(from);
+    const int n = system.model.size();
+    if (from.method.positions.size() != n || from.qd.size() != n) return drives;
+    for (int i = 0; i < n; ++i) {
+        const bool given = std::ranges::find(drives, i, &Drive::coordinate) != drives.end();
+        if (!given && system.model.coordinates()[i].role == CoordinateRole::driven)
+            drives.push_back({i, Motion::constant_rate(from.method.positions(i), from.qd(i), from.method.since)});
+    }
+    return drives;
+}
+
+}  // namespace
+
+Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
+                       IntegrationOptions options)
+    : Integrator(system, drives_from(system, std::move(drives), from), from.time, from.q, from.qd, std::move(options)) {
+    go_on_from(from);
+}
+
+void Integrator::go_on_from(const Checkpoint& from) {
+    works_ = from.works;
+    kinetic_at_start_ = from.kinetic_at_start;
+    potential_at_start_ = from.potential_at_start;
+    notes_ = from.notes;
+    earlier_ = from.statistics;
+    if (from.method.positions.size() == positions_.size()) {
+        since_ = from.method.since;
+        positions_ = from.method.positions;
+    }
+    from_ = from.method;
+    repeat_pending_ = from_.steps >= 0;
+    if (!repeat_pending_) ++earlier_.restarts;
+}
+
+// If the state at the checkpoint comes out again in all digits, the method is where it was. If not, something is
+// different - forces, options, the processor - and it starts anew.
+void Integrator::repeat_steps() {
+    repeat_pending_ = false;
+    bool same = stepper_->repeat(from_, piece_end_) && stepper_->time() >= state_.time;
+    if (same) {
+        stepper_->state_at(state_.time, x_between_.data());
+        same = x_between_ == x_;
+    }
+    const IntegrationStatistics repeated = stepper_->statistics(), before = earlier_;
+    earlier_ = sum(before, repeated, -1);
+    start_pending_ = !same;
+    if (same)
+        starts_ = 1;
+    else
+        ++earlier_.restarts;
+}
+
+EnergyBalance Integrator::energy() {
+    if (!options_.works) throw InputError(in_integration, "works", "off", "on, for a balance of energy");
+    EnergyBalance balance;
+    balance.kinetic = equations_.kinetic_energy(state_);
+    balance.potential = equations_.potential_energy(state_);
+    balance.dissipated = works_.dissipation;
+    balance.drives = works_.drives;
+    balance.loads = works_.forces + works_.dissipation + balance.potential - potential_at_start_;
+    balance.error = balance.kinetic - kinetic_at_start_ - works_.forces - works_.drives;
+    return balance;
+}
+
+IntegrationStatistics Integrator::statistics() const {
+    IntegrationStatistics own = stepper_->statistics();
+    own.restarts = std::max(0L, starts_ - 1);
+    return sum(earlier_, own);
+}
+
+Checkpoint Integrator::checkpoint() const {
+    MethodState method = repeat_pending_ ? from_ : stepper_->origin();
+    // A start is to come, here or at the end of the action.
+    if ((start_pending_ && !repeat_pending_) || state_.time >= piece_end_ || doing_ == Doing::acting) method.steps = -1;
+    method.since = since_;
+    method.positions = positions_;
+    return {state_.time,         state_.q,     state_.qd, works_, kinetic_at_start_,
+            potential_at_start_, statistics(), notes_,    method};
+}
+
+void Integrator::note(const std::string& name, double value) {
+    // A history keeps it under that name in a group of its own.
+    if (name.empty() || name == "." || name.find('/') != std::string::npos)
+        throw InputError(in_integration, "name of a note", text("'", name, "'"),
+                         "neither empty nor '.', and without '/'");
+    notes_[name] = value;
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,68 @@
+/// @file
+/// Prescribed motions of driven coordinates as functions of time.
+#pragma once
+
+#include "mbs/base/travel.hpp"
+#include "mbs/base/types.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cardan::solvers {
+
+/// Position, velocity and acceleration of one coordinate; rad or m, and per s, s^2.
+struct MotionState {
+    double position = 0, velocity = 0, acceleration = 0;
+};
+
+/// A function of time with its exact derivatives. Between two neighbouring breaks() it is smooth (has derivatives of
+/// all orders, for function() as many as the function has); across a break position and velocity are continuous.
+/// Evaluation allocates nothing, but what a function of the user's own allocates.
+///
+/// All lengths of time in s, times on the clock of the integration, values in rad or m. Values that are not finite,
+/// times that do not rise and periods that are not positive throw InputError.
+class Motion {
+public:
+    /// Held at a position.
+    static Motion constant(double position);
+    /// position + rate (t - since).
+    static Motion constant_rate(double position, double rate, double since = 0);
+    /// Rest at `from` until t0, rest at `to` from t1 on, between them the quintic 10 x^3 - 15 x^4 + 6 x^5: acceleration
+    /// continuous, greatest velocity 15/8 of the mean one.
+    static Motion ramp(double from, double to, double t0, double t1);
+    /// The same for the rate, from `rate_from` to `rate_to`; the position is `position` at t0. Start-up and shut-down
+    /// of a rotor. Derivative of the acceleration continuous.
+    static Motion rate_ramp(double position, double rate_from, double rate_to, double t0, double t1);
+    /// To rest at a target within limits of rate and acceleration, from any state (see Travel): a drive with orders. As
+    /// the action of an event: set_motion(i, Motion::travel({t, {q, qd, 0}, target, limits})).
+    static Motion travel(const Travel& travel);
+    /// mean + amplitude sin(2 pi t / period + phase); phase in rad.
+    static Motion harmonic(double mean, double amplitude, double period, double phase = 0);
+    /// Piecewise cubic through points, monotone where the points are: velocity continuous, acceleration jumps at the
+    /// points. Outside the table the motion goes on at the velocity of the end.
+    /// @param times  at least two, rising               [Fritsch and Butland 1984; end slopes: Moler 2004, section 3.6]
+    static Motion table(std::vector<double> times, std::vector<double> values);
+    /// A function of the user's own. Nothing but the result being finite is checked, where it is used.
+    /// @param breaks  times, rising, across which it is not smooth; position and velocity have to be continuous
+    static Motion function(std::function<MotionState(double time)> own, std::vector<double> breaks = {});
+
+    MotionState at(double time) const { return law_(time, time); }
+    /// The same of the smooth piece that holds at the time `inside`, continued to `time`: at a break this tells left
+    /// from right. A function of the user's own is evaluated at `time`.
+    MotionState at(double time, double inside) const { return law_(time, inside); }
+    /// Times, rising, across which a higher derivative jumps: a method of higher order has to stop and start there.
+    const std::vector<double>& breaks() const { return breaks_; }
+    /// What it is: "ramp", "table" ...
+    const std::string& kind() const { return kind_; }
+
+private:
+    using Law = std::function<MotionState(double time, double inside)>;
+    Motion(std::string kind, Law law, std::vector<double> breaks = {});
+
+    std::string kind_;
+    Law law_;
+    std::vector<double> breaks_;
+};
+
+}  // namespace cardan::solvers

@@ -1,0 +1,164 @@
+// Our own YAML: what is written is read again bit for bit, and nothing else is read.
+#include "tests/support/catch.hpp"
+#include "tests/turbines/readers/model_files.hpp"
+#include "turbines/machines/wt600.hpp"
+#include "turbines/model/assembly.hpp"
+#include "turbines/model/beam_table.hpp"
+
+using namespace cardan;
+using namespace cardan::turbines;
+using Catch::Matchers::Contains;
+using test::message_of;
+
+namespace {
+
+// The same bits, section by section, at places that are stations and at others.
+void check_same_bits(const BeamLine& a, const BeamLine& b) {
+    REQUIRE(a.length == b.length);
+    CHECK(a.breaks == b.breaks);
+    CHECK(a.name == b.name);
+    CHECK(a.is_straight() == b.is_straight());
+    for (int i = 0; i <= 60; ++i) {
+        const double x = a.length * i / 60.0;
+        const BeamSection s = a.section(x), t = b.section(x);
+        CHECK(s.compliance == t.compliance);
+        CHECK(s.mass == t.mass);
+        CHECK(s.centre == t.centre);
+        CHECK(s.J == t.J);
+        CHECK(s.beta == t.beta);
+        CHECK(a.pose(x).R == b.pose(x).R);
+        CHECK(a.pose(x).p == b.pose(x).p);
+    }
+}
+
+void check_round_trip(const TurbineDescription& d) {
+    const std::string written = to_yaml(d);
+    const TurbineDescription read = parse_description(written, "machine.yaml");
+    CHECK(to_yaml(read) == written);
+    check_same_bits(d.tower.line, read.tower.line);
+    check_same_bits(d.blade.line, read.blade.line);
+    CHECK(read.name == d.name);
+    CHECK(read.source == d.source);
+    CHECK(read.nacelle.inertia.J == d.nacelle.inertia.J);
+    CHECK(read.nacelle.inertia.com == d.nacelle.inertia.com);
+    CHECK(read.nacelle.inertia.reduced == d.nacelle.inertia.reduced);
+    CHECK(read.nacelle.tilt == d.nacelle.tilt);
+    CHECK(read.blade.cone == d.blade.cone);
+    CHECK(read.yaw.rotation.stiffness == d.yaw.rotation.stiffness);
+    CHECK(read.blade.damping.time_constants == d.blade.damping.time_constants);
+    CHECK(read.blade.damping.modal.bending_y == d.blade.damping.modal.bending_y);
+}
+
+std::string small() {
+    static const std::string text = to_yaml(read_openfast(test::data_file("openfast/small.fst")).description);
+    return text;
+}
+
+std::string message_after(const std::string& old_text, const std::string& new_text) {
+    std::string changed = small();
+    const std::size_t at = changed.find(old_text);
+    if (at == std::string::npos) return "no such text";
+    changed.replace(at, old_text.size(), new_text);
+    return message_of([&] { (void)parse_description(changed, "machine.yaml"); });
+}
+
+}  // namespace
+
+TEST_CASE("description yaml: written and read again it is the same machine, bit for bit", "[property]") {
+    SECTION("ElastoDyn") {
+        check_round_trip(read_openfast(test::data_file("openfast/small.fst")).description);
+    }
+    SECTION("BeamDyn, curved") {
+        check_round_trip(read_openfast(test::data_file("openfast/small_BeamDyn.fst")).description);
+    }
+    SECTION("texts with quotes, line ends, control characters; numbers of all sizes") {
+        TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
+        d.name = "a \"quoted\" \\ name: # no comment\t\x01 \xC3\xA4";
+        d.source = "1\n\n 2: x\r\n- y\n";
+        d.nacelle.inertia.J << 1.0 / 3, 5e-324, -1e-300, 5e-324, 1.7976931348623157e308, 0.1, -1e-300, 0.1, 2.0 / 7;
+        d.blade.damping.time_constants = {0.1, 1e-17, 3, 0, 1.0 / 3, 2};
+        d.blade.cone = -0.0;
+        check_round_trip(d);
+    }
+}
+
+TEST_CASE("description yaml: a file is written and read", "[property]") {
+    const test::Folder folder;
+    const TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
+    write_description(d, folder / "machine.yaml");
+    CHECK(to_yaml(read_description(folder / "machine.yaml")) == to_yaml(d));
+    CHECK(is_description(test::bytes_of(folder / "machine.yaml")));
+    CHECK_FALSE(is_description("windIO_version: 2\n"));
+    CHECK_THAT(message_of([&] { write_description(d, folder / "no/machine.yaml"); }), Contains("machine.yaml"));
+    CHECK_THAT(message_of([&] { (void)read_description(folder / "none.yaml"); }),
+               Contains("none.yaml: cannot be read"));
+}
+
+TEST_CASE("description yaml: lines that are functions are refused, sampled ones come near", "[property]") {
+    TurbineDescription d = wt600_description();
+    CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("tower: sections = a function"));
+    const BeamLine tower = d.tower.line, blade = d.blade.line;
+    d.tower.line = beam_line(sampled(tower, 64));
+    d.blade.line = beam_line(sampled(blade, 64));
+    check_round_trip(d);
+    // Linear between 64 stations per piece: the error goes with the square of their distance.
+    const double fine = test::difference(blade, d.blade.line),
+                 coarse = test::difference(blade, beam_line(sampled(blade, 32)));
+    CHECK(fine < 1e-3);
+    CHECK(coarse / fine == Approx(4).epsilon(0.3));
+    // The wall of the tower jumps: both sides are kept.
+    for (double x : tower.breaks)
+        for (double at : {x - 1e-3, x + 1e-3})
+            if (at > 0 && at < tower.length)
+                CHECK(d.tower.line.section(at).mass == Approx(tower.section(at).mass).epsilon(1e-4));
+}
+
+TEST_CASE("description yaml: what the format does not have is refused with file, line and what is allowed",
+          "[property]") {
+    CHECK_THAT(message_after("cardan_turbine: 1", "cardan_turbine: 2"),
+               Contains("machine.yaml:2:17: cardan_turbine: version 2; allowed: 1"));
+    CHECK_THAT(message_after("  tilt: ", "  titl: "),
+               Contains("nacelle: no 'tilt'; there are: inertia, shaft_height, titl"));
+    CHECK_THAT(message_after("\nhub:\n", "\nhub:\n  colour: red\n"),
+               Contains("hub.colour: not a key of the format; allowed: inertia, radius"));
+    CHECK_THAT(message_after("\nhub:\n", "\nhub:\n  radius: 1\n"), Contains("hub: the key 'radius' is there twice"));
+    CHECK_THAT(message_after("overhang: 2", "overhang: .nan"),
+               Contains("nacelle.overhang: '.nan' is not a finite number"));
+    CHECK_THAT(message_after("overhang: 2", "overhang: .inf"),
+               Contains("nacelle.overhang: '.inf' is not a finite number"));
+    CHECK_THAT(message_after("blades: 3", "blades: 2.5"), Contains("blades: 2.5; allowed: 1 ..."));
+    CHECK_THAT(message_after("reduced: true", "reduced: maybe"), Contains("'maybe' is neither true nor false"));
+    CHECK_THAT(message_after("interpolation: linear", "interpolation: cubic"),
+               Contains("'cubic'; allowed: linear, log_linear_stiffness"));
+    CHECK_THAT(message_after("com: [", "com: [0, "), Contains("com: 4 numbers; allowed: 3"));
+    CHECK_THAT(message_after("stations: [0, ", "stations: [0, 0.1, "), Contains("allowed: 5, one per station"));
+    CHECK_THAT(message_after("stations: [0, ", "stations: [0.5, "), Contains("first station [m] = 0.5; allowed: 0"));
+    CHECK_THAT(message_after("blades: 3", "blades: [3"), Contains("is not YAML"));
+    CHECK_THAT(message_of([] { (void)parse_description("- 1\n", "m.yaml"); }),
+               Contains("m.yaml:1: a YAML map expected"));
+    CHECK_THAT(message_of([] { (void)parse_description("", "m.yaml"); }), Contains("m.yaml:1:"));
+    TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
+    d.nacelle.tilt = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("tilt: number = nan; allowed"));
+}
+
+TEST_CASE("description yaml: the record of a machine that was assembled is that machine, changes included",
+          "[property]") {
+    const auto recorded = [](const std::string& record) {
+        const std::size_t at = record.find("cardan_turbine: 1");
+        return parse_description(at == std::string::npos ? "" : record.substr(at), "record");
+    };
+    TurbineDescription d = wt600_description();
+    d.yaw.rotation.stiffness *= 2;
+    d.blade.cone += 0.01;
+    const Turbine turbine = assemble(d, {.tower_elements = 1, .blade_elements = 1});
+    const TurbineDescription read = recorded(turbine.rotor().description);
+    CHECK(read.yaw.rotation.stiffness == d.yaw.rotation.stiffness);
+    CHECK(read.blade.cone == d.blade.cone);
+    CHECK(read.name == d.name);
+    CHECK(test::difference(read.blade.line, d.blade.line) < 0.02);  // its sections are a function: sampled
+    CHECK(recorded(isolated_blade(d).rotor().description).blade.cone == d.blade.cone);
+    CHECK(recorded(isolated_tower(d).rotor().description).yaw.rotation.stiffness == d.yaw.rotation.stiffness);
+    const TurbineDescription tables = read_openfast(test::data_file("openfast/small.fst")).description;
+    CHECK(as_computed(tables) == to_yaml(tables));
+}

@@ -1,0 +1,202 @@
+// windIO files of both versions.
+#include "mbs/base/units.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/turbines/readers/model_files.hpp"
+#include "turbines/model/beam_table.hpp"
+#include "turbines/readers/beamdyn.hpp"
+#include "turbines/yaml/windio.hpp"
+
+using namespace cardan;
+using namespace cardan::turbines;
+using Catch::Matchers::Contains;
+using test::message_of;
+
+namespace {
+
+using units::degree;
+
+std::string message_after(const char* file, const char* old_text, const char* new_text) {
+    const test::ModelFolder model("windio");
+    model.replace(file, old_text, new_text);
+    return message_of([&] { (void)read_windio(model / file); });
+}
+
+}  // namespace
+
+TEST_CASE("windio: both versions of one machine are read as the same", "[crosscheck]") {
+    const TurbineFile one = read_windio(test::data_file("windio/small_v1.yaml")),
+                      two = read_windio(test::data_file("windio/small_v2.yaml"));
+    const TurbineDescription &a = one.description, &b = two.description;
+    CHECK(test::difference(a.blade.line, b.blade.line) < 1e-13);
+    CHECK(test::difference(a.tower.line, b.tower.line) == 0);
+    CHECK(a.nacelle.tilt == Approx(b.nacelle.tilt).epsilon(1e-14));
+    CHECK(a.blade.cone == Approx(b.blade.cone).epsilon(1e-14));
+    CHECK(a.nacelle.overhang == Approx(b.nacelle.overhang).epsilon(1e-14));
+    CHECK(a.hub.inertia.J == b.hub.inertia.J);
+    CHECK(a.nacelle.inertia.J.isApprox(b.nacelle.inertia.J, 1e-14));
+    CHECK(a.drive_train.generator_inertia == b.drive_train.generator_inertia);
+    CHECK(a.blades == b.blades);
+    // Only version 2 has them.
+    CHECK(a.drive_train.main_shaft.is_rigid());
+    CHECK(b.drive_train.main_shaft.stiffness == 5e6);
+    CHECK(a.blade.damping.time_constants == std::array<double, 6>{});
+    CHECK(b.blade.damping.time_constants == std::array<double, 6>{1.2e-3, 1.1e-3, 1.0e-3, 1.5e-3, 1.4e-3, 1.3e-3});
+    CHECK(one.rotor_speed == 4.7);
+    CHECK(two.rotor_speed == 0);
+    CHECK(test::has_note(one.notes, "torsional stiffness", "rigid"));
+    CHECK(test::has_note(one.notes, "components.blade.internal_structure_2d_fem", "not used"));
+    CHECK(test::has_note(one.notes, "components.hub.drag_coefficient", "not used"));
+    CHECK(test::has_note(one.notes, "control.torque.tsr", "not used"));
+    CHECK(test::has_note(one.notes, "environment", "without meaning"));
+    CHECK(test::has_note(two.notes, "components.drivetrain.gearbox.efficiency", "not used"));
+    CHECK(test::has_note(two.notes, "components.yaw.elastic_properties.mass", "part of the nacelle"));
+}
+
+TEST_CASE("windio: figures in the frames and units of the library", "[analytic]") {
+    const TurbineDescription d = read_windio(test::data_file("windio/small_v2.yaml")).description;
+    CHECK(d.hub.radius == 0.5);
+    CHECK(d.blade.cone == Approx(-2 * degree));  // away from the tower: upwind
+    CHECK(d.nacelle.tilt == Approx(4 * degree));
+    // The rotor centre is 2 m upwind and 1.1 m above the tower top.
+    const double t = d.nacelle.tilt;
+    CHECK(d.nacelle.overhang * std::cos(t) == Approx(2).epsilon(1e-14));
+    CHECK(d.nacelle.shaft_height + d.nacelle.overhang * std::sin(t) == Approx(1.1).epsilon(1e-14));
+    // x along the shaft becomes z, z up becomes x (blade 1), y becomes -y.
+    CHECK(d.hub.inertia.com.isApprox(Vec3(0, 0, 0.1)));
+    Mat3 J;
+    J << 210, -3, 2, -3, 200, -1, 2, -1, 300;
+    CHECK(d.hub.inertia.J.isApprox(J, 1e-14));
+    CHECK(d.nacelle.inertia.mass == 4650);
+    CHECK(d.nacelle.inertia.com.isApprox(Vec3(0.2, 0.05, 0.6) * 4500 / 4650, 1e-14));
+}
+
+// As windIO's own converters between its versions have it: rad/s in 1, rev/min from 2.0 on, other names from 2.1 on.
+TEST_CASE("windio: the rotor speed is that of its version, in rad/s", "[analytic]") {
+    for (const char* control : {"{torque: {VS_maxspd: 45.0}}", "{max_rotor_speed: 45.0}",
+                                "{max_rotor_speed: 50.0, rated_rotor_speed: 45.0}"}) {
+        CAPTURE(control);
+        const test::ModelFolder model("windio");
+        model.replace("small_v2.yaml", "materials:", text("control: ", control, "\nmaterials:"));
+        CHECK(read_windio(model / "small_v2.yaml").rotor_speed == Approx(1.5 * pi).epsilon(1e-14));
+    }
+}
+
+TEST_CASE("windio: the tower is a tube of the given wall", "[crosscheck]") {
+    const BeamLine line = read_windio(test::data_file("windio/small_v1.yaml")).description.tower.line;
+    TubeSpec spec;
+    spec.length = 12;
+    spec.diameter_base = spec.diameter_top = 1.8;
+    spec.wall_thickness = {0.010};
+    spec.E = 2.1e11;
+    spec.G = 8.1e10;
+    spec.density = 1.05 * 7850;
+    const BeamLine cylinder = tube(spec);
+    CHECK(line.length == 24);
+    for (double x : {0.0, 5.0, 11.9}) {
+        const BeamSection a = cylinder.section(x), b = line.section(x);
+        CHECK((a.compliance - b.compliance).norm() < 1e-13 * a.compliance.norm());
+        CHECK(b.mass == Approx(a.mass).epsilon(1e-13));
+        CHECK((a.J - b.J).norm() < 1e-13 * a.J.norm());
+    }
+    // The upper half tapers; between stations h = 1.5 m apart the error of EI ~ D^3 is h^2/8 6 (D'/D)^2 < 3e-3.
+    spec.diameter_top = 1.2;
+    const BeamLine cone = tube(spec);
+    for (double x : {0.7, 3.0, 8.2}) {
+        const BeamSection a = cone.section(x), b = line.section(12 + x);
+        CHECK(b.compliance(4, 4) == Approx(a.compliance(4, 4)).epsilon(3e-3));
+        CHECK(b.mass == Approx(a.mass).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("windio: matrices of the tower, where given, are read instead of its layers", "[analytic]") {
+    const std::vector<double> K = {1e9, 1.1e9, 8e9, 3e10, 2.5e10, 2e10}, mu = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
+    std::string
+        two =
+            "      elastic_properties:\n        structural_damping: {mu: [0.01, 0.02, 0.03, 0.04, 0.05, 0.06]}\n"
+            "        stiffness_matrix:\n          grid: [0.0, 1.0]\n",
+        one =
+            "    elastic_properties_mb:\n      six_x_six:\n        stiff_matrix:\n          grid: [0.0, 1.0]\n"
+            "          values:\n";
+    std::string row;
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = i; j < 6; ++j) {
+            const std::string entry = std::to_string(i == j ? K[i] : 0.0);
+            two += text("          K", i + 1, j + 1, ": [", entry, ", ", entry, "]\n");
+            row += (row.empty() ? "" : ", ") + entry;
+        }
+    two +=
+        "        inertia_matrix: {grid: [0.0, 1.0], mass: [2000.0, 1000.0], cm_x: [0.1, 0.1], cm_y: [0.2, 0.2],\n"
+        "          i_edge: [700.0, 700.0], i_flap: [600.0, 600.0], i_plr: [1300.0, 1300.0], i_cp: [0.0, 0.0]}\n";
+    // m, 0, 0, 0, 0, -m y; m, 0, 0, 0, m x; m, m y, -m x, 0; edge, 0, 0; flap, 0; polar
+    const std::string mass =
+                          "[2000, 0, 0, 0, 0, -400, 2000, 0, 0, 0, 200, 2000, 400, -200, 0, 700, 0, 0, 600, 0, 1300]",
+                      half =
+                          "[1000, 0, 0, 0, 0, -200, 1000, 0, 0, 0, 100, 1000, 200, -100, 0, 700, 0, 0, 600, 0, 1300]";
+    one += text("            - [", row, "]\n            - [", row, "]\n        inertia_matrix:\n",
+                "          grid: [0.0, 1.0]\n          values:\n            - ", mass, "\n            - ", half, "\n");
+    const test::ModelFolder model("windio");
+    model.replace("small_v2.yaml", "      outfitting_factor: 1.05\n", two);
+    model.replace("small_v1.yaml", "  tower:\n", "  tower:\n" + one);
+    const TurbineFile a = read_windio(model / "small_v2.yaml"), b = read_windio(model / "small_v1.yaml");
+    CHECK(test::difference(a.description.tower.line, b.description.tower.line) < 1e-13);
+    // Along the tower, downwind, to the left.
+    const BeamSection section = a.description.tower.line.section(12);
+    const Vec6 stiffness = section.compliance.diagonal().cwiseInverse();
+    CHECK(stiffness.isApprox((Vec6() << K[2], K[0], K[1], K[5], K[3], K[4]).finished(), 1e-13));
+    CHECK(section.mass == Approx(1500).epsilon(1e-13));
+    CHECK(section.centre.isApprox(Vec3(0, 0.1, 0.2), 1e-12));
+    CHECK(section.J(1, 1) == Approx(700 - 1500 * 0.04).epsilon(1e-12));
+    CHECK(section.J(2, 2) == Approx(600 - 1500 * 0.01).epsilon(1e-12));
+    CHECK(a.description.tower.damping.time_constants ==
+          std::array<double, 6>{mu[2], mu[0], mu[1], mu[5], mu[3], mu[4]});
+    CHECK(test::has_note(a.notes, "components.tower.structure.layers", "not used"));
+    CHECK(test::has_note(b.notes, "components.tower.internal_structure_2d_fem", "not used"));
+}
+
+TEST_CASE("windio: the blade is that of a BeamDyn file with the same figures", "[crosscheck]") {
+    const test::ModelFolder model("openfast");
+    const BeamLine windio = read_windio(test::data_file("windio/small_v2.yaml")).description.blade.line;
+    const BeamTable* table = table_of(windio);
+    REQUIRE(table != nullptr);
+    // Without sweep and couplings the file of the tests has the same line and the same masses.
+    std::string main = test::bytes_of(model / "small_BeamDyn.dat");
+    for (const char* sweep : {"0.0100", "0.0500", "0.1400", "0.3000"}) {
+        const std::size_t at = main.find(text("      ", sweep));
+        REQUIRE(at != std::string::npos);
+        main.replace(at, 12, "      0.0000");
+    }
+    model.write("small_BeamDyn.dat", main);
+    const BeamLine beamdyn = read_beamdyn(model / "small_BeamDyn.dat").beam.line;
+    CHECK(windio.length == Approx(beamdyn.length).epsilon(1e-12));
+    for (double s : {0.0, 0.3, 0.55, 0.8, 1.0}) {
+        const double x = s * windio.length;
+        const BeamSection a = windio.section(x), b = beamdyn.section(s * beamdyn.length);
+        CHECK(a.mass == Approx(b.mass).epsilon(1e-9));
+        CHECK((a.centre - b.centre).norm() < 1e-4);    // turned by the twist
+        CHECK(a.beta == Approx(b.beta).margin(1e-3));  // twist by fractions of arc there, at the key points here
+        CHECK((windio.pose(x).p - beamdyn.pose(s * beamdyn.length).p).norm() < 1e-9);
+    }
+}
+
+TEST_CASE("windio: what cannot be read is told with file, line and place", "[property]") {
+    CHECK_THAT(message_after("small_v2.yaml", "windIO_version: \"2.0\"", "windIO_version: \"3.0\""),
+               Contains("version 3.0; allowed: 1.x and 2.x"));
+    CHECK_THAT(message_after("small_v2.yaml", "cone_angle", "cone"), Contains("no components.hub.cone_angle"));
+    CHECK_THAT(message_after("small_v2.yaml", "K36", "K63"), Contains("no 'K36'; there are: "));
+    CHECK_THAT(message_after("small_v2.yaml", "material: steel", "material: iron"), Contains("no material 'iron'"));
+    CHECK_THAT(message_after("small_v2.yaml", "E: 2.1e+11", "E: [1.0, 2.0, 3.0]"),
+               Contains("several values; allowed: one"));
+    CHECK_THAT(message_after("small_v2.yaml", "mu: [", "mu: [0.1, "), Contains("mu: 7 numbers; allowed: 6"));
+    CHECK_THAT(message_after("small_v2.yaml", "grid: [0.0, 0.4, 1.0]", "grid: [0.0, 1.4, 1.0]"),
+               Contains("1 after 1.4"));
+    CHECK_THAT(message_after("small_v2.yaml", "diameter: 1.0", "diameter: one"),
+               Contains("components.hub.diameter: 'one' is not a finite number"));
+    const test::ModelFolder degrees("windio");
+    for (int k = 0; k < 2; ++k) degrees.replace("small_v1.yaml", "[0.24434609527920614", "[14.0");
+    CHECK_THAT(message_of([&] { (void)read_windio(degrees / "small_v1.yaml"); }),
+               Contains("twist of 14; allowed: half a turn at most (version 1 counts in rad)"));
+    CHECK_THAT(message_after("small_v1.yaml", "elastic_properties_mb", "elastic"),
+               Contains("no components.blade.structure.elastic_properties or "));
+    CHECK_THAT(message_of([] { (void)read_windio("no/such.yaml"); }), Contains("no/such.yaml: cannot be read"));
+    CHECK_THAT(message_of([] { (void)parse_windio("a: b: c\n", "x.yaml"); }), Contains("x.yaml:1:"));
+}

@@ -1,0 +1,107 @@
+/// @file
+/// From a description to a system: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
+#pragma once
+
+#include "elements/machine/coordinate_force.hpp"
+#include "mbs/model/rotor_map.hpp"
+#include "mbs/system/system.hpp"
+#include "turbines/model/description.hpp"
+#include "turbines/model/platform.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace cardan::turbines {
+
+/// The main shaft as one beam element instead of a torsion spring: bending stiffness of its own, torsion from the
+/// description (GJ = stiffness x overhang). It reaches from the tilt joint to the hub.
+struct ShaftBeam {
+    double EI = 0;    ///< N m^2
+    double mass = 1;  ///< kg/m; not zero, for nothing else gives the tilt joint an inertia apart from the hub's
+};
+
+struct AssemblyOptions {
+    int tower_elements = 3;
+    int blade_elements = 3;
+    std::optional<double> delta = {};  ///< of tower and blades; empty: what suits the partition; see CardanBeamOptions
+    Partition partition = Partition::segment_masses;
+    double pitch = 0;                ///< of all blades, leading edge upwind positive, rad
+    Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2
+    bool structural_damping = true;  ///< of tower and blades
+    bool joint_damping = true;       ///< of yaw, tilt, drive train, pitch
+    std::optional<ShaftBeam> shaft_beam = std::nullopt;
+    /// Under the whole machine, prescribed or free: a floating platform, a shaking table; none: the ground.
+    std::optional<PlatformOptions> platform = std::nullopt;
+    /// Elements of tower and blades in full: extension, torsion, element ends ... They take the place of numbers of
+    /// elements, delta and partition above. Their damping must be empty: the description has it.
+    std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
+};
+
+/// Where things are in the tree of a machine, for loads and channels. What a machine does not have is empty.
+struct MachineLayout {
+    /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
+    std::optional<MovingBase> platform;
+    std::optional<CardanBeam> tower;
+    FrameId tower_foot, tower_top;         ///< axes of the tower's beam; x downwind, z up at rest
+    FrameId shaft;                         ///< carries the drive train, x along the shaft, downwind
+    FrameId hub;                           ///< see RotorMap
+    std::optional<BodyId> yaw, generator;  ///< the generator's azimuth is the spin coordinate
+    CoordinateSum azimuth;                 ///< of the hub relative to the shaft frame
+    double gear_ratio = 1;                 ///< generator speed over the rate of its coordinate
+    std::vector<CardanBeam> blades;
+    std::vector<FrameId> pitch_axes;   ///< per blade, before the pitch joint: x along the blade, z downwind
+    std::vector<FrameId> blade_roots;  ///< behind pitch joint and pitch setting: the blade's axes
+    std::vector<BodyId> pitch;         ///< pitch joints; their coordinates are positive away from feather
+    double pitch_setting = 0;          ///< rad, positive toward feather
+};
+
+/// A machine ready for the solvers. Immutable and cheap to copy.
+class Turbine {
+public:
+    const System& system() const { return *system_; }
+    const RotorMap& rotor() const { return rotor_; }
+    const Tree& tree() const { return *tree_; }
+    const ForceSet& forces() const { return *forces_; }
+    const MachineLayout& layout() const { return *layout_; }
+    /// The same machine under other forces: mostly a copy of forces() with generator, brake or loads added.
+    /// @param remark  what they are, for the description in files
+    /// @throws InputError as System does
+    Turbine with_forces(const ForceSet& forces, const std::string& remark = {}) const;
+    const std::string& source() const { return source_; }
+    const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.
+    std::string summary() const;
+
+private:
+    friend Turbine assemble(const TurbineDescription&, const AssemblyOptions&);
+    friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&);
+    friend Turbine isolated_tower(const TurbineDescription&, const AssemblyOptions&, bool);
+    Turbine() = default;
+    void finish(const class Assembler& assembler, const std::string& name, std::string source,
+                const std::string& settings);
+
+    std::shared_ptr<const Tree> tree_;
+    std::shared_ptr<const ForceSet> forces_;
+    std::shared_ptr<const MachineLayout> layout_;
+    std::shared_ptr<const System> system_;
+    RotorMap rotor_;
+    std::string source_;
+    std::vector<std::string> warnings_;
+};
+
+/// The whole machine. Coordinates in order: platform if there is one, tower, yaw x, y, rotation, tilt, generator,
+/// gearbox, hub (or shaft beam), then every blade's pitch and elements; rigid joints are left out. The spin coordinate
+/// is the generator's azimuth relative to the nacelle.
+/// @throws InputError for bad data; the part is named.
+Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
+
+/// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (with its cone; no pitch
+/// joint, no tilt, no platform).
+Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {});
+
+/// The tower clamped at its foot, alone or with everything above it as one rigid body: blades undeformed, blade 1 up,
+/// at their pitch setting. It has no rotor: only standstill can be asked for.
+Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options = {},
+                       bool with_top = false);
+
+}  // namespace cardan::turbines

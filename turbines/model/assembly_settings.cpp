@@ -1,0 +1,44 @@
+#include "turbines/model/assembly_settings.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+
+namespace cardan::turbines {
+
+namespace {
+
+std::string in_words(const CardanBeamOptions& b) {
+    const std::size_t elements =
+        b.boundaries.empty() ? static_cast<std::size_t>(std::max(b.elements, 0)) : b.boundaries.size() - 1;
+    return text(elements, " elements, ",
+                places_hinges(b.partition) ? std::string() : text("delta ", b.hinge_delta(), ", "),
+                partition_name(b.partition), b.extension ? ", extension free" : ", extension condensed",
+                b.torsion ? ", torsion free" : ", torsion condensed", b.held_y ? ", bending about y held" : "",
+                b.held_z ? ", bending about z held" : "");
+}
+
+// Numbers of elements where they count, else what took their place.
+std::string parts_in_words(const AssemblyOptions& o) {
+    std::string words =
+        o.tower_beam ? text("tower of ", in_words(*o.tower_beam), ", ") : text(o.tower_elements, " tower elements, ");
+    words += o.blade_beam ? text("blades of ", in_words(*o.blade_beam), ", ")
+                          : text(o.blade_elements, " elements per blade, ");
+    if (o.tower_beam && o.blade_beam) return words;
+    return words + text(places_hinges(o.partition) ? std::string()
+                                                   : text("delta ", o.delta.value_or(suited_delta(o.partition)), ", "),
+                        partition_name(o.partition), ", ");
+}
+
+}  // namespace
+
+std::string settings(const AssemblyOptions& o) {
+    return text(
+        parts_in_words(o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
+        ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
+        o.joint_damping ? "on" : "off", ", main shaft ",
+        o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
+        o.platform ? text(", on a ", o.platform->name, " of ", o.platform->inertia.mass, " kg") : std::string());
+}
+
+}  // namespace cardan::turbines

@@ -1,0 +1,33 @@
+// Descriptions as text. Writing needs no YAML library, so that every machine can say what it is.
+#include "turbines/model/description_text.hpp"
+
+#include "mbs/base/pending_file.hpp"
+#include "turbines/model/detail/description_writer.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+std::string written(const TurbineDescription& description, BeamLines lines) {
+    Writer writer(lines);
+    writer.out = text("# A wind turbine, read by cardan. SI units, radians; axes and signs: docs/conventions.md.\n",
+                      "cardan_turbine: ", description_yaml_version, "\n");
+    description_fields(writer, description);
+    return writer.out;
+}
+
+}  // namespace
+
+std::string to_yaml(const TurbineDescription& description) {
+    return written(description, BeamLines::exact);
+}
+
+std::string as_computed(const TurbineDescription& description) {
+    return written(description, BeamLines::near);
+}
+
+void write_description(const TurbineDescription& description, const std::filesystem::path& path) {
+    write_file(path, to_yaml(description));
+}
+
+}  // namespace cardan::turbines

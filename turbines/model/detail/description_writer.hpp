@@ -1,0 +1,158 @@
+/// @file
+/// Writes descriptions of machines as YAML. Inside of the library: not installed.
+#pragma once
+
+#include "mbs/base/error.hpp"
+#include "turbines/model/detail/description_fields.hpp"
+
+#include <charconv>
+#include <limits>
+
+namespace cardan::turbines {
+
+// As the reader takes them.
+inline std::string digits(double value, const std::string& where, bool or_infinite = false) {
+    if (or_infinite && value == std::numeric_limits<double>::infinity()) return ".inf";
+    if (!std::isfinite(value)) throw InputError(where, "number", value, or_infinite ? "finite, or infinite" : "finite");
+    std::array<char, 40> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return std::string(buffer.data(), end);
+}
+
+inline std::string quoted(const std::string& words) {
+    constexpr auto hex = "0123456789abcdef";
+    std::string out = "\"";
+    for (char c : words) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\')
+            out += std::string("\\") + c;
+        else if (c == '\n')
+            out += "\\n";
+        else if (byte < 0x20 || byte == 0x7F)
+            out += std::string("\\x") + hex[byte >> 4] + hex[byte & 15];
+        else
+            out += c;
+    }
+    return out + "\"";
+}
+
+// Beam lines that are no tables are refused, or told by a table that comes near.
+enum class BeamLines { exact, near };
+
+// Writes block by block, lists of numbers in one line.
+class Writer {
+public:
+    explicit Writer(BeamLines lines) : lines_(lines) {}
+    void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
+    void integer(const char* key, int value) {
+        if (value < 1 || value > most_counted) throw InputError(key, "number", value, text("1 ... ", most_counted));
+        entry(key, text(value));
+    }
+    void number(const char* key, double value) { entry(key, digits(value, key)); }
+    void spring(const char* key, const Spring& s) {
+        entry(key, text("{stiffness: ", digits(s.stiffness, key, true), ", damping: ", digits(s.damping, key), "}"));
+    }
+    void inertia(const char* key, const RigidInertia& i) {
+        group(key, [&] {
+            number("mass", i.mass);
+            entry("com", list(i.com));
+            entry("J", rows(i.J));
+            entry("reduced", i.reduced ? "true" : "false");
+        });
+    }
+    void prismatic_beam(const char* key, double length, EngineeringSection section) {
+        group(key, [&] {
+            number("length", length);
+            group("section", [&] {
+                for (const SectionColumn& column : section_columns())
+                    entry(column.name, digits(column.of(section), column.name, column.may_be_infinite));
+            });
+        });
+    }
+    void damping(const char* key, const BeamDamping& d) {
+        group(key, [&] {
+            entry("time_constants", list(d.time_constants));
+            number("mass_proportional", d.mass_proportional);
+            entry("all", list(d.modal.all));
+            entry("bending_y", list(d.modal.bending_y));
+            entry("bending_z", list(d.modal.bending_z));
+            entry("torsion", list(d.modal.torsion));
+            entry("extension", list(d.modal.extension));
+        });
+    }
+    void line(const char* key, const BeamLine& l) {
+        if (const BeamTable* table = table_of(l)) {
+            group(key, [&] { fields(*table); });
+        } else if (lines_ == BeamLines::near) {
+            sampled_line(key, l);
+        } else {
+            throw InputError(l.name, "sections", "a function", "a table (beam_line(), or sampled() of the line)");
+        }
+    }
+    template <class Content>
+    void group(const char* key, const Content& content) {
+        out += text(indentation(), key, ":\n");
+        ++depth_;
+        content();
+        --depth_;
+    }
+    std::string out;
+
+private:
+    // Curved ones, and sections beyond engineering constants, are named at least.
+    void sampled_line(const char* key, const BeamLine& l) {
+        std::optional<BeamTable> table;
+        try {
+            table = sampled(l);
+        } catch (const InputError&) {
+            return word(key, l.name + ": a function of the program");
+        }
+        group(key, [&] { fields(*table); });
+    }
+    std::string indentation() const { return std::string(static_cast<std::size_t>(2 * depth_), ' '); }
+    void entry(const char* key, const std::string& value) { out += text(indentation(), key, ": ", value, "\n"); }
+    template <class Values>
+    std::string list(const Values& values, bool or_infinite = false) const {
+        std::string all;
+        for (double value : values) all += (all.empty() ? "" : ", ") + digits(value, "list", or_infinite);
+        return "[" + all + "]";
+    }
+    template <class M>
+    std::string rows(const M& m) const {
+        std::string all;
+        for (Eigen::Index i = 0; i < m.rows(); ++i)
+            all += (all.empty() ? "" : ", ") + list(std::vector<double>(m.row(i).begin(), m.row(i).end()));
+        return "[" + all + "]";
+    }
+    void fields(const BeamTable& table) {
+        word("name", table.name);
+        entry("stations", list(table.stations));
+        if (!table.sections.empty()) {
+            entry("interpolation", name_of(table.interpolation));
+            group("sections", [&] {
+                for (const SectionColumn& column : section_columns()) {
+                    std::vector<double> values;
+                    for (EngineeringSection section : table.sections) values.push_back(column.of(section));
+                    entry(column.name, list(values, column.may_be_infinite));
+                }
+            });
+        } else {
+            entry("beta", list(table.beta));
+            for (const auto& [key, matrix] : {std::pair{"stiffness", &SectionMatrices::stiffness},
+                                              std::pair{"mass_matrix", &SectionMatrices::mass}}) {
+                out += text(indentation(), key, ":\n");
+                for (const SectionMatrices& m : table.matrices)
+                    out += text(indentation(), "  - ", rows(m.*matrix), "\n");
+            }
+        }
+        if (table.points.empty()) return;
+        entry("shape", name_of(table.shape));
+        out += text(indentation(), "points:\n");
+        for (const Vec3& p : table.points) out += text(indentation(), "  - ", list(p), "\n");
+    }
+
+    BeamLines lines_;
+    int depth_ = 0;
+};
+
+}  // namespace cardan::turbines

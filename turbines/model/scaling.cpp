@@ -1,0 +1,91 @@
+#include "turbines/model/scaling.hpp"
+
+#include "mbs/base/error.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+double power(double s, int exponent) {
+    return std::pow(s, exponent);
+}
+
+RigidInertia scaled(const RigidInertia& body, double s) {
+    RigidInertia out = body;
+    out.mass *= power(s, 3);
+    out.com *= s;
+    out.J *= power(s, 5);
+    return out;
+}
+
+Spring rotational(const Spring& spring, double s) {
+    return {spring.stiffness * power(s, 3), spring.damping * power(s, 4)};
+}
+
+Spring translational(const Spring& spring, double s) {
+    return {spring.stiffness * s, spring.damping * power(s, 2)};
+}
+
+BeamDamping scaled(const BeamDamping& damping, double s) {
+    BeamDamping out = damping;  // ratios stay
+    for (double& time : out.time_constants) time *= s;
+    out.mass_proportional /= s;
+    return out;
+}
+
+BeamSection scaled(const BeamSection& section, double s) {
+    BeamSection out = section;
+    // Strains by forces 1 / s^2, strains by moments and curvatures by forces 1 / s^3, curvatures by moments 1 / s^4.
+    Vec6 size;
+    size << Vec3::Constant(1 / s), Vec3::Constant(1 / power(s, 2));
+    out.compliance = size.asDiagonal() * section.compliance * size.asDiagonal();
+    out.mass *= power(s, 2);
+    out.centre *= s;
+    out.J *= power(s, 4);
+    return out;
+}
+
+}  // namespace
+
+BeamLine scaled(const BeamLine& line, double s) {
+    require_positive(line.name, "factor of lengths", s);
+    BeamLine out = line;
+    out.length *= s;
+    for (double& x : out.breaks) x *= s;
+    if (line.section)
+        out.section = [own = line.section, s, end = line.length](double x) {
+            return scaled(own(std::min(x / s, end)), s);
+        };
+    if (line.axis)
+        out.axis = [own = line.axis, s, end = line.length](double x) {
+            Placement pose = own(std::min(x / s, end));
+            pose.p *= s;
+            return pose;
+        };
+    return out;
+}
+
+TurbineDescription scaled(const TurbineDescription& description, double s) {
+    require_positive(description.name, "factor of lengths", s);
+    TurbineDescription d = description;
+    d.name = text(description.name, ", lengths times ", s);
+    d.tower.line = scaled(d.tower.line, s);
+    d.tower.damping = scaled(d.tower.damping, s);
+    d.yaw = {rotational(d.yaw.rotation, s), translational(d.yaw.translation, s)};
+    d.nacelle.inertia = scaled(d.nacelle.inertia, s);
+    d.nacelle.shaft_height *= s;
+    d.nacelle.overhang *= s;
+    d.nacelle.tilt_bearing = rotational(d.nacelle.tilt_bearing, s);
+    d.drive_train.generator_inertia *= power(s, 5);
+    d.drive_train.gearbox_inertia *= power(s, 5);
+    d.drive_train.high_speed_shaft = rotational(d.drive_train.high_speed_shaft, s);
+    d.drive_train.main_shaft = rotational(d.drive_train.main_shaft, s);
+    d.hub.inertia = scaled(d.hub.inertia, s);
+    d.hub.radius *= s;
+    d.blade.line = scaled(d.blade.line, s);
+    d.blade.damping = scaled(d.blade.damping, s);
+    d.blade.pitch = rotational(d.blade.pitch, s);
+    return d;
+}
+
+}  // namespace cardan::turbines

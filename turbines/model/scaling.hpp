@@ -1,0 +1,26 @@
+/// @file
+/// A machine of another size by the rules of similarity: same materials, same shape, same tip speed.
+#pragma once
+
+#include "turbines/model/description.hpp"
+
+namespace cardan::turbines {
+
+/// The machine with all lengths multiplied by s. Speeds and stresses under aerodynamic loads stay, so that
+///
+///   length, time                          s      mass                                s^3
+///   mass per length, EA, GA               s^2    inertia per length                  s^4
+///   EI, GJ                                s^4    moment of inertia                   s^5
+///   spring, damper of a rotation          s^3, s^4    of a translation               s, s^2
+///   rotor speed, natural frequencies      1/s    power, thrust                       s^2
+///   angles, twist, damping ratios, gear ratio    unchanged
+///
+/// By dimensions frequencies over rotor speed stay exactly the same as long as gravity plays no part: it does not
+/// scale, and the stress of the own weight grows with s. From 5 MW to 15 MW: s = sqrt(3).
+/// @throws InputError unless s is finite and positive
+TurbineDescription scaled(const TurbineDescription& description, double s);
+
+/// The same of a beam.
+BeamLine scaled(const BeamLine& line, double s);
+
+}  // namespace cardan::turbines

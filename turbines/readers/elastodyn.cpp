@@ -1,0 +1,256 @@
+#include "turbines/readers/elastodyn.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+const std::vector<KeywordGroup>& ignored_by_elastodyn() {
+    static const std::vector<KeywordGroup> all{
+        {{"Echo",    "Method",   "DT",        "BldNodes", "TwrNodes",  "SumPrint",  "OutFile",  "TabDelim",
+          "OutFmt",  "TStart",   "DecFact",   "NTwGages", "TwrGagNd",  "NBlGages",  "BldGagNd", "OutList",
+          "BldNd_*", "CompAero", "CompNoise", "TMax",     "AbortMode", "ADAMSPrep", "AnalMode", "NumCrctn"},
+         "output and numerical settings: without meaning for the machine"},
+        {{"ShftGagL", "NcIMU*", "AzimB1Up"}, "places of sensors: without effect on the motion"},
+        {{"FurlFile", "Furling"}, "furling is off"},
+        {{"Teet*", "Delta3"}, "teetering: this machine has none"},
+        {{"YawFrct*", "M_CSmax", "M_FCSmax", "M_MCSmax", "M_CD", "M_FCD", "M_MCD", "sig_v", "sig_v2", "OmgCut"},
+         "friction of the yaw bearing: not part of the model"},
+        {{"Azimuth", "OoPDefl", "IPDefl", "TTDsp*"}, "initial conditions: those of a simulation are given to it here"},
+        {{"PreCone*", "TipMass*", "BldFile*", "BlPitch*", "PBrIner*", "BlPIner*", "PitchDOF", "PtfmYDOF", "UndSling"},
+         "of blades or joints that the machine does not have"}};
+    return all;
+}
+
+// FAST 7 counts as PreCone(1), some files as PreCone1.
+std::string numbered(const OpenFastFile& file, const char* keyword, int blade) {
+    const std::string bare = text(keyword, blade);
+    return file.has(bare) ? bare : text(keyword, "(", blade, ")");
+}
+
+class Reader {
+public:
+    Reader(const std::filesystem::path& path, const ElastoDynContext& context)
+        : file_(OpenFastFile::read(path)), context_(context) {}
+
+    TurbineFile read() {
+        d_.name = file_.title();
+        d_.blades = file_.integer("NumBl", 1, 3);
+        add_source(file_.name(), file_.text());
+        read_tower();
+        read_yaw();
+        read_nacelle();
+        read_drive_train();
+        read_hub();
+        read_blade();
+        read_freedoms();
+        note_states();
+        for (FileNote& note : file_.notes(ignored_by_elastodyn())) out_.notes.push_back(std::move(note));
+        return std::move(out_);
+    }
+
+private:
+    double positive(const char* keyword) {
+        const double value = file_.number(keyword);
+        if (!(value > 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: > 0"));
+        return value;
+    }
+    double not_negative(const char* keyword) {
+        const double value = file_.number(keyword);
+        if (!(value >= 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: >= 0"));
+        return value;
+    }
+    double angle(std::string_view keyword, double limit = 180) {
+        const double value = file_.number(keyword);
+        if (std::abs(value) > limit)
+            file_.fail(keyword, text(keyword, " = ", value, "; allowed: ", -limit, " ... ", limit, " degrees"));
+        return value * units::degree;
+    }
+    void add_source(const std::string& name, const std::string& content) {
+        d_.source += text("# ", name, "\n", content, content.ends_with('\n') ? "" : "\n");
+    }
+    void keep(ElastoDynBeam& beam, const std::string& name) {
+        add_source(name, beam.source);
+        for (FileNote& note : beam.notes) out_.notes.push_back(std::move(note));
+    }
+
+    void read_tower() {
+        const double top = file_.number("TowerHt"), base = file_.number("TowerBsHt");
+        if (!(top > base)) file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above TowerBsHt = ", base));
+        if (base != 0) file_.note("TowerBsHt", "the origin of the ground axes is the foot of the tower here");
+        const std::filesystem::path path = file_.path("TwrFile");
+        ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
+        d_.tower.line = tower.line;
+        d_.tower.damping = tower.damping;
+        keep(tower, path.string());
+    }
+
+    void read_yaw() {
+        d_.yaw.translation = rigid_joint;
+        out_.yaw_drive = context_.yaw;
+        d_.yaw.rotation = file_.flag("YawDOF") ? context_.yaw : rigid_joint;
+        if (file_.flag("YawDOF") && context_.yaw.is_rigid())
+            file_.note("YawDOF", "stiffness and damping of the yaw drive are in the ServoDyn file: rigid without it");
+    }
+
+    void read_nacelle() {
+        NacelleDescription& n = d_.nacelle;
+        n.inertia.mass = not_negative("NacMass");
+        n.inertia.com = {file_.number("NacCMxn"), file_.number("NacCMyn"), file_.number("NacCMzn")};
+        // Given about the yaw axis, kept about the mass centre.
+        const double about_axis = not_negative("NacYIner"),
+                     steiner = n.inertia.mass * n.inertia.com.head<2>().squaredNorm();
+        if (about_axis < steiner)
+            file_.fail("NacYIner", text("NacYIner = ", about_axis, "; allowed: at least ", steiner,
+                                        ", mass of the nacelle times its distance from the yaw axis squared"));
+        n.inertia.J(2, 2) = about_axis - steiner;
+        n.inertia.reduced = true;
+        if (const double bearing = not_negative("YawBrMass"); bearing > 0) {
+            RigidInertia at_top;
+            at_top.mass = bearing;
+            n.inertia = n.inertia + at_top;
+            file_.note("YawBrMass", "is part of the nacelle here, on the yaw axis at the tower top");
+        }
+        n.shaft_height = file_.number("Twr2Shft");
+        n.tilt = -angle("ShftTilt", 45);
+        n.overhang = -file_.number("OverHang");
+        if (d_.blades == 2) n.overhang += file_.number("UndSling");  // given to the teeter pin, the apex upwind of it
+        if (!(n.overhang > 0)) file_.note("OverHang", "a downwind rotor: assemble() takes upwind ones only");
+        n.tilt_bearing = rigid_joint;
+    }
+
+    void read_drive_train() {
+        DriveTrainDescription& t = d_.drive_train;
+        t.gear_ratio = positive("GBRatio");
+        t.generator_inertia = not_negative("GenIner");
+        t.high_speed_shaft = rigid_joint;
+        t.main_shaft = {not_negative("DTTorSpr"), not_negative("DTTorDmp")};
+        if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
+        if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
+        out_.freedoms.generator = file_.flag("GenDOF");
+        file_.note_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
+    }
+
+    void read_hub() {
+        d_.hub.radius = positive("HubRad");
+        RigidInertia& hub = d_.hub.inertia;
+        hub.mass = not_negative("HubMass");
+        hub.com = {0, 0, file_.number("HubCM")};
+        const double inertia = not_negative("HubIner");
+        hub.reduced = true;
+        const bool about_teeter_axis = d_.blades == 2 && !file_.has("HubIner_Teeter");
+        hub.J(about_teeter_axis ? 1 : 2, about_teeter_axis ? 1 : 2) = inertia;
+        if (about_teeter_axis) file_.note("HubIner", "about the teeter axis; none about the shaft");
+        if (d_.blades == 2 && file_.has("HubIner_Teeter")) hub.J(1, 1) = not_negative("HubIner_Teeter");
+        if (d_.blades != 2) file_.note_unless("HubIner_Teeter", 0, "the rotor does not teeter");
+    }
+
+    void read_blade() {
+        const double tip = positive("TipRad");
+        if (!(tip > d_.hub.radius))
+            file_.fail("TipRad", text("TipRad = ", tip, "; allowed: above HubRad = ", d_.hub.radius));
+        d_.blade.cone = angle(numbered(file_, "PreCone", 1), 45);
+        out_.pitch = angle(numbered(file_, "BlPitch", 1));
+        d_.blade.pitch = context_.pitch;
+        const std::string blade_file = numbered(file_, "BldFile", 1);
+        for (int k = 1; k <= d_.blades; ++k) note_blade(k);
+        if (context_.blade) {
+            ElastoDynBeam blade = *context_.blade;
+            if (file_.has(blade_file)) file_.note(blade_file, "not read: the blades come from BeamDyn");
+            const double given = tip - d_.hub.radius;
+            if (std::abs(blade.line.length - given) > 1e-3 * given)
+                file_.note("TipRad", text("TipRad - HubRad = ", given, " m; the blade of BeamDyn is ",
+                                          blade.line.length, " m along its reference line"));
+            set_blade(blade, "BeamDyn");
+            return;
+        }
+        const std::filesystem::path path = file_.path(blade_file);
+        ElastoDynBeam blade = file_.follow(blade_file, [&] { return elastodyn_blade(path, tip - d_.hub.radius); });
+        set_blade(blade, path.string());
+    }
+
+    void set_blade(ElastoDynBeam& blade, const std::string& name) {
+        d_.blade.line = blade.line;
+        d_.blade.damping = blade.damping;
+        keep(blade, name);
+    }
+
+    // All blades are alike here: the first one is what counts.
+    void note_blade(int k) {
+        const std::string cone = numbered(file_, "PreCone", k), pitch = numbered(file_, "BlPitch", k),
+                          name = numbered(file_, "BldFile", k);
+        if (k > 1) {
+            if (file_.has(cone) && angle(cone) != d_.blade.cone)
+                file_.note(cone, "all blades have the cone of the first");
+            if (file_.has(pitch) && angle(pitch) != out_.pitch)
+                file_.note(pitch, "all blades have the pitch of the first");
+            if (file_.has(name) && file_.word(name) != file_.word(numbered(file_, "BldFile", 1)))
+                file_.note(name, "all blades are the first one");
+        }
+        file_.note_unless(numbered(file_, "TipMass", k), 0, "tip masses are not part of the model");
+        file_.note_unless(numbered(file_, "PBrIner", k), 0, "inertia of the pitch bearing: not part of the model");
+        file_.note_unless(numbered(file_, "BlPIner", k), 0, "inertia of the pitch drive: not part of the model");
+    }
+
+    // A beam that bends has all its modes: it can be made rigid where all of its flags are False, but not lose one
+    // mode.
+    bool bends(std::initializer_list<const char*> keywords, const char* what) {
+        std::vector<const char*> off;
+        for (const char* keyword : keywords)
+            if (!file_.flag_or(keyword, true)) off.push_back(keyword);
+        if (off.size() == keywords.size()) return false;
+        for (const char* keyword : off) file_.note(keyword, text("one mode cannot be switched off: ", what));
+        return true;
+    }
+
+    void read_freedoms() {
+        FileFreedoms& f = out_.freedoms;
+        if (context_.blade) {
+            for (const char* keyword : {"FlapDOF1", "FlapDOF2", "EdgeDOF"})
+                if (!file_.flag_or(keyword, true)) file_.note(keyword, "of ElastoDyn's blades: BeamDyn's bend");
+        } else {
+            f.blades = bends({"FlapDOF1", "FlapDOF2", "EdgeDOF"}, "the blades are beams and bend with all theirs");
+        }
+        f.tower_fore_aft = bends({"TwFADOF1", "TwFADOF2"}, "the tower is a beam and bends with all its fore-aft modes");
+        f.tower_side_side =
+            bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
+        if (file_.flag_or("TeetDOF", false) && d_.blades == 2)
+            file_.note("TeetDOF", "the hub is rigid: no teetering here");
+        for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
+            if (file_.flag_or(keyword, false))
+                file_.note(keyword, "the tower stands on the ground; see AssemblyOptions::platform");
+        if (file_.flag_or("PitchDOF", false)) file_.note("PitchDOF", "the pitch bearings are rigid");
+        if (file_.flag_or("Furling", false)) file_.note("Furling", "furling is not part of the model");
+    }
+
+    void note_states() {
+        const double speed = file_.number("RotSpeed");
+        if (speed < 0) file_.fail("RotSpeed", text("RotSpeed = ", speed, "; allowed: >= 0"));
+        out_.rotor_speed = speed * units::rpm;
+        file_.note_unless("NacYaw", 0, "the nacelle points into the wind here");
+        for (const char* keyword : {"OoPDefl", "IPDefl", "TTDspFA", "TTDspSS", "PtfmSurge", "PtfmSway", "PtfmHeave",
+                                    "PtfmRoll", "PtfmPitch", "PtfmYaw", "Azimuth", "TeetDefl"})
+            file_.note_unless(keyword, 0, "initial condition: those of a simulation are given to it here");
+        for (const char* keyword : {"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
+                                    "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefzt"})
+            file_.note_unless(keyword, 0, "the platform is no part of the description; see AssemblyOptions::platform");
+        if (d_.blades == 2)
+            for (const char* keyword : {"Delta3", "TeetMod"})
+                file_.note_unless(keyword, 0, "the hub is rigid: no teetering here");
+    }
+
+    OpenFastFile file_;
+    const ElastoDynContext& context_;
+    TurbineFile out_;
+    TurbineDescription& d_ = out_.description;
+};
+
+}  // namespace
+
+TurbineFile read_elastodyn(const std::filesystem::path& path, const ElastoDynContext& context) {
+    return Reader(path, context).read();
+}
+
+}  // namespace cardan::turbines

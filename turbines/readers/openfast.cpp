@@ -1,0 +1,99 @@
+#include "turbines/readers/openfast.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/readers/beamdyn.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+void append(std::vector<FileNote>& notes, std::vector<FileNote> more) {
+    for (FileNote& note : more) notes.push_back(std::move(note));
+}
+
+std::string bare_or_first(const OpenFastFile& file, const char* keyword) {
+    return file.has(text(keyword, "(1)")) ? text(keyword, "(1)") : text(keyword, "1");
+}
+
+// What ServoDyn knows of the structure.
+struct Servo {
+    Spring yaw = rigid_joint;
+    double rated_generator_speed = 0;  // rad/s; 0: not given
+    std::vector<FileNote> notes;
+    std::string source;
+};
+
+Servo read_servodyn(const std::filesystem::path& path) {
+    OpenFastFile file = OpenFastFile::read(path);
+    Servo servo;
+    servo.yaw = {file.number("YawSpr"), file.number("YawDamp")};
+    if (servo.yaw.damping < 0) file.fail("YawDamp", text("YawDamp = ", servo.yaw.damping, "; allowed: >= 0"));
+    if (!(servo.yaw.stiffness > 0)) {
+        file.note("YawSpr", "no spring: the yaw joint is rigid");
+        servo.yaw = rigid_joint;
+    }
+    file.note_unless("YawNeut", 0, "the nacelle points into the wind here");
+    if (file.number("VSContrl") == 1) servo.rated_generator_speed = file.number("VS_RtGnSp") * units::rpm;
+    for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
+        file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
+    for (const char* keyword : {"CompNTMD", "CompTTMD"})
+        if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
+    servo.notes = file.notes({{{"*"}, "control, brakes and electrical drive: not part of the description"}});
+    servo.source = text("# ", path.string(), "\n", file.text());
+    return servo;
+}
+
+// A model may have lost its controller: that is no reason not to read the structure.
+Servo servo_of(OpenFastFile& main) {
+    Servo servo;
+    if (main.number("CompServo") == 0) return servo;
+    try {
+        return read_servodyn(main.path("ServoFile"));
+    } catch (const FileError& error) {
+        main.note("ServoFile", text("not read (", error.what(), "); the yaw joint is rigid"));
+    }
+    return servo;
+}
+
+}  // namespace
+
+TurbineFile read_openfast(const std::filesystem::path& path) {
+    OpenFastFile main = OpenFastFile::read(path);
+    if (!main.has("EDFile") && main.has("NumBl")) return read_elastodyn(path);
+    if (!main.has("EDFile"))
+        throw ParseError(path.string(), 1, 0,
+                         "neither a main file of OpenFAST (no line with the keyword EDFile) nor one of ElastoDyn (none "
+                         "with NumBl)");
+    const std::filesystem::path elastodyn = main.path("EDFile");
+    if (main.number_or("NRotors", 1) != 1)
+        main.fail("NRotors", text("NRotors = ", main.number("NRotors"), "; allowed: 1"));
+    if (main.has("MirrorRotor") && main.flag("MirrorRotor"))
+        main.note("MirrorRotor", "the rotor turns clockwise seen from upwind here");
+    const int kind = main.integer("CompElast", 1, 2);
+    Servo servo = servo_of(main);
+    ElastoDynContext context;
+    context.yaw = servo.yaw;
+    if (kind == 2) {
+        const std::string first = bare_or_first(main, "BDBldFile");
+        BeamDynBlade blade = main.follow(first, [&] { return read_beamdyn(main.path(first)); });
+        for (const char* other : {"BDBldFile(2)", "BDBldFile(3)", "BDBldFile2", "BDBldFile3"})
+            if (main.has(other) && main.word(other) != main.word(first))
+                main.note(other, "all blades are the first one");
+        context.blade = std::move(blade.beam);
+        context.pitch = blade.pitch;
+    }
+    TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
+    for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
+        main.note_unless(keyword, 0,
+                         "what the tower stands on is not part of the description; it stands on the ground");
+    main.note_unless("MHK", 0, "a machine under water is not part of the model");
+    append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));
+    append(out.notes, std::move(servo.notes));
+    if (servo.rated_generator_speed > 0)
+        out.rotor_speed = servo.rated_generator_speed / out.description.drive_train.gear_ratio;
+    out.description.source = text("# ", path.string(), "\n", main.text(), out.description.source, servo.source);
+    return out;
+}
+
+}  // namespace cardan::turbines

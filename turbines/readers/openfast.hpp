@@ -1,0 +1,17 @@
+/// @file
+/// A machine from the input files of OpenFAST.
+#pragma once
+
+#include "turbines/readers/turbine_file.hpp"
+
+#include <filesystem>
+
+namespace cardan::turbines {
+
+/// Reads the main file of a model (.fst) with the files for the structure it names, or an ElastoDyn file alone (told by
+/// what is inside). ElastoDyn (CompElast = 1) or ElastoDyn with BeamDyn blades (2); from ServoDyn, if it is on and
+/// there, stiffness and damping of the yaw drive and the rated speed of its simple torque law.
+/// @throws ParseError, FileError, InputError
+TurbineFile read_openfast(const std::filesystem::path& path);
+
+}  // namespace cardan::turbines

@@ -1,0 +1,378 @@
+#include "turbines/readers/openfast_file.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/text_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+namespace cardan::turbines {
+
+namespace {
+
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+std::optional<bool> truth(std::string_view word) {
+    const std::string w = lower_case(word);
+    if (w == "true" || w == "t" || w == ".true.") return true;
+    if (w == "false" || w == "f" || w == ".false.") return false;
+    return std::nullopt;
+}
+
+// Fortran's exponents D and d, a plus sign. Nothing if it is not one number.
+std::optional<double> fortran_number(std::string_view word) {
+    std::string digits(word);
+    for (char& c : digits)
+        if (c == 'd' || c == 'D') c = 'e';
+    const char* begin = digits.data();
+    const char* const end = begin + digits.size();
+    if (digits.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
+    if (begin == end || !(*begin == '-' || *begin == '.' || (*begin >= '0' && *begin <= '9'))) return std::nullopt;
+    double value = 0;
+    const auto [last, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || last != end || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+// Old files hold single bytes of Latin-1 in their remarks; what is kept as text must be UTF-8.
+std::string utf8(std::string_view text) {
+    if (is_utf8(text)) return std::string(text);
+    std::string out;
+    for (char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) {
+            out += c;
+            continue;
+        }
+        out += static_cast<char>(0xC0 | (byte >> 6));
+        out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+    return out;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+    return all;
+}
+
+bool belongs(const std::string& keyword, const KeywordGroup& group) {
+    return std::any_of(group.keywords.begin(), group.keywords.end(), [&](std::string_view member) {
+        const bool beginning = member.ends_with('*');
+        if (beginning) member.remove_suffix(1);
+        return beginning ? lower_case(keyword).starts_with(lower_case(member))
+                         : lower_case(keyword) == lower_case(member);
+    });
+}
+
+}  // namespace
+
+std::string to_text(const FileNote& note) {
+    std::string out = note.line > 0 ? cardan::text(note.file, ":", note.line, ": ") : note.file + ": ";
+    out += note.keyword;
+    if (!note.value.empty()) out += " = " + note.value;
+    return out + ": " + note.why;
+}
+
+const std::vector<double>& OpenFastTable::column(std::string_view name) const {
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (lower_case(names[k]) == lower_case(name)) return columns[k];
+    throw ParseError(file, line, 0, text("no column '", name, "'; there are: ", joined(names)));
+}
+
+bool OpenFastTable::has(std::string_view name) const {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& n) { return lower_case(n) == lower_case(name); });
+}
+
+void OpenFastTable::fail(std::size_t row, std::string_view what) const {
+    throw ParseError(file, lines[row], 0, what);
+}
+
+std::vector<OpenFastFile::Token> OpenFastFile::tokens(std::string_view line) {
+    constexpr std::string_view separators = " \t\r,";
+    std::vector<Token> all;
+    for (std::size_t i = 0; i < line.size();) {
+        if (separators.find(line[i]) != std::string_view::npos) {
+            ++i;
+            continue;
+        }
+        const int column = static_cast<int>(i) + 1;
+        if (line[i] == '!') break;
+        if (line[i] == '"' || line[i] == '\'') {
+            const std::size_t close = std::min(line.find(line[i], i + 1), line.size());
+            all.push_back({std::string(line.substr(i + 1, close - i - 1)), column, true});
+            i = close + 1;
+            continue;
+        }
+        const std::size_t end = std::min(line.find_first_of(separators, i), line.size());
+        all.push_back({std::string(line.substr(i, end - i)), column, false});
+        i = end;
+    }
+    return all;
+}
+
+// "value ... keyword - remark": the keyword is the first word after the first value that begins with a letter.
+OpenFastFile::Line OpenFastFile::classified(std::string_view line, int number) {
+    Line out{tokens(line), "", std::string(line), number, false};
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    const std::string_view start = first == std::string_view::npos ? std::string_view() : line.substr(first);
+    out.heading = number <= 2 || start.empty() || start.starts_with("---") || start.starts_with("===") ||
+                  start.starts_with('!') || start.starts_with('#') || lower_case(start.substr(0, 3)) == "end";
+    std::vector<Token>& t = out.tokens;
+    const auto remark = std::find_if(t.begin(), t.end(), [](const Token& token) { return token.text == "-"; });
+    t.erase(remark, t.end());
+    if (out.heading || t.empty()) return out;
+    if (t.size() == 1 && !t[0].quoted && is_letter(t[0].text[0])) {
+        out.keyword = t[0].text;
+        t.clear();
+        return out;
+    }
+    const auto word = std::find_if(t.begin() + 1, t.end(),
+                                   [](const Token& token) { return !token.quoted && is_letter(token.text[0]); });
+    if (word == t.end()) return out;
+    out.keyword = word->text;
+    t.erase(word, t.end());
+    return out;
+}
+
+OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
+    require_text(text, file, TextRules::any_bytes);
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    OpenFastFile out;
+    out.file_ = std::move(file);
+    out.text_ = utf8(text);
+    std::string_view rest = out.text_;
+    bool in_list = false;  // of output channels, up to END
+    for (int number = 1; !rest.empty(); ++number) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        Line line = classified(rest.substr(0, end), number);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (number == 2) {
+            const std::size_t begin = line.all.find_first_not_of(" \t\r"), last = line.all.find_last_not_of(" \t\r");
+            if (begin != std::string::npos) out.title_ = line.all.substr(begin, last - begin + 1);
+        }
+        const bool blank = line.all.find_first_not_of(" \t\r") == std::string::npos;
+        if (in_list && (blank || !line.heading)) continue;
+        in_list = lower_case(line.keyword) == "outlist";
+        out.lines_.push_back(std::move(line));
+    }
+    if (out.lines_.size() < 3) throw ParseError(out.file_, 1, 0, "an OpenFAST input file begins with two title lines");
+    return out;
+}
+
+OpenFastFile OpenFastFile::read(const std::filesystem::path& path) {
+    return parse(text_file(path), path.string());
+}
+
+const OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) const {
+    const auto found = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(keyword)](const Line& l) {
+        return lower_case(l.keyword) == key;
+    });
+    return found == lines_.end() ? nullptr : &*found;
+}
+
+OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) {
+    return const_cast<Line*>(std::as_const(*this).find(keyword));
+}
+
+OpenFastFile::Line& OpenFastFile::known(std::string_view keyword) {
+    Line* line = find(keyword);
+    if (line == nullptr)
+        throw ParseError(file_, lines_.back().number, 0,
+                         cardan::text("no line with the keyword ", keyword, " up to the end of the file"));
+    const std::string key = lower_case(keyword);
+    for (const Line& other : lines_)
+        if (&other != line && lower_case(other.keyword) == key)
+            throw ParseError(file_, other.number, 0,
+                             cardan::text(keyword, " is there already, in line ", line->number));
+    line->used = true;
+    return *line;
+}
+
+const OpenFastFile::Token& OpenFastFile::single(std::string_view keyword) {
+    const Line& line = known(keyword);
+    if (line.tokens.size() != 1)
+        throw ParseError(file_, line.number, 0,
+                         cardan::text("one value expected before ", keyword, ", found ", line.tokens.size()));
+    return line.tokens.front();
+}
+
+double OpenFastFile::parsed(const Token& token, int line, std::string_view what) const {
+    const std::optional<double> value = token.quoted ? std::nullopt : fortran_number(token.text);
+    if (!value)
+        throw ParseError(file_, line, token.column, cardan::text(what, ": '", token.text, "' is not a finite number"));
+    return *value;
+}
+
+double OpenFastFile::number(std::string_view keyword) {
+    const Token& token = single(keyword);
+    return parsed(token, known(keyword).number, keyword);
+}
+
+double OpenFastFile::number_or(std::string_view keyword, double otherwise) {
+    return has(keyword) ? number(keyword) : otherwise;
+}
+
+std::vector<double> OpenFastFile::numbers(std::string_view keyword, std::size_t count) {
+    const Line& line = known(keyword);
+    if (line.tokens.size() != count)
+        fail(keyword, cardan::text(count, " numbers expected before ", keyword, ", found ", line.tokens.size()));
+    std::vector<double> values;
+    for (const Token& token : line.tokens) values.push_back(parsed(token, line.number, keyword));
+    return values;
+}
+
+int OpenFastFile::integer(std::string_view keyword, int least, int most) {
+    const double value = number(keyword);
+    if (value != std::round(value) || value < least || value > most)
+        fail(keyword, cardan::text(keyword, " = ", value, "; allowed: ", least, " ... ", most));
+    return static_cast<int>(value);
+}
+
+bool OpenFastFile::flag(std::string_view keyword) {
+    const Token& token = single(keyword);
+    const std::optional<bool> value = truth(token.text);
+    if (!value)
+        throw ParseError(file_, known(keyword).number, token.column,
+                         cardan::text(keyword, ": '", token.text, "' is neither True nor False"));
+    return *value;
+}
+
+bool OpenFastFile::flag_or(std::string_view keyword, bool otherwise) {
+    return has(keyword) ? flag(keyword) : otherwise;
+}
+
+std::string OpenFastFile::word(std::string_view keyword) {
+    return single(keyword).text;
+}
+
+std::filesystem::path OpenFastFile::path(std::string_view keyword) {
+    std::string given = word(keyword);
+    std::replace(given.begin(), given.end(), '\\', '/');
+    if (given.empty()) fail(keyword, cardan::text(keyword, ": the name of the file is empty"));
+    return std::filesystem::path(file_).parent_path() / given;
+}
+
+void OpenFastFile::fail(std::string_view keyword, std::string_view what) const {
+    const Line* line = find(keyword);
+    throw ParseError(file_, line == nullptr ? lines_.back().number : line->number, 0, what);
+}
+
+std::optional<std::vector<double>> OpenFastFile::numbers_of(const Line& line) const {
+    std::vector<double> values;
+    for (const Token& token : line.tokens) {
+        const std::optional<double> value = token.quoted ? std::nullopt : fortran_number(token.text);
+        if (!value) return std::nullopt;
+        values.push_back(*value);
+    }
+    return values;
+}
+
+OpenFastTable OpenFastFile::table(std::string_view first, std::size_t rows) {
+    OpenFastTable out;
+    out.file = file_;
+    auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(first)](const Line& l) {
+        return !l.heading && !l.tokens.empty() && lower_case(l.tokens.front().text) == key;
+    });
+    if (at == lines_.end())
+        throw ParseError(file_, lines_.back().number, 0, cardan::text("no table whose first column is ", first));
+    out.line = at->number;
+    for (const Token& token : tokens(at->all)) out.names.push_back(token.text);
+    out.columns.resize(out.names.size());
+    at->used = true;
+    ++at;
+    const bool units = at != lines_.end() && !at->tokens.empty() && at->tokens.front().text.starts_with('(');
+    if (units) at++->used = true;
+    for (std::size_t row = 0; row < rows; ++row, ++at) {
+        const std::string what = cardan::text("row ", row + 1, " of ", rows, " of the table of ", first);
+        if (at == lines_.end())
+            throw ParseError(file_, lines_.back().number, 0, cardan::text(what, ": the file ends before it"));
+        if (at->heading || at->tokens.empty() || !at->keyword.empty() || at->tokens.size() != out.names.size())
+            throw ParseError(file_, at->number, 0,
+                             cardan::text(what, ": ", out.names.size(), " numbers expected (", joined(out.names), ")"));
+        for (std::size_t k = 0; k < out.names.size(); ++k)
+            out.columns[k].push_back(parsed(at->tokens[k], at->number, cardan::text(what, ", ", out.names[k])));
+        out.lines.push_back(at->number);
+        at->used = true;
+    }
+    if (at != lines_.end() && !at->heading && at->keyword.empty() && at->tokens.size() >= out.names.size() &&
+        numbers_of(*at))
+        throw ParseError(file_, at->number, 0, cardan::text("one more row than the ", rows, " announced"));
+    return out;
+}
+
+std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
+    auto at = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(what)](const Line& l) {
+        return l.number > 2 && (l.heading || !l.tokens.empty()) && lower_case(l.all).find(key) != std::string::npos;
+    });
+    if (at == lines_.end()) throw ParseError(file_, lines_.back().number, 0, cardan::text("no line with '", what, "'"));
+    at->used = true;
+    std::vector<Row> rows;
+    for (++at; at != lines_.end(); ++at) {
+        const bool blank = at->all.find_first_not_of(" \t\r") == std::string::npos;
+        if (blank) continue;
+        if (at->heading || (!at->keyword.empty() && !rows.empty())) break;
+        if (!at->keyword.empty()) {
+            at->used = true;
+            continue;
+        }
+        if (!at->tokens.empty() && at->tokens.front().text.starts_with('(')) continue;  // units
+        Row row{{}, at->number};
+        for (const Token& token : at->tokens) row.values.push_back(parsed(token, at->number, what));
+        at->used = true;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+void OpenFastFile::pass_over(std::string_view keyword, std::size_t lines) {
+    const std::size_t first = static_cast<std::size_t>(&known(keyword) - lines_.data()) + 1;
+    for (std::size_t i = first; i < std::min(first + lines, lines_.size()); ++i) lines_[i].used = true;
+}
+
+void OpenFastFile::note(std::string_view keyword, std::string why) {
+    Line& line = known(keyword);
+    std::string value;
+    for (const Token& token : line.tokens) value += (value.empty() ? "" : ", ") + token.text;
+    notes_.push_back({file_, line.number, line.keyword, value, std::move(why)});
+}
+
+void OpenFastFile::note_unless(std::string_view keyword, double neutral, std::string why) {
+    if (has(keyword) && number(keyword) != neutral) note(keyword, std::move(why));
+}
+
+std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& groups) const {
+    std::vector<FileNote> out = notes_;
+    // In files of which all the rest has no meaning they have none either.
+    const bool lone_numbers = std::none_of(groups.begin(), groups.end(), [](const KeywordGroup& g) {
+        return std::find(g.keywords.begin(), g.keywords.end(), "*") != g.keywords.end();
+    });
+    const auto is_numbers = [&](const Line& line) {
+        return !line.heading && !line.tokens.empty() && numbers_of(line).has_value();
+    };
+    std::vector<std::vector<std::string>> members(groups.size());
+    for (const Line& line : lines_) {
+        if (line.used || (line.keyword.empty() && !(lone_numbers && is_numbers(line)))) continue;
+        const auto group =
+            std::find_if(groups.begin(), groups.end(), [&](const KeywordGroup& g) { return belongs(line.keyword, g); });
+        if (group != groups.end()) {
+            members[static_cast<std::size_t>(group - groups.begin())].push_back(line.keyword);
+            continue;
+        }
+        std::string value;
+        for (const Token& token : line.tokens) value += (value.empty() ? "" : ", ") + token.text;
+        if (line.keyword.empty())
+            out.push_back({file_, line.number, "line without a keyword", value, "without effect"});
+        else
+            out.push_back({file_, line.number, line.keyword, value, "not known to this reader and without effect"});
+    }
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        if (!members[g].empty()) out.push_back({file_, 0, joined(members[g]), "", std::string(groups[g].why)});
+    return out;
+}
+
+}  // namespace cardan::turbines

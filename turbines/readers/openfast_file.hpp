@@ -1,0 +1,126 @@
+/// @file
+/// The lines of OpenFAST input files: values, then a keyword, then " - " and a remark.
+///
+/// Entries are found by keyword, not by line number, so that files of all versions are read alike. Keywords are
+/// compared without regard to case. The first line is a heading and the second a title, as are later lines that begin
+/// with "---", "===", "!" or "#". Numbers may be written as Fortran does (1.0D+3, .5, 5.).
+#pragma once
+
+#include "mbs/base/error.hpp"
+#include "turbines/readers/turbine_file.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace cardan::turbines {
+
+/// Numbers in columns with names.
+class OpenFastTable {
+public:
+    /// @throws ParseError with the names there are
+    [[nodiscard]] const std::vector<double>& column(std::string_view name) const;
+    [[nodiscard]] bool has(std::string_view name) const;
+    [[nodiscard]] std::size_t rows() const { return lines.size(); }
+    /// @throws ParseError at a row, 0 being the first
+    [[noreturn]] void fail(std::size_t row, std::string_view what) const;
+
+    std::string file;
+    int line = 0;  ///< of the names
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;
+    std::vector<int> lines;  ///< of the rows
+};
+
+/// Keywords that mean nothing for the structure, and why. An entry that ends in * is the beginning of a keyword.
+struct KeywordGroup {
+    std::vector<std::string_view> keywords;
+    std::string_view why;
+};
+
+class OpenFastFile {
+public:
+    /// Numbers of one line, outside of the keyword lines.
+    struct Row {
+        std::vector<double> values;
+        int line;
+    };
+
+    static OpenFastFile parse(std::string_view text, std::string file);
+    /// @throws FileError
+    static OpenFastFile read(const std::filesystem::path& path);
+
+    const std::string& name() const { return file_; }
+    const std::string& title() const { return title_; }
+    const std::string& text() const { return text_; }
+
+    bool has(std::string_view keyword) const { return find(keyword) != nullptr; }
+    /// What follows throws ParseError for a keyword that is not there or there twice, for more values than one, and for
+    /// a value that is not of the kind. What was asked for counts as used.
+    double number(std::string_view keyword);
+    double number_or(std::string_view keyword, double otherwise);
+    std::vector<double> numbers(std::string_view keyword, std::size_t count);
+    int integer(std::string_view keyword, int least, int most);
+    bool flag(std::string_view keyword);
+    bool flag_or(std::string_view keyword, bool otherwise);
+    std::string word(std::string_view keyword);
+    /// A path seen from the folder of this file.
+    std::filesystem::path path(std::string_view keyword);
+    /// What `read()` makes of the file that the keyword names. @throws ParseError at the keyword for FileError
+    template <class Read>
+    auto follow(std::string_view keyword, const Read& read) const {
+        try {
+            return read();
+        } catch (const FileError& error) {
+            fail(keyword, cardan::text(keyword, ": ", error.what()));
+        }
+    }
+
+    /// The rows below a line of names that begins with `first` and a line of units.
+    OpenFastTable table(std::string_view first, std::size_t rows);
+    /// The rows of numbers below the heading, or the line of names, that contains `what`, up to the next heading or
+    /// keyword; lines without numbers are passed over.
+    std::vector<Row> rows_below(std::string_view what);
+
+    /// The lines after that of the keyword count as used.
+    void pass_over(std::string_view keyword, std::size_t lines);
+
+    /// A note on the entry, which then counts as used.
+    void note(std::string_view keyword, std::string why);
+    /// The same if the entry is there and its number not the one without effect.
+    void note_unless(std::string_view keyword, double neutral, std::string why);
+    /// What was not used: by groups, then one by one.
+    std::vector<FileNote> notes(const std::vector<KeywordGroup>& groups) const;
+
+    [[noreturn]] void fail(std::string_view keyword, std::string_view what) const;
+
+private:
+    struct Token {
+        std::string text;
+        int column;
+        bool quoted;
+    };
+    struct Line {
+        std::vector<Token> tokens;  // without keyword and remark
+        std::string keyword;
+        std::string all;
+        int number;
+        bool heading;
+        bool used = false;
+    };
+    OpenFastFile() = default;
+    static std::vector<Token> tokens(std::string_view line);
+    static Line classified(std::string_view line, int number);
+    Line* find(std::string_view keyword);
+    const Line* find(std::string_view keyword) const;
+    Line& known(std::string_view keyword);
+    const Token& single(std::string_view keyword);
+    std::optional<std::vector<double>> numbers_of(const Line& line) const;
+    double parsed(const Token& token, int line, std::string_view what) const;
+
+    std::string file_, title_, text_;
+    std::vector<Line> lines_;
+    std::vector<FileNote> notes_;
+};
+
+}  // namespace cardan::turbines

@@ -1,0 +1,41 @@
+/// @file
+/// The NREL 5 MW blade by assumed modes, clamped to a hub that moves as prescribed: an independent model beside the
+/// joint chain of turbines/machines/nrel5mw_blade.hpp, and the model of a paper of 2018 (docs/nrel5mw_paper2018.md).
+#pragma once
+
+#include "elements/reference/assumed_modes_blade.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/machines/nrel5mw_blade.hpp"
+
+namespace cardan::turbines {
+
+/// As the paper has it: twist, mass centres off the axis, five polynomials for each deflection and three sines for
+/// torsion over the whole length, inextensible, no rotary inertia of bending. Inferred, because its frequencies come
+/// out with them: mass times 1.04536 and polynomials from (x/L)^2 on (NP = 2).
+/// @param tension  wrong_end reproduces its frequencies in rotation, which are wrong
+AssumedModesBlade nrel5mw_blade_of_2018(TensionIntegral tension = TensionIntegral::from_free_tip,
+                                        const BeamLine& line = nrel5mw_blade().line);
+/// The paper's model with other functions than its own.
+/// @throws InputError, see AssumedModesBlade
+AssumedModesBlade nrel5mw_blade_of_2018(const AssumedModesBasis& basis, TensionIntegral tension,
+                                        const BeamLine& line = nrel5mw_blade().line);
+
+/// The same blade by functions that converge, cubics for v and w and quadratics for torsion and extension between all
+/// stations, with rotary inertia: 384 coordinates.
+AssumedModesBlade nrel5mw_blade_converged(const BeamLine& line = nrel5mw_blade().line);
+
+/// Steady rotation of the isolated blade: axes of the hub with x along the blade, z along the rotor axis.
+/// @param rotor_speed  rad/s
+HubMotion nrel5mw_spinning_hub(double rotor_speed);
+
+/// Motion of the machine of turbines/machines/nrel5mw_platform.hpp, with the signs given there.
+struct Nrel5mwMotion {
+    PrescribedCoordinate surge, sway, heave;    ///< downwind; to the right seen along the wind; up
+    PrescribedCoordinate roll, pitch, yaw;      ///< pitch positive: the top of the tower moves upwind
+    PrescribedCoordinate nacelle_yaw, azimuth;  ///< blade up at azimuth 0
+};
+/// Of the root of the blade, axes e1 (along the blade), e2 (to the leading edge), e3 (downwind).
+/// @param gravity  m/s^2, downward
+HubMotion nrel5mw_blade_root(const Nrel5mwMotion& motion, double gravity = units::standard_gravity);
+
+}  // namespace cardan::turbines

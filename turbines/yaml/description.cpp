@@ -1,0 +1,190 @@
+#include "turbines/yaml/description.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/text_file.hpp"
+#include "turbines/model/detail/description_fields.hpp"
+#include "turbines/yaml/detail/node.hpp"
+
+#include <set>
+
+namespace cardan::turbines {
+
+namespace {
+
+// One level of the document: remembers which keys were asked for.
+class Level {
+public:
+    explicit Level(YamlNode node) : node_(std::move(node)) {}
+    YamlNode operator[](const char* key) {
+        asked_.insert(key);
+        return node_[key];
+    }
+    std::optional<YamlNode> find(const char* key) {
+        asked_.insert(key);
+        return node_.find(key);
+    }
+    void finish() const {
+        std::string known;
+        for (const std::string& key : asked_) known += (known.empty() ? "" : ", ") + key;
+        for (const std::string& key : node_.keys())
+            if (!asked_.contains(key)) node_[key].fail(text("not a key of the format; allowed: ", known));
+    }
+    const YamlNode& node() const { return node_; }
+
+private:
+    YamlNode node_;
+    std::set<std::string> asked_;
+};
+
+template <class M>
+M matrix(const YamlNode& node) {
+    M m;
+    const std::vector<YamlNode> rows = node.items();
+    if (static_cast<Eigen::Index>(rows.size()) != m.rows()) node.fail(text(rows.size(), " rows; allowed: ", m.rows()));
+    for (Eigen::Index i = 0; i < m.rows(); ++i) {
+        const std::vector<double> row = rows[static_cast<std::size_t>(i)].numbers(static_cast<std::size_t>(m.cols()));
+        for (Eigen::Index j = 0; j < m.cols(); ++j) m(i, j) = row[static_cast<std::size_t>(j)];
+    }
+    return m;
+}
+
+Vec3 vector(const YamlNode& node) {
+    const std::vector<double> v = node.numbers(std::size_t{3});
+    return {v[0], v[1], v[2]};
+}
+
+std::vector<EngineeringSection> sections(const YamlNode& node, std::size_t count) {
+    std::vector<EngineeringSection> all(count);
+    Level level(node);
+    for (const SectionColumn& column : section_columns()) {
+        const YamlNode values = level[column.name];
+        const std::vector<double> numbers = values.numbers(column.may_be_infinite);
+        if (numbers.size() != count)
+            values.fail(text(numbers.size(), " numbers; allowed: ", count, ", one per station"));
+        for (std::size_t i = 0; i < count; ++i) column.of(all[i]) = numbers[i];
+    }
+    level.finish();
+    return all;
+}
+
+template <class Value>
+Value choice(const YamlNode& node, std::initializer_list<Value> values) {
+    std::string known;
+    for (Value value : values) {
+        if (node.word() == name_of(value)) return value;
+        known += (known.empty() ? "" : ", ") + std::string(name_of(value));
+    }
+    node.fail(text("'", node.word(), "'; allowed: ", known));
+}
+
+BeamTable table(Level level) {
+    BeamTable t;
+    t.name = level["name"].word();
+    t.stations = level["stations"].numbers();
+    if (const auto given = level.find("sections")) {
+        t.interpolation = choice(level["interpolation"], {Interpolation::linear, Interpolation::log_linear_stiffness});
+        t.sections = sections(*given, t.stations.size());
+    } else {
+        t.beta = level["beta"].numbers(t.stations.size());
+        const YamlNode stiffness = level["stiffness"], mass = level["mass_matrix"];
+        const std::vector<YamlNode> K = stiffness.items(), M = mass.items();
+        for (const auto* list : {&K, &M})
+            if (list->size() != t.stations.size())
+                (list == &K ? stiffness : mass).fail(text(list->size(), " matrices; allowed: ", t.stations.size()));
+        for (std::size_t i = 0; i < K.size(); ++i) t.matrices.push_back({matrix<Mat6>(K[i]), matrix<Mat6>(M[i])});
+    }
+    if (const auto points = level.find("points")) {
+        for (const YamlNode& point : points->items()) t.points.push_back(vector(point));
+        t.shape = choice(level["shape"], {LineShape::spline, LineShape::polyline});
+    }
+    level.finish();
+    return t;
+}
+
+class DescriptionReader {
+public:
+    explicit DescriptionReader(YamlNode root) { levels_.emplace_back(std::move(root)); }
+
+    void version() {
+        const YamlNode node = at()["cardan_turbine"];
+        const double given = node.number();
+        if (given != description_yaml_version)
+            node.fail(text("version ", given, "; allowed: ", description_yaml_version));
+    }
+    void word(const char* key, std::string& value) { value = at()[key].word(); }
+    void integer(const char* key, int& value) { value = at()[key].integer(1, most_counted); }
+    void number(const char* key, double& value) { value = at()[key].number(); }
+    void spring(const char* key, Spring& s) {
+        group(key, [&] {
+            s.stiffness = at()["stiffness"].number(true);
+            number("damping", s.damping);
+        });
+    }
+    void inertia(const char* key, RigidInertia& i) {
+        group(key, [&] {
+            number("mass", i.mass);
+            i.com = vector(at()["com"]);
+            i.J = matrix<Mat3>(at()["J"]);
+            i.reduced = at()["reduced"].flag();
+        });
+    }
+    void damping(const char* key, BeamDamping& d) {
+        group(key, [&] {
+            const std::vector<double> tau = at()["time_constants"].numbers(std::size_t{6});
+            std::copy(tau.begin(), tau.end(), d.time_constants.begin());
+            number("mass_proportional", d.mass_proportional);
+            d.modal.all = at()["all"].numbers();
+            d.modal.bending_y = at()["bending_y"].numbers();
+            d.modal.bending_z = at()["bending_z"].numbers();
+            d.modal.torsion = at()["torsion"].numbers();
+            d.modal.extension = at()["extension"].numbers();
+        });
+    }
+    void line(const char* key, BeamLine& l) {
+        const YamlNode node = at()[key];
+        try {
+            l = beam_line(table(Level(node)));
+        } catch (const InputError& error) {
+            node.fail(error.what());
+        }
+    }
+    template <class Content>
+    void group(const char* key, const Content& content) {
+        levels_.emplace_back(at()[key]);
+        content();
+        finish();
+    }
+    void finish() {
+        at().finish();
+        levels_.pop_back();
+    }
+
+private:
+    Level& at() { return levels_.back(); }
+    std::vector<Level> levels_;
+};
+
+}  // namespace
+
+TurbineDescription parse_description(const std::string& text, const std::string& file) {
+    DescriptionReader reader(YamlNode::parse(text, file));
+    TurbineDescription description;
+    reader.version();
+    description_fields(reader, description);
+    reader.finish();
+    return description;
+}
+
+TurbineDescription read_description(const std::filesystem::path& path) {
+    return parse_description(text_file(path), path.string());
+}
+
+bool is_description(const std::string& text) {
+    try {
+        return YamlNode::parse(text, "").find("cardan_turbine").has_value();
+    } catch (const ParseError&) {
+        return text.find("cardan_turbine") != std::string::npos;
+    }
+}
+
+}  // namespace cardan::turbines

@@ -1,0 +1,325 @@
+#include "turbines/yaml/detail/windio_beams.hpp"
+
+#include "mbs/base/error.hpp"
+#include "turbines/readers/matrix_blade.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cardan::turbines {
+
+namespace {
+
+std::vector<double> increasing_grid(const YamlNode& node, std::size_t values) {
+    std::vector<double> grid = node.numbers();
+    if (grid.size() < 2 || grid.size() != values)
+        node.fail(text(grid.size(), " places for ", values, " values; allowed: as many, at least 2"));
+    for (std::size_t i = 1; i < grid.size(); ++i)
+        if (!(grid[i] > grid[i - 1])) node.fail(text(grid[i], " after ", grid[i - 1], "; allowed: larger"));
+    if (grid.front() < 0 || grid.back() > 1 + 1e-9) node.fail("places beyond 0 ... 1");
+    return grid;
+}
+
+// Values over a grid of fractions, from one end to the other.
+struct Curve {
+    std::vector<double> grid, values;
+    double at(double place) const { return interpolated(grid, values, place); }
+};
+
+Curve whole_curve(const YamlNode& node) {
+    Curve curve;
+    curve.values = node["values"].numbers();
+    curve.grid = increasing_grid(node["grid"], curve.values.size());
+    if (curve.grid.front() > 1e-9 || curve.grid.back() < 1 - 1e-9)
+        node["grid"].fail(text("places ", curve.grid.front(), " ... ", curve.grid.back(), "; allowed: 0 ... 1"));
+    return curve;
+}
+
+std::vector<double> united(std::vector<double> a, const std::vector<double>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    std::sort(a.begin(), a.end());
+    a.erase(std::unique(a.begin(), a.end(), [](double x, double y) { return y - x < 1e-9; }), a.end());
+    return a;
+}
+
+// Matrices over a grid.
+struct MatrixCurve {
+    std::vector<double> grid;
+    std::vector<Mat6> values;
+    Mat6 at(double place) const {
+        const auto j =
+            static_cast<std::size_t>(std::upper_bound(grid.begin() + 1, grid.end() - 1, place) - grid.begin());
+        const double t = std::clamp((place - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0, 1.0);
+        return (1 - t) * values[j - 1] + t * values[j];
+    }
+};
+
+// Version 1: the 21 entries of the upper triangle, row by row.
+MatrixCurve triangles(const YamlNode& node) {
+    MatrixCurve out;
+    const YamlNode values = node["values"];
+    for (const YamlNode& row : values.items()) {
+        const std::vector<double> entries = row.numbers(std::size_t{21});
+        Mat6 m;
+        std::size_t k = 0;
+        for (Eigen::Index i = 0; i < 6; ++i)
+            for (Eigen::Index j = i; j < 6; ++j) m(i, j) = m(j, i) = entries[k++];
+        out.values.push_back(m);
+    }
+    out.grid = increasing_grid(node["grid"], out.values.size());
+    return out;
+}
+
+// Version 2: a list of every entry K11 ... K66.
+MatrixCurve named_stiffness(const YamlNode& node) {
+    MatrixCurve out;
+    out.values.assign(node["K11"].items().size(), Mat6::Zero());
+    out.grid = increasing_grid(node["grid"], out.values.size());
+    for (Eigen::Index i = 0; i < 6; ++i)
+        for (Eigen::Index j = i; j < 6; ++j) {
+            const std::vector<double> entry = node[text("K", i + 1, j + 1)].numbers(out.grid.size());
+            for (std::size_t k = 0; k < entry.size(); ++k) out.values[k](i, j) = out.values[k](j, i) = entry[k];
+        }
+    return out;
+}
+
+MatrixCurve named_inertia(const YamlNode& node) {
+    MatrixCurve out;
+    const std::vector<double> mass = node["mass"].numbers();
+    out.grid = increasing_grid(node["grid"], mass.size());
+    const auto list = [&](const char* key) { return node[key].numbers(mass.size()); };
+    const std::vector<double> x = list("cm_x"), y = list("cm_y"), edge = list("i_edge"), flap = list("i_flap"),
+                              polar = list("i_plr"), product = list("i_cp");
+    for (std::size_t k = 0; k < mass.size(); ++k) {
+        Mat6 m = Mat6::Zero();
+        m.diagonal() << mass[k], mass[k], mass[k], edge[k], flap[k], polar[k];
+        m(0, 5) = m(5, 0) = -mass[k] * y[k];
+        m(1, 5) = m(5, 1) = mass[k] * x[k];
+        m(2, 3) = m(3, 2) = mass[k] * y[k];
+        m(2, 4) = m(4, 2) = -mass[k] * x[k];
+        m(3, 4) = m(4, 3) = -product[k];
+        out.values.push_back(m);
+    }
+    return out;
+}
+
+// Over both grids.
+struct Matrices {
+    std::vector<double> eta;
+    std::vector<SectionMatrices> values;
+};
+
+Matrices read_matrices(const YamlNode& stiffness, const YamlNode& inertia) {
+    const MatrixCurve K = stiffness.find("values") ? triangles(stiffness) : named_stiffness(stiffness);
+    const MatrixCurve M = inertia.find("values") ? triangles(inertia) : named_inertia(inertia);
+    Matrices out;
+    out.eta = united(K.grid, M.grid);
+    for (double at : out.eta) out.values.push_back({K.at(at), M.at(at)});
+    return out;
+}
+
+// The entries of mu in the order of strains (see BeamDamping).
+BeamDamping damping_of(WindioFile& file, const std::optional<YamlNode>& given, const char* part,
+                       const std::array<std::size_t, 6>& order) {
+    BeamDamping damping;
+    if (!given) return damping;
+    const auto list = given->find("mu");
+    if (!list) {
+        file.note(*given, "", text("only damping by mu is read: the ", part, " has none"));
+        return damping;
+    }
+    const std::vector<double> mu = list->numbers(std::size_t{6});
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (mu[i] < 0) list->fail(text(mu[i], "; allowed: >= 0"));
+        damping.time_constants.at(i) = mu[order.at(i)];
+    }
+    return damping;
+}
+
+// Points at the places of all three grids.
+std::vector<Vec3> axis_points(const YamlNode& node) {
+    const Curve x = whole_curve(node["x"]), y = whole_curve(node["y"]), z = whole_curve(node["z"]);
+    std::vector<Vec3> points;
+    for (double at : united(united(x.grid, y.grid), z.grid)) points.emplace_back(x.at(at), y.at(at), z.at(at));
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (!(points[i](2) > points[i - 1](2)))
+            node["z"].fail(text(points[i](2), " m after ", points[i - 1](2), " m; allowed: larger"));
+    return points;
+}
+
+}  // namespace
+
+BeamTable windio_blade(WindioFile& file) {
+    const YamlNode axis =
+        file.get({"components.blade.reference_axis", "components.blade.elastic_properties_mb.six_x_six.reference_axis",
+                  "components.blade.outer_shape_bem.reference_axis"});
+    MatrixBlade blade;
+    blade.points = axis_points(axis);
+    const Vec3 root = blade.points.front();
+    for (Vec3& p : blade.points) p -= root;
+    const YamlNode twist =
+        file.get({"components.blade.outer_shape.twist", "components.blade.elastic_properties_mb.six_x_six.twist",
+                  "components.blade.outer_shape_bem.twist"});
+    const Curve angle = whole_curve(twist);
+    blade.twist_at = angle.grid;
+    for (double value : angle.values) {
+        if (std::abs(value * file.angle()) > pi)
+            twist.fail(text("twist of ", value, "; allowed: half a turn at most (", file.unit_of_angle(), ")"));
+        blade.twist.push_back(value * file.angle());
+    }
+    const YamlNode elastic =
+        file.get({"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
+                  "components.blade.elastic_properties_mb.six_x_six", "components.blade.elastic_properties_mb"});
+    const std::optional<YamlNode> named = elastic.find("stiffness_matrix");
+    Matrices sections = read_matrices(named ? *named : elastic["stiff_matrix"], elastic["inertia_matrix"]);
+    blade.eta = std::move(sections.eta);
+    blade.matrices = std::move(sections.values);
+    try {
+        BeamTable table = matrix_blade_table("blade", blade);
+        static_cast<void>(beam_line(table));
+        return table;
+    } catch (const InputError& error) {
+        elastic.fail(error.what());
+    }
+}
+
+// Axes of the blade: x downwind, y to the trailing edge, z to the tip; in those of the beam (z, -y, x).
+BeamDamping windio_blade_damping(WindioFile& file) {
+    const auto given = file.find({"components.blade.structure.elastic_properties.structural_damping",
+                                  "components.blade.elastic_properties.structural_damping",
+                                  "components.blade.elastic_properties_mb.six_x_six.structural_damping"});
+    return damping_of(file, given, "blade", {2, 1, 0, 5, 4, 3});
+}
+
+namespace {
+
+struct Material {
+    double E, G, density;
+};
+
+Material material(WindioFile& file, const YamlNode& name) {
+    const YamlNode all = file.get({"materials"});
+    for (const YamlNode& m : all.items()) {
+        if (m["name"].word() != name.word()) continue;
+        const YamlNode E = m["E"], density = m["rho"];
+        if (E.is_list()) E.fail(text("several values; allowed: one, '", name.word(), "' is used for the tower"));
+        Material out{E.number(), 0, density.number()};
+        if (!(out.E > 0)) E.fail(text(out.E, "; allowed: > 0"));
+        if (!(out.density > 0)) density.fail(text(out.density, "; allowed: > 0"));
+        const auto G = m.find("G"), nu = m.find("nu");
+        out.G = G && !G->is_list() ? G->number() : out.E / (2 * (1 + (nu && !nu->is_list() ? nu->number() : 0.3)));
+        if (!(out.G > 0)) m.fail(text("shear modulus ", out.G, "; allowed: > 0"));
+        return out;
+    }
+    name.fail(text("no material '", name.word(), "'"));
+}
+
+struct Layer {
+    Material material;
+    Curve thickness;
+};
+
+// A tube of layers, the first outside.
+EngineeringSection tube_section(double diameter, const std::vector<Layer>& layers, double at, double mass_factor,
+                                const YamlNode& where) {
+    EngineeringSection s;
+    s.EA = s.GJ = s.GA_y = s.GA_z = 0;
+    double outer = diameter / 2;
+    for (const Layer& layer : layers) {
+        const double t = layer.thickness.at(at), inner = outer - t;
+        if (!(t >= 0 && inner >= 0)) where.fail(text("wall of ", t, " m at ", at, "; allowed: 0 ... ", outer));
+        const double area = pi * (outer * outer - inner * inner),
+                     I = pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4));
+        const Material& m = layer.material;
+        s.mass += mass_factor * m.density * area;
+        s.EA += m.E * area;
+        s.GJ += 2 * m.G * I;
+        s.EI_flap += m.E * I;
+        s.GA_y += m.G * area / 2;
+        s.j_flap += mass_factor * m.density * I;
+        outer = inner;
+    }
+    if (!(s.EI_flap > 0)) where.fail(text("no wall at ", at));
+    s.EI_edge = s.EI_flap;
+    s.GA_z = s.GA_y;
+    s.j_edge = s.j_flap;
+    return s;
+}
+
+// Stations of a tube of layers.
+void add_tube(BeamTable& table, WindioFile& file, double length) {
+    const YamlNode shape =
+        file.get({"components.tower.outer_shape.outer_diameter", "components.tower.outer_shape_bem.outer_diameter"});
+    const Curve diameter = whole_curve(shape);
+    const YamlNode list =
+        file.get({"components.tower.structure.layers", "components.tower.internal_structure_2d_fem.layers"});
+    const auto factor = file.find({"components.tower.structure.outfitting_factor",
+                                   "components.tower.internal_structure_2d_fem.outfitting_factor"});
+    const double mass_factor = factor ? factor->number() : 1;
+    if (!(mass_factor > 0)) factor->fail(text(mass_factor, "; allowed: > 0"));
+    std::vector<double> grid = diameter.grid;
+    std::vector<Layer> layers;
+    for (const YamlNode& layer : list.items()) {
+        layers.push_back({material(file, layer["material"]), whole_curve(layer["thickness"])});
+        grid = united(grid, layers.back().thickness.grid);
+    }
+    constexpr int parts = 8;
+    for (std::size_t i = 1; i < grid.size(); ++i)
+        for (int k = i == 1 ? 0 : 1; k <= parts; ++k) {
+            const double at = grid[i - 1] + (grid[i] - grid[i - 1]) * k / parts;
+            table.stations.push_back(at * length);
+            table.sections.push_back(tube_section(diameter.at(at), layers, at, mass_factor, shape));
+        }
+}
+
+// Axes of the tower: x downwind, y to the left, z up; in those of the beam (z, x, y).
+void add_matrices(BeamTable& table, const YamlNode& stiffness, const YamlNode& inertia, double length) {
+    Mat3 R;
+    R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    const Matrices sections = read_matrices(stiffness, inertia);
+    if (sections.eta.front() > 1e-9 || sections.eta.back() < 1 - 1e-9)
+        stiffness.fail(text("places ", sections.eta.front(), " ... ", sections.eta.back(), "; allowed: 0 ... 1"));
+    for (double at : sections.eta) table.stations.push_back(at * length);
+    table.stations.back() = length;
+    for (const SectionMatrices& section : sections.values) table.matrices.push_back(rotated(section, R));
+    table.beta.assign(table.stations.size(), 0.0);
+    try {
+        static_cast<void>(beam_line(table));
+    } catch (const InputError& error) {
+        stiffness.fail(error.what());
+    }
+}
+
+}  // namespace
+
+BeamTable windio_tower(WindioFile& file) {
+    const YamlNode axis =
+        file.get({"components.tower.reference_axis", "components.tower.elastic_properties_mb.six_x_six.reference_axis",
+                  "components.tower.outer_shape_bem.reference_axis"});
+    const std::vector<Vec3> points = axis_points(axis);
+    for (const Vec3& p : points)
+        if (p(0) != points[0](0) || p(1) != points[0](1)) axis.fail("a tower that leans; allowed: x and y constant");
+    const double length = points.back()(2) - points.front()(2);
+    BeamTable table;
+    table.name = "tower";
+    if (const auto stiffness = file.find({"components.tower.structure.elastic_properties.stiffness_matrix",
+                                          "components.tower.elastic_properties.stiffness_matrix",
+                                          "components.tower.elastic_properties_mb.six_x_six.stiff_matrix"}))
+        add_matrices(table, *stiffness,
+                     file.get({"components.tower.structure.elastic_properties.inertia_matrix",
+                               "components.tower.elastic_properties.inertia_matrix",
+                               "components.tower.elastic_properties_mb.six_x_six.inertia_matrix"}),
+                     length);
+    else
+        add_tube(table, file, length);
+    return table;
+}
+
+BeamDamping windio_tower_damping(WindioFile& file) {
+    const auto given = file.find({"components.tower.structure.elastic_properties.structural_damping",
+                                  "components.tower.elastic_properties.structural_damping",
+                                  "components.tower.elastic_properties_mb.six_x_six.structural_damping"});
+    return damping_of(file, given, "tower", {2, 0, 1, 5, 3, 4});
+}
+
+}  // namespace cardan::turbines
