@@ -11,41 +11,45 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// Defined in decompositions.cpp by the same list.
-#define CARDAN_DECOMPOSITIONS(DECLARE)                                                                                 \
-    DECLARE class PartialPivLU<cardan::Matrix>;                                                                        \
-    DECLARE class PartialPivLU<cardan::ComplexMatrix>;                                                                 \
-    DECLARE PartialPivLU<cardan::Matrix>::PartialPivLU(const EigenBase<cardan::Matrix>&);                              \
-    DECLARE PartialPivLU<cardan::ComplexMatrix>::PartialPivLU(const EigenBase<cardan::ComplexMatrix>&);                \
-    DECLARE class LLT<cardan::Matrix>;                                                                                 \
-    DECLARE LLT<cardan::Matrix>& LLT<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&);                       \
-    DECLARE class LDLT<cardan::Matrix>;                                                                                \
-    DECLARE LDLT<cardan::Matrix>& LDLT<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&);                     \
-    DECLARE class HouseholderQR<cardan::Matrix>;                                                                       \
-    DECLARE class ColPivHouseholderQR<cardan::Matrix>;                                                                 \
-    DECLARE class CompleteOrthogonalDecomposition<cardan::Matrix>;                                                     \
-    DECLARE void CompleteOrthogonalDecomposition<cardan::Matrix>::_solve_impl(const cardan::Vector&, cardan::Vector&)  \
-        const;                                                                                                         \
-    DECLARE class JacobiSVD<cardan::Matrix>;                                                                           \
-    DECLARE class JacobiSVD<cardan::ComplexMatrix>;                                                                    \
+// Defined in sources of the same names, which take a compiler as long as a batch of others.
+#define CARDAN_FACTORISATIONS(DECLARE)                                                                                \
+    DECLARE class PartialPivLU<cardan::Matrix>;                                                                       \
+    DECLARE PartialPivLU<cardan::Matrix>::PartialPivLU(const EigenBase<cardan::Matrix>&);                             \
+    DECLARE class LLT<cardan::Matrix>;                                                                                \
+    DECLARE LLT<cardan::Matrix>& LLT<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&);                      \
+    DECLARE class LDLT<cardan::Matrix>;                                                                               \
+    DECLARE LDLT<cardan::Matrix>& LDLT<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&);                    \
+    DECLARE class HouseholderQR<cardan::Matrix>;                                                                      \
+    DECLARE class ColPivHouseholderQR<cardan::Matrix>;                                                                \
+    DECLARE class CompleteOrthogonalDecomposition<cardan::Matrix>;                                                    \
+    DECLARE void CompleteOrthogonalDecomposition<cardan::Matrix>::_solve_impl(const cardan::Vector&, cardan::Vector&) \
+        const;                                                                                                        \
+    DECLARE class JacobiSVD<cardan::Matrix>;
+#define CARDAN_EIGENVALUES(DECLARE)                                                                                    \
     DECLARE class HessenbergDecomposition<cardan::Matrix>;                                                             \
     DECLARE class RealSchur<cardan::Matrix>;                                                                           \
     DECLARE RealSchur<cardan::Matrix>& RealSchur<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool);     \
     DECLARE class EigenSolver<cardan::Matrix>;                                                                         \
     DECLARE EigenSolver<cardan::Matrix>& EigenSolver<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool); \
-    DECLARE class HessenbergDecomposition<cardan::ComplexMatrix>;                                                      \
-    DECLARE class ComplexSchur<cardan::ComplexMatrix>;                                                                 \
-    DECLARE ComplexSchur<cardan::ComplexMatrix>& ComplexSchur<cardan::ComplexMatrix>::compute(                         \
-        const EigenBase<cardan::ComplexMatrix>&, bool);                                                                \
-    DECLARE class ComplexEigenSolver<cardan::ComplexMatrix>;                                                           \
-    DECLARE ComplexEigenSolver<cardan::ComplexMatrix>& ComplexEigenSolver<cardan::ComplexMatrix>::compute(             \
-        const EigenBase<cardan::ComplexMatrix>&, bool);                                                                \
     DECLARE class Tridiagonalization<cardan::Matrix>;                                                                  \
     DECLARE class SelfAdjointEigenSolver<cardan::Matrix>;                                                              \
     DECLARE SelfAdjointEigenSolver<cardan::Matrix>& SelfAdjointEigenSolver<cardan::Matrix>::compute(                   \
         const EigenBase<cardan::Matrix>&, int);                                                                        \
     DECLARE class GeneralizedSelfAdjointEigenSolver<cardan::Matrix>;
+#define CARDAN_COMPLEX_DECOMPOSITIONS(DECLARE)                                                             \
+    DECLARE class PartialPivLU<cardan::ComplexMatrix>;                                                     \
+    DECLARE PartialPivLU<cardan::ComplexMatrix>::PartialPivLU(const EigenBase<cardan::ComplexMatrix>&);    \
+    DECLARE class JacobiSVD<cardan::ComplexMatrix>;                                                        \
+    DECLARE class HessenbergDecomposition<cardan::ComplexMatrix>;                                          \
+    DECLARE class ComplexSchur<cardan::ComplexMatrix>;                                                     \
+    DECLARE ComplexSchur<cardan::ComplexMatrix>& ComplexSchur<cardan::ComplexMatrix>::compute(             \
+        const EigenBase<cardan::ComplexMatrix>&, bool);                                                    \
+    DECLARE class ComplexEigenSolver<cardan::ComplexMatrix>;                                               \
+    DECLARE ComplexEigenSolver<cardan::ComplexMatrix>& ComplexEigenSolver<cardan::ComplexMatrix>::compute( \
+        const EigenBase<cardan::ComplexMatrix>&, bool);
 
 namespace Eigen {
-CARDAN_DECOMPOSITIONS(extern template)
-}
+CARDAN_FACTORISATIONS(extern template)
+CARDAN_EIGENVALUES(extern template)
+CARDAN_COMPLEX_DECOMPOSITIONS(extern template)
+}  // namespace Eigen

@@ -1,5 +1,5 @@
 #include "mbs/base/decompositions.hpp"
 
 namespace Eigen {
-CARDAN_DECOMPOSITIONS(template)
+CARDAN_FACTORISATIONS(template)
 }
