@@ -54,6 +54,18 @@ double generalised_force(const Kinematics& kin, std::span<const BodyLoad> loads,
     return sum;
 }
 
+double left_hand_side(const Kinematics& kin, VectorIn qd, VectorIn qdd, int a) {
+    const int n = kin.model().size();
+    require_size("Lagrange's equations", "qd", qd, n);
+    require_size("Lagrange's equations", "qdd", qdd, n);
+    double sum = 0;
+    for (int b = 0; b < n; ++b) {
+        sum += metric(kin, a, b) * qdd(b);
+        for (int c = 0; c < n; ++c) sum += christoffel_first_kind(kin, a, b, c) * qd(b) * qd(c);
+    }
+    return sum;
+}
+
 template double metric<double>(const KinematicsT<double>&, int, int);
 template Complex metric<Complex>(const KinematicsT<Complex>&, int, int);
 template double christoffel_first_kind<double>(const KinematicsT<double>&, int, int, int);

@@ -1,5 +1,10 @@
 /// @file
-/// Lagrange's equations as they are printed: sums over bodies of products of the kinematic basis functions.
+/// Lagrange's equations as they are printed, sums over bodies of products of the kinematic basis functions:
+///
+///     g_ab qdd^b + Gamma_abc qd^b qd^c = Q_a        a = 1 ... n, summed over b and c     [Zhao et al. 2007, eq. 4]
+///
+/// The units are those of the coordinates (rad or m): Q_a is in N m where joint a turns and in N where it slides, g_ab
+/// in kg m^2, kg m or kg, Gamma_abc in those of g_ab per unit of q^c.
 ///
 /// Slow (O(n^4) for all symbols) and plain. They are what the recursive kernels are tested against, and a reader finds
 /// the equations here.
@@ -27,5 +32,9 @@ struct BodyLoad {
 /// Q_a = sum_{k in sub(a)} K_k . u_ka + M_k . Omega_ka                                                   [eq. 7]
 /// @param loads  one per body
 double generalised_force(const Kinematics& kin, std::span<const BodyLoad> loads, int a);
+
+/// Left-hand side of equation a: g_ab qdd^b + Gamma_abc qd^b qd^c.                                       [eq. 4]
+/// @param qd, qdd  rates and accelerations of all coordinates, size n
+double left_hand_side(const Kinematics& kin, VectorIn qd, VectorIn qdd, int a);
 
 }  // namespace cardan::lagrange

@@ -2,6 +2,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
+#include "mbs/kernels/dynamics.hpp"
 #include "mbs/kernels/lagrange.hpp"
 #include "tests/mbs/sampled_tree.hpp"
 #include "tests/support/catch.hpp"
@@ -46,6 +47,18 @@ TEST_CASE("metric: the composite form equals the sum over basis functions, is sy
         REQUIRE((g - g.transpose()).isZero(0));
         REQUIRE(Eigen::LLT<Matrix>(g).info() == Eigen::Success);
         REQUIRE(kinetic_energy(kin, s.qd) == Approx(0.5 * s.qd.dot(g * s.qd)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("lagrange: the left-hand side of eq. (4), summed as printed, equals the O(n) inverse dynamics",
+          "[property]") {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        SampledTree s(seed, {.bodies = bodies(seed), .armatures = seed % 2 == 0});
+        const Vector qdd = Vector::LinSpaced(s.n, -2, 3);
+        Vector tau(s.n), plain(s.n);
+        inverse_dynamics<double>(s.kin, s.qd, qdd, tau);
+        for (int a = 0; a < s.n; ++a) plain(a) = lagrange::left_hand_side(s.kin, s.qd, qdd, a);
+        REQUIRE((tau - plain).norm() < 1e-12 * tau.norm());
     }
 }
 
