@@ -7,7 +7,7 @@ usage() {
 usage: ./test.sh [--full] [--help]
 
   (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
-  --full     the same, then clang build and tests, clang-tidy, tests under the address and undefined-behaviour
+  --full     the same, then clang-tidy, clang's build and all tests under its address and undefined-behaviour
              sanitizers, two sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and
              the slow tests
 
@@ -109,16 +109,10 @@ heading "Installed package"
 check_package
 
 if ((full)); then
-    heading "Build with clang, release"
-    build clang
-
-    heading "Tests, clang"
-    ctest --preset clang --parallel "$jobs"
-
     heading "clang-tidy"
     check_tidy
 
-    heading "Build with sanitizers"
+    heading "Build with clang and sanitizers"
     build sanitize
 
     heading "Tests, sanitizers"

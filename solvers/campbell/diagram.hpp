@@ -7,6 +7,7 @@
 #include "solvers/periodic/floquet_mode.hpp"
 
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -158,6 +159,8 @@ struct Campbell {
     const CampbellMode* mode(const Branch& branch, std::size_t point) const;
     /// @throws InputError with the names there are.
     const Branch& branch(std::string_view name) const;
+    /// The same, null if there is none.
+    const Branch* find_branch(std::string_view name) const;
     /// Motions of all `frames` in a mode of a branch.
     std::vector<FrameMotion> motion(const Branch& branch, std::size_t point) const;
 
@@ -178,6 +181,11 @@ struct Campbell {
 /// found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options = {});
+/// The same for speeds that stand in the call: campbell(system, rotor, {0.0, 1.5, 3.0}).
+inline Campbell campbell(const System& system, const RotorMap& rotor, std::initializer_list<double> rotor_speed,
+                         const CampbellOptions& options = {}) {
+    return campbell(system, rotor, std::span<const double>(rotor_speed.begin(), rotor_speed.size()), options);
+}
 
 /// One point of a diagram over something else than rotor speed.
 struct CampbellCase {

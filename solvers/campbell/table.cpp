@@ -62,12 +62,15 @@ double Campbell::damping_ratio(const Branch& branch, std::size_t point) const {
     return m && m->kind() != FloquetKind::rigid ? m->mode.damping_ratio() : nan;
 }
 
+const Branch* Campbell::find_branch(std::string_view name) const {
+    const auto found = std::find_if(branches.begin(), branches.end(), [&](const Branch& b) { return b.name == name; });
+    return found == branches.end() ? nullptr : &*found;
+}
+
 const Branch& Campbell::branch(std::string_view name) const {
+    if (const Branch* const found = find_branch(name)) return *found;
     std::string known;
-    for (const Branch& b : branches) {
-        if (b.name == name) return b;
-        known += text(known.empty() ? "'" : ", '", b.name, "'");
-    }
+    for (const Branch& b : branches) known += text(known.empty() ? "'" : ", '", b.name, "'");
     throw InputError(text("unknown mode '", name, "'; the diagram has ", known));
 }
 

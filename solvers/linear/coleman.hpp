@@ -2,6 +2,7 @@
 /// Multi-blade (Coleman) transformation of a linearised machine to the fixed frame.
 #pragma once
 
+#include "mbs/model/rotor_map.hpp"
 #include "solvers/linear/linearise.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# tests/fuzz/run.sh [seconds] [target]...: runs the targets in build/fuzz one after the other, 60 s each. Seeds: those in
-# tests/fuzz/seeds, the models of tests/data, and what earlier runs found worth keeping (build/fuzz/corpus). The first
-# finding ends it: the input lies in build/fuzz/findings.
+# tests/fuzz/run.sh [seconds] [target]...: runs the targets in build/fuzz, 60 s each, as many at a time as there are
+# processors (CARDAN_JOBS: another number). Seeds: those in tests/fuzz/seeds, the models of tests/data, and what earlier
+# runs found worth keeping (build/fuzz/corpus). A finding ends it: the input lies in build/fuzz/findings.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -20,9 +20,8 @@ seeds_of_openfast() { # <folder>
     done
 }
 
-mkdir -p build/fuzz/findings
-for target in "${targets[@]}"; do
-    seeds="build/fuzz/seeds/$target" corpus="build/fuzz/corpus/$target"
+fuzz() { # <target>
+    local target="$1" seeds="build/fuzz/seeds/$1" corpus="build/fuzz/corpus/$1" log="build/fuzz/$1.log"
     mkdir -p "$seeds" "$corpus"
     case "$target" in
         openfast) seeds_of_openfast "$seeds" ;;
@@ -30,12 +29,16 @@ for target in "${targets[@]}"; do
         urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
         *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
     esac
-    log="build/fuzz/$target.log"
     if ! nice -n 19 "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
         -max_len=16384 -artifact_prefix=build/fuzz/findings/ -print_final_stats=1 "$corpus" "$seeds" >"$log" 2>&1; then
         tail -40 "$log" >&2
         echo "fuzzing: $target has a finding, see build/fuzz/findings and $log" >&2
-        exit 1
+        return 255 # xargs stops
     fi
     echo "$target: $(grep -o 'number_of_executed_units: .*' "$log" | grep -o '[0-9]*$') inputs, no finding"
-done
+}
+
+mkdir -p build/fuzz/findings
+export -f fuzz seeds_of_openfast
+export seconds
+printf '%s\n' "${targets[@]}" | xargs -P "${CARDAN_JOBS:-$(nproc)}" -I '{}' bash -euo pipefail -c 'fuzz {}'

@@ -1,5 +1,6 @@
 // Files and pictures of a Campbell diagram.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
@@ -27,6 +28,15 @@ const Campbell& diagram() {
 }
 
 }  // namespace
+
+TEST_CASE("campbell: speeds may stand in the call; a branch is found by its name or not at all", "[property]") {
+    const turbines::Turbine turbine = turbines::wt600({.tower_elements = 1, .blade_elements = 2});
+    const Campbell d = campbell(turbine.system(), turbine.rotor(), {0.0, 10 * units::rpm});
+    REQUIRE(d.rotor_speeds() == std::vector<double>{0, 10 * units::rpm});
+    for (const Branch& b : d.branches) CHECK(d.find_branch(b.name) == &d.branch(b.name));
+    CHECK(d.find_branch("17th blade flap") == nullptr);
+    CHECK_THROWS_AS(d.branch("17th blade flap"), InputError);
+}
 
 TEST_CASE("campbell file: holds what the diagram holds, with names, units and dimension scales") {
     const test::Folder folder;
