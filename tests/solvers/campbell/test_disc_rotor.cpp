@@ -149,4 +149,18 @@ TEST_CASE("modes: a shaft almost without inertia adds its own frequency or none,
     }
 }
 
+TEST_CASE("campbell: a machine in which nothing can move is refused by name", "[property]") {
+    Tree tree;
+    BodySpec shaft = joint_spec("spin", Tree::base(), JointKind::revolute, Vec3::UnitX());
+    shaft.inertia = {40, Vec3::Zero(), Vec3(Jp, Jt, Jt).asDiagonal()};
+    const BodyId spin = tree.add_body(shaft);
+    const System system(tree, ForceSet{});
+    RotorMap map;
+    map.machine = "rigid machine";
+    map.spin = system.model.index(spin);
+    map.hub = tree.frame_of(spin);
+    CHECK_THROWS_WITH(campbell(system, map, {0.0, 1.0}, {.spin = RotorSpin::prescribed}),
+                      Catch::Contains("rigid machine: coordinates that can move = 0"));
+}
+
 }  // namespace cardan::testing::disc_rotor
