@@ -1,6 +1,6 @@
 // A steel cantilever of cardanic joint beam elements: natural frequencies beside Euler and Bernoulli's.
-#include "elements/cardan_beam.hpp"
-#include "solvers/modes.hpp"
+#include "elements/cardan_beam/cardan_beam.hpp"
+#include "solvers/linear/modes.hpp"
 
 #include <array>
 #include <cstdio>

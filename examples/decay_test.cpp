@@ -1,8 +1,8 @@
 // Decay test of a damped beam: displaced in its first mode and let go, logarithmic decrement from peak to peak.
-#include "elements/cardan_beam.hpp"
-#include "mbs/error.hpp"
-#include "solvers/integrate.hpp"
-#include "solvers/modes.hpp"
+#include "elements/cardan_beam/cardan_beam.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/linear/modes.hpp"
+#include "solvers/time/integrate.hpp"
 
 #include <cstdio>
 #include <iostream>

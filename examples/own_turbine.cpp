@@ -1,8 +1,8 @@
 // A turbine of one's own from a YAML file: examples/data/own_turbine.yaml, or the file named on the command line.
-#include "mbs/error.hpp"
-#include "solvers/campbell.hpp"
-#include "turbines/assembly.hpp"
-#include "turbines/description_yaml.hpp"
+#include "mbs/base/error.hpp"
+#include "solvers/campbell/diagram.hpp"
+#include "turbines/model/assembly.hpp"
+#include "turbines/model/description_text.hpp"
 
 #include <cstdio>
 #include <iostream>
@@ -27,10 +27,9 @@ int main(int argc, char** argv) try {
 
     const solvers::Campbell diagram =
         solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 40, 10));
-    for (const solvers::Branch& branch : diagram.branches)
-        if (branch.name == "1st tower fore-aft")
-            std::printf("%s at rest: %.3f Hz; with all that it carries in one point: %.3f Hz\n\n", branch.name.c_str(),
-                        diagram.natural_hz(branch, 0), estimate(machine, turbine));
+    if (const solvers::Branch* const bending = diagram.find_branch("1st tower fore-aft"))
+        std::printf("%s at rest: %.3f Hz; with all that it carries in one point: %.3f Hz\n\n", bending->name.c_str(),
+                    diagram.natural_hz(*bending, 0), estimate(machine, turbine));
     std::cout << solvers::table(diagram);
     return 0;
 } catch (const Error& error) {

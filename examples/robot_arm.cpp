@@ -1,8 +1,8 @@
 // A robot arm from URDF: torques that its drives need against gravity, and how it vibrates on the drives as springs.
-#include "mbs/error.hpp"
-#include "mbs/units.hpp"
-#include "mbs/urdf.hpp"
-#include "solvers/modes.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "mbs/urdf/urdf.hpp"
+#include "solvers/linear/modes.hpp"
 
 #include <cstdio>
 #include <iostream>
