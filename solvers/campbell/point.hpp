@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 
 #include <memory>
 #include <optional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mbs/kernels/workspace.hpp"
-#include "mbs/system/forces.hpp"
+#include "mbs/system/system.hpp"
 #include "solvers/linear/operating_point.hpp"
 
 namespace cardan::solvers {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "elements/cardan_beam/section_loads.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/catch.hpp"
 

@@ -1,6 +1,7 @@
 // The laws of the hinges at large angles: exact derivatives, the same at rest, what they gain.
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/elements/cardan_beam/rods.hpp"

@@ -3,6 +3,7 @@
 // with the elements, not even the section matrix (oracles/rod_section).
 #include "elements/cardan_beam/distributed_load.hpp"
 #include "elements/reference/mixed_beam.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/elements/cardan_beam/spinning_rods.hpp"
 #include "tests/support/catch.hpp"
