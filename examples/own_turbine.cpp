@@ -2,7 +2,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/model/description_text.hpp"
+#include "turbines/yaml/description.hpp"
 
 #include <cstdio>
 #include <iostream>
