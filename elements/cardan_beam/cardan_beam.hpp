@@ -26,8 +26,8 @@ enum class CardanOrder : std::uint8_t { mirrored, same };
 struct CardanBeamOptions {
     int elements = 3;                     ///< equal lengths, unless `boundaries` is given
     std::vector<double> boundaries = {};  ///< element ends from 0 to the length of the beam, m
-    /// Place of the hinges, 0 < delta < 0.5. Empty: suited_delta() of the partition; another place costs orders of
-    /// convergence and gives a warning. Not used by partitions that place the hinges themselves.
+    /// Place of the hinges, 0 < delta < 0.5. Empty: suited_delta() of the partition; any other value lowers the order
+    /// of convergence and gives a warning. Ignored by partitions that place the hinges themselves.
     std::optional<double> delta = {};
     Partition partition = Partition::segment_masses;
     CardanOrder order = CardanOrder::mirrored;
@@ -36,11 +36,13 @@ struct CardanBeamOptions {
     bool extension = false;  ///< free, else condensed out of the flexibility. To be freed where shear or tension
                              ///< centre lie off the reference line and the axial force is large
     bool torsion = true;     ///< free, else condensed
-    /// Bending about y or z of the beam is held: its coordinates are driven, at zero, whatever its flexibility.
+    /// Bending about the beam's y or z axis is suppressed: its coordinates are driven, at zero, whatever the
+    /// flexibility.
     bool held_y = false, held_z = false;
     BeamDamping damping = {};
-    /// On each bending coordinate, times M L^2 of the element. May be negative (docs/theory.md, accuracy) as long as
-    /// the metric of the whole tree stays positive definite: the Model refuses it otherwise and names the coordinate.
+    /// Armature on each bending coordinate, as a multiple of the element's M L^2. May be negative (docs/theory.md,
+    /// accuracy) as long as the metric of the whole tree stays positive definite; otherwise the Model rejects it and
+    /// names the coordinate.
     double bending_armature = 0;
     double torsion_armature = 0;  ///< on the torsion coordinate, times the polar inertia of the element
     double hinge_delta() const { return delta.value_or(suited_delta(partition)); }
@@ -58,7 +60,7 @@ struct CardanBeam {
         std::vector<BodyId> bodies;            ///< one per kind, the same order
         Mat6 flexibility;
         Matrix stiffness;      ///< over `bodies`
-        Matrix damping;        ///< over `bodies`, without what is told by modes of the whole beam
+        Matrix damping;        ///< over `bodies`, without the modal damping of the whole beam
         ShearTilt tilt;        ///< over `bodies`; empty unless flexible in shear with extension free
         double start, length;  ///< m along the reference line; of the chord
         double arc;            ///< m along the reference line
@@ -75,8 +77,8 @@ struct CardanBeam {
         nodes;        ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
     double mass = 0;  ///< kg
     std::vector<std::string> warnings;
-    BeamLine line;              ///< what it was made from
-    CardanBeamOptions options;  ///< and how
+    BeamLine line;              ///< the line it was made from
+    CardanBeamOptions options;  ///< and the options
     FrameId tip() const { return nodes.back(); }
     ElementLine span(const Element& element) const {
         return {line, element.start, element.start + element.arc, element.hinge_line};

@@ -8,9 +8,10 @@
 
 namespace cardan {
 
-/// Damping ratios, of critical, of the modes of the beam clamped at its root with nothing attached, in the order of
-/// frequency: of all modes, or by the direction that holds most of the elastic energy of the mode (in element axes).
-/// Modes beyond the end of a list get its last ratio times the ratio of frequencies, so that high modes stay damped.
+/// Fractions of critical damping of the modes of the beam clamped at its root with nothing attached, in order of
+/// frequency: one list for all modes, or one per direction, a mode counting for the direction that holds most of its
+/// elastic energy (in element axes). Modes beyond the end of a list get its last ratio times the ratio of frequencies,
+/// so that high modes stay damped.
 struct ModalRatios {
     std::vector<double> all = {};        ///< of every mode; the lists below must be empty then
     std::vector<double> bending_y = {};  ///< bending about y (flap of a blade)
@@ -22,11 +23,11 @@ struct ModalRatios {
     }
 };
 
-/// Damping of a beam. What is given adds up; the default is none.
+/// Damping of a beam. The contributions add up; the default is none.
 struct BeamDamping {
-    BeamDamping() = default;  // no aggregate: two bare numbers would say nothing
+    BeamDamping() = default;  // not an aggregate: two bare numbers would be unreadable
     /// Stiffness-proportional by direction of strain, in the section's own axes, s: extension, shear y, shear z,
-    /// torsion, bending about y', bending about z'. Stress of damping = tau^(1/2) K tau^(1/2) strain rate, so equal
+    /// torsion, bending about y', bending about z'. Damping stress = tau^(1/2) K tau^(1/2) strain rate, so equal
     /// entries give D = tau K also for coupled sections.
     std::array<double, 6> time_constants{};
     double mass_proportional = 0;  ///< 1/s; times the mass matrix of the clamped beam at rest

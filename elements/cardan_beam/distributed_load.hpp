@@ -8,7 +8,7 @@ namespace cardan {
 
 struct DistributedLoad {
     std::string name = {};
-    /// Force and moment per length at a place of the reference line, N/m and N m/m.
+    /// Force and moment per length at arc length s of the reference line, N/m and N m/m.
     std::function<Wrench(double s)> per_length = {};
     /// base: dead, components in base axes; frame: follower, components in the section axes of the line (x tangent,
     /// y, z of the beam), which turn with the beam.
@@ -20,11 +20,11 @@ struct DistributedLoad {
 /// force and moment are exact for polynomials up to degree 5 (4 for the moment of the force).
 ///
 /// With partitions that give the bodies the momenta of the static shapes (static_moment, mean_difference) loads do work
-/// on the same shapes: the end bodies get the levers and moments that are due to them from their neighbours, by at most
-/// ten further wrenches per element. Displacements of the nodes in linear statics are then exact, as far as one mean of
-/// the compliances holds for both planes and nothing is limited by taper, and a load on the hinge line of mass per
-/// length times g has the generalised forces of gravity, at any deflection.
-/// @throws InputError: no function, a value that is not finite
+/// on the same shapes: the end bodies take over the corresponding lever arms and moments from their neighbours, through
+/// at most ten further wrenches per element. Displacements of the nodes in linear statics are then exact, provided that
+/// one mean compliance is valid for both planes and taper does not limit the partition, and a load on the hinge line of
+/// mass per length times g has the generalised forces of gravity, at any deflection.
+/// @throws InputError: no function given, a value that is not finite
 void add_distributed_load(Tree& tree, ForceSet& forces, const CardanBeam& beam, const DistributedLoad& load);
 
 }  // namespace cardan

@@ -1,5 +1,5 @@
 /// @file
-/// One element's share of a beam line, seen from the element: x along the chord between its ends.
+/// The part of a beam line that belongs to one element, in element axes: x along the chord between its ends.
 #pragma once
 
 #include "elements/sections/quadrature.hpp"
@@ -10,11 +10,11 @@ namespace cardan {
 class ElementLine {
 public:
     /// @param start, end   along the line, m
-    /// @param hinge_line   (0, y, z): where the axis through the hinges runs beside the chord, element axes, m
+    /// @param hinge_line   (0, y, z): offset of the axis through the hinges from the chord, element axes, m
     /// @throws InputError if both ends coincide in space
     ElementLine(const BeamLine& line, double start, double end, const Vec3& hinge_line = Vec3::Zero());
 
-    /// Distance of both ends, m: the length of the element.
+    /// Distance between the ends, m: the length of the element.
     double chord() const { return chord_; }
     double start() const { return start_; }
     double end() const { return end_; }

@@ -8,25 +8,24 @@
 
 namespace cardan {
 
-/// The springs store q^T K q / 2 in the joint coordinates q. At large angles better arguments y(q) may take their
-/// place; to first order y = q.
+/// The springs store q^T K q / 2 in the joint coordinates q. At large angles better arguments y(q) may replace them; to
+/// first order y = q.
 struct HingeLaw {
     /// Each cardan joint bends by its swing vector (rotation vector of the beam axis) instead of its two angles: a beam
     /// of equal bending stiffnesses is then as stiff diagonally as along its axes.
     bool isotropic = false;
-    /// The hinge angles are counted in the section turned by the torsion between the clamped end and the hinge:
-    /// for unequal bending stiffnesses with torsion.
+    /// The hinge angles are measured in the section as turned by the torsion between the clamped end and the hinge: for
+    /// unequal bending stiffnesses with torsion.
     bool section_frame = false;
-    /// Where sections give way in shear and extension is free, the springs measure the strains of a rod, not those of
-    /// bodies that shear has tilted (ShearTilt). Without, as in the paper of 2007, more elements converge to another
-    /// rod.
+    /// For sections flexible in shear with extension free, the springs measure the strains of a rod, not those of
+    /// bodies tilted by shear (ShearTilt). Without it, as in the 2007 paper, refinement converges to a different rod.
     bool rod_strains = true;
-    /// As far as large angles go.
+    /// True if the law is linear in the hinge angles.
     bool is_linear() const { return !isotropic && !section_frame; }
 };
 
-/// How the bodies between the hinges of an element turn by shear while its sections do not, and what the springs are
-/// not to measure of it. Of the springs' arguments y: psi = (psi_y, psi_z) = Psi y.
+/// How shear tilts the bodies between the hinges of an element although its sections do not turn, and which part of
+/// that the springs must not measure. In terms of the springs' arguments y: psi = (psi_y, psi_z) = Psi y.
 struct ShearTilt {
     /// z_spring = y_spring + ... + factor (a . y) (b . y)
     struct Product {
@@ -36,15 +35,15 @@ struct ShearTilt {
     };
     Eigen::Matrix<double, 2, 6> rotation = {};  ///< Psi, columns beyond the free coordinates zero
     Eigen::Index extension = 0;                 ///< place of u among the free coordinates
-    std::vector<Product> products = {};         ///< empty: rigid in shear, nothing to mend
+    std::vector<Product> products = {};         ///< empty: rigid in shear, nothing to correct
 };
 
 /// Empty without free extension, and for elements rigid in shear.
-/// @param mirrored  order of the cardan joints; with the other one the axis of torsion is left as it is
+/// @param mirrored  order of the cardan joints; for the other order the torsion axis is not corrected
 ShearTilt shear_tilt(const ElementLine& element, const Hinges& hinges, CurvedFlexibility rule,
                      const std::vector<ElementCoordinate>& kinds, const Matrix& stiffness, bool mirrored);
 
-/// The bent coordinates of one element.
+/// The coordinates of one element to which a hinge law applies.
 struct HingeLawElement {
     std::vector<BodyId> bodies;            ///< free coordinates of the element
     std::vector<ElementCoordinate> kinds;  ///< what they are
@@ -52,12 +51,13 @@ struct HingeLawElement {
     ShearTilt tilt = {};
 };
 
-/// The forces dV/dq of an element's springs along its joints, against the coordinates. V = z^T K z / 2, with z = y(q)
-/// but for what bodies that are tilted by psi = Psi y do beyond a rod (s = 1 + u / d): by an axial force,
+/// The forces dV/dq of an element's springs along its joints; they act against the coordinates. V = z^T K z / 2, with z
+/// = y(q) except for what tilting the bodies by psi = Psi y adds to the strains of a rod (s = 1 + u / d): under an
+/// axial force,
 ///     z_u = y_u - s d |psi|^2 / 2,   z_az1 += (s - 1) psi_y, z_az2 -= (s - 1) psi_y,
 ///                                    z_ay1 -= (s - 1) psi_z, z_ay2 += (s - 1) psi_z,
-/// since the tilt shortens the chain by more than shear does a rod and shears it by gamma = s d psi / L; and by torsion
-/// about their axis instead of the sections' one,
+/// since the tilt shortens the chain more than shear shortens a rod, and shears it by gamma = s d psi / L; and under
+/// torsion, which acts about the bodies' axis instead of the sections',
 ///     z_phi -= psi_z (y_az1 + y_az2),   z_ay1, z_ay2 += phi psi_y / 2,   z_az1, z_az2 += phi psi_z / 2.
 ///                                                             [docs/theory.md, shear under axial force and torsion]
 /// @param q  coordinates in the order of `kinds`

@@ -6,8 +6,8 @@
 
 namespace cardan {
 
-/// Integrals of mu with the static shapes of the hinges: p2 is the deflection for a unit turn of hinge 2 with the
-/// inboard end held, p1 that of hinge 1 with the outboard end held.
+/// Integrals of mu with the static shapes of the hinges: p2 is the deflection for a unit rotation of hinge 2 with the
+/// inboard end held, p1 that for hinge 1 with the outboard end held.
 struct HingeShapes {
     double P2, Q1;    ///< int mu p2, int mu p1: first moments of B4 and B1 about their hinges that have this momentum
     double M22, M11;  ///< int mu p2^2, int mu p1^2
@@ -23,8 +23,8 @@ struct PlanarBody {
 struct MeanDifference {
     HingePlaces hinges;
     std::array<PlanarBody, 3> body;  ///< B1, B2 + B3, B4
-    double limiter;  ///< 1: momenta of the static shapes; less: on the way to the true segments; 0: they
-    double gauge;    ///< 1: masses of the end bodies near those of the true segments
+    double limiter;                  ///< 1: momenta of the static shapes; 0: true segments; in between: a blend
+    double gauge;                    ///< 1: masses of the end bodies near those of the true segments
 };
 /// @param element  with mass
 MeanDifference mean_difference(const PlanarElement& element);

@@ -1,5 +1,5 @@
 /// @file
-/// How the mass of a beam element is given to its four rigid bodies.
+/// How the mass of a beam element is distributed over its four rigid bodies.
 #pragma once
 
 #include "elements/cardan_beam/timoshenko.hpp"
@@ -21,15 +21,15 @@ enum class Partition : std::uint8_t {
                        ///< is closer); mind centrifugal_limit. [docs/partitions.md]
 };
 
-/// Where the hinges of a partition belong, as a fraction of the length; of those that place them themselves
-/// delta_gauss.
+/// Hinge position that suits a partition, as a fraction of the length; delta_gauss for partitions that place the hinges
+/// themselves.
 constexpr double suited_delta(Partition partition) {
     return partition == Partition::static_moment ? 1. / 6 : delta_gauss;
 }
 
 /// "segment masses", "static moments", "compliance Gauss points", "mean differences".
 std::string_view partition_name(Partition partition);
-/// Does the partition put the hinges where the element's compliance says, not at delta?
+/// True if the partition places the hinges from the element's compliance, not at delta.
 constexpr bool places_hinges(Partition partition) {
     return partition == Partition::compliance_gauss || partition == Partition::mean_difference;
 }
@@ -41,7 +41,7 @@ struct ElementInertia {
     double mass = 0;           ///< of the element, kg
     double polar_inertia = 0;  ///< int (Jxx + mu (y^2 + z^2)) dx about the hinge line, kg m^2
     std::string warning = {};  ///< empty, or what is unsound about the partition here
-    /// How far B1 and B4 have the first moments of the static shapes: 1 all the way, 0 those of the true segments.
+    /// To what extent B1 and B4 have the first moments of the static shapes: 1 fully, 0 those of the true segments.
     double shape_share = 0;
     double tilted_moment = 0;   ///< share of the first moments across the axis that shear tilts though the sections
                                 ///< stay: more than 0 where the end bodies have not the rotary inertia to carry them
@@ -58,13 +58,14 @@ struct ElementInertia {
 /// compliance_gauss and mean_difference: hinges from the bending compliance, delta is not used; sectional rotary
 /// inertia is cut at the centroid of the torsion compliance, int x/GJ / int 1/GJ.
 ///
-/// Where sections give way in shear, first moments across the axis of B2 and B3 move to B1 and B4
+/// If sections are flexible in shear, first moments across the axis are moved from B2 and B3 to B1 and B4
 /// (elements/cardan_beam/tilted_masses).
 ///
 /// mean_difference: a body is the material of its segment, stretched along the axis about its centre and scaled in mass
-/// until mass and moment of inertia are those of the partition, and moved along the axis to its place; across it keeps
-/// centre and scatter, hence a sound tensor. Kept exactly: mass, first moment in all directions (what the new masses
-/// lack across is made up by moving B2 and B3), on a straight line also the second moment along the axis.
+/// until mass and moment of inertia are those of the partition, and moved along the axis to its place; across the axis
+/// it keeps its centre and spread, so the tensor stays physical. Preserved exactly: mass, first moment in all
+/// directions (a lateral deficit of the new masses is compensated by moving B2 and B3), and on a straight line also the
+/// second moment along the axis.
 ElementInertia partition_element(const ElementLine& on, double delta, Partition partition);
 ElementInertia partition_element(const BeamLine& line, double x0, double L, double delta, Partition partition);
 

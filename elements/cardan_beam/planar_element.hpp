@@ -1,6 +1,6 @@
 /// @file
-/// One element as a beam in a plane, sampled for integrals and running integrals along it: what places of hinges and
-/// partitions of inertia are made from.
+/// One element as a planar beam, sampled for integrals and running integrals along it, from which hinge positions and
+/// inertia partitions are computed.
 #pragma once
 
 #include "elements/cardan_beam/element_line.hpp"
@@ -14,7 +14,7 @@ struct PlanarSection {
     double shear = 0;    ///< 1/GA, 1/N
 };
 
-/// How the compliances of both planes make one: sqrt(det) of the 2 x 2 compliance of the section, which is
+/// How the compliances of both planes are combined into one: sqrt(det) of the 2 x 2 compliance of the section, which is
 /// 1/sqrt(EI_y EI_z) in whatever axes; or half the trace.
 enum class PlaneMean : std::uint8_t { geometric, arithmetic };
 
@@ -25,8 +25,8 @@ public:
     /// @param sections  at 0 <= x <= length
     /// @param breaks    where they have kinks or jumps, ascending, m
     PlanarElement(double length, std::vector<double> breaks, std::function<PlanarSection(double x)> sections);
-    /// Of an element that bends both ways, the bodies of which serve both: mean compliance, for shear alike. Lengths
-    /// are those along the line.
+    /// For an element that bends in both planes with the same bodies: mean compliance, likewise for shear. Lengths are
+    /// measured along the line.
     explicit PlanarElement(const ElementLine& element, PlaneMean mean = PlaneMean::geometric);
 
     double length() const { return length_; }
@@ -35,7 +35,7 @@ public:
     const Samples& bending() const { return bending_; }
     const Samples& shear() const { return shear_; }
 
-    /// Of the samples in an integral along the element, m.
+    /// Quadrature weights of the samples in an integral along the element, m.
     const Samples& weight() const { return weight_; }
 
     double integral(const Samples& f) const { return (weight_ * f).sum(); }

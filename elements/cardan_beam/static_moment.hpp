@@ -6,7 +6,7 @@
 
 namespace cardan {
 
-/// Moves the bodies of a partition by segments with hinges at delta L and (1 - delta) L along the axis and replaces
+/// Takes a segment partition with hinges at delta L and (1 - delta) L, moves its bodies along the axis and replaces
 /// their tensors by slender ones; mass, first and second moment along the axis are kept.
 /// @throws InputError: a segment without mass; a negative moment of inertia left for the middle bodies
 void move_to_static_moment(const ElementLine& on, double delta, ElementInertia& element);

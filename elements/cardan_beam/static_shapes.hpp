@@ -1,13 +1,13 @@
 /// @file
-/// Static shapes of the hinges of an element in one bending plane: what its masses and its loads do work on.
+/// Static shapes of the hinges of an element in one bending plane, on which its masses and loads do work.
 #pragma once
 
 #include "elements/cardan_beam/compliance_hinges.hpp"
 
 namespace cardan {
 
-/// Deflections at PlanarElement::x() and turns of the sections there, for a unit turn of a hinge without loads in
-/// between. With psi_j = int (x - xi) N_j c dxi + sigma_j / d int s dxi and F their flexibility the shapes of the
+/// Deflections and section rotations at PlanarElement::x() for a unit rotation of a hinge, without loads in between.
+/// With psi_j = int (x - xi) N_j c dxi + sigma_j / d int s dxi and F their flexibility the shapes of the
 /// hinges, inboard end held, are phi_i = (F^-1)_ij psi_j.                                       [docs/partitions.md,
 /// step 2]
 struct StaticShapes {

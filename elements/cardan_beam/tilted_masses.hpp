@@ -1,5 +1,5 @@
 /// @file
-/// Masses off the hinge line of elements that give way in shear.                           [docs/theory.md, any
+/// Masses off the hinge line of elements that are flexible in shear.                           [docs/theory.md, any
 /// section]
 #pragma once
 
@@ -7,16 +7,16 @@
 
 namespace cardan {
 
-/// Of the rotation of the bodies between the hinges against the sections, the share that is shear, in the directions
-/// (y, z) of deflection: with h^2 GA / 12 EI = a, 1 / (1 + a) on a uniform element with hinges at delta_gauss. Zero for
-/// an element rigid in shear.
+/// The fraction of the rotation of the bodies between the hinges, relative to the sections, that is due to shear, in
+/// the directions (y, z) of deflection: with h^2 GA / 12 EI = a, 1 / (1 + a) on a uniform element with hinges at
+/// delta_gauss. Zero for an element rigid in shear.
 Eigen::Matrix2d part_of_shear(const ElementLine& on, const Hinges& hinges);
 
-/// Shear turns the bodies between the hinges and not the sections, so that masses beside the axis would move along it
-/// too far. Of the first moments across the axis of B2 and B3, the share of shear goes to B1 and B4, which turn with
-/// the sections, as far as these stay possible material. Kept: all masses and their places along the axis, first moment
-/// and second moments across the axis of B1 with B2 and of B3 with B4.
-/// @return share of the first moments that shear goes on tilting since that is not possible, 0 ... 1
+/// Shear turns the bodies between the hinges but not the sections, so masses off the axis would move too far along it.
+/// The shear fraction of the lateral first moments of B2 and B3 is therefore transferred to B1 and B4, which turn with
+/// the sections, as far as their inertias stay physically possible. Preserved: all masses and their positions along the
+/// axis, and the first and second moments across the axis of B1 with B2 and of B3 with B4.
+/// @return fraction of the first moments that shear still tilts because the transfer is not possible, 0 ... 1
 double take_masses_off_the_tilt(const ElementLine& on, ElementInertia& element);
 
 }  // namespace cardan

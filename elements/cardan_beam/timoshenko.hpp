@@ -10,8 +10,8 @@
 
 namespace cardan {
 
-/// (1 - 1/sqrt 3) / 2: hinges at the Gauss points, the default. Of all places only this one converges at O(h^4) in
-/// bending with true segment masses.
+/// (1 - 1/sqrt 3) / 2: hinges at the Gauss points, the default. Only this position converges at O(h^4) in bending with
+/// true segment masses.
 inline constexpr double delta_gauss = 0.21132486540518711775;
 
 /// Where the joints of an element sit, as fractions of its length.
@@ -36,7 +36,7 @@ Mat6 section_forces_by_joint_forces(double x, double L, const Hinges& hinges);
 
 /// How an element on a curve gets its flexibility.
 enum class CurvedFlexibility : std::uint8_t {
-    curve,  ///< section forces taken where the material lies, in its axes: exact tip compliance of the curved piece
+    curve,  ///< section forces evaluated on the curve, in local section axes: exact tip compliance of the curved piece
     chord   ///< the sections laid along the chord
 };
 /// Mean shear centre (0, y, z) of an element seen from its reference line, element axes, m: forces through it do not
@@ -53,24 +53,25 @@ Mat6 joint_flexibility(const ElementLine& element, const Hinges& hinges,
 /// The element [x0, x0 + L] of a line, hinges at delta L and (1 - delta) L.
 Mat6 joint_flexibility(const BeamLine& line, double x0, double L, double delta);
 
-/// Shear compliance of a section at zero twist, 1/N, from its compliance: torsion about a shear centre off the line,
-/// which shears the line, has no part in it.
+/// Shear compliance of a section at zero twist, 1/N, from its compliance matrix. Torsion about an offset shear centre,
+/// which shears the line, does not contribute.
 Eigen::Matrix2d shear_at_zero_twist(const Mat6& compliance);
 
-/// Does any section of the element give way in shear? Torsion about a shear centre off the line, which shears the line,
-/// does not count.
+/// True if any section of the element is flexible in shear. Torsion about an offset shear centre, which shears the
+/// line, does not count.
 bool is_flexible_in_shear(const ElementLine& element);
 
-/// The part (psi_y, psi_z) of the rotation of the bodies between the hinges that is shear, rad, by the joint forces in
-/// the order of ElementCoordinate: psi = int gamma ds / d, toward y and toward z, gamma the shear strain of the hinge
-/// line by the sections' compliance and d the distance of the hinges. The sections do not turn by it.
+/// The part (psi_y, psi_z) of the rotation of the bodies between the hinges that is due to shear, rad per unit of the
+/// joint forces, in the order of ElementCoordinate: psi = int gamma ds / d, toward y and toward z, gamma the shear
+/// strain of the hinge line from the sections' compliance and d the distance between the hinges. The sections
+/// themselves do not rotate by it.
 Eigen::Matrix<double, 2, 6> shear_rotation(const ElementLine& element, const Hinges& hinges,
                                            CurvedFlexibility rule = CurvedFlexibility::curve);
 
 /// Joint stiffness over the chosen coordinates: the inverse of the flexibility without the rows and columns of those
 /// that are locked (condensed at zero force, not clamped).
-/// @throws InputError if the flexibility is singular there: a free direction of a rigid section, with the coordinate
-/// and the option that locks it.
+/// @throws InputError if the flexibility is singular there: a free direction of a rigid section; the message names the
+/// coordinate and the option that locks it.
 Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,
                        const std::string& where);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Stops of a joint: of a teeter hinge, of a pitch bearing.
+/// End stops of a joint, such as a teeter hinge or a pitch bearing.
 #pragma once
 
 #include "mbs/system/forces.hpp"
@@ -9,8 +9,8 @@
 namespace cardan {
 
 /// A spring and a damper beyond a limit, on one side. Over a depth w the spring grows as x^2 / 2w to its stiffness and
-/// the damper as 3 (x/w)^2 - 2 (x/w)^3 to its value, so that force and derivatives are continuous. While it is in
-/// contact the damper acts both ways; where it leaves fast, it holds back for a moment.
+/// the damper as 3 (x/w)^2 - 2 (x/w)^3 to its value, so that force and derivatives are continuous. While in contact the
+/// damper acts in both directions; on fast separation it briefly pulls back.
 struct EndStop {
     std::string name = "end stop";
     BodyId coordinate = {};
@@ -30,7 +30,7 @@ struct EndStop {
         if (real(u) >= 1) return -sense * (stiffness * (x - depth / 2) + damping * v);
         return -sense * (stiffness * x * u / 2.0 + damping * u * u * (3.0 - 2.0 * u) * v);
     }
-    /// Of the spring, J.
+    /// Energy of the spring, J.
     double energy(double position) const;
 
 private:
@@ -38,7 +38,8 @@ private:
     static double real(const Complex& value) { return value.real(); }
 };
 
-/// Exact Jacobian.  @throws InputError: a limit that is not finite, negative stiffness or damping, depth not positive
+/// Force element with exact Jacobian. @throws InputError: a limit that is not finite, negative stiffness or damping,
+/// depth not positive
 UserForce end_stop_force(const EndStop& stop);
 
 }  // namespace cardan

@@ -1,8 +1,8 @@
 /// @file
-/// Generators: steady torque over speed, as a force on the coordinate of the shaft.
+/// Generators: steady torque-speed curves as forces on the coordinate of the shaft.
 ///
 /// Signs: the torque of a generator is positive where it brakes positive rotation, Q = -ratio * torque(ratio * qd).
-/// Speeds and torques are those of the machine (the fast side of a gearbox), coordinates those of the tree.
+/// Speeds and torques are those of the generator (the fast side of a gearbox), coordinates those of the tree.
 #pragma once
 
 #include "elements/machine/switch.hpp"
@@ -15,16 +15,16 @@
 
 namespace cardan {
 
-/// Induction machine at a grid of fixed frequency, in steady state, stator resistance neglected: Kloss' formula
+/// Induction machine on a grid of fixed frequency, in steady state, stator resistance neglected: Kloss' formula
 ///   T = 2 T_b / (s / s_b + s_b / s),   s = speed / synchronous speed - 1,
 /// with the slip s counted positive where it generates. Regular at s = 0, where the slope is 2 T_b / (s_b w_s).
 ///                               [M. Kloss, Archiv fuer Elektrotechnik 5 (1916) 59]
 struct InductionMachine {
-    double synchronous_speed = 0;  ///< 2 pi times the grid's frequency over pairs of poles, rad/s
+    double synchronous_speed = 0;  ///< 2 pi times the grid frequency / number of pole pairs, rad/s
     double breakdown_torque = 0;   ///< the largest, N m
-    double breakdown_slip = 0;     ///< where it occurs, > 0
+    double breakdown_slip = 0;     ///< slip at which it occurs, > 0
 
-    /// N m at a speed in rad/s.
+    /// Torque, N m, at a speed in rad/s.
     template <class S>
     S torque(S speed) const {
         const S r = (speed / synchronous_speed - 1.0) / breakdown_slip;
@@ -36,11 +36,11 @@ struct InductionMachine {
     void check(std::string_view where) const;
 };
 
-/// Torque over speed of a generator with a converter: cubics through points, monotone where the points are, level at
-/// the ends and beyond them; slope continuous.                                          [Fritsch and Butland 1984]
+/// Torque-speed curve of a generator with a converter: cubics through points, monotone where the points are, with zero
+/// slope at the ends and constant beyond them; slope continuous.                             [Fritsch and Butland 1984]
 class TorqueTable {
 public:
-    /// @param speeds   rad/s, at least two, rising
+    /// @param speeds   rad/s, at least two, ascending
     /// @param torques  N m; the first one zero, unless the machine is to drive in reverse rotation
     /// @throws InputError naming the point
     TorqueTable(std::vector<double> speeds, std::vector<double> torques);
@@ -60,13 +60,13 @@ private:
 /// A generator on a shaft.
 struct Generator {
     std::string name = "generator";
-    BodyId shaft = {};      ///< coordinate that the machine turns with, e.g. its azimuth referred to the slow shaft
-    double gear_ratio = 1;  ///< speed of the machine over the rate of the coordinate; negative: it turns the other way
+    BodyId shaft = {};      ///< coordinate the generator turns with, e.g. its azimuth referred to the slow shaft
+    double gear_ratio = 1;  ///< generator speed / rate of the coordinate; negative: it turns the other way
     std::variant<InductionMachine, TorqueTable> law = InductionMachine{};
-    std::shared_ptr<const Switch> grid = {};  ///< off: no torque; none: always on
-    std::string alias = "GenTq";  ///< of the channel of its torque; a second generator needs another or none
+    std::shared_ptr<const Switch> grid = {};  ///< off: no torque; null: always on
+    std::string alias = "GenTq";  ///< alias of its torque channel; a second generator needs another one or none
 
-    /// Of the machine, N m, at a rate of the coordinate, rad/s; and what it takes from the shaft, W.
+    /// Torque of the generator, N m, at a rate of the coordinate, rad/s; and the power it takes from the shaft, W.
     double torque(double rate) const;
     double power(double rate) const { return torque(rate) * gear_ratio * rate; }
 };
@@ -74,7 +74,7 @@ struct Generator {
 /// @throws InputError for bad numbers
 UserForce generator_force(const Generator& generator);
 
-/// "<name> torque" (of the machine) and "<name> power" (taken from the shaft: without losses).
+/// "<name> torque" (of the generator) and "<name> power" (mechanical, taken from the shaft).
 ChannelGroup generator_channels(const Generator& generator);
 
 }  // namespace cardan

@@ -12,7 +12,7 @@ namespace cardan {
 enum class BaseCoordinate : std::uint8_t { surge, sway, heave, roll, pitch, yaw };
 
 struct MovingBaseOptions {
-    /// Of surge, sway, heave, roll, pitch, yaw in this order: unit vector along or about which the coordinate is
+    /// For surge, sway, heave, roll, pitch, yaw in this order: unit vector along or about which the coordinate is
     /// positive (rotations right-handed), in the carrier's axes at rest. The default with x downwind and z up is that
     /// of OpenFAST: positive pitch moves the top of the tower downwind.
     std::array<Vec3, 6> directions{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
@@ -22,13 +22,13 @@ struct MovingBaseOptions {
     std::array<BaseCoordinate, 3> rotations{BaseCoordinate::yaw, BaseCoordinate::pitch, BaseCoordinate::roll};
     /// Driven: the motion is prescribed, with its velocity and acceleration. Free: it follows from forces on the base.
     CoordinateRole role = CoordinateRole::driven;
-    /// Of single coordinates, surge ... yaw, where theirs is another one.
+    /// Roles of individual coordinates, surge ... yaw, where they differ from `role`.
     std::array<std::optional<CoordinateRole>, 6> roles = {};
 };
 
 /// What was added to the tree.
 struct MovingBase {
-    FrameId frame;                      ///< that moves; at q = 0 it coincides with the carrier
+    FrameId frame;                      ///< moving frame; at q = 0 it coincides with the carrier
     std::array<BodyId, 6> coordinates;  ///< surge ... yaw
     BodyId coordinate(BaseCoordinate which) const { return coordinates[static_cast<std::size_t>(which)]; }
 };

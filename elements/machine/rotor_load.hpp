@@ -1,6 +1,6 @@
 /// @file
-/// A prescribed torque and thrust on a rotor. This is no aerodynamics: a simple formula with the right tendencies, to
-/// start machines up, to load generators and to stop them.
+/// A prescribed torque and thrust on a rotor. This is not an aerodynamic model but a simple formula with the right
+/// trends, to start machines up, load their generators and stop them.
 #pragma once
 
 #include "elements/machine/coordinate_force.hpp"
@@ -18,27 +18,28 @@ namespace cardan {
 ///   M = rho/2 pi R^3 (c_p / l) V [ 2 V c - (w R / l) (c + k s) ] g,   c = cos^2 b, s = sin b,
 ///   T = rho/2 pi R^2 (c_t / l) V w R c g.
 ///
-/// At zero pitch the power coefficient over the tip speed ratio is the parabola c_p x (2 - x) with x = w R / (V l), its
-/// top at the design ratio l; the torque is finite at standstill and falls linearly to the runaway ratio 2 l. In
-/// feather (b = pi / 2) only the braking part - k w is left. g = 1 - d (1 + cos B (psi - pi)) / 2 lowers both by the
-/// share d when one of the B blades passes the tower.
+/// At zero pitch the power coefficient over the tip speed ratio is the parabola c_p x (2 - x) with x = w R / (V l),
+/// which peaks at the design ratio l; the torque is finite at standstill and falls linearly to the runaway ratio 2 l.
+/// In feather (b = pi / 2) only the braking term in k remains. g = 1 - d (1 + cos B (psi - pi)) / 2 reduces both by the
+/// fraction d when one of the B blades passes the tower.
 struct RotorCurve {
-    double radius = 0;             ///< R, m
-    double power = 0;              ///< c_p, at the design tip speed ratio
-    double tip_speed_ratio = 0;    ///< l, of the design
-    double thrust = 0;             ///< c_t, there
-    double feather_braking = 2.6;  ///< k; this value takes the torque away at 20 degrees, at the design ratio
-    double tower_shadow = 0;       ///< d, 0 ... 1
-    int blades = 3;                ///< B
-    double air_density = 1.225;    ///< kg/m^3
+    double radius = 0;           ///< R, m
+    double power = 0;            ///< c_p, at the design tip speed ratio
+    double tip_speed_ratio = 0;  ///< l, at the design point
+    double thrust = 0;           ///< c_t, there
+    double feather_braking =
+        2.6;                     ///< k; with this value the torque vanishes at 20 degrees of pitch at the design ratio
+    double tower_shadow = 0;     ///< d, 0 ... 1
+    int blades = 3;              ///< B
+    double air_density = 1.225;  ///< kg/m^3
 
-    /// With derivatives by azimuth, speed and pitch (N m, N, and per rad, rad/s).
+    /// Values and their derivatives by azimuth, speed and pitch (N m, N, and per rad, rad/s).
     struct Value {
         double torque = 0, thrust = 0;
         Vec3 torque_by = Vec3::Zero(), thrust_by = Vec3::Zero();
     };
     Value at(double wind, double azimuth, double speed, double pitch) const;
-    /// Torque alone, on any scalar.
+    /// Torque alone, for any scalar.
     template <class S>
     S torque(double wind, S azimuth, S speed, S pitch) const;
     template <class S>
@@ -62,7 +63,7 @@ struct RotorLoad {
     Wrench wrench(const ForceInput& in) const;
 };
 
-/// The load as a follower wrench on the hub: acts on all that carries the rotor. Exact Jacobian.
+/// The load as a follower wrench on the hub. Exact Jacobian with respect to all coordinates that move the hub.
 /// @throws InputError for bad numbers, no wind, no azimuth
 UserForce rotor_load_force(const RotorLoad& load);
 

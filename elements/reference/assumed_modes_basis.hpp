@@ -8,7 +8,7 @@
 
 namespace cardan {
 
-/// Which functions. Deflections v, w: polynomials on every piece, with continuous slope; torsion and extension:
+/// Choice of functions. Deflections v, w: polynomials on every piece, with continuous slope; torsion and extension:
 /// polynomials on every piece, continuous, or sines over the whole length. All satisfy the conditions at the clamped
 /// end. With one piece the bending functions span (x/L)^2 ... (x/L)^(terms + 1).
 struct AssumedModesBasis {
@@ -18,12 +18,12 @@ struct AssumedModesBasis {
     int extension = 2;                ///< per piece, 0 (inextensible) ... 9 (degree)
     bool sines = false;               ///< torsion: sin((2j - 1) pi x / 2L), j = 1 ...
 
-    /// That of the paper of 2018 (docs/nrel5mw_paper2018.md): v and w (x/L)^(j+1), j = 1 ... 5; torsion three sines;
+    /// The basis of the 2018 paper (docs/nrel5mw_paper2018.md): v and w (x/L)^(j+1), j = 1 ... 5; torsion three sines;
     /// inextensible.
     static AssumedModesBasis paper2018(double length);
 };
 
-/// Functions that differ from zero at a place, and their derivatives.
+/// The functions that are nonzero at a position, and their derivatives.
 struct ShapeValues {
     std::vector<Eigen::Index> column;
     std::vector<double> value, slope, curvature;  ///< f, f', f''
@@ -38,12 +38,12 @@ public:
         continuous,  ///< value continuous and zero at x = 0: hats and higher polynomials
         sines        ///< sin((2j - 1) pi x / 2L)
     };
-    /// @param breaks  ascending from 0; sines take the last one for L
+    /// @param breaks  ascending from 0; for sines the last one is L
     /// @param terms   functions per piece, or number of sines
     ShapeFunctions(Kind kind, std::vector<double> breaks, int terms);
 
     Eigen::Index size() const;
-    /// Columns ascend. Derivatives at a break are those of the piece on its left.
+    /// Column indices ascend. Derivatives at a break are those of the piece on its left.
     ShapeValues at(double x) const;
 
 private:

@@ -1,18 +1,18 @@
 /// @file
-/// A blade by assumed modes in a frame that moves as prescribed: linear beam equations after Hodges and Dowell,
+/// An assumed-modes model of a blade in a frame with prescribed motion: linear beam equations after Hodges and Dowell,
 /// discretised by Galerkin's method. It shares nothing with the joint chain but the table of sections.
 ///
 /// Unknowns over the length x, in the frame's axes x, y, z (blade: y to the leading edge, z downwind): extension u,
 /// deflections v along y and w along z, torsion phi about x. A section turns by Rz(v') Ry(-w') Rx(phi), its axis moves
-/// to (x + u - 1/2 int_0^x (v'^2 + w'^2), v, w). Kept are all terms of the kinetic energy, gravity and elastic energy
-/// that are of second order in the unknowns: the equations are linear, about the undeflected blade,
+/// to (x + u - 1/2 int_0^x (v'^2 + w'^2), v, w). All terms of the kinetic energy, gravity and elastic energy up to
+/// second order in the unknowns are kept: the equations are linear, about the undeflected blade,
 ///
 ///     M q'' + G(A) q' + (K_e + sum_ab W_ab K_ab + sum_c a_c K_c) q = f,   W = [A_dot x] + [A x]^2,
 ///
-/// with the acceleration a of the frame's origin less gravity (elements/reference/hub_motion.hpp). Left out: all terms
-/// that are of second order in the equations (deflections of several per cent of the length, their coupling with
-/// torsion, the steady stretch of the axis, for which see stretched()), shear strain, warping and the resistance of
-/// stretched fibres to torsion. Equations: docs/nrel5mw_paper2018.md. [Hodges and Dowell 1974, NASA TN D-7818]
+/// with the acceleration a of the frame's origin minus gravity (elements/reference/hub_motion.hpp). Left out: all terms
+/// of second order in the equations (deflections of several per cent of the length, their coupling with torsion, the
+/// steady stretch of the axis, for which see stretched()), shear strain, warping and the tension-torsion (trapeze)
+/// effect. Equations: docs/nrel5mw_paper2018.md. [Hodges and Dowell 1974, NASA TN D-7818]
 #pragma once
 
 #include "elements/reference/assumed_modes_basis.hpp"
@@ -37,10 +37,10 @@ struct AssumedModesMatrices {
     Vector f;          ///< loads of gravity and of the frame's motion
 };
 
-/// What a coordinate deflects.
+/// Which deflection a coordinate describes.
 enum class Deflection : std::uint8_t { edge, flap, torsion, extension, mixed };
 
-/// Force and moment of the frame on the blade at its root, N and N m, in the frame's axes.
+/// Force and moment that the frame exerts on the blade at its root, N and N m, in the frame's axes.
 struct RootLoad {
     Vec3 force, moment;
 };
@@ -62,10 +62,10 @@ public:
     AssumedModesMatrices at(const HubMotion& motion) const;
     /// u, v, w, phi at x: rows, m or rad per unit of the coordinates.
     Matrix shapes(double x) const;
-    /// In linear approximation, by the accelerations of the blade.
+    /// Linear approximation, from the accelerations of the blade.
     RootLoad root_load(const HubMotion& motion, const Vector& q, const Vector& qd, const Vector& qdd) const;
 
-    /// The same blade with q = columns * q_reduced: some of its natural modes for instance.
+    /// The same blade with q = columns * q_reduced, for instance some of its natural modes.
     AssumedModesBlade reduced(const Matrix& columns) const;
 
 private:
@@ -84,18 +84,17 @@ private:
     Mat3 second_ = Mat3::Zero();  // kg m^2
 };
 
-/// A natural mode without the velocity terms G, as the paper has them: q(t) = shape sin(2 pi hz t).
+/// A natural mode without the velocity terms G, as defined in the paper: q(t) = shape sin(2 pi hz t).
 struct AssumedMode {
     double hz;
     Vector shape;  ///< shape^T M shape = 1
 };
 
-/// All modes of M q'' + K q = 0, frequencies rising, with the symmetric part of K.
-/// @throws NumericalError if the stiffness is not positive definite: the blade buckles, or the frame's motion is too
-/// fast for it
+/// All modes of M q'' + K q = 0, by ascending frequency, with the symmetric part of K.
+/// @throws NumericalError if the stiffness is not positive definite: the blade buckles, or the frame moves too fast
 std::vector<AssumedMode> natural_modes(const AssumedModesMatrices& matrices);
 
-/// Elastic energy of a mode in edge, flap (deflections v and w), torsion, extension, over the total.
+/// Fractions of a mode's elastic energy in edge, flap (deflections v and w), torsion and extension.
 std::array<double, 4> energy_shares(const AssumedModesBlade& blade, const AssumedModesMatrices& matrices,
                                     const Vector& shape);
 

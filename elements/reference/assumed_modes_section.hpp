@@ -1,5 +1,5 @@
 /// @file
-/// One section of a blade by assumed modes: quadratic forms of its kinetic and elastic energy.
+/// One section of an assumed-modes blade: quadratic forms of its kinetic and elastic energy.
 #pragma once
 
 #include "elements/reference/hub_motion.hpp"
@@ -12,8 +12,8 @@ namespace cardan {
 
 /// Where the axial load n(x) per length is integrated from to give the tension T(x) that stiffens the blade.
 enum class TensionIntegral : std::uint8_t {
-    from_free_tip,  ///< T(x) = int_x^L n dx: zero at the free tip. The right one.
-    wrong_end       ///< T(x) = int_0^x n dx: WRONG, zero at the root; only to recompute a table of the paper of 2018
+    from_free_tip,  ///< T(x) = int_x^L n dx: zero at the free tip. Correct.
+    wrong_end       ///< T(x) = int_0^x n dx: WRONG, zero at the root; only to reproduce a table of the 2018 paper
 };
 
 /// Unknowns at a section in the order of the forms below. (v' and w' are written v_ and w_ in the comments.)
@@ -32,7 +32,7 @@ struct SectionMass {
     /// @param x               of the section, m
     /// @param rotary_inertia  see AssumedModesOptions
     SectionMass(const BeamSection& section, double x, bool rotary_inertia);
-    /// Adds what the foreshortening -1/2 int_0^x (v_^2 + w_^2) dx of the axis inboard takes from the axial loads.
+    /// Adds the work of the axial loads on the foreshortening -1/2 int_0^x (v_^2 + w_^2) dx of the axis inboard.
     /// @param axial  per W_xx, W_xy, W_xz and a_x: axial inertial load between here and the tip
     void add_tension(const Eigen::Vector4d& axial);
 
@@ -46,7 +46,7 @@ struct SectionMass {
 };
 
 /// Elastic energy per length e^T S e / 2 with e = (u', phi', -w'', v'').
-/// @param torsion, extension  false: e has no such part, and the section may be rigid in it
+/// @param torsion, extension  false: e has no such component, and the section may be rigid in it
 /// @throws InputError for what the theory leaves out, see AssumedModesBlade
 Eigen::Matrix4d section_stiffness(const BeamSection& section, bool torsion, bool extension, const std::string& where);
 
@@ -63,9 +63,10 @@ struct AxialLoad {
 /// Both ends of the line and the stations between them, ascending, m.
 std::vector<double> station_ends(const BeamLine& line);
 
-/// The beam drawn out by its steady axial loads, T(x) / EA, of the same mass and bending compliance: the mean strain is
-/// spread evenly between two stations. What a linear theory about the undeflected blade leaves out; with the steady
-/// strain eps of 3e-4 of a rotating blade, frequencies fall by about eps. Unchanged where the section is inextensible.
+/// The beam stretched by its steady axial loads, T(x) / EA, with the same mass and bending compliance; the mean strain
+/// is distributed evenly between two stations. A linear theory about the undeflected blade leaves this out: with a
+/// steady strain eps of 3e-4 in a rotating blade, frequencies fall by about eps. Unchanged where the section is
+/// inextensible.
 BeamLine stretched(const BeamLine& line, const HubMotion& motion);
 
 }  // namespace cardan

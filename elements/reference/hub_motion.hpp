@@ -1,5 +1,5 @@
 /// @file
-/// Prescribed motion of a frame, in its own axes: what a blade in a moving frame feels.
+/// Prescribed motion of a frame, in its own axes, as it acts on a blade in that frame.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -12,8 +12,8 @@ struct PrescribedCoordinate {
 };
 
 /// Angular velocity A and velocity B of a frame in an inertial one, and the time derivatives of these COMPONENTS, all
-/// in the axes of the frame, as in the paper of 2018 on blades of floating turbines (docs/nrel5mw_paper2018.md).
-/// Composed joint by joint from the ground: HubMotion{}.moved(...).turned(...) ...
+/// in the axes of the frame, as in the 2018 paper on blades of floating turbines (docs/nrel5mw_paper2018.md). Composed
+/// joint by joint from the ground: HubMotion{}.moved(...).turned(...) ...
 struct HubMotion {
     Vec3 A = Vec3::Zero();        ///< angular velocity, rad/s
     Vec3 B = Vec3::Zero();        ///< velocity of the origin, m/s
@@ -25,11 +25,11 @@ struct HubMotion {
     HubMotion moved(const Vec3& p, const Vec3& p_dot = Vec3::Zero(), const Vec3& p_ddot = Vec3::Zero()) const;
     /// A frame with the same origin, turned by an angle about a unit vector, right-handed.
     HubMotion turned(const Vec3& axis, const PrescribedCoordinate& angle) const;
-    /// dA/dt and dB/dt left out, as in Annex A of the paper. No mechanics: since dB/dt is that of the components, a
-    /// steady velocity of the rotating frame does not drop out either.
+    /// With dA/dt and dB/dt left out, as in Annex A of the paper. This is not correct mechanics: since dB/dt is the
+    /// derivative of the components, not even a steady velocity of the rotating frame drops out.
     HubMotion without_derivatives() const;
 
-    /// Acceleration of a point at rest in the frame, less gravity, is origin_acceleration() + spin_matrix() p.
+    /// Acceleration of a point at rest in the frame, minus gravity, is origin_acceleration() + spin_matrix() p.
     Vec3 origin_acceleration() const;
     Mat3 spin_matrix() const;  ///< [A_dot x] + [A x]^2, 1/s^2
 };

@@ -1,6 +1,6 @@
 /// @file
 /// The mixed geometrically exact beam element of Lee, Hodges and Patil (2002), eq. 7: an independent reference beam. It
-/// goes through no tree of rigid bodies and shares with the cardanic element nothing but sections and linear algebra.
+/// uses no tree of rigid bodies and shares only sections and linear algebra with the cardanic element.
 ///
 /// Frames: b are the root axes (x along the undeformed beam), B the axes of a deformed section. C maps components in b
 /// to components in B, R = C^T; rotations are Rodrigues parameters theta = 2 tan(angle / 2) axis of b -> B, so a
@@ -19,12 +19,13 @@
 /// v is the inertial velocity of the undeformed root point, omega the angular velocity of the root axes, both in b.
 /// Box scheme: all quantities are constant in an element, the first four equations are integrated from centre to centre
 /// of neighbouring elements (from the root, to the tip). Order 2 in the element length. The scheme does not conserve
-/// energy exactly: a blade that spins and is bent out of one plane shows real parts, of order 2 as well (1e-5 of the
-/// frequency with ten elements if it spins as fast as it flaps, more if faster); plane and resting beams none.
+/// energy exactly: a spinning blade bent out of one plane has eigenvalues with spurious real parts, also of order 2
+/// (1e-5 of the frequency with ten elements if it spins at its flap frequency, more if faster); planar and non-rotating
+/// beams have none.
 ///
-/// Against eq. 7: the arm in the velocity equation is the distance of the element's centre (x_i/2 in the text at hand,
-/// which was read by machine). V x P is kept: eq. 7 is for the mass axis as reference line, where P = m V and V x P =
-/// 0.
+/// Differences from eq. 7: the arm in the velocity equation is the distance to the element's centre (x_i/2 in the
+/// available text, which is a machine-read scan). V x P is kept: eq. 7 is for the mass axis as reference line, where P
+/// = m V and V x P = 0.
 ///
 /// [D. Lee, D. H. Hodges, M. J. Patil, Wind Energy 5 (2002), eq. 1-7; D. H. Hodges, Int. J. Solids Structures 26 (1990)
 /// 1253-1273; D. H. Hodges, AIAA J. 41 (2003) 1131-1137]
@@ -38,7 +39,7 @@
 
 namespace cardan {
 
-/// Where a quantity lies behind the first unknown of its station.
+/// Offset of a quantity from the first unknown of its station.
 struct MixedField {
     static constexpr Eigen::Index u = 0;       ///< displacement, root axes, m
     static constexpr Eigen::Index theta = 3;   ///< Rodrigues parameters
@@ -92,12 +93,13 @@ public:
     static Eigen::Index node_rows(int j) { return 12 * Eigen::Index{j}; }  ///< in the order u, theta, F, M
     Eigen::Index velocity_rows(int k) const { return 12 * (count() + 1) + 6 * Eigen::Index{k}; }
 
-    /// Left sides of the equations: integrals in the units of u, theta, F, M, then velocities. Zero in any motion.
+    /// Left-hand sides of the equations: integrals in the units of u, theta, F, M, then velocities. Zero in any motion.
     /// S is double or std::complex<double>.
     /// @param x, xdot  the unknowns and their rates (those of u and theta, and of V and Omega in elements, enter)
     template <class S>
     VectorT<S> residual(const VectorT<S>& x, const VectorT<S>& xdot, const MixedRootMotionT<S>& motion) const;
-    /// Its exact derivatives. (The rates enter linearly with constant coefficients, so they are no argument.)
+    /// Exact derivatives of the residual. (The rates enter linearly with constant coefficients and are therefore not an
+    /// argument.)
     MixedJacobian jacobian(const Vector& x, const MixedRootMotion& motion) const;
 
     /// Units in which the unknowns of a slender beam are of order one: all numerical decisions are taken in them.
@@ -123,17 +125,17 @@ private:
 /// R of Rodrigues parameters: section axes -> root axes; the transpose of eq. 2.
 template <class S>
 Mat3T<S> rodrigues_rotation(const Vec3T<S>& theta);
-/// T^-1: dphi = T^-1 dtheta, the turn in section axes. (Eq. 8 prints theta^ where theta^/2 is meant.)
+/// T^-1: dphi = T^-1 dtheta, the rotation in section axes. (Eq. 8 prints theta^ where theta^/2 is meant.)
 Mat3 rodrigues_inverse_tangent(const Vec3& theta);
 
 /// I with (P, H) = I (V, Omega), of a body or of a section (then per length), moments about the reference point.
 Mat6 momentum_matrix(double mass, const Vec3& centre, const Mat3& J);
 
-/// (dP/dt + Omega x P - mu g, dH/dt + Omega x H + V x P - mu c x g), all in section axes: the force and moment that
-/// move a body (per length, a section) besides gravity.
+/// (dP/dt + Omega x P - mu g, dH/dt + Omega x H + V x P - mu c x g), all in section axes: the force and moment other
+/// than gravity that move a body (per length, a section).
 template <class S>
 Vec6T<S> inertial_load(const Mat6& inertia, const Vec6T<S>& velocity, const Vec6T<S>& rate, const Vec3T<S>& g);
-/// Its derivative by (V, Omega).
+/// Derivative of the inertial load by (V, Omega).
 Mat6 inertial_load_by_velocity(const Mat6& inertia, const Vec6& velocity);
 
 /// A hinge between carrier and beam; the arm from hinge to root is rigid.
@@ -143,8 +145,8 @@ struct MixedPin {
     RigidInertia body = {};     ///< turns with the root (arm, a blade's share of the hub); root point and axes
 };
 
-/// How a beam is held and loaded: steady root motion, hinge, loads at the tip. A steady state asks for omega and g that
-/// go together: either zero, or parallel.
+/// How a beam is held and loaded: steady root motion, hinge, tip loads. A steady state requires compatible omega and g:
+/// one of them zero, or both parallel.
 struct MixedSetting {
     Vec3 omega = Vec3::Zero();          ///< constant angular velocity of the root axes, rad/s
     Vec3 root_position = Vec3::Zero();  ///< of the root from a point at rest, root axes, m: v = omega x root_position
@@ -157,9 +159,9 @@ struct MixedSetting {
     MixedRootMotion motion() const { return {cross<double>(omega, root_position), omega, g}; }
 };
 
-/// The equations of the beam and below them twelve boundary equations: root displacement (3), root rotation (3; pinned:
+/// The equations of the beam, followed by twelve boundary equations: root displacement (3), root rotation (3; pinned:
 /// the two parameters off the axis and the balance of moment about the hinge), tip force (3), tip moment (3). The
-/// setting is taken as valid. S is double or std::complex<double>.
+/// setting is not checked. S is double or std::complex<double>.
 template <class S>
 VectorT<S> mixed_residual(const MixedBeam& beam, const MixedSetting& setting, const VectorT<S>& x,
                           const VectorT<S>& xdot);
@@ -172,13 +174,13 @@ DescriptorPencil mixed_pencil(const MixedBeam& beam, const MixedSetting& setting
 
 struct MixedSteadyState {
     Vector x;         ///< the unknowns at rest in root axes
-    int iterations;   ///< Newton steps, all load steps together
-    double residual;  ///< largest equation, in the scales of the beam
+    int iterations;   ///< Newton steps, summed over all load steps
+    double residual;  ///< largest residual, in the scales of the beam
 };
 
 /// Steady state by Newton's method from the straight beam; loads and spin grow in steps if one step does not converge.
 /// @throws InputError naming the beam: values that are not finite, hinge axis zero, impossible body.
-/// A hinge that no load turns stays where it is, also if it is indifferent.
+/// A hinge without a driving moment stays where it is, even in neutral equilibrium.
 /// @throws NumericalError: not converged, with iterations and residual.
 [[nodiscard]] MixedSteadyState mixed_steady_state(const MixedBeam& beam, const MixedSetting& setting);
 
@@ -188,12 +190,11 @@ struct DescriptorMode {
     ComplexVector shape;
 };
 
-/// Finite eigenvalues of a regular pencil lambda E + A. Infinite ones are taken out exactly, not by their size: rows
-/// free of E are constraints, the pencil is projected on their null space, and so on until E is regular. Works for any
+/// Finite eigenvalues of a regular pencil lambda E + A. Infinite ones are deflated exactly, not by magnitude: rows free
+/// of E are constraints, the pencil is projected onto their null space, and so on until E is regular. Works for any
 /// index (shear-rigid beams have index 3). Ranks are decided at 1e-12 of the largest pivot: scale the pencil first. A
-/// direction about that much stiffer than the softest may leave eigenvalues of its own huge size or lose them; the slow
-/// ones are not touched.
-/// Sorted: oscillating ones by |lambda|, then the real ones. Shapes have unit norm.
+/// direction stiffer than the softest one by about that factor may produce or lose huge eigenvalues of its own; the
+/// slow ones are not affected. Sorted: oscillating ones by |lambda|, then the real ones. Shapes have unit norm.
 /// @throws NumericalError: singular pencil, eigenvalue iteration failed.
 std::vector<DescriptorMode> finite_modes(const DescriptorPencil& pencil);
 

@@ -1,9 +1,10 @@
 /// @file
 /// Reference lines of curved and pre-bent beams.
 ///
-/// Every place has a frame: x tangent, y and z across, carried along without turning about the tangent
+/// Every point has a frame: x tangent, y and z across, transported along without rotation about the tangent
 /// (rotation-minimising; Bishop 1975), so that a straight line keeps the beam axes and the structural twist of a
-/// section is counted from them. At the start the frame is the beam axes, turned by the shortest way to the tangent.
+/// section is measured from them. At the start the frame is the beam axes, turned onto the tangent by the shortest
+/// rotation.
 #pragma once
 
 #include "elements/sections/section.hpp"
@@ -12,10 +13,10 @@ namespace cardan {
 
 enum class LineShape : std::uint8_t {
     polyline,  ///< straight between the points, kinks at them
-    spline     ///< cubic with continuous curvature through the points, by their distances; at least four points
+    spline  ///< cubic with continuous curvature through the points, chord-length parametrisation; at least four points
 };
 
-/// A curve by arc length.
+/// A curve parametrised by arc length.
 class ReferenceLine {
 public:
     /// Through points in beam axes, m: prebend along z, sweep along y.
@@ -28,9 +29,9 @@ public:
                                double first, double last);
 
     double length() const { return cells_.back().s; }
-    /// Frame at arc length s, in beam axes. At a kink: that of the piece outboard of it.
+    /// Frame at arc length s, in beam axes. At a kink: frame of the piece outboard of it.
     Placement pose(double s) const;
-    /// Arc length of the points given (of both ends for a curve), m: kinks and joints of the spline.
+    /// Arc length of the given points (for a curve, of both ends), m: kinks and knots of the spline.
     const std::vector<double>& stations() const { return stations_; }
 
 private:
@@ -47,7 +48,7 @@ private:
     std::vector<double> stations_;
 };
 
-/// Sections laid along a curve: their stations count arc length.
+/// Sections laid along a curve; their stations are arc lengths.
 /// @throws InputError if the lengths differ by more than 1e-6 of the length
 BeamLine along(const BeamLine& sections, const ReferenceLine& line);
 

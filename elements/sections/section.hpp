@@ -15,7 +15,7 @@
 
 namespace cardan {
 
-/// What the beam element needs of a section, at the reference line and in beam axes.
+/// What the beam element needs to know about a section, at the reference line and in beam axes.
 struct BeamSection {
     Mat6 compliance =
         Mat6::Zero();  ///< strains (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z) by forces (N, Vy, Vz, T, My, Mz)
@@ -34,7 +34,7 @@ struct SectionOffset {
     double y = 0, z = 0;
 };
 
-/// A section in engineering constants.
+/// A section given by engineering constants.
 struct EngineeringSection {
     double mass = 0;                                        ///< kg/m
     double EA = std::numeric_limits<double>::infinity();    ///< N; infinite: inextensible
@@ -58,7 +58,7 @@ struct EngineeringSection {
 struct BeamLine {
     double length = 0;                                  ///< along the reference line, m
     std::vector<double> breaks = {};                    ///< where section or curve have kinks or jumps, ascending, m
-    std::function<BeamSection(double x)> section = {};  ///< section at 0 <= x <= length, in the axes of that place
+    std::function<BeamSection(double x)> section = {};  ///< section at 0 <= x <= length, in the local axes
     std::string name = "beam";
     /// Pose of the section axes (x tangent) in beam axes; empty: straight, no rotation. See
     /// elements/sections/reference_line.hpp.
@@ -71,7 +71,7 @@ struct BeamLine {
 };
 
 /// @throws InputError: fewer than two stations, stations not finite and increasing (a station given twice is named), or
-/// another number of sections.
+/// a different number of sections.
 void check_stations(const std::string& name, const std::vector<double>& x, std::size_t sections);
 
 /// How columns of a table are interpolated between stations.

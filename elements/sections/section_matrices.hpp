@@ -33,20 +33,20 @@ SectionMatrices moved(const SectionMatrices& section, const Vec3& to);
 /// @param where  named in errors, e.g. "blade, station 3 (x = 4.1 m)"
 /// @throws InputError: not finite, not symmetric (1e-6; the stiffness scaled to unit diagonal), an eigenvalue of the
 /// stiffness not positive (its value: of the matrix scaled to unit diagonal) or of the inertia about the mass centre
-/// negative; a mass matrix that is not that of a plane section (mass terms unequal, polar inertia more than 1 % off the
-/// sum of both). A radius of gyration below 1e-7 m counts as none.
+/// negative; a mass matrix that is not that of a planar section (mass terms unequal, polar inertia more than 1 % off
+/// the sum of the other two). A radius of gyration below 1e-7 m counts as none.
 BeamSection beam_section(const SectionMatrices& section, const std::string& where);
 
 /// Matrices of a section.
 /// @throws InputError if it has rigid directions (infinite stiffness)
 SectionMatrices section_matrices(const BeamSection& section);
 
-/// Engineering constants that come nearest to a section.
+/// The engineering constants that approximate a section best.
 struct EngineeringForm {
     EngineeringSection section;
     /// What engineering constants cannot express (bend-twist, extension-twist ..., principal axes of inertia apart from
     /// those of bending): the largest error of the compliance over the root of its diagonal entries, and of the inertia
-    /// over its largest moment. Rounding (1e-12): the form is exact.
+    /// over its largest moment. Up to rounding (1e-12) the form is exact.
     double coupling = 0;
 };
 /// Principal axes of bending at most 45 degrees from the beam axes, centres, and stiffnesses about them.

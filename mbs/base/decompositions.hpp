@@ -1,6 +1,6 @@
 /// @file
-/// Eigen's dense decompositions, compiled once: they are what takes a compiler longest. Included in place of Eigen's
-/// own headers.
+/// Eigen's dense decompositions, compiled once because they dominate compile time. Include this instead of Eigen's own
+/// headers.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -11,7 +11,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// Defined in sources of the same names, which take a compiler as long as a batch of others.
+// Explicitly instantiated in sources of the same names; each takes as long to compile as a batch of others.
 #define CARDAN_FACTORISATIONS(DECLARE)                                                                                \
     DECLARE class PartialPivLU<cardan::Matrix>;                                                                       \
     DECLARE PartialPivLU<cardan::Matrix>::PartialPivLU(const EigenBase<cardan::Matrix>&);                             \

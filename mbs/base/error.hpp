@@ -14,7 +14,7 @@
 
 namespace cardan {
 
-/// Joins its arguments as a stream would print them, with 10 significant digits.
+/// Concatenates its arguments as a stream would print them, with 10 significant digits.
 template <class... Parts>
 std::string text(const Parts&... parts) {
     std::ostringstream out;
@@ -40,7 +40,7 @@ public:
         : Error(text(where, ": ", quantity, " = ", value, "; allowed: ", allowed)) {}
 };
 
-/// @throws InputError unless the value is finite and > 0 (of the second: >= 0)
+/// @throws InputError unless the value is finite and > 0 (require_not_negative: >= 0)
 inline void require_positive(std::string_view where, std::string_view quantity, double value) {
     if (!(value > 0) || std::isinf(value)) throw InputError(where, quantity, value, "finite and > 0");
 }
@@ -56,20 +56,21 @@ public:
     }
 };
 
-/// A file that cannot be opened, written or completed; the path and the system's reason are part of the message.
+/// A file that cannot be opened, written or completed; the message contains the path and the system's reason.
 class FileError : public Error {
 public:
     FileError(std::string_view path, std::string_view message) : Error(text(path, ": ", message)) {}
 };
 
-/// Less memory than was asked for; the message says for what.
+/// An allocation failed; the message says what it was for.
 class MemoryError : public Error {
 public:
     using Error::Error;
 };
 
-/// Calls `make`; where memory runs out in it, a MemoryError names what it was for.
-/// @param what  "the matrix of ..."; a function without arguments, so that nothing is worded in vain, or a text
+/// Calls `make`; if it runs out of memory, throws a MemoryError that names what the memory was for.
+/// @param what  "the matrix of ...": a text, or a function without arguments, so that the text is built only when
+///              needed
 template <class What, class Make>
 decltype(auto) with_memory(const What& what, Make&& make) {
     const auto refuse = [&]() -> std::string {

@@ -1,8 +1,8 @@
 /// @file
 /// Three-vectors and 3 x 3 matrices as the kernels hold them: a vector fills one register of four numbers.
 ///
-/// Everything here is inlined into functions marked CARDAN_VECTORISED; the same source serves complex numbers, element
-/// by element. The fourth number of a vector is zero.
+/// Everything here is inlined into functions marked CARDAN_VECTORISED; the same source also works for complex numbers,
+/// element by element. The fourth number of a vector is zero.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -44,7 +44,7 @@ struct LanesOf<double> {
 };
 #endif
 
-/// A vector of three numbers. Aligned like a register whatever the flags are: the layout is the same everywhere.
+/// A vector of three numbers, always aligned like a register so that the layout does not depend on compiler flags.
 template <class S>
 struct alignas(std::is_same_v<S, double> ? 32 : alignof(S)) Packed3 {
     using Lanes = typename LanesOf<S>::type;
@@ -53,8 +53,8 @@ struct alignas(std::is_same_v<S, double> ? 32 : alignof(S)) Packed3 {
     Packed3() = default;
     ~Packed3() = default;
     CARDAN_INLINE Packed3(const Lanes& from) : lanes(from) {}
-    // Spelled out so that a structure of several is copied register by register: GCC copies aggregates by halves, and a
-    // load that waits for two stores costs more than all the arithmetic of a body.
+    // Spelled out so that a structure of several vectors is copied register by register: GCC copies aggregates in
+    // halves, and a load that waits for two stores costs more than all the arithmetic of a body.
     CARDAN_INLINE Packed3(const Packed3& from) : lanes(from.lanes) {}
     CARDAN_INLINE Packed3& operator=(const Packed3& from) {
         lanes = from.lanes;

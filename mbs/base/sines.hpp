@@ -6,7 +6,7 @@
 
 namespace cardan {
 
-/// Within 4e-16 of the true values; where the C library has vector functions (glibc on x86-64), by these.
+/// Accurate to 4e-16; uses the C library's vector functions where there are any (glibc on x86-64).
 /// @param s, c  out, size of q
 void sines(const Eigen::Ref<const Vector>& q, Vector& s, Vector& c);
 void sines(const Eigen::Ref<const ComplexVector>& q, ComplexVector& s, ComplexVector& c);

@@ -1,7 +1,7 @@
 /// @file
-/// Sizes, indices and models at the doors of the library: compared in every build, so that a wrong one is an InputError
-/// and never memory of somebody else's. A comparison per argument of a call is all that it costs: what words the
-/// message stands apart.
+/// Checks of sizes, indices and models at the library's public interface, active in every build: a wrong argument is an
+/// InputError and never an access out of bounds. The cost is one comparison per argument; the code that builds the
+/// message is kept out of line.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ void require_size(const char* where, const char* what, const Eigen::EigenBase<De
     if (A.rows() != rows || A.cols() != cols) [[unlikely]]
         refuse_size(where, what, A.rows(), A.cols(), rows, cols);
 }
-/// The same of anything else that is counted.
+/// Likewise for anything else that is counted.
 inline void require_count(const char* where, const char* what, std::size_t size, std::size_t right) {
     if (size != right) [[unlikely]]
         refuse_size(where, what, static_cast<Eigen::Index>(size), 1, static_cast<Eigen::Index>(right), 1);

@@ -38,8 +38,8 @@ using Complex = std::complex<double>;
 using ComplexVector = VectorT<Complex>;
 using ComplexMatrix = MatrixT<Complex>;
 
-/// Arguments of kernels: contiguous vectors and column-major matrices, never copied when they are of that kind.
-/// (The scalar is taken from the Kinematics argument, so it does not take part in template deduction.)
+/// Arguments of kernels: contiguous vectors and column-major matrices, which are never copied. (The scalar is taken
+/// from the Kinematics argument, so it does not take part in template deduction.)
 template <class S>
 using VectorInT = const Eigen::Ref<const VectorT<std::type_identity_t<S>>>&;
 template <class S>

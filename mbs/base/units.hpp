@@ -2,8 +2,8 @@
 
 #include "mbs/base/types.hpp"
 
-/// Everything computes in SI units and radians. An angle or a speed given in other units is multiplied by its unit,
-/// `5 * units::degree`; one that is shown is multiplied by units::to_degrees or units::to_rpm.
+/// Everything computes in SI units and radians. Multiply an angle or speed given in other units by its unit, `5 *
+/// units::degree`; to display one, multiply by units::to_degrees or units::to_rpm.
 namespace cardan::units {
 
 inline constexpr double degree = pi / 180;      ///< rad

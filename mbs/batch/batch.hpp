@@ -10,16 +10,16 @@
 
 namespace cardan {
 
-/// Threads with one workspace each. What is computed for a state depends on nothing but the state, so results are the
-/// same to the last bit, on one machine, whatever the number of threads and the order in which they take the states.
+/// Threads with one workspace each. The result for a state depends on nothing but that state, so on one machine results
+/// are bitwise identical whatever the number of threads and the order in which they take the states.
 class Batch {
 public:
-    /// What is done for the state `index`. It runs on any thread and may write what belongs to its index only.
+    /// Work for the state `index`. It runs on any thread and may write only what belongs to its index.
     using Call = std::function<void(int index, Workspace& workspace)>;
 
     /// @param model    kept by reference
-    /// @param threads  upper limit, the calling thread included; 0: as many as there are processors. More than the
-    ///                 program allows its tasks altogether (oneTBB: the number of processors) stay idle.
+    /// @param threads  upper limit, the calling thread included; 0: as many as there are processors. Threads beyond the
+    ///                 program's overall limit for tasks (oneTBB: the number of processors) stay idle.
     /// @throws InputError unless 0 <= threads <= 1024
     explicit Batch(const Model& model, int threads = 0);
     ~Batch();
@@ -29,18 +29,18 @@ public:
     const Model& model() const;
     /// Number of workspaces.
     int threads() const;
-    /// Which workspace this is, 0 <= slot < threads(): the place of memory of the caller's own, one piece per thread.
+    /// Index of this workspace, 0 <= slot < threads(), for callers that keep memory of their own per thread.
     int slot(const Workspace& workspace) const;
 
-    /// Calls for the indices 0 to count - 1, in any order. When calls throw, those of lower indices are still made, and
-    /// the exception of the lowest index is thrown. Nothing is allocated per state.
+    /// Calls for the indices 0 to count - 1, in any order. If calls throw, those with lower indices are still made, and
+    /// the exception of the lowest index is rethrown. Nothing is allocated per state.
     /// @throws InputError if count is negative, or if a call of this Batch is still running
     void for_each(int count, const Call& call);
-    /// The same until a stop is requested, which is looked at before every state.
+    /// As above, but ends when a stop is requested, which is checked before every state.
     /// @return true if all calls were made
     [[nodiscard]] bool for_each(int count, const Call& call, const std::stop_token& stop);
 
-    /// Index of the state whose exception the last for_each() threw; -1: none.
+    /// Index of the state whose exception the last for_each() rethrew; -1: none.
     int failed() const;
 
 private:

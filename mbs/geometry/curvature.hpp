@@ -9,7 +9,7 @@ namespace cardan {
 
 /// Covariant derivative and curvature of the metric g at one q.
 ///
-/// Signs are those of Misner, Thorne and Wheeler (1973), also of do Carmo's sectional curvature (positive on a sphere):
+/// Signs follow Misner, Thorne and Wheeler (1973) and agree with do Carmo's sectional curvature (positive on a sphere):
 ///
 ///   R^a_bcd = d_c Gamma^a_bd - d_d Gamma^a_bc + Gamma^a_ce Gamma^e_bd - Gamma^a_de Gamma^e_bc,   R_abcd = g_ae R^e_bcd
 ///   D^2 xi^a/dt^2 = -R^a_bcd qd^b xi^c qd^d                             for neighbouring geodesics
@@ -33,7 +33,7 @@ public:
     explicit Curvature(Model&&) = delete;  // the model must live longer
     Curvature(const Model& model, std::vector<bool> driven);
 
-    /// Must precede everything else at a new q. After a failure nothing else may be called. Cost O(n d^2).
+    /// Must be called first at a new q. After a failure nothing else may be called. Cost O(n d^2).
     PivotStatus update(const Kinematics& kin);
 
     /// h_a = Gamma_abc x^b y^c without any table. Cost O(n).
@@ -53,8 +53,8 @@ public:
     void force(VectorIn qd, VectorIn xi, VectorOut f) { gauss(qd, xi, qd, f); }
     /// Geodesic deviation D^2 xi^a/dt^2 = -R^a_bcd qd^b xi^c qd^d. Cost O(n d).
     void deviation(VectorIn qd, VectorIn xi, VectorOut acceleration);
-    /// R_ac = R_abcd qd^b qd^d, the matrix of force() in xi: symmetric, R qd = 0. From composite bodies in O(n d) and
-    /// one product of n x n matrices:
+    /// R_ac = R_abcd qd^b qd^d, the matrix of force() in xi: symmetric, R qd = 0. Computed from composite bodies in O(n
+    /// d) and one product of n x n matrices:
     ///   R_ac = <r_ac, II_bd qd^b qd^d> - <d/dt r_a, d/dt r_c> + C_ea g^ef C_fc,      C_ac = Gamma_abc qd^b.
     /// @param R  out, n x n, overwritten
     void matrix(VectorIn qd, MatrixOut R);
@@ -62,7 +62,7 @@ public:
     /// R_abcd x^a y^b z^c w^d. Cost O(n d).
     double riemann(VectorIn x, VectorIn y, VectorIn z, VectorIn w);
     /// Sectional curvature of the plane of x and y, 1/(kg m^2); lengths of x and y and the angle between them do not
-    /// matter. Not a number if they are parallel. Cost O(n d).
+    /// matter. NaN if they are parallel. Cost O(n d).
     double sectional(VectorIn x, VectorIn y);
 
     /// g_ff = L^T L at the last update.

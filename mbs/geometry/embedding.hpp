@@ -22,9 +22,9 @@ struct AccelerationField {
 
 /// The positions r(q) of all mass points are a point of the flat space with the product <F, G> = int rho F . G dV
 /// (every armature adds one more axis, sqrt(J) s . q). In it the metric is g_ab = <r_a, r_b> and the Christoffel
-/// symbols are Gamma_abc = <r_a, r_bc>, indices of r being derivatives. What the inner geometry needs of the second
-/// derivatives r_ab is evaluated here body by body, with Binet's tensor P_k about the centre of mass: two affine fields
-/// have the product  m F . G + tr(A_F P A_G^T)  on a body, F and G at the centre of mass.
+/// symbols are Gamma_abc = <r_a, r_bc>, indices of r being derivatives. What the intrinsic geometry needs of the second
+/// derivatives r_ab is evaluated here body by body, with Binet's tensor P_k about the centre of mass: on a body the
+/// product of two affine fields is m F . G + tr(A_F P A_G^T), with F and G at the centre of mass.
 ///
 /// All functions cost O(n) and allocate nothing. The object is bound to the q of the last update().
 class Embedding {

@@ -12,9 +12,9 @@ namespace cardan {
 class Model;
 
 /// An n x n matrix A_ab that is zero unless a and b lie on one path from the base, as the metric, its derivatives and
-/// those of the recursions are. Stored by branches: for every coordinate m its row left of the diagonal, diagonal
-/// included, and its column above it. Memory and the cost of filling it grow like n d, d the depth of the tree.
-/// Functions throw InputError for indices that there are not and for arguments of another size.
+/// those of the recursions are. Stored by branches: for every coordinate m its row up to and including the diagonal,
+/// and its column above the diagonal. Memory and the cost of filling it grow like n d, where d is the depth of the
+/// tree. Functions throw InputError for indices out of range and arguments of the wrong size.
 template <class S>
 class BranchMatrixT {
 public:
@@ -30,12 +30,12 @@ public:
     std::span<const S> row(int m) const;
     /// A_am for a on the path from the base to m, m itself left out.
     std::span<const S> column(int m) const;
-    /// The matrix with its zeros. @param A  out, n x n, overwritten
+    /// The full matrix, zeros included. @param A  out, n x n, overwritten
     void write(Eigen::Ref<MatrixT<S>> A) const;
     /// y = A x. @param y  out, size n; must not alias x. Cost O(n d), no allocation.
     void multiply(const Eigen::Ref<const VectorT<S>>& x, Eigen::Ref<VectorT<S>> y) const;
 
-    /// Memory of the kernels: rows and columns by coordinate, those of m from offset()[m] on.
+    /// Raw storage for the kernels: rows and columns by coordinate, those of m starting at offset()[m].
     Packed3<S>* rows() { return rows_.data(); }
     Packed3<S>* columns() { return columns_.data(); }
     const std::size_t* offset() const { return offset_.data(); }

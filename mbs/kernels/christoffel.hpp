@@ -23,8 +23,8 @@ public:
 
     /// Gamma_abc, any indices.
     double operator()(int a, int b, int c) const;
-    /// The table of the distal body m: K_m(a, b) in row depth(a) - 1 and column depth(b) - 1; row-major, rows
-    /// stride(m) apart: whole registers, what follows the depth(m) numbers of a row has no meaning.
+    /// The table of the distal body m: K_m(a, b) in row depth(a) - 1 and column depth(b) - 1; row-major, rows stride(m)
+    /// apart. Rows are padded to whole registers; the padding after the depth(m) numbers has no meaning.
     std::span<const double> table(int m) const;
     std::size_t stride(int m) const;
     /// The path of body m from the base to m itself.
@@ -69,7 +69,7 @@ void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma);
 
 /// X_ab = Gamma_abs for one coordinate s and all a, b, without the table of all symbols.
 /// @param X  out, n x n, overwritten
-/// Cost O(n d) (and n^2 zeros), no allocation. Needed are the table of s itself and, of the table of every body m that
+/// Cost O(n d) (and n^2 zeros), no allocation. It needs the table of s itself and, from the table of every body m that
 /// s carries, the column K_m(a, s) and the row K_m(s, b).
 template <class S>
 void christoffel_along(const KinematicsT<S>& kin, int s, MatrixOutT<S> X);
@@ -80,7 +80,8 @@ void christoffel_along(const KinematicsT<S>& kin, int s, MatrixOutT<S> X);
 /// symmetric rest is the rate of the metric: zero among the coordinates that the spinning joint carries, and among
 /// those inboard of it if the rotor as a whole is isotropic, but not between the two groups.
 /// @param omega  rad/s or m/s
-/// @param G      out, n x n, overwritten, N m s or alike. Cost O(n d) (and n^2 differences), no allocation.
+/// @param G      out, n x n, overwritten, N m s (or the corresponding unit of translations). Cost O(n d) (and n^2
+///               differences), no allocation.
 void gyroscopic_matrix(const Kinematics& kin, int s, double omega, MatrixOut G);
 
 }  // namespace cardan

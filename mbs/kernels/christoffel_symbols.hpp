@@ -1,5 +1,5 @@
 /// @file
-/// The symbols of a packed table one after another, as they are written: for (auto [a, b, c, value] : gamma.symbols()).
+/// Iterates over the symbols of a packed table: for (auto [a, b, c, value] : gamma.symbols()).
 #pragma once
 
 #include "mbs/kernels/christoffel.hpp"
@@ -17,9 +17,9 @@ struct ChristoffelSymbol {
 
 /// All symbols Gamma_abc with b <= c of a tree that do not vanish for every q, each exactly once, a anywhere.
 ///
-/// Left out are those that the tree makes zero: a, b and c not on one path; b, the one nearer the base of b and c,
-/// prismatic; a = c (Gamma_cbc is half the derivative of g_cc by a joint that carries c). A symbol that is zero only at
-/// this q is visited. The order is that of the table: by the most distal of the three, then by row.
+/// Structural zeros are skipped: a, b and c not on one path; b prismatic, where b is the one of b and c nearer the
+/// base; a = c (Gamma_cbc is half the derivative of g_cc by a joint that carries c). A symbol that is zero only at this
+/// q is visited. The order is that of the table: by the most distal of the three, then by row.
 ///
 /// A forward range of values, valid as long as the Christoffel object; the values are those at the time of reading.
 class ChristoffelSymbols {
@@ -69,7 +69,7 @@ public:
             path_ = gamma_->path(m_);
             table_ = gamma_->table(m_);
         }
-        // Moves on to the next entry that is no structural zero, itself included.
+        // Advances to the next entry that is not a structural zero, possibly the present one.
         void settle() {
             const Model& model = gamma_->model();
             while (m_ < model.size()) {

@@ -1,6 +1,5 @@
 /// @file
-/// Inertias in base axes, of the bodies and of the subtrees. What several kernels need of one configuration is made
-/// once.
+/// Inertias of bodies and subtrees in base axes: computed once per configuration for the kernels that share them.
 #pragma once
 
 #include "mbs/kernels/kinematics.hpp"

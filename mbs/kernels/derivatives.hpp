@@ -20,14 +20,14 @@ namespace cardan {
 ///   d tau_j / d qd_k = 2 S_j . (B S_k + I Psi'_k)
 ///
 ///                                                                  [Singh, Russell and Wensing 2022, section IV]
-/// B turns a twist with angular part w into the forces m w x x_dot of the mass points: twelve numbers of a subtree, its
-/// momentum and the moment sum m x x_dot^T, say all of it (docs/theory.md).
+/// B maps a twist with angular part w to the forces m w x x_dot of the mass points; twelve numbers of a subtree
+/// determine it, its momentum and the moment sum m x x_dot^T (docs/theory.md).
 /// @param dtau_dq, dtau_dqd  out, n x n, overwritten; two different matrices
 /// Cost O(n d) and n^2 zeros, no allocation.
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
                                   MatrixOutT<S> dtau_dqd);
-/// The same without the zeros between branches.
+/// As above, without the zeros between branches.
 template <class S>
 void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd,
                                   BranchMatrixT<S>& dtau_dq, BranchMatrixT<S>& dtau_dqd);

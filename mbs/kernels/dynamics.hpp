@@ -13,7 +13,7 @@ namespace cardan {
 /// @param qd, qdd  joint rates and accelerations, size n
 /// @param tau      out, size n, N m or N; overwritten; must not alias the inputs
 /// Cost O(n), no allocation. Never singular.
-/// @throws InputError for vectors of another size, as all functions here do
+/// @throws InputError for vectors of the wrong size, as do all functions here
 template <class S>
 void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, VectorOutT<S> tau);
 
@@ -33,21 +33,21 @@ public:
     explicit ForwardDynamics(Model&&) = delete;  // the model must live longer
     ForwardDynamics(const Model& model, std::vector<bool> driven);
 
-    /// @param Q    generalised forces, size n; entries of driven coordinates are forces besides the actuator's; must
-    ///             not alias the outputs
+    /// @param Q    generalised forces, size n; on driven coordinates, those in addition to the actuator's; must not
+    ///             alias the outputs
     /// @param qdd  in: accelerations of driven coordinates; out: of all coordinates
     /// @param actuator  out, size n: force that the drive adds to Q on each driven coordinate, zero on free ones
     /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.
-    /// @throws InputError for kinematics of another model and vectors of another size
+    /// @throws InputError for kinematics of another model and vectors of the wrong size
     void solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator);
 
-    /// A free coordinate that has no inertia of its own: the recursion divides by the pivots of the metric of the free
-    /// coordinates, eliminated from the tips to the base. Named is the most distal of the coordinates that move in the
-    /// motion without inertia.
-    /// @return nullopt if every pivot exceeds 1e-12 of its scale, the sum of what was added up and cancelled in it: a
-    /// slender body that turns about its own axis, and two joints that do the same, leave nothing but rounding, which
-    /// is seen to be small only beside these. After a pivot the object must not solve at this q. Cost O(n) and, with
-    /// armatures over several coordinates, the cube of their number; allocates.
+    /// Finds a free coordinate without inertia of its own: the recursion divides by the pivots of the metric of the
+    /// free coordinates, eliminated from the tips to the base. Reports the most distal of the coordinates that take
+    /// part in the motion without inertia.
+    /// @return nullopt if every pivot exceeds 1e-12 of its scale, which is the sum of the magnitudes added up in it: a
+    /// slender body that turns about its own axis, or two joints that do the same thing, leave nothing but rounding
+    /// error, which looks small only relative to that sum. If a pivot is returned, solve() must not be called at this
+    /// q. Cost O(n) and, with armatures over several coordinates, the cube of their number; allocates.
     std::optional<SingularPivot> singular_pivot(const Kinematics& kin);
 
     bool is_driven(int a) const {
@@ -65,7 +65,7 @@ private:
         Packed3<double> force, moment;    // that pass the joint in the backward sweep
         Packed3<double> angular, linear;  // acceleration in the forward sweep
     };
-    /// The same on the way from the base to the coordinates that armatures couple, for one of several loads.
+    /// Likewise on the path from the base to the coordinates that armatures couple, for one of several loads.
     struct OnPath {
         double qdd;  ///< in: load; out: acceleration
         double reaction;

@@ -8,7 +8,7 @@
 
 namespace cardan {
 
-/// View of a workspace after kinematics(): the proof that the stage has been done. It goes stale when the workspace is
+/// View of a workspace after kinematics(): proof that this stage has been computed. It goes stale when the workspace is
 /// used for another q (checked in debug builds).
 template <class S>
 class KinematicsT {
@@ -25,7 +25,8 @@ public:
     Vec3T<S> axis(int k) const { return frame(k).E[2].vector(); }
     Vec3T<S> centre_of_mass(int k) const { return frame(k).r.vector(); }
 
-    /// All of these of one body, for kernels.  @throws InputError for a body that there is not, as the others do
+    /// All of these of one body, for kernels.  @throws InputError for a body index out of range, as do the other
+    /// accessors
     const typename WorkspaceT<S>::Frame& frame(int k) const {
         require_index("kinematics", "body", k, static_cast<std::ptrdiff_t>(workspace_->frame.size()));
         return workspace().frame[static_cast<std::size_t>(k)];
@@ -48,7 +49,7 @@ using Kinematics = KinematicsT<double>;
 /// Poses of all bodies.
 /// @param q  coordinates, size n, rad or m
 /// Cost O(n), no allocation.
-/// @throws InputError if q has another size or the workspace is another model's
+/// @throws InputError if q has the wrong size or the workspace belongs to another model
 template <class S>
 KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace);
 inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspace) {
@@ -58,7 +59,7 @@ inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspac
 /// Kinematic basis functions of body k for coordinate a, in components of body k; both zero unless a precedes k.
 ///   velocity of the centre of mass  v_k = u_ka qd^a,  angular velocity  omega_k = Omega_ka qd^a.
 ///                                                                              [Zhao et al. 2007, eq. 6]
-/// @throws InputError for bodies that there are not
+/// @throws InputError for body indices out of range
 template <class S>
 struct BasisFunctions {
     Vec3T<S> u;      ///< m/rad or 1
@@ -91,7 +92,7 @@ Pose<S> pose(const KinematicsT<S>& kin, FrameId frame);
 
 /// Jacobian of a frame: [angular velocity; velocity of its origin] = J qd, base axes.
 /// @param J  out, 6 x n, overwritten
-/// @throws InputError for another size or a frame that there is not
+/// @throws InputError for a wrong size or a frame that does not exist
 template <class S>
 void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J);
 

@@ -6,8 +6,8 @@
 /// The units are those of the coordinates (rad or m): Q_a is in N m where joint a turns and in N where it slides, g_ab
 /// in kg m^2, kg m or kg, Gamma_abc in those of g_ab per unit of q^c.
 ///
-/// Slow (O(n^4) for all symbols) and plain. They are what the recursive kernels are tested against, and a reader finds
-/// the equations here.
+/// Slow (O(n^4) for all symbols) and plain: the recursive kernels are tested against them, and a reader finds the
+/// equations here.
 #pragma once
 
 #include "mbs/kernels/kinematics.hpp"

@@ -13,10 +13,10 @@ namespace cardan {
 /// The sum over k collapses to one composite rigid body per pair, the subtree of the more distal coordinate.
 /// @param g  out, n x n, full and symmetric, kg m^2, kg m or kg; overwritten
 /// Cost O(n d), d the depth of the tree, and n^2 zeros; no allocation.
-/// @throws InputError if g has another size or is another model's, as all functions here do
+/// @throws InputError if g has the wrong size or belongs to another model, as do all functions here
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
-/// The same without the zeros between branches: in large trees they cost more than the numbers.
+/// As above, without the zeros between branches, which in large trees cost more than the entries.
 template <class S>
 void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g);
 

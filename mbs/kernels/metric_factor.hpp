@@ -10,9 +10,10 @@
 
 namespace cardan {
 
-/// Outcome of a factorisation. A pivot that is not positive is a property of the state, not a mistake: no exception.
+/// Outcome of a factorisation. A pivot that is not positive is a property of the state, not an error: no exception is
+/// thrown.
 struct [[nodiscard]] PivotStatus {
-    int index = -1;                    ///< coordinate of the pivot that is not positive; -1: there is none
+    int index = -1;                    ///< coordinate of the pivot that is not positive; -1: none
     std::string_view coordinate = {};  ///< its name, valid as long as the model
     double pivot = 0;                  ///< kg m^2 or kg
     double diagonal = 0;               ///< g_aa of that coordinate
@@ -24,14 +25,14 @@ struct [[nodiscard]] PivotStatus {
 };
 
 /// g = L^T L with a lower triangular L: L_ab is nonzero only if b lies on the path from the base to a. g has the same
-/// pattern (an armature couples coordinates of one branch only), so nothing is filled in when the rows are eliminated
-/// from the tips to the base.                    [Featherstone 2005; Rigid Body Dynamics Algorithms, 2008, section 6.5]
+/// pattern (an armature couples coordinates of one branch only), so eliminating the rows from the tips to the base
+/// causes no fill-in.                            [Featherstone 2005; Rigid Body Dynamics Algorithms, 2008, section 6.5]
 ///
-/// Driven coordinates are left out: then g stands for the block g_ff of the free ones, and in all vectors the entries
-/// of driven coordinates are left as they are.
+/// Driven coordinates are left out: g then stands for the block g_ff of the free ones, and in all vectors the entries
+/// of driven coordinates are left unchanged.
 ///
 /// Nothing allocates after construction. The object holds scratch memory, so it serves one thread. Functions throw
-/// InputError for arguments of another size or model and for indices that there are not.
+/// InputError for arguments of the wrong size or model and for indices out of range.
 class MetricFactor {
 public:
     /// @param driven  size n; true: left out. Default: the roles of the coordinate table.
@@ -45,7 +46,7 @@ public:
     /// be used.
     PivotStatus factorise(MatrixIn g);
     PivotStatus factorise(const BranchMatrix& g);
-    /// The same from the metric at `kin`, armatures included. Cost O(n d^2).
+    /// Factorises the metric at `kin`, armatures included. Cost O(n d^2).
     PivotStatus factorise(const Kinematics& kin);
 
     /// x <- g^-1 x in place, x a vector of size n or an n x m matrix of columns. Cost O(n d) per column.

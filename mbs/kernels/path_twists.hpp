@@ -1,5 +1,5 @@
 /// @file
-/// The twists of a path from the base, laid out so that one loop over the path uses whole registers.
+/// The twists along a path from the base, laid out so that a loop over the path uses whole registers.
 #pragma once
 
 #include "mbs/kernels/kinematics.hpp"
@@ -8,14 +8,14 @@ namespace cardan {
 
 /// Structure of arrays along one path: three rows per vector, one column per body, by depth. Coordinate j moves the
 /// point C of a body distal to it with angular velocity w_j and velocity u_j + w_j x (C - o_j): a prismatic joint has
-/// its axis in u and w = 0, a revolute one its axis in w and u = 0, so that no loop asks for the kind of a joint.
+/// its axis in u and w = 0, a revolute one its axis in w and u = 0, so that no loop has to branch on the joint type.
 ///
-/// Bodies are visited in the order of the model, depth first: when body m puts itself into column depth(m) - 1, the
-/// columns before still hold its ancestors.
+/// Bodies are visited in the order of the model, depth first: when body m writes column depth(m) - 1, the columns
+/// before it still hold its ancestors.
 template <class S>
 class PathTwists {
 public:
-    /// Rows of w, o and u counted from the further rows, and the number of all.
+    /// Rows of w, o and u relative to the extra rows, and the total number of rows.
     static constexpr int w_rows = -9, o_rows = -6, u_rows = -3, rows = 32;
     using Columns = Packed3<S>;  ///< four columns of a row
 
@@ -24,7 +24,7 @@ public:
     CARDAN_INLINE Columns* w(int i) const { return row(w_rows + i); }
     CARDAN_INLINE Columns* o(int i) const { return row(o_rows + i); }
     CARDAN_INLINE Columns* u(int i) const { return row(u_rows + i); }
-    /// Further rows, for the kernels, from 0.
+    /// Extra rows for the kernels, counted from 0.
     CARDAN_INLINE Columns* row(int i) const { return data_ + (i - w_rows) * stride_; }
     /// The three rows of a vector.
     CARDAN_INLINE void set(int first_row, std::ptrdiff_t column, const Packed3<S>& v) const {
@@ -48,7 +48,7 @@ private:
     std::ptrdiff_t stride_;
 };
 
-/// twist_at() for loops over the model's own indices: they are not looked at.
+/// twist_at() for loops over the model's own indices, without checks.
 template <class S>
 CARDAN_INLINE PointTwist<S> own_twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
     const typename WorkspaceT<S>::Frame& frame = kin.workspace().frame[static_cast<std::size_t>(a)];
@@ -56,7 +56,7 @@ CARDAN_INLINE PointTwist<S> own_twist_at(const KinematicsT<S>& kin, int a, const
     if (kin.model().links()[static_cast<std::size_t>(a)].revolute) return {e, cross<S>(e, C - frame.o.vector())};
     return {Vec3T<S>::Zero(), e};
 }
-/// Model::body(a).parent likewise.
+/// Model::body(a).parent, likewise without checks.
 inline int own_parent(const Model& model, int a) {
     return model.links()[static_cast<std::size_t>(a)].parent;
 }
@@ -68,7 +68,8 @@ CARDAN_INLINE const S* numbers(const Packed3<S>* columns) {
 }
 
 /// Columns of all bodies of the run that starts with body `first`; returns one past its last body. The columns of a
-/// whole run are set before the first is used: a register is loaded long after its four numbers were stored.
+/// whole run are set before the first is used, so that a register is loaded long after its four numbers were stored (no
+/// store-forwarding stall).
 template <class S>
 CARDAN_INLINE int set_run(const PathTwists<S>& path, const Model::Link* links,
                           const typename WorkspaceT<S>::Frame* frame, int first, int n) {
@@ -97,7 +98,7 @@ CARDAN_INLINE void write_branch(const Model::Link* links, int n, int m, const S*
     for (int a = links[m].subtree_end; a < n; ++a) own_column[a] = S(0);
 }
 
-/// Takes rows and columns by depth into an n x n matrix.
+/// Copies rows and columns, given by depth, into an n x n matrix.
 template <class S>
 struct DenseSink {
     const Model::Link* links;
@@ -113,7 +114,7 @@ struct DenseSink {
     }
 };
 
-/// Takes them into the memory of a BranchMatrix.
+/// Copies them into the memory of a BranchMatrix.
 template <class S>
 struct BranchSink {
     Packed3<S>*rows, *columns;

@@ -45,7 +45,7 @@ public:
         Packed3<S> psi1_w, psi1_u, psi2_w, psi2_u;
     };
 
-    /// Model::serial() of the model that it was made for.
+    /// Model::serial() of the model it was made for.
     std::uint64_t model_serial;
 
     // Written by kinematics().

@@ -1,5 +1,5 @@
 /// @file
-/// The table that says what every coordinate means. It travels with every result.
+/// The table that says what every coordinate means. It accompanies every result.
 #pragma once
 
 #include "mbs/base/sizes.hpp"
@@ -29,7 +29,7 @@ public:
     explicit CoordinateTable(std::vector<CoordinateInfo> rows) : rows_(std::move(rows)) {}
 
     int size() const { return static_cast<int>(rows_.size()); }
-    /// @throws InputError for an index that there is not
+    /// @throws InputError for an index out of range
     const CoordinateInfo& operator[](int index) const {
         require_index("table of coordinates", "index", index, size());
         return rows_[static_cast<std::size_t>(index)];
@@ -37,11 +37,11 @@ public:
     auto begin() const { return rows_.begin(); }
     auto end() const { return rows_.end(); }
 
-    /// @throws InputError naming the coordinate and the first of those that exist.
+    /// @throws InputError naming the coordinate and some that exist.
     int index(std::string_view name) const;
     /// Indices of the coordinates with role free.
     std::vector<int> free() const;
-    /// The same without one of them: the unknowns of a steady rotation, whose spin is prescribed; -1: all.
+    /// The free coordinates without one of them: the unknowns of a steady rotation, whose spin is prescribed; -1: all.
     std::vector<int> free_without(int index) const;
     /// One flag per coordinate: true where the role is driven.
     std::vector<bool> driven() const;

@@ -35,9 +35,9 @@ struct DhParameters {
     Placement placement() const;
 };
 
-/// The parameters of a given pose; alpha lies in [0, pi]. With nearly parallel axes b and r0 become very large (1 / sin
-/// alpha), below sin alpha = 1e-8 the axes are taken for parallel; the pose is kept to 1e-8 throughout. So poses are
-/// placements inside and these serve as a format of input and output.
+/// The parameters of a given pose; alpha lies in [0, pi]. For nearly parallel axes b and r0 become very large (1 / sin
+/// alpha); below sin alpha = 1e-8 the axes are treated as parallel. The pose is reproduced to 1e-8 throughout. For this
+/// reason poses are stored as placements, and these parameters serve for input and output only.
 DhParameters dh_parameters(const Placement& placement);
 
 }  // namespace cardan

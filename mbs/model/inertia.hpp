@@ -13,7 +13,7 @@ struct RigidInertia {
     double mass = 0;          ///< kg, >= 0
     Vec3 com = Vec3::Zero();  ///< centre of mass in the frame, m
     Mat3 J = Mat3::Zero();    ///< ordinary inertia tensor about the centre of mass, frame axes, kg m^2
-    bool reduced = false;     ///< only some axes are modelled: the triangle inequality is not asked for
+    bool reduced = false;     ///< only some axes are modelled: the triangle inequality is not checked
 
     /// The same body in components of frame a, given the pose of its frame in a.
     RigidInertia in(const Placement& frame_in_a) const;

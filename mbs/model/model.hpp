@@ -9,7 +9,7 @@ namespace cardan {
 
 /// Bodies are sorted depth first, so that body index = coordinate index, every parent precedes its children and the
 /// subtree of body i is the index range [i, subtree_end(i)). Cost and memory are O(n) (n log n for names): matrices,
-/// dense or with the pattern of the branches, are made by those who need them.
+/// dense or with the pattern of the branches, are created by the code that needs them.
 class Model {
 public:
     struct Body {
@@ -32,8 +32,8 @@ public:
         bool massless;
         double mass;
         double subtree_mass;  ///< kg
-        /// When the subtree is joined to the parent and the later children: its share of the mass, and the reduced mass
-        /// M1 M2 / (M1 + M2) of the two, kg.
+        /// When the subtree is merged with the parent and the children after it: its share of the mass, and the reduced
+        /// mass M1 M2 / (M1 + M2) of the two, kg.
         double share, reduced;
         Packed33<double> R;   ///< joint frame at q = 0 in the parent body's frame
         Packed3<double> p;    ///< its origin
@@ -59,7 +59,7 @@ public:
     explicit Model(const Tree& tree);
 
     int size() const { return static_cast<int>(bodies_.size()); }
-    /// @throws InputError for an index that there is not
+    /// @throws InputError for an index out of range
     const Body& body(int index) const {
         require_index("model", "body", index, size());
         return bodies_[static_cast<std::size_t>(index)];
@@ -76,15 +76,15 @@ public:
     int index(BodyId body) const;
     int index(std::string_view coordinate) const { return coordinates_.index(coordinate); }
     FrameId frame(std::string_view name) const;
-    /// @throws InputError for a frame that there is not
+    /// @throws InputError for a frame that does not exist
     const Frame& frame(FrameId id) const {
         require_index("model", "frame", id.index, static_cast<std::ptrdiff_t>(frames_.size()));
         return frames_[static_cast<std::size_t>(id.index)];
     }
     /// True if a lies on the path from the base to b (or a == b).
     bool precedes(int a, int b) const { return a <= b && b < body(a).subtree_end; }
-    /// Number of this model: its copies have the same, every other model has another. What is bound to a model knows it
-    /// by this number.
+    /// Serial number of this model: shared by its copies and different for every other model. Objects bound to a model
+    /// identify it by this number.
     std::uint64_t serial() const { return serial_; }
     /// Total mass, kg.
     double mass() const;

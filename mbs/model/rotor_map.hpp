@@ -1,5 +1,6 @@
 /// @file
-/// What a solver must know about a machine beyond its coordinates: data, so that solvers never see turbines.
+/// What a solver must know about a machine beyond its coordinates, as data, so that solvers need not know about
+/// turbines.
 #pragma once
 
 #include "mbs/model/model.hpp"
@@ -8,8 +9,8 @@
 
 namespace cardan {
 
-/// How modes of a part are named: after the axis of the coordinates that hold most of the elastic energy of the part's
-/// component mode (everything else clamped).
+/// How the modes of a part are named: after the axis of the coordinates that hold most of the elastic energy in the
+/// part's component mode (everything else clamped).
 struct PartAxes {
     std::string part;                        ///< as in CoordinateInfo::part
     FrameId axes;                            ///< frame whose x, y, z are meant below (that of blade 1 for blades)
@@ -34,18 +35,18 @@ struct RotatingPair {
 /// Rotor, blades, parts and lines of a machine, in indices of its model.
 struct RotorMap {
     std::string machine;
-    std::string description = {};          ///< what the machine was made from, in words; kept with every result
+    std::string description = {};          ///< plain-text description of the machine's input; kept with every result
     int spin = -1;                         ///< coordinate that carries the rotor speed; -1: no rotor
     FrameId hub;                           ///< rotating frame: z along the rotor axis, x along blade 1 at azimuth 0
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order
-    /// Those that turn are seen from the fixed frame. A rotor without blades (a disc on a shaft) whirls in them: the
-    /// modes of their parts are named backward and forward.
+    /// Pairs that turn with the rotor are transformed to the fixed frame. A rotor without blades (a disc on a shaft)
+    /// whirls in them: the modes of their parts are named backward and forward.
     std::vector<RotatingPair> rotating_pairs = {};
     std::vector<PartAxes> parts;
     std::vector<Polyline> lines;
 };
 
-/// @throws InputError unless all coordinates and frames of the map are there in the model: its own, not another one's
+/// @throws InputError unless all coordinates and frames of the map exist in the model
 void check(const RotorMap& rotor, const Model& model);
 
 }  // namespace cardan

@@ -1,5 +1,5 @@
 /// @file
-/// Editable description of a tree of rigid bodies; made once into an immutable Model.
+/// Editable description of a tree of rigid bodies, from which an immutable Model is made.
 #pragma once
 
 #include "mbs/model/coordinates.hpp"
@@ -31,10 +31,10 @@ struct Armature {
     std::vector<std::pair<BodyId, double>> spin = {};  ///< the vector s: coordinates on one branch and their factors
 };
 
-/// A tree of bodies, each carried through one joint with one coordinate by a frame of another body or of the base.
-/// Everything is named; bad input throws InputError naming the body, the value and the allowed range. Ids are places in
-/// this tree: one of another tree is refused where it is out of range, and means another body where it is not.
-/// Cost of an addition: O(log n); memory O(n).
+/// A tree of bodies, each attached by a joint with one coordinate to a frame of another body or of the base. Everything
+/// is named; bad input throws InputError naming the body, the value and the allowed range. Ids are positions in this
+/// tree: an id from another tree is rejected if it is out of range and otherwise denotes a different body. Cost of an
+/// addition: O(log n); memory O(n).
 class Tree {
 public:
     struct Body {

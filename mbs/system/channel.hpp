@@ -1,5 +1,5 @@
 /// @file
-/// What can be recorded of a motion: named quantities with units, and how they follow from the state.
+/// Quantities that can be recorded during a motion: names, units, and how they follow from the state.
 #pragma once
 
 #include "mbs/system/joint_loads.hpp"
@@ -20,11 +20,11 @@ struct Channel {
     std::string alias = {};  ///< name of the channel in OpenFAST, e.g. "RootMyb1"; empty: it has none
 };
 
-/// A state with all that follows from it.
+/// A state and everything derived from it.
 struct ChannelInput {
     double time;
     const Vector &q, &qd, &qdd;
-    const Vector& actuator;  ///< what drives add to Q on their coordinates, N m or N
+    const Vector& actuator;  ///< generalised forces of the drives on their coordinates, N m or N
     const Kinematics& kinematics;
     const Forces& forces;
     const Transmission& carried;  ///< motion and joint loads of all bodies

@@ -25,13 +25,14 @@ struct ForceInput {
     const Kinematics& kinematics;
 };
 
-/// A force of the user's own. Without `jacobian` it is differenced (central, step 1e-6), in double precision, which
-/// allocates; else the library allocates nothing around it.
+/// A user-defined force. Without `jacobian` its derivatives are central differences (step 1e-6, double precision),
+/// which allocate; with it the library allocates nothing.
 struct UserForce {
     std::string name = {};
-    /// Adds its generalised forces to Q (size n). What is there belongs to other elements: add, do not assign or read.
+    /// Adds its generalised forces to Q (size n), which already holds those of other elements: add, do not assign or
+    /// read.
     std::function<void(const ForceInput&, VectorOut Q)> force = {};
-    /// Adds dQ/dq and dQ/dqd (n x n) to what is there, in the same way.
+    /// Adds dQ/dq and dQ/dqd (n x n), in the same way.
     std::function<void(const ForceInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
     /// Potential energy, J, if there is one.
     std::function<double(const ForceInput&)> energy = {};
@@ -39,7 +40,7 @@ struct UserForce {
     bool elastic = false;
 };
 
-/// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint spring).
+/// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint's spring).
 struct LinearLaw {
     std::string name = {};
     std::vector<BodyId> coordinates = {};
@@ -93,27 +94,27 @@ struct ForceDerivatives {
 };
 
 /// A force set bound to a model: indices resolved, ready to evaluate. All functions throw InputError for kinematics of
-/// another model and for vectors of another size.
+/// another model and for vectors of the wrong size.
 class Forces {
 public:
     /// @throws InputError for bodies and frames that the model does not have
     Forces(const ForceSet& set, const Model& model);
 
-    /// Q_a of all elements.
-    /// @param Q  out, size n, N m or N; overwritten, no alias of q or qd.  Cost O(n d), no allocation but what user
-    /// forces make.
+    /// Q_a, the sum over all elements.
+    /// @param Q  out, size n, N m or N; overwritten; must not alias q or qd. Cost O(n d); allocates nothing unless a
+    ///           user force does.
     void generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd, VectorOut Q) const;
-    /// Without user forces, on any scalar (tests).
+    /// Likewise without user forces, for any scalar (tests).
     template <class S>
     void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
                                         VectorOutT<S> Q) const;
     /// -dQ/dq and -dQ/dqd by origin.
-    /// @param out  overwritten; matrices of the right size are used again.  Cost O(n^2), no allocation then, unless a
-    /// user force has no Jacobian.
+    /// @param out  overwritten; matrices of the right size are reused. Cost O(n^2), then without allocation unless a
+    ///             user force has no Jacobian.
     void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                      ForceDerivatives& out) const;
 
-    /// Potential energy of everything that has one, J.
+    /// Potential energy of all elements that have one, J.
     double potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
     std::vector<ForceReport> report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
 
@@ -126,7 +127,7 @@ public:
     bool has_gravity() const { return !gravity_.isZero(0); }
     /// Name of the linear law that is stiffest on a coordinate; empty: there is none.
     std::string stiffest_law(int coordinate) const;
-    /// Power that the dampers of the linear laws take away, qd^T D qd, W.  Cost O(n), no allocation.
+    /// Power dissipated by the dampers of the linear laws, qd^T D qd, W.  Cost O(n), no allocation.
     double dissipation(const Vector& qd) const;
     /// The same forces under another gravity.  @throws InputError if it is not finite
     Forces with_gravity(const Vec3& g) const;

@@ -17,7 +17,7 @@ namespace cardan {
 ///   dA_d/dx = dtau_d/dx|qdd + g_df dqdd_f/dx - dQ_d/dx
 ///   dA_d/dQ_f = g_df g_ff^-1,          dA_d/dQ_d = -1,        dA_d/dqdd_d = g_dd + g_df dqdd_f/dqdd_d.
 ///
-/// Numerators by the differentiated recursion, g_ff^-1 by the factor on the branches.
+/// The right-hand sides come from the differentiated recursion, g_ff^-1 from the branch-sparse factor.
 ///                          [Jain and Rodriguez 1993; Carpentier and Mansard 2018; Singh, Russell and Wensing 2022]
 ///
 /// Cost O(n^2 d): n columns of O(n d) each. Nothing allocates after construction; one object per thread.
@@ -43,7 +43,7 @@ public:
     /// n x n, column b: by the prescribed acceleration of the driven coordinate b (1 in row b); other columns are zero.
     const Matrix& dqdd_dprescribed() const { return by_prescribed_; }
 
-    /// The same of the forces A that the drives add to Q (`actuator` of ForwardDynamics::solve()); rows of free
+    /// Likewise for the forces A that the drives add to Q (`actuator` of ForwardDynamics::solve()); rows of free
     /// coordinates are zero.
     const Matrix& dactuator_dq() const { return actuator_by_q_; }
     const Matrix& dactuator_dqd() const { return actuator_by_qd_; }

@@ -1,5 +1,5 @@
 /// @file
-/// What the joints carry: forces and moments transmitted through the tree in motion.
+/// Loads that the joints transmit while the tree moves.
 #pragma once
 
 #include "mbs/kernels/dynamics.hpp"
@@ -24,8 +24,8 @@ struct BodyMotion {
 struct Transmission {
     std::vector<BodyMotion> motion;  ///< one per body
     /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
-    /// inertial forces of the subtree less gravity and wrenches on it, base axes. User forces are not known as wrenches
-    /// and are left out; armatures have no reaction.
+    /// inertial forces of the subtree minus gravity and wrenches on it, base axes. User forces are left out, since they
+    /// are not given as wrenches; armatures have no reaction.
     std::vector<Wrench> joint;
 };
 

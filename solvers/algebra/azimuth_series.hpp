@@ -6,12 +6,12 @@
 
 namespace cardan::solvers {
 
-/// (1, cos psi, sin psi, cos 2 psi, ...) or a derivative by psi, 2 harmonics + 1 entries. A series is a matrix with a
-/// column per entry; its value is the product of the two.
+/// (1, cos psi, sin psi, cos 2 psi, ...) or one of its derivatives by psi; 2 harmonics + 1 entries. A series is a
+/// matrix with one column per entry; its value is the product of the two.
 Vector fourier_basis(double psi, int harmonics, int derivative = 0);
 
-/// What a sample at psi, of `count` equidistant ones, contributes to the coefficients of the series.
-/// Exact for series of up to `harmonics` harmonics if count > 2 harmonics.
+/// Weights with which a sample at psi, one of `count` equidistant ones, enters the coefficients of the series. Exact
+/// for series of up to `harmonics` harmonics if count > 2 harmonics.
 Vector fourier_weights(double psi, int harmonics, int count);
 
 /// Coefficients of the series through equidistant samples (one per column, from azimuth 0 on).

@@ -1,8 +1,8 @@
 /// @file
-/// Dense kernels that take no memory from the heap, whatever the size.
+/// Dense kernels that allocate nothing on the heap, whatever the size.
 ///
-/// Eigen's blocked products and factorisations do, for matrices of more than about a hundred rows; these go through the
-/// same products in pieces small enough for the stack.
+/// Eigen's blocked products and factorisations do so for more than about a hundred rows; these kernels split the same
+/// products into pieces small enough for the stack.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -12,22 +12,22 @@
 
 namespace cardan::solvers {
 
-/// Distance of 1 to the next number.
+/// Distance from 1 to the next larger number.
 inline constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
 /// C += sign A B.
-/// @param C  no alias of A or B
+/// @param C  must not alias A or B
 void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign = 1);
 
 /// B := A^-1 B by elimination with row exchanges; zero pivots give infinite or undefined entries.
 /// @param A  destroyed.  Cost 2/3 n^3 + 2 n^2 columns of B
 void solve_in_place(Matrix& A, Matrix& B);
 
-/// A matrix in triangular factors, to be solved with many times.
+/// A matrix as triangular factors, for repeated solves.
 class LuFactors {
 public:
     explicit LuFactors(Eigen::Index n) : lu_(n, n), exchanges_(static_cast<std::size_t>(n)) {}
-    /// To be filled before factorise(), which overwrites it.
+    /// Fill this before factorise(), which overwrites it.
     Matrix& matrix() { return lu_; }
     /// By elimination with row exchanges. Zero pivots give infinite or undefined solutions.  Cost 2/3 n^3
     void factorise();

@@ -11,9 +11,9 @@
 namespace cardan::solvers {
 
 /// mu and x of F_p ... F_2 F_1 by the periodic Schur form: unitary Q_k with Q_k^H F_k Q_{k-1} upper triangular, Q_p =
-/// Q_0. The eigenvalues are products of diagonal entries, so multipliers of 1e-100 beside others of 1 come out with
-/// errors that belong to the single factors, not to their product. The periodic QR algorithm in complex arithmetic with
-/// single shifts; first two sweeps without, which sort by size.
+/// Q_0. The eigenvalues are products of diagonal entries, so multipliers of 1e-100 beside others of 1 are computed with
+/// the rounding errors of the individual factors, not of their product. Periodic QR algorithm in complex arithmetic
+/// with single shifts, after two unshifted sweeps that sort by size.
 ///                    [Bojanczyk, Golub and Van Dooren, The periodic Schur decomposition, 1992; Kressner 2006]
 class ProductEigen {
 public:
@@ -28,18 +28,18 @@ public:
 
     /// log mu, imaginary part in (-pi, pi]; real part -infinity for mu = 0.
     Complex logarithm(Eigen::Index i) const;
-    /// Mean over the factors of log(|entry| / norm of the factor): below -32 or so it is rounding.
+    /// Mean over the factors of log(|entry| / norm of the factor): below about -32 it is rounding.
     double mean_level(Eigen::Index i) const;
 
-    /// Of one eigenvalue, at every place k = 0 ... p - 1 between the factors (by column).
+    /// Eigenvectors of one eigenvalue, at every position k = 0 ... p - 1 between the factors (by column).
     struct Vectors {
         ComplexMatrix right;   ///< x_k: F_{k+1} x_k = growth_{k+1} x_{k+1}
         ComplexMatrix left;    ///< y_k: y_{k+1}^T F_{k+1} = growth_{k+1} y_k^T (no conjugation); y_k^T x_k = 1
         ComplexVector growth;  ///< their product is mu
-        /// Largest |x_k| |y_k|: what a relative disturbance of the factors is multiplied by in log mu, >= 1.
+        /// Largest |x_k| |y_k|: factor by which a relative perturbation of the factors is amplified in log mu, >= 1.
         double condition = 0;
     };
-    /// For eigenvalues that mean_level() tells from rounding. Cost O(p n^2).
+    /// For eigenvalues that mean_level() shows to be above rounding. Cost O(p n^2).
     Vectors vectors(Eigen::Index i) const;
 
 private:

@@ -7,7 +7,7 @@
 
 namespace cardan::solvers {
 
-/// Coefficients of Radau's method IIA with s stages: collocation at the zeros of P_s - P_{s-1} (Legendre), moved to
+/// Coefficients of Radau's method IIA with s stages: collocation at the zeros of P_s - P_{s-1} (Legendre), mapped to
 /// [0, 1]. Order 2 s - 1 at the end of a step, stiffly accurate, L-stable: motions too fast for the step die out.
 ///                                            [Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5]
 struct RadauIIA {
@@ -17,23 +17,23 @@ struct RadauIIA {
     Eigen::Index stages() const { return c.size(); }
     int order() const { return 2 * static_cast<int>(stages()) - 1; }
 
-    Vector c;   ///< nodes, rising; the last one is 1
+    Vector c;   ///< nodes, ascending; the last one is 1
     Matrix A;   ///< integrals of the Lagrange polynomials from 0 to the nodes
     Matrix A2;  ///< A A
 };
 
-/// Linear algebra of a step h of M q'' + C q' + K q = f, the matrices given at the stages. The unknowns are the
+/// Linear algebra of one step h of M q'' + C q' + K q = f, with the matrices given at the stages. The unknowns are the
 /// accelerations a_i at the stages; positions and rates there are
 ///   q_i = q + c_i h v + h^2 sum_j (A^2)_ij a_j,   v_i = v + h sum_j A_ij a_j.
 class RadauStage {
 public:
     RadauStage(const RadauIIA& method, Eigen::Index coordinates);
 
-    /// All stages have to be set before factorise().
+    /// All stages must be set before factorise().
     void set(Eigen::Index stage, double h, const Matrix& M, const Matrix& C, const Matrix& K);
     /// Cost 2/3 (s n)^3.
     void factorise();
-    /// Accelerations at the stages from right sides f at the stages, in place, s n rows.
+    /// Accelerations at the stages from right-hand sides f at the stages, in place, s n rows.
     void solve(Matrix& f) const;
     /// Solutions of the homogeneous equations at the end of the step, by column.
     /// @param X  in and out: positions above rates, 2 n rows

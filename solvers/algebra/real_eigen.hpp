@@ -1,5 +1,5 @@
 /// @file
-/// Eigenvalues and eigenvectors of real matrices, one after the other in the same memory.
+/// Eigenvalues and eigenvectors of a sequence of real matrices, in the same memory.
 #pragma once
 
 #include "mbs/base/decompositions.hpp"
@@ -10,13 +10,14 @@
 namespace cardan::solvers {
 
 /// A x = mu x for general real matrices (entries from 1e-140 to 1e140) of one size: Hessenberg form, real Schur form,
-/// back substitution. Backward stable, without balancing: ||A||-relative errors of the order of rounding. Of every
-/// eigenvector the first rows only are made, for a state matrix the positions, which saves half of the transformations.
+/// back substitution. Backward stable, without balancing: ||A||-relative errors of the order of rounding. Only the
+/// first rows of every eigenvector are computed (for a state matrix the positions), which saves half of the
+/// transformations.
 ///
-/// Its own rather than Eigen's or LAPACK's: see docs/dependencies.md.
+/// Why this and not Eigen or LAPACK: see docs/dependencies.md.
 class RealEigen {
 public:
-    /// @param rows  number of rows wanted of the eigenvectors, 0 ... size
+    /// @param rows  number of eigenvector rows wanted, 0 ... size
     RealEigen(Eigen::Index size, Eigen::Index rows);
 
     /// One real eigenvalue, or the member of a complex pair with positive imaginary part.
@@ -30,7 +31,7 @@ public:
 
     /// In the order of the Schur form.
     const std::vector<Value>& values() const { return values_; }
-    /// rows x size, of no particular length.
+    /// rows x size, not normalised.
     const Matrix& vectors() const { return vectors_; }
 
 private:

@@ -9,9 +9,9 @@
 namespace cardan::solvers {
 
 /// T = Q^T H Q by Francis' implicit double-shift QR algorithm [Golub and Van Loan, Matrix Computations, 7.5]. The
-/// reflectors of a step are made in a small window that follows the bulge along the diagonal; the rest of the matrix
-/// takes them in batches while a part of it stays in the first cache, which is two to three times faster than one after
-/// the other.
+/// reflectors of a step are computed in a small window that follows the bulge along the diagonal; they are applied to
+/// the rest of the matrix in batches, on parts that stay in the L1 cache, which is two to three times faster than one
+/// by one.
 class SchurIteration {
 public:
     /// @param T  in: upper Hessenberg; out: quasi-triangular, with 2 x 2 blocks for complex pairs and zeros below

@@ -9,11 +9,11 @@
 
 namespace cardan::solvers {
 
-/// Complex Schur form (A - sigma)^-1 = U T U^H with sigma > 0 near the lowest eigenvalues: these, which matter in a
-/// machine, come out to working precision however stiff others are.
+/// Complex Schur form (A - sigma)^-1 = U T U^H with sigma > 0 near the lowest eigenvalues: these, which matter for a
+/// machine, are computed to working precision however stiff the others are.
 class ShiftedSchur {
 public:
-    /// @param sigma  0: of the size of the lowest tenth of the eigenvalues, zeros aside
+    /// @param sigma  0: of the magnitude of the lowest tenth of the eigenvalues, zeros excluded
     /// @throws NumericalError if the iteration fails or an entry is not finite
     explicit ShiftedSchur(const Matrix& A, double sigma = 0);
 
@@ -23,7 +23,7 @@ public:
     Complex eigenvalue(Eigen::Index i) const { return sigma_ + 1.0 / T_(i, i); }
     /// X of A X + X A^T + Q = 0.  @throws NumericalError if eigenvalues add up to nearly zero
     Matrix lyapunov(const Matrix& Q) const;
-    /// Orthonormal real basis of the invariant subspace of some eigenvalues (pairs are both chosen or none).
+    /// Orthonormal real basis of the invariant subspace of some eigenvalues (of a pair both or neither).
     /// @param chosen  one flag per eigenvalue
     Matrix subspace(std::vector<bool> chosen) const;
 
@@ -38,8 +38,8 @@ struct Decoupled {
     Matrix right_1, right_2, left_1, left_2;
     Matrix A_1, A_2;
 };
-/// @param first  which eigenvalues belong to the first block; of conjugates the one with positive imaginary part
-/// decides for both
+/// @param first  which eigenvalues belong to the first block; the one with positive imaginary part decides for its
+///               conjugate
 Decoupled decouple(const Matrix& A, const ShiftedSchur& schur, const std::function<bool(Complex)>& first);
 
 }  // namespace cardan::solvers

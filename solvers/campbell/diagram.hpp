@@ -18,36 +18,37 @@ namespace cardan::solvers {
 /// @throws InputError: NaN, step not positive, last below first, more than 100000 speeds.
 std::vector<double> rpm_range(double first, double last, double step);
 
-/// Frequencies in which frame.
+/// How modes are computed, and in which frame.
 enum class CampbellMethod : std::uint8_t {
-    coleman,         ///< fixed frame, by multi-blade transformation: motions of the machine; three and more blades
-    frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: no motions of the machine
-    floquet,  ///< motions of the machine about its periodic steady state by Floquet's theory, in multi-blade rows: any
-              ///< number of blades, gravity, blades that differ. The frequencies are principal ones: in the fixed
-              ///< frame, but those of blade modes of two blades in the rotating frame
-    averaged  ///< as `floquet`, but eigenvalues of the multi-blade system's mean over the azimuth: an approximation,
-              ///< for comparison; three and more blades
+    coleman,         ///< fixed frame, by multi-blade transformation; three or more blades
+    frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: not true motions of the machine
+    floquet,  ///< motions about the periodic steady state by Floquet theory, in multi-blade rows: any number of blades,
+              ///< gravity, unequal blades. The frequencies are principal ones: in the fixed frame, except those of
+              ///< blade modes of two-bladed rotors, which are in the rotating frame
+    averaged  ///< as `floquet`, but eigenvalues of the multi-blade system averaged over the azimuth: an approximation,
+              ///< for comparison; three or more blades
 };
 
-/// For CampbellMethod::floquet (and, but for the accuracy, averaged).
+/// For CampbellMethod::floquet (and, apart from the accuracy settings, averaged).
 struct CampbellFloquetOptions {
-    /// Of the revolution in the periodic steady state; half as many more are taken, at last 4 times as many, while the
-    /// harmonics left out have a residual over stiffness above 1e-5.
+    /// Harmonics of the revolution in the periodic steady state. Their number is raised by half at a time, to at most 4
+    /// times as many, while the neglected harmonics have a residual / stiffness above 1e-5.
     int harmonics = 8;
-    /// Model indices of coordinates that change sign when two blades have changed places (teeter): then half a
-    /// revolution is integrated. Those that are no unknowns do not count; where the machine is not symmetric in this
-    /// way the whole revolution is integrated.
+    /// Model indices of coordinates that change sign when two blades exchange places (teeter); then only half a
+    /// revolution is integrated. Coordinates that are not unknowns are ignored; if the machine does not have this
+    /// symmetry the whole revolution is integrated.
     std::vector<int> odd = {};
     std::vector<int> held = {};  ///< as PeriodicOptions::held
-    double per_period = 0;       ///< modes up to so many per revolution are accurate; 0: up to `max_frequency_hz`
-    double tolerance = 1e-9;     ///< of exponents, over the rotor speed
-    int most_steps = 0;          ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
+    double per_period =
+        0;  ///< modes up to this frequency, in multiples of the rotor speed, are accurate; 0: up to `max_frequency_hz`
+    double tolerance = 1e-9;  ///< of exponents, relative to the rotor speed
+    int most_steps = 0;       ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
 };
 
 struct Campbell;
 
-/// Of a link between modes: below it the identity of the mode is doubtful. MAC values of one mode with others that are
-/// orthogonal to each other add up to one at most: above 0.5 only one of them can be the same.
+/// MAC between consecutive points below which the identity of a mode is doubtful. The MAC values of one mode with
+/// others that are orthogonal to each other add up to at most one: above 0.5 only one of them can be the same mode.
 inline constexpr double sure_mac = 0.6;
 
 struct CampbellOptions {
@@ -57,12 +58,12 @@ struct CampbellOptions {
         10;                   ///< branches that stay above are left out (all modes take part in tracking and naming)
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
     CampbellFloquetOptions floquet = {};
-    /// Diagram of a neighbouring variant of the machine, with the same method, blades and rows: branches keep the names
-    /// that they have there, by the complex energy MAC at the rotor speeds of both; doubtful where it is below
-    /// `sure_mac` or two candidates compete, and everywhere where the neighbour has no such branch (of which it should
-    /// have at least as many: the same `max_frequency_hz`). Motions named after a coordinate are named by what they
-    /// are. Null: names by the elastic energy alone. Must outlive the call. Not for a diagram over another parameter,
-    /// which follows from one machine to the next anyway.
+    /// Diagram of a similar variant of the machine, with the same method, blades and rows: branches take over the names
+    /// they have there, matched by the complex energy MAC at the rotor speeds common to both. A name is doubtful where
+    /// the MAC is below `sure_mac` or two candidates compete, and everywhere if the neighbour has no such branch (it
+    /// should have at least as many: use the same `max_frequency_hz`). Motions named after a coordinate are not
+    /// matched. Null: names from the elastic energy alone. Must outlive the call. Not for a diagram over another
+    /// parameter, which is tracked from one machine to the next anyway.
     const Campbell* neighbour = nullptr;
     /// Called after every rotor speed with the numbers done and to do.
     std::function<void(int done, int total)> progress = {};
@@ -72,19 +73,19 @@ struct CampbellOptions {
 
 /// A mode at one rotor speed.
 struct CampbellMode {
-    /// By Floquet's theory the principal exponent and the shape of the principal harmonic at unit energy of its own;
-    /// of a rigid motion at 1 J of kinetic energy at unit rate.
+    /// For Floquet modes, the principal exponent and the shape of the principal harmonic, scaled to unit energy by
+    /// itself; for a rigid motion, to 1 J of kinetic energy at unit rate.
     Mode mode;
     std::vector<Share> shares;  ///< of the elastic energy, by component (sum over the harmonics)
     Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
-    /// Row after which a motion (almost) without elastic energy is named, the one with most kinetic energy: yaw,
-    /// teeter. -1: named by its elastic energy.
+    /// For a motion (almost) without elastic energy, the row with most kinetic energy, after which it is named: yaw,
+    /// teeter. -1: named after its elastic energy.
     int row = -1;
-    /// Everything by Floquet's theory, in multi-blade rows; empty for the other methods and at standstill. Harmonics
-    /// at the ends that hold less than 1e-12 of the energy are left out.
+    /// The full Floquet mode, in multi-blade rows; empty for the other methods and at standstill. Outer harmonics with
+    /// less than 1e-12 of the energy are left out.
     std::optional<FloquetMode> floquet = {};
 
-    /// That of `floquet`, else oscillation or aperiodic.
+    /// The kind of `floquet` if there is one, else oscillation or aperiodic.
     FloquetKind kind() const;
     /// "oscillation", "aperiodic", "rigid", "locked at 1 per rev", "locked at 1/2 per rev"
     std::string kind_name() const;
@@ -94,13 +95,13 @@ struct CampbellPoint {
     double rotor_speed = 0;           ///< rad/s
     OperatingPoint at;                ///< steady state, at azimuth 0
     std::vector<CampbellMode> modes;  ///< by natural frequency
-    /// How far the fastest growing motion (rigid ones left out) is from growing, 1/s; negative: unstable. NaN where
-    /// eigenvalues are no motions (frozen azimuth).
+    /// Smallest decay rate of all motions except rigid ones, 1/s; negative: unstable. NaN where eigenvalues do not
+    /// describe motions (frozen azimuth).
     double stability_margin = std::numeric_limits<double>::quiet_NaN();
     std::optional<PeriodicSteadyState> periodic = {};  ///< where the method is `floquet` or `averaged`
 };
 
-/// A mode followed over rotor speed.
+/// A mode tracked over rotor speed.
 struct Branch {
     std::string name;    ///< "1st blade flap (backward)", "1st blade flap (symmetric)", "yaw (rigid)"
     std::string family;  ///< "blade flap", "yaw"
@@ -110,14 +111,14 @@ struct Branch {
     int harmonic = 1;         ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
     std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
     std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
-    /// Tracked with MAC below `sure_mac`, or another name holds clearly more energy there, or the blades do not move in
-    /// the pattern, or another branch has the name ("another"), or the neighbouring variant of the machine does not
-    /// bear the name out (CampbellOptions::neighbour).
+    /// True where the mode was tracked with a MAC below `sure_mac`, another name clearly holds more energy, the blades
+    /// do not move in the named pattern, another branch has the name ("another"), or the neighbouring variant of the
+    /// machine does not confirm it (CampbellOptions::neighbour).
     std::vector<bool> doubtful;
-    std::vector<std::string> mostly;  ///< the name that holds most elastic energy at the point; empty without a mode
+    std::vector<std::string> mostly;  ///< the name with most elastic energy at the point; empty without a mode
 };
 
-/// A branch meets a multiple of the rotor speed.
+/// A branch crosses a multiple of the rotor speed.
 struct Crossing {
     int branch;
     int multiple;        ///< n of nP
@@ -126,7 +127,7 @@ struct Crossing {
 };
 
 /// Complex motion of a frame in a mode: [rotation; displacement of the origin], base axes, azimuth 0, rad and m at unit
-/// modal energy (1 J). By Floquet's theory the sum of all harmonics at azimuth 0.
+/// modal energy (1 J). For Floquet modes the sum of all harmonics at azimuth 0.
 struct FrameMotion {
     Vec6T<Complex> motion;
 };
@@ -143,7 +144,7 @@ struct Campbell {
     std::vector<Vec3> frame_positions;  ///< undeformed, azimuth 0, m
     std::vector<Polyline> lines;        ///< FrameId counts in `frames`
     std::vector<CampbellPoint> points;
-    std::string parameter;           ///< what the points differ in; empty: in the rotor speed
+    std::string parameter;           ///< the parameter that varies from point to point; empty: the rotor speed
     std::vector<double> parameters;  ///< its values, by point; empty: the rotor speeds
     std::vector<Branch> branches;    ///< by frequency at the first point
     std::vector<Crossing> crossings;
@@ -159,7 +160,7 @@ struct Campbell {
     const CampbellMode* mode(const Branch& branch, std::size_t point) const;
     /// @throws InputError with the names there are.
     const Branch& branch(std::string_view name) const;
-    /// The same, null if there is none.
+    /// Like branch(), but null if there is none.
     const Branch* find_branch(std::string_view name) const;
     /// Motions of all `frames` in a mode of a branch.
     std::vector<FrameMotion> motion(const Branch& branch, std::size_t point) const;
@@ -171,23 +172,23 @@ struct Campbell {
 /// and tracking by optimal assignment on the complex energy MAC. A rotor with one blade, the isolated blade, is taken
 /// in its rotating frame; a rotor without blades, a disc on a shaft, in the fixed frame, where it whirls.
 ///
-/// By Floquet's theory the steady state is periodic and begun from that of the speed before; modes are named after the
-/// elastic energy of all harmonics, and the MAC is that of all harmonics, which may have moved by multiples of the
-/// rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the machine is
-/// linearised at azimuth 0.
+/// With Floquet theory the steady state is periodic and its iteration starts from that of the previous speed; modes are
+/// named after the elastic energy of all harmonics, and the MAC compares all harmonics, allowing for shifts by
+/// multiples of the rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the
+/// machine is linearised at azimuth 0.
 /// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, two blades
 /// unless the method is `floquet`, no rotor for `floquet` and `averaged`, a neighbour of another kind or without a
 /// common speed, and options out of range; NumericalError where no (constant or periodic) steady state exists or is
 /// found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options = {});
-/// The same for speeds that stand in the call: campbell(system, rotor, {0.0, 1.5, 3.0}).
+/// Likewise, with the speeds written in the call: campbell(system, rotor, {0.0, 1.5, 3.0}).
 inline Campbell campbell(const System& system, const RotorMap& rotor, std::initializer_list<double> rotor_speed,
                          const CampbellOptions& options = {}) {
     return campbell(system, rotor, std::span<const double>(rotor_speed.begin(), rotor_speed.size()), options);
 }
 
-/// One point of a diagram over something else than rotor speed.
+/// One point of a diagram over a parameter other than rotor speed.
 struct CampbellCase {
     const System* system = nullptr;
     const RotorMap* rotor = nullptr;
@@ -195,8 +196,9 @@ struct CampbellCase {
     double parameter = 0;    ///< its place on the axis
 };
 
-/// Modes over a parameter other than rotor speed, such as the rigidity of the tower: machines with the same coordinates
-/// are followed from one to the next. What the diagram says about the machine is that of the first; no crossings.
+/// Modes over a parameter other than rotor speed, such as the rigidity of the tower: modes are tracked from one machine
+/// to the next; all must have the same coordinates. Data of the machine in the diagram are those of the first; no
+/// crossings.
 /// @param parameter  what the parameter is, with its unit, for axes and tables
 /// @throws InputError also for an empty name, parameters that are not finite or not increasing, and machines whose rows
 /// or component modes have other names than those of the first, or a neighbour in the options

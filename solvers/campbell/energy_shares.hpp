@@ -1,5 +1,5 @@
 /// @file
-/// What a mode is: shares of elastic energy by component mode and rotor pattern; names.
+/// Participation of component modes and rotor patterns in the elastic energy of a mode, and mode names derived from it.
 #pragma once
 
 #include "solvers/linear/coleman.hpp"
@@ -10,11 +10,11 @@
 
 namespace cardan::solvers {
 
-/// How the blades take part: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
-/// whirls and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Two
-/// blades deflect alike, each seen from its own root (symmetric), or against each other (antisymmetric); so both flap
-/// out of the plane in the same direction in a symmetric mode, and both lag behind the rotor.      [Lee et al. 2002,
-/// results] Other parts have no pattern.
+/// How the blades participate: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
+/// whirls, and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Two
+/// blades deflect alike, each seen from its own root (symmetric), or opposite to each other (antisymmetric): in a
+/// symmetric mode both flap out of plane in the same direction, or both lag behind the rotor [Lee et al. 2002, results].
+/// Other parts have no pattern.
 enum class RotorPattern : std::uint8_t {
     none,
     collective,
@@ -37,7 +37,7 @@ struct Component {
     int ordinal = 1;     ///< within its family, by frequency
     double clamped_hz = 0;
     bool of_blades = false;
-    bool whirls = false;  ///< in two planes alike, as a shaft with a disc does: backward and forward, nothing else
+    bool whirls = false;  ///< isotropic in two planes, like a shaft with a disc: only backward and forward patterns
 };
 
 /// Energy of a whirling pair of one harmonic n of the azimuth.
@@ -50,7 +50,7 @@ struct WhirlShare {
 /// The elastic energy of a mode in one component.
 struct Share {
     int component = -1;
-    /// Parts of the total elastic energy; `collective` holds it all where there is no pattern.
+    /// Fractions of the total elastic energy; everything is in `collective` if there is no pattern.
     double collective = 0, cosine = 0, sine = 0, differential = 0;
     double whirl = 0;  ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
     std::vector<WhirlShare> higher = {};  ///< harmonics 2, 3, ... (five and more blades)
@@ -62,18 +62,18 @@ struct Share {
 /// component modes of a part are orthogonal in it: the shares add up to one exactly.
 class Identification {
 public:
-    /// @param lin   linearisation whose elastic stiffness and mass define the component modes (standstill, say)
+    /// @param lin   linearisation whose elastic stiffness and mass define the component modes (e.g. at standstill)
     /// @param rows  what the rows of the system are (ColemanTransform::rows)
     Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                    const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 
     const std::vector<Component>& components() const { return components_; }
-    /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it had
-    /// as many of this identification before
+    /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it
+    ///             already held as many from this object
     void shares(const Mode& mode, std::vector<Share>& out) const;
     std::vector<Share> shares(const Mode& mode) const;
-    /// Of a motion of several harmonics, each with its own shape and eigenvalue (of either sign of the frequency):
-    /// their energies are added up.
+    /// Shares of a motion with several harmonics, each with its own shape and eigenvalue (the frequency may have either
+    /// sign): their energies are added up.
     std::vector<Share> shares(std::span<const Mode> harmonics) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
     std::string name(int component, RotorPattern pattern, int harmonic = 1) const;

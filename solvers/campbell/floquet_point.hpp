@@ -1,5 +1,5 @@
 /// @file
-/// One point of a Campbell diagram by Floquet's theory.
+/// One point of a Campbell diagram by Floquet theory.
 #pragma once
 
 #include "solvers/campbell/point.hpp"
@@ -7,16 +7,16 @@
 
 namespace cardan::solvers {
 
-/// Periodic steady state (harmonic balance, begun from the one before), linearisation about it in multi-blade rows,
-/// Floquet modes with their shares of energy, or the modes of the mean over the azimuth; at one rotor speed after the
-/// other. At standstill as PointSolver. Keeps references to system and machine; one per thread.
+/// For one rotor speed after another: periodic steady state (harmonic balance, started from the previous one),
+/// linearisation about it in multi-blade rows, and Floquet modes with their energy shares or the modes of the azimuthal
+/// average. At standstill as PointSolver. Keeps references to system and machine; one per thread.
 class PeriodicPointSolver : public PointMethod {
 public:
     /// @throws InputError without a rotor, for two blades unless the method is Floquet's, and as ColemanTransform
     PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options);
 
-    /// @throws InputError for options out of range; NumericalError where no periodic steady state is found (where a
-    /// mean load acts on a coordinate that nothing holds, for one), and as floquet(); the solver can be used again
+    /// @throws InputError for options out of range; NumericalError where no periodic steady state is found (for example
+    /// if a mean load acts on an unrestrained coordinate), and as floquet(); the solver can be used again
     void solve(double rotor_speed, CampbellPoint& point) override;
 
     const std::vector<int>& unknowns() const override { return standstill_.unknowns(); }

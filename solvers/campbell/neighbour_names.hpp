@@ -7,9 +7,9 @@
 namespace cardan::solvers {
 
 /// Which branch of the neighbour a branch continues. Decided once per branch, by the sum of the MAC over all rotor
-/// speeds that both diagrams have, not at the first speed: that is mostly standstill, where nothing whirls and pairs
-/// lie close together; and where a mode veers within the sweep the two variants may be linked crosswise from there on,
-/// which only the sum sees. What does not fit at a speed is doubtful there.
+/// speeds that both diagrams have, rather than at the first speed: that is usually standstill, where nothing whirls and
+/// pairs lie close together; and where modes veer within the sweep the two variants may be linked crosswise from there
+/// on, which only the sum detects. A branch is doubtful at speeds where it does not fit.
 class NeighbourNames {
 public:
     /// @param neighbour  kept as a reference
@@ -17,21 +17,22 @@ public:
 
     /// @throws InputError unless method, blades and rows are the neighbour's
     void check(const Campbell& diagram) const;
-    /// The next point: its likeness to the neighbour's at the same rotor speed, if there is one.
+    /// Adds the next point: its MAC with the neighbour's modes at the same rotor speed, if there is one.
     /// @param system  the (transformed) system of the point
     void add(const SecondOrderSystem& system, const CampbellPoint& point);
-    /// After the last point: partners of all branches (with `mode` set), -1: none, its mean MAC being below 0.1.
+    /// Call after the last point: finds the partners of all branches (with `mode` set); none if the mean MAC is below
+    /// 0.1.
     /// @throws InputError if the diagrams have no rotor speed in common
     void pair(const std::vector<Branch>& branches);
 
-    /// Null without partner.
+    /// Null without a partner.
     const Branch* partner(std::size_t branch) const;
     /// The component of a partner.
     const Component& component(const Branch& partner) const {
         return neighbour_.components.at(static_cast<std::size_t>(partner.component));
     }
-    /// Where the MAC with the partner is below `sure_mac`, or another mode comes nearly as close to it, or another
-    /// branch of the neighbour to this one (0.8 of the MAC); everywhere without partner.
+    /// True if the MAC with the partner is below `sure_mac`, or another mode is nearly as close to the partner, or
+    /// another branch of the neighbour nearly as close to this mode (0.8 of the MAC); always true without a partner.
     bool doubtful(std::size_t branch, std::size_t point, int mode) const;
 
 private:

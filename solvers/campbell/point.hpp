@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// Modes at one rotor speed after the other, by some method.
+/// Interface of the methods that compute modes at one rotor speed after another.
 class PointMethod {
 public:
     PointMethod() = default;
@@ -23,32 +23,32 @@ public:
     virtual void solve(double rotor_speed, CampbellPoint& point) = 0;
     /// Model index of every row of the modes' shapes.
     virtual const std::vector<int>& unknowns() const = 0;
-    /// Their names; blade coordinates are named after blade 1, with the pattern that their row stands for.
+    /// Names of the rows; blade coordinates are named after blade 1, with the pattern that the row stands for.
     virtual std::vector<std::string> row_names() const = 0;
-    /// Of the last point: the (transformed) system, in the mean over the azimuth.
+    /// The (transformed) system of the last point, averaged over the azimuth.
     virtual const SecondOrderSystem& system() const = 0;
-    /// By the first point; null before.
+    /// Made at the first point; null before.
     virtual const Identification* identification() const = 0;
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     virtual Matrix rotating_coordinates() const = 0;
-    /// What has to be said about the results so far; mostly empty.
+    /// A warning about the results so far; usually empty.
     virtual const std::string& warning() const = 0;
 };
 
-/// CampbellPoint::stability_margin by its modes, rigid ones left out. A growth or decay that is no more than rounding
-/// counts as none: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above
-/// most_certain_ratio times the lowest do not count.
+/// Sets CampbellPoint::stability_margin from the modes, rigid ones excluded. Growth or decay at rounding level counts
+/// as zero: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above most_certain_ratio
+/// times the lowest are ignored.
 void set_stability_margin(CampbellPoint& point);
 
-/// Steady state, linearisation, Coleman transformation, modes and their shares of energy at one rotor speed after the
-/// other. Its memory, some twenty matrices over the coordinates, is made with the first point. Keeps references to
-/// system and machine; one per thread.
+/// Steady state, linearisation, Coleman transformation, modes and their energy shares at one rotor speed after another.
+/// Its memory, some twenty matrices over the coordinates, is allocated with the first point. Keeps references to system
+/// and machine; one per thread.
 class PointSolver : public PointMethod {
 public:
     /// @throws InputError for two blades unless the method is Floquet's (then standstill only), and as ColemanTransform
     PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
 
-    /// The steady state is sought from that of the point before. From the second call on with the same `point` nothing
+    /// The steady-state iteration starts from the previous point. From the second call on with the same `point` nothing
     /// is allocated.
     /// @throws NumericalError where no constant steady state exists or is found, and as ModeSolver; the solver can be
     /// used again
@@ -63,7 +63,7 @@ public:
 
     /// Null without blades to transform.
     const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
-    /// The components by another linearisation than that of the first point, before it.
+    /// Defines the components from this linearisation instead of that of the first point; call before the first point.
     void identify(const Linearisation& lin);
 
 private:
@@ -97,8 +97,8 @@ private:
     std::vector<CampbellMode> spare_;  // memory for modes beyond those of the last point
 };
 
-/// Smallest |eigenvalue| of those that oscillate, rigid ones left out; infinite without any. Growth and decay above
-/// most_certain_ratio times as much are rounding.
+/// Smallest |eigenvalue| of the oscillating modes, rigid ones excluded; infinite without any. Eigenvalues above
+/// most_certain_ratio times as much have growth rates at rounding level.
 double lowest_vibration(const std::vector<CampbellMode>& modes);
 
 /// The solver for the method of the options.

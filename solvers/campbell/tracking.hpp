@@ -1,5 +1,5 @@
 /// @file
-/// Modes followed over rotor speed, or over another parameter.
+/// Tracking of modes over rotor speed or another parameter.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
@@ -7,17 +7,18 @@
 
 namespace cardan::solvers {
 
-/// Of a likeness of two modes between 0 and 1: below they are not the same mode at all.
+/// Score between 0 and 1 below which two modes are never taken for the same.
 inline constexpr double least_score = 0.1;
 
 /// Links the modes of consecutive points by optimal assignment on the complex energy MAC, never by frequency order.
-/// Points may differ in anything but their rows. Oscillations begin a track, and motions named after a coordinate.
+/// Points may differ in anything but their rows. Oscillations, and motions named after a coordinate, begin a track.
 class Tracker {
 public:
     /// @param system  the (transformed) system of the point: its energy product weighs the MAC
     void add(const SecondOrderSystem& system, const CampbellPoint& point);
-    /// With likenesses of one's own, such as periodic_likeness(): a row per track (see last()), a column per mode.
-    /// @param score  the assignment makes its sum largest; below least_score a track ends
+    /// With a score and MAC supplied by the caller, e.g. from periodic_mac(): one row per track (see last()), one
+    /// column per mode.
+    /// @param score  the assignment maximises its sum; below least_score a track ends
     /// @param mac    kept with the branch
     /// @throws InputError for matrices of another size
     void add(const Matrix& score, const Matrix& mac, const CampbellPoint& point);

@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// The place that errors of linear models name.
+/// The context named in errors about linear models.
 inline constexpr const char* in_linear_model = "linear model";
 
 /// A state, an input or an output.
@@ -47,11 +47,11 @@ struct LinearModel {
     std::vector<Signal> inputs, outputs;
     std::vector<int> coordinates;  ///< model index of every position among the states
     std::vector<LinearSample> samples;
-    /// Per output: estimated error of the differences that C and D are made of, relative to the largest difference that
-    /// a step of any state or input makes.
+    /// Per output: estimated error of the finite differences behind C and D, relative to the largest difference caused
+    /// by a step of any state or input.
     Vector output_error;
-    /// Largest acceleration that the equations of motion miss at the operating points, rad/s^2 or m/s^2, the spin left
-    /// out: zero for an exact steady state.
+    /// Largest residual acceleration of the equations of motion at the operating points, rad/s^2 or m/s^2, spin
+    /// excluded: zero for an exact steady state.
     double imbalance = 0;
 };
 
@@ -66,23 +66,24 @@ StateMatrices evaluate(const std::vector<StateMatrices>& coefficients, double ps
 struct ConstantModel : StateMatrices {
     std::string machine, description;
     double rotor_speed = 0;  ///< rad/s
-    /// Those of a reduced model mean nothing by themselves and have names like "modal state 3".
+    /// States of a reduced model have no physical meaning and names like "modal state 3".
     std::vector<Signal> states;
     std::vector<Signal> inputs, outputs;
 
-    /// G(s) = C (s - A)^-1 B + D.  @throws NumericalError if s is a pole exactly; near one what rounding leaves
+    /// G(s) = C (s - A)^-1 B + D.  @throws NumericalError if s is exactly a pole; close to a pole accuracy is limited
+    /// by rounding
     ComplexMatrix transfer(Complex s) const;
-    /// Poles, rising in magnitude; of conjugate pairs the member with positive imaginary part comes first.
+    /// Poles in ascending magnitude; in conjugate pairs the one with positive imaginary part comes first.
     std::vector<Complex> poles() const;
 };
 
-/// A model under the name it has in a file.
+/// A model and its name in a file.
 struct NamedModel {
     std::string name;
     ConstantModel model;
 };
 
-/// Refuses what is no identifier of MATLAB, comes twice or is `taken` in the file already.
+/// Rejects names that are not MATLAB identifiers, occur twice or are already `taken` in the file.
 /// @param file  the kind of file, for the message
 /// @throws InputError
 void check_names(const std::vector<NamedModel>& models, const char* file, std::set<std::string> taken);
@@ -90,7 +91,7 @@ void check_names(const std::vector<NamedModel>& models, const char* file, std::s
 /// The model at one azimuth, as it is.
 ConstantModel at_sample(const LinearModel& model, std::size_t sample);
 
-/// By name or alias.  @throws InputError with the name and those there are
+/// Index by name or alias. @throws InputError with the name and those that exist
 std::size_t index_of(const std::vector<Signal>& signals, std::string_view name);
 
 }  // namespace cardan::solvers

@@ -7,13 +7,13 @@
 
 namespace cardan::solvers {
 
-/// A model whose matrices are means over the azimuth after multi-blade transformation.
+/// A model whose matrices are averaged over the azimuth after multi-blade transformation.
 struct MultiBladeModel : ConstantModel {
     /// Largest difference between the transformed matrices at an azimuth and their mean, relative to the Frobenius norm
-    /// of the mean: rounding for an isotropic rotor without gravity. C's and D's are the largest of all outputs, each
-    /// relative to its row (at least 1e-6 of the largest row of an output in the same units).
+    /// of the mean: rounding for an isotropic rotor without gravity. Those of C and D are the largest over all outputs,
+    /// each relative to its row (at least 1e-6 of the largest row among outputs in the same units).
     double A_remainder = 0, B_remainder = 0, C_remainder = 0, D_remainder = 0;
-    /// Blade signals that were transformed: names without number, "blade root moment y".
+    /// Blade signals that were transformed: names without the number, "blade root moment y".
     std::vector<std::string> input_sets, output_sets;
 };
 
@@ -22,9 +22,10 @@ struct MultiBladeModel : ConstantModel {
 ///   x_k = x_0 + sum_n (x_cn cos n psi_k + x_sn sin n psi_k) [+ x_d (-1)^(k-1) for even B],  psi_k = psi + 2 pi
 ///   (k-1)/B,
 /// so that the collective value is the mean. Rates are transformed as rates of these: z' = ..., with the terms of
-/// the turning frame in A. Rotating pairs (shaft bending) are turned into the fixed frame. A set of three inputs of
-/// pitch motion is transformed one by one: cosine and sine of the rates are not the derivatives of those of the angles.
-///                                                              [Bir, AIAA 2008-1300; states there are the same]
+/// the turning frame in A. Rotating pairs (shaft bending) are turned into the fixed frame. The three inputs of a
+/// prescribed pitch motion are transformed separately: cosine and sine components of the rates are not the derivatives
+/// of those of the angles.
+///                                                              [Bir, AIAA 2008-1300, with the same states]
 /// @param rotor  of the model
 /// @throws InputError as ColemanTransform; if there are fewer than three blades; if the model has another number of
 /// blades; if the rotor turns and the azimuths, seen modulo 1/B of a revolution, are fewer than three: the remainder

@@ -21,18 +21,18 @@ public:
     using Coordinates = std::vector<std::pair<int, double>>;
 
     /// Adds factor * u to the generalised force on each coordinate: a generator's torque with minus the gear ratio on
-    /// the spin coordinate (positive: brakes), a yaw moment, a pitch drive. N m, or N on translations; the coordinates
-    /// of one input, here and below, have one unit.
+    /// the spin coordinate (positive: brakes), a yaw moment, a pitch drive. N m, or N on translations; all coordinates
+    /// of one input, here and below, must have the same unit.
     static LinearInput generalised_force(std::string name, Coordinates coordinates);
     /// A force (N) or moment (N m) of size u at the origin of a frame, along a direction that is constant in the base
-    /// axes (dead load) or in those of the frame (follower load). The direction is not normalised: it is a factor.
-    /// Such loads are part of what the joints transmit.
+    /// axes (dead load) or in those of the frame (follower load). The direction is not normalised and acts as a factor.
+    /// Such loads are included in the joint loads.
     static LinearInput force(std::string name, FrameId frame, const Vec3& direction, WrenchAxes axes);
     static LinearInput moment(std::string name, FrameId frame, const Vec3& direction, WrenchAxes axes);
-    /// Prescribed motion factor * u of coordinates, which are no states then. Makes three inputs: `name`,
-    /// "name rate", "name acceleration"; it is the user's to keep them derivatives of one another.
+    /// Prescribed motion factor * u of coordinates, which are then not states. Creates three inputs: `name`, "name
+    /// rate", "name acceleration"; the user must keep them derivatives of one another.
     static LinearInput motion(std::string name, Coordinates coordinates);
-    /// The same with one input, "name acceleration"; position and rate of each coordinate become states.
+    /// Likewise with a single input, "name acceleration"; position and rate of each coordinate become states.
     static LinearInput acceleration(std::string name, Coordinates coordinates);
 
     Kind kind() const { return kind_; }
@@ -56,31 +56,31 @@ private:
 };
 
 struct StateSpaceOptions {
-    /// Free: the deviations of azimuth and rotor speed are states; the drive keeps the torque that the steady state
-    /// needs. Prescribed: the rotor keeps its speed, whatever happens.
+    /// Free: the deviations of azimuth and rotor speed are states; the drive torque stays at its steady-state value.
+    /// Prescribed: the rotor speed is constant.
     RotorSpin spin = RotorSpin::free;
     int azimuths = 24;  ///< per revolution; one is taken at standstill and without a rotor
     /// Names or aliases of the outputs wanted, in this order; empty: all channels.
     std::vector<std::string> outputs = {};
 };
 
-/// Linearises about a periodic steady state. The states are the deviations of the free coordinates and of their rates,
-/// with what inputs add or take away. A and B are exact (solvers/linear/linearise.hpp). C and D come from central
-/// differences of the channels with two steps, extrapolated; positions, rates, accelerations and forces of drives
-/// follow the linear model, so that accelerations and loads have their direct part, and wrenches among the inputs
-/// belong to the loads. A channel in rad may jump by 2 pi. Channels see the forces of the system, but while a wrench is
-/// varied only gravity and wrenches.
+/// Linearises about a periodic steady state. The states are the deviations of the free coordinates and their rates,
+/// plus or minus those that inputs add or remove. A and B are exact (solvers/linear/linearise.hpp). C and D come from
+/// central differences of the channels with two steps, extrapolated; positions, rates, accelerations and drive forces
+/// follow the linear model, so that accelerations and loads have the correct feedthrough, and wrenches among the inputs
+/// count as loads. A channel in rad may jump by 2 pi. Channels see the forces of the system, but only gravity and
+/// wrenches while a wrench is varied.
 ///
 /// Cost per azimuth O(n^3), and 4 evaluations of the channels per state and input.
-/// @param rotor  its spin, number of blades and name are used; a machine without spin is taken at one instant
-/// @throws InputError for inputs without effect, with names or a coordinate twice, coordinates or frames that are not
-/// there, a coordinate moved by inputs of both kinds or moved and loaded, an unknown output, too few azimuths, a steady
-/// state that did not converge or of another system; NumericalError if a channel is not finite
+/// @param rotor  its spin, number of blades and name are used; a machine without spin is linearised at one instant
+/// @throws InputError for inputs without effect, duplicate names or coordinates, coordinates or frames that do not
+/// exist, a coordinate moved by inputs of both kinds or both moved and loaded, an unknown output, too few azimuths, a
+/// steady state that did not converge or of another system; NumericalError if a channel is not finite
 LinearModel state_space(const System& system, const RotorMap& rotor, const PeriodicSteadyState& about,
                         const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
                         const StateSpaceOptions& options = {});
 
-/// About a steady state that is constant but for the azimuth (SteadyState::at). That it is one is not checked: see
+/// About a steady state that is constant except for the azimuth (SteadyState::at). This is not checked: see
 /// LinearModel::imbalance.
 LinearModel state_space(const System& system, const RotorMap& rotor, const OperatingPoint& about,
                         const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,

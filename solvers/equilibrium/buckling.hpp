@@ -11,7 +11,7 @@ namespace cardan::solvers {
 
 struct BucklingOptions {
     int count = 1;        ///< number of factors wanted
-    bool gravity = true;  ///< gravity is one of the loads that are multiplied, else it belongs to the structure
+    bool gravity = true;  ///< gravity is one of the loads that are scaled; otherwise it acts in full
     Vector at = {};       ///< state q at which the stiffnesses are taken; empty: zero
 };
 
@@ -21,19 +21,19 @@ struct BucklingMode {
 };
 
 /// Linear buckling at standstill: (K_elastic + factor K_loads) shape = 0 with both stiffnesses at one state, so that
-/// K_loads is the change of stiffness per unit load: that of the loads themselves and, to first order, that of the
-/// elastic stiffness by the deflection under them. The elastic stiffness is constant in joint coordinates for beams
-/// that are rigid in shear; those that are not, with extension free, feel their axial force in it. What is neglected is
-/// the change of the loads' stiffness through the deflection before buckling, of second order in the load. Dense
-/// symmetric eigenproblem over the free coordinates.
+/// K_loads is the change of stiffness per unit load: the stiffness of the loads themselves and, to first order, the
+/// change of the elastic stiffness due to the deflection under them. In joint coordinates the elastic stiffness of
+/// beams rigid in shear is constant; for beams flexible in shear with extension free it depends on the axial force.
+/// Neglected is the change of the load stiffness due to prebuckling deflection, which is of second order in the load.
+/// Dense symmetric eigenproblem over the free coordinates.
 ///
-/// What is rounding of the terms from which the stiffness of wrenches and gravity is summed up (1e-13 of their
-/// magnitude) counts as zero: loads that cannot buckle the structure have no factor, not one of 1e16. User forces do
-/// not tell their terms; of them a Jacobian that is zero should be an exact zero.
-/// @return the lowest positive factors in rising order; fewer than `count` (or none) if the loads have no more
-/// @throws InputError if count < 1, if `at` has a wrong size or is not finite, or if K_loads is not symmetric (1e-7 of
-/// its norm): follower forces and moments about fixed axes have no potential, may destabilise by flutter without any
-/// neighbouring equilibrium, and need load_stability().
+/// Entries at the rounding level of the terms that make up the stiffness of wrenches and gravity (1e-13 of their
+/// magnitude) count as zero, so loads that cannot buckle the structure have no factor rather than one of 1e16. For user
+/// forces these terms are not known: a zero Jacobian should be exactly zero.
+/// @return the lowest positive factors in ascending order; fewer than `count` (or none) if there are no more
+/// @throws InputError if count < 1, if `at` has the wrong size or is not finite, or if K_loads is not symmetric (1e-7
+/// of its norm): follower forces and moments about fixed axes have no potential, may cause flutter without an adjacent
+/// equilibrium, and need load_stability().
 /// @throws NumericalError if the structure without these loads is not stable.
 [[nodiscard]] std::vector<BucklingMode> linear_buckling(const System& system, const BucklingOptions& options = {});
 
@@ -41,23 +41,23 @@ struct BucklingMode {
 enum class Instability : std::uint8_t { none, flutter, divergence };
 
 struct LoadStabilityOptions {
-    double from = 0, to = 1;  ///< load factors between which is searched
-    int steps = 50;           ///< equal steps of the scan; an instability that comes and goes within one is overlooked
+    double from = 0, to = 1;  ///< range of load factors searched
+    int steps = 50;  ///< equal steps of the scan; an instability that appears and disappears within one step is missed
     double tolerance = 1e-9;  ///< width in load factor to which the critical one is narrowed by bisection
-    bool gravity = true;      ///< gravity is one of the loads that are multiplied, else it acts in full
-    /// A mode is unstable if Re(lambda) > growth |lambda|: above rounding, which makes undamped systems look unstable,
-    /// and well below the damping ratios there are. Rounding grows with the range of frequencies: about 1e-9 for 24
-    /// elements of a beam, 5e-8 for 64.
+    bool gravity = true;      ///< gravity is one of the loads that are scaled; otherwise it acts in full
+    /// A mode is unstable if Re(lambda) > growth |lambda|. Choose it above rounding, which makes undamped systems look
+    /// unstable, and well below the actual damping ratios. Rounding grows with the frequency range: about 1e-9 for a
+    /// beam of 24 elements, 5e-8 for 64.
     double growth = 1e-7;
     int spin = -1;             ///< index of the spin coordinate, which keeps its speed; -1: none
-    SteadyOptions state = {};  ///< of the equilibrium at every load factor, which starts from the one before it
+    SteadyOptions state = {};  ///< for the equilibrium at every load factor, which starts from the previous one
 };
 
 /// The least stable mode at one load factor of the scan.
 struct LoadStabilityPoint {
     double factor;
     Instability kind;    ///< none: stable
-    Complex eigenvalue;  ///< that with the largest Re(lambda) / |lambda|, 1/s
+    Complex eigenvalue;  ///< the one with the largest Re(lambda) / |lambda|, 1/s
 };
 
 /// Result of load_stability().
@@ -75,8 +75,8 @@ struct [[nodiscard]] LoadStability {
 
 /// The dynamic criterion: scans the load factor, finds the equilibrium at each, and reports the lowest factor at which
 /// a complex mode of the linearisation grows: flutter if it oscillates, divergence if its eigenvalue is real. The mass
-/// matters for flutter. An undamped system is on the edge below the critical load (all Re(lambda) = 0), and the
-/// smallest damping may lower a flutter load (Ziegler's paradox): include the damping there is.
+/// matters for flutter. An undamped system is only marginally stable below the critical load (all Re(lambda) = 0), and
+/// arbitrarily small damping may lower a flutter load (Ziegler's paradox): include the actual damping.
 ///
 /// With rotation the linearisation is taken at one azimuth, without a multi-blade transformation: use it for systems
 /// that do not depend on the azimuth.

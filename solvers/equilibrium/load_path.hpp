@@ -15,14 +15,14 @@ namespace cardan::solvers {
 System under_load(const System& system, double factor, bool gravity);
 
 struct LoadPathOptions {
-    /// Load factors to be reached, strictly increasing; the path begins at the first one, solved from `state.initial`.
+    /// Load factors to be reached, strictly increasing; the path starts at the first one, solved from `state.initial`.
     /// Empty: 0, 1/steps, 2/steps, ..., 1.
     std::vector<double> factors = {};
     int steps = 10;               ///< number of equal steps from 0 to 1 if `factors` is empty
     double smallest_step = 1e-4;  ///< a step that failed is halved, but not below this change of the load factor
-    bool gravity = true;          ///< gravity is one of the loads, else it acts in full from the start
+    bool gravity = true;          ///< gravity is one of the loads; otherwise it acts in full from the start
     int spin = -1;                ///< index of the spin coordinate; -1: none
-    SteadyOptions state = {};     ///< of every single state: rotor speed (kept), azimuth, start, tolerance, iterations
+    SteadyOptions state = {};     ///< for every state: rotor speed (constant), azimuth, start, tolerance, iterations
     /// Largest change of any coordinate (rad or m) between two neighbouring states; a larger one counts as a step that
     /// failed. It keeps the path from jumping to a distant equilibrium (snap-through).
     double largest_change = std::numeric_limits<double>::infinity();
@@ -53,19 +53,19 @@ struct StabilityChange {
 /// Result of load_path(): every state that converged, in the order of load factors.
 struct [[nodiscard]] LoadPath {
     bool converged = false;             ///< the last factor was reached
-    std::vector<LoadPathPoint> points;  ///< those asked for and those of halved steps; the last one is kept always
+    std::vector<LoadPathPoint> points;  ///< requested factors and those of halved steps; the last one is always kept
     std::optional<StabilityChange> stability_change;
     int failed_steps = 0;  ///< steps that were tried and halved
     std::string message;   ///< why the path ended early, at which factor and what to do; empty if it did not
 };
 
 /// Equilibria r(q) = Gamma_abc qd^b qd^c - Q_a(q, factor) = 0 while the loads grow. Every step starts from the last
-/// state, extrapolated along the secant of the last two, and is solved by steady_state(). An equilibrium that is
-/// unstable (behind a bifurcation of a perfect structure) is followed like any other: see `negative_pivots`.
+/// state, extrapolated along the secant of the last two, and is solved by steady_state(). An unstable equilibrium
+/// (beyond a bifurcation of a perfect structure) is followed like any other: see `negative_pivots`.
 ///
 /// Load control: beyond a limit point, where the load cannot grow further, the path ends.
 /// @throws InputError: factors not finite or not strictly increasing, steps < 1, smallest_step or largest_change not
-/// positive, a negative tolerance; and what steady_state() refuses.
+/// positive, a negative tolerance; and as steady_state().
 LoadPath load_path(const System& system, const LoadPathOptions& options = {});
 
 /// Number of negative eigenvalues of the symmetric part of a stiffness matrix, scaled to unit diagonal first; those

@@ -32,10 +32,10 @@ struct [[nodiscard]] SteadyState {
 /// coordinates, the spin being prescribed. KINSOL's Newton iteration with line search and the exact Jacobian.
 ///
 /// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady
-/// state periodic, there is no such constant and NumericalError says so.
+/// state periodic, there is no constant solution and a NumericalError says so.
 ///
-/// Made once for a system and its spin: the memory of KINSOL and of the kernels is kept from one state to the next,
-/// nothing else is. Keeps a reference to the system; one per thread.
+/// Made once for a system and its spin: only the memory of KINSOL and of the kernels is kept from one state to the
+/// next. Keeps a reference to the system; one per thread.
 class SteadySolver {
 public:
     /// @param spin  index of the spin coordinate, -1: none (then rotor_speed must be zero)
@@ -45,8 +45,8 @@ public:
     SteadySolver(const SteadySolver&) = delete;
     SteadySolver& operator=(const SteadySolver&) = delete;
 
-    /// @param result  overwritten, also where it does not converge. From the second call on with the same `result`
-    /// nothing is allocated, unless the solution fails or a user force does so.  Cost O(n^3) per iteration.
+    /// @param result  overwritten, even if it does not converge. From the second call on with the same `result` nothing
+    ///                is allocated, unless the solution fails or a user force allocates.  Cost O(n^3) per iteration.
     /// @throws InputError, NumericalError; the solver can be used again
     void solve(const SteadyOptions& options, SteadyState& result);
 
@@ -55,7 +55,7 @@ private:
     std::unique_ptr<Memory> memory_;
 };
 
-/// The same, once.
+/// A single solution with a temporary SteadySolver.
 SteadyState steady_state(const System& system, int spin, const SteadyOptions& options = {});
 
 }  // namespace cardan::solvers

@@ -19,7 +19,7 @@ using Shape = std::vector<std::size_t>;
 
 using AttributeValue = std::variant<std::string, double, std::int64_t>;
 
-/// A named remark on a data set or a group.
+/// An attribute of a data set or a group.
 struct Attribute {
     std::string name;
     AttributeValue value;
@@ -27,32 +27,31 @@ struct Attribute {
 
 using Attributes = std::vector<Attribute>;
 
-/// What every array of numbers says about itself; neither units nor long_name may be empty. A pure number has units
-/// "1".
+/// Metadata of every array of numbers; neither units nor long_name may be empty. A pure number has units "1".
 struct Description {
     std::string units;      ///< SI, e.g. "kg m2 s-1"
     std::string long_name;  ///< one line, e.g. "natural frequency, undamped"
     Attributes more = {};   ///< frame, point, alias ...
 };
 
-/// A file being written, or open for reading. Names are paths: "modes/frequency"; missing groups are made on the way.
+/// A file being written, or open for reading. Names are paths: "modes/frequency"; missing groups are created.
 ///
-/// Writing goes to "<path>.partial". finish() completes the file and gives it its name; it must be called. Without it,
-/// the destructor closes the partial file, which stays and can be read, under that name, up to the last thing written.
-/// An older file under `path` is untouched until finish(). The partial file is locked while it is open.
+/// Data are written to "<path>.partial". finish() completes the file and renames it; it must be called. Without it, the
+/// destructor closes the partial file, which stays and can be read, under that name, up to the last thing written. An
+/// older file under `path` is untouched until finish(). The partial file is locked while it is open.
 ///
 /// Every failure is a FileError with path, object and reason; a disk that fills up is noticed at the latest by
-/// finish(). After a failed write the file cannot be finished. Misuse (a name used twice, sizes that do not fit, a
-/// missing unit) is an InputError and leaves the file as it was.
+/// finish(). After a failed write the file cannot be finished. Misuse (a name used twice, inconsistent sizes, a missing
+/// unit) is an InputError and leaves the file as it was.
 ///
 /// Arrays from 32 KiB on are chunked, shuffled, deflated and given checksums; smaller ones lie within headers, which
 /// have checksums. Groups and attributes keep the order in which they were made; no times are stored: the same data
-/// give the same bytes. Complex numbers are compounds {r, i} of doubles, as h5py has them. Texts are UTF-8: attributes
-/// of fixed length, arrays with one more axis that runs over the characters, as netCDF has them (with the attribute
-/// _Encoding where programs decode them right: one text, or ASCII); the scale of that axis, "string<length>", lies in
-/// the same group.
+/// give the same bytes. Complex numbers are compounds {r, i} of doubles, as in h5py. Texts are UTF-8: attributes of
+/// fixed length, arrays with one more axis along the characters, as in netCDF (with the attribute _Encoding where
+/// programs decode them correctly: one text, or ASCII); the scale of that axis, "string<length>", lies in the same
+/// group.
 ///
-/// One thread at a time for all files together: the high-level part of the C library is not thread-safe.
+/// Only one thread at a time may use any of these files: the high-level part of the C library is not thread-safe.
 class Hdf5File {
 public:
     /// Begins a new file.
@@ -79,25 +78,26 @@ public:
                const Description& about);
     void write(std::string_view name, std::span<const std::complex<double>> values, const Shape& shape,
                const Description& about);
-    /// Texts have no units; they must be UTF-8 without the character NUL. The axis of characters is no part of shapes.
+    /// Texts have no units; they must be UTF-8 without the character NUL. The character axis is not part of shapes.
     void write(std::string_view name, std::span<const std::string> values, const Shape& shape,
                std::string_view long_name, const Attributes& more = {});
 
-    /// Makes a group with those above it, or adds attributes to an existing one.
+    /// Creates a group and its parents, or adds attributes to an existing one.
     void make_group(std::string_view name, const Attributes& attributes = {});
     /// Adds or replaces an attribute of a group or data set; "/" is the root.
     void set_attribute(std::string_view object, const Attribute& attribute);
 
     /// Turns a data set of numbers with one axis into a dimension scale.
     void make_dimension(std::string_view name);
-    /// A new dimension scale 0, 1, 2 ... for axes that run over things with names and no values of their own.
+    /// A new dimension scale 0, 1, 2 ... for axes over items that have names but no values of their own.
     void make_index(std::string_view name, std::size_t count, std::string_view long_name);
-    /// Declares axis `axis` (from 0) of a data set to run over the scale, which has as many values.
+    /// Attaches the scale to axis `axis` (from 0) of a data set; both must have the same length.
     void attach(std::string_view dataset, std::size_t axis, std::string_view scale);
 
-    /// Hands all to the operating system; a program that ends later without finish() leaves what was written so far.
+    /// Hands all data to the operating system; a program that ends later without finish() leaves what was written so
+    /// far.
     void flush();
-    /// Completes the file and renames it to path(). The object is closed afterwards, also when this throws.
+    /// Completes the file and renames it to path(). The object is closed afterwards, even if this throws.
     void finish();
     ///@}
 
@@ -105,16 +105,16 @@ public:
     ///@{
     [[nodiscard]] bool has(std::string_view name) const;
     [[nodiscard]] bool has_attribute(std::string_view object, std::string_view attribute) const;
-    /// Names within a group in the order of creation (alphabetical in files that do not keep it).
+    /// Names within a group in order of creation (alphabetical in files that do not record it).
     [[nodiscard]] std::vector<std::string> children(std::string_view group = "/") const;
     [[nodiscard]] Shape shape(std::string_view name) const;
     [[nodiscard]] std::vector<double> read_doubles(std::string_view name) const;
-    /// Refuses floating-point numbers.
+    /// Rejects floating-point numbers.
     [[nodiscard]] std::vector<std::int64_t> read_ints(std::string_view name) const;
     [[nodiscard]] std::vector<std::complex<double>> read_complex(std::string_view name) const;
-    /// Characters with one more axis, or texts of variable or fixed length as others write them.
+    /// Character arrays with one more axis, or strings of variable or fixed length as written by other programs.
     [[nodiscard]] std::vector<std::string> read_strings(std::string_view name) const;
-    /// The path of the scale attached to an axis, empty when there is none.
+    /// The path of the scale attached to an axis; empty if there is none.
     [[nodiscard]] std::string dimension(std::string_view dataset, std::size_t axis) const;
 
     [[nodiscard]] std::string string_attribute(std::string_view object, std::string_view attribute) const;

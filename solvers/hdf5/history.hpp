@@ -1,6 +1,6 @@
 /// @file
-/// Time histories as HDF5 files: written while a motion is integrated, so that whatever happens what was flushed can be
-/// read and the run can go on. The layout is described in docs/file_formats.md.
+/// Time histories as HDF5 files: written while a motion is integrated, so that whatever happens, flushed data can be
+/// read and the run can be continued. The layout is described in docs/file_formats.md.
 #pragma once
 
 #include "solvers/signals/history.hpp"
@@ -18,7 +18,7 @@
 
 namespace cardan::solvers {
 
-/// What a history says about itself.
+/// Metadata of a history.
 struct HistoryAbout {
     std::string title = {};
     std::string method = {};       ///< of integration, one line
@@ -28,34 +28,34 @@ struct HistoryAbout {
 
 /// How a history is written.
 struct HistoryStorage {
-    bool replace = false;  ///< a file of that name may be there; it stays until the new one can be read (create() only)
+    bool replace = false;  ///< a file of that name may exist; it stays until the new one is readable (create() only)
     int chunk = 1024;      ///< samples that are compressed together (create() only)
     double flush_interval = 5;  ///< s of wall-clock time after which append() flushes; infinity: after full chunks only
-    /// Each flush waits for the disk: not even a loss of power costs more than what came after the last flush.
+    /// Each flush waits for the disk: even a power loss costs only what came after the last flush.
     bool synchronise = false;
 };
 
-/// Writes a history row by row. Rows are gathered and flushed when a chunk is full, when the interval is over and when
-/// asked. A flush happens wholly or not at all: a process that is killed at any moment, in a flush as well, loses what
-/// came after the last completed flush and nothing else. So does a disk that is full or fails: then a FileError is
-/// thrown, nothing more is written, and the file holds what was flushed. The file is there under its own name from the
-/// start, with finished = 0.
+/// Writes a history row by row. Rows are buffered and flushed when a chunk is full, when the interval has passed and on
+/// request. A flush is atomic: a process that is killed at any moment, even during a flush, loses only what came after
+/// the last completed flush. The same holds if the disk is full or fails: then a FileError is thrown, nothing more is
+/// written, and the file holds what was flushed. The file exists under its own name from the start, with finished = 0.
 ///
-/// The destructor flushes what there is, without a new checkpoint and without an error message; finish() must be called
-/// for a complete history. The file is locked against other writers and against readers other than read_history().
-/// A flush may wait up to four seconds for such readers. Failures are FileErrors with path, object and reason.
+/// The destructor flushes the remaining rows, without a new checkpoint and without error messages; finish() must be
+/// called for a complete history. The file is locked against other writers and against readers other than
+/// read_history(). A flush may wait up to four seconds for such readers. Failures are FileErrors with path, object and
+/// reason.
 ///
-/// One thread at a time for all HDF5 files together, see Hdf5File.
+/// Only one thread at a time may use any HDF5 files, see Hdf5File.
 class HistoryWriter {
 public:
     /// Begins a new history.
-    /// @param channels  at least the names, units and long_names are given, no name comes twice
-    /// @throws InputError for other channels or options out of range; FileError, also if the file is there and
-    ///         `storage.replace` is not set, or if another program has it open
+    /// @param channels  with names, units and long_names at least; names must be unique
+    /// @throws InputError for channels that do not meet this or options out of range; FileError, also if the file
+    ///         exists and `storage.replace` is not set, or if another program has it open
     [[nodiscard]] static HistoryWriter create(const std::filesystem::path& path, const std::vector<Channel>& channels,
                                               const HistoryAbout& about = {}, const HistoryStorage& storage = {});
-    /// Reopens a history, finished or broken off, to go on from its checkpoint (read_checkpoint()): rows that came
-    /// after it are removed; without a checkpoint all rows stay. A flush that was broken off is completed or undone.
+    /// Reopens a history, finished or interrupted, to continue from its checkpoint (read_checkpoint()): rows after it
+    /// are removed; without a checkpoint all rows stay. An interrupted flush is completed or undone.
     /// @throws InputError if names or units of the channels are not those of the file; FileError
     [[nodiscard]] static HistoryWriter append_to(const std::filesystem::path& path,
                                                  const std::vector<Channel>& channels,
@@ -67,25 +67,25 @@ public:
     HistoryWriter& operator=(const HistoryWriter&) = delete;
     ~HistoryWriter();
 
-    /// @param time    s, later than the row before
+    /// @param time    s, later than the previous row
     /// @param values  one per channel; NaN stands for no value
     /// @throws InputError, which leaves the history as it was, or FileError
     void append(double time, std::span<const double> values);
 
-    /// From now on each flush stores a checkpoint taken from there, together with the rows; an empty function ends
-    /// that. Its time must not lie before the last row.
+    /// From now on each flush stores a checkpoint from this source together with the rows; an empty function ends that.
+    /// The checkpoint's time must not lie before the last row.
     void take_checkpoints(std::function<Checkpoint()> source);
-    /// Hands all rows to the operating system, with a checkpoint if there is a source of them.
+    /// Hands all rows to the operating system, with a checkpoint if there is a source.
     void flush();
-    /// Flushes, marks the history as finished, waits for the disk and closes the file, also when this throws.
+    /// Flushes, marks the history as finished, waits for the disk and closes the file, even if this throws.
     void finish();
-    /// The same for runs without checkpoints, which have the statistics of the integration.
+    /// Likewise for runs without checkpoints; stores the statistics of the integration.
     void finish(const IntegrationStatistics& statistics);
 
     [[nodiscard]] const std::string& path() const;
     [[nodiscard]] const std::vector<Channel>& channels() const;
     [[nodiscard]] std::size_t rows() const;          ///< appended, those before append_to() included
-    [[nodiscard]] std::size_t flushed_rows() const;  ///< that are safe
+    [[nodiscard]] std::size_t flushed_rows() const;  ///< already flushed
     [[nodiscard]] double last_time() const;          ///< s; -infinity: no rows yet
 
     struct Impl;  ///< internal
@@ -96,18 +96,18 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Records into a history, with checkpoints, and flushes at the end; see record() in recorder.hpp. Times that the
-/// history has already are passed over, so that a run that goes on may be given the times of the whole.
-/// @throws InputError if the history has other channels than the recorder
+/// Records into a history, with checkpoints, and flushes at the end; see record() in recorder.hpp. Times already in the
+/// history are skipped, so that a continued run may be given the times of the whole run.
+/// @throws InputError if the channels of the history differ from the recorder's
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, HistoryWriter& into);
 
-/// What is known of a history besides its rows.
+/// Information about a history other than its rows.
 struct HistoryInfo {
     HistoryAbout about;
     std::string version;         ///< of the program
     bool finished = false;       ///< finish() was called
-    bool being_written = false;  ///< a program has it open for writing just now
-    /// A flush was broken off in its last part, or left something behind the end of the file: repair_history().
+    bool being_written = false;  ///< a program currently has it open for writing
+    /// A flush was interrupted in its last part, or left something beyond the end of the file: see repair_history().
     bool needs_repair = false;
     std::vector<Channel> channels;
     std::size_t rows = 0;
@@ -117,33 +117,33 @@ struct HistoryInfo {
     std::size_t checkpoint_rows = 0;  ///< rows up to the checkpoint
 };
 
-/// Which part of a history is read.
+/// Which part of a history to read.
 struct HistorySelection {
     std::vector<std::string> channels = {};  ///< names or aliases; empty: all
     double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();  ///< s
 };
 
 /// @name Reading
-/// Histories that are finished, broken off, or being written at the moment; the file is not changed. Of one that is
-/// being written the rows up to the last flush are read; the writer may be held up for some tenths of a second.
-/// @throws FileError if the file cannot be read, is damaged or is no history; InputError for unknown channels
+/// Histories may be finished, interrupted, or being written at the moment; the file is not changed. From one that is
+/// being written, the rows up to the last flush are read; the writer may be delayed by some tenths of a second.
+/// @throws FileError if the file cannot be read, is damaged or is not a history; InputError for unknown channels
 ///@{
 [[nodiscard]] HistoryInfo read_history_info(const std::filesystem::path& path);
 [[nodiscard]] History read_history(const std::filesystem::path& path, const HistorySelection& selection = {});
-/// Empty: it has none.
+/// The checkpoint, if there is one.
 [[nodiscard]] std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path);
 ///@}
 
 /// What repair_history() did.
 struct HistoryRepair {
-    bool flush_completed = false;     ///< a flush that was broken off in its last part is complete now
-    std::uint64_t bytes_removed = 0;  ///< behind the end: a flush that was broken off earlier, or the journal of one
+    bool flush_completed = false;     ///< a flush that was interrupted in its last part has been completed
+    std::uint64_t bytes_removed = 0;  ///< beyond the end: a flush that was interrupted earlier, or its journal
     [[nodiscard]] bool changed() const { return flush_completed || bytes_removed > 0; }
 };
 
-/// Puts a history whose writer was killed in order for programs other than this library. They can read it without that
-/// unless the writer was killed in the last part of a flush, which takes milliseconds. `finished` stays as it is.
-/// @throws FileError if it is no history, if it cannot be written, or if another program has it open
+/// Repairs a history whose writer was killed, for programs other than this library. They can read it without repair
+/// unless the writer was killed in the last part of a flush, which takes milliseconds. `finished` is not changed.
+/// @throws FileError if it is not a history, if it cannot be written, or if another program has it open
 HistoryRepair repair_history(const std::filesystem::path& path);
 
 }  // namespace cardan::solvers

@@ -15,8 +15,8 @@ enum class MultiBlade : std::uint8_t { none, collective, cosine, sine, different
 struct MultiBladeRow {
     MultiBlade kind = MultiBlade::none;
     int harmonic = 0;           ///< of cosine and sine: 1 ... (B - 1) / 2
-    int blade_coordinate = -1;  ///< place in RotorMap::blades[k]; -1: not a blade coordinate (without blades cosine and
-                                ///< sine are the members of a rotating pair, in the order in which forward is + i)
+    int blade_coordinate = -1;  ///< position in RotorMap::blades[k]; -1: not a blade coordinate (without blades, cosine
+                                ///< and sine are the members of a rotating pair, ordered such that forward is + i)
 };
 
 /// "collective", "cosine 1", "sine 1", "differential"; empty for a coordinate itself.
@@ -26,12 +26,11 @@ std::string multi_blade_name(const MultiBladeRow& row);
 ///   x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
 /// T is orthogonal, so symmetric matrices stay symmetric and energies keep their meaning. Rotating pairs (shaft
 /// bending) are turned into the fixed frame. z rows replace the blades' coordinates one to one: the collective row
-/// stands in the place of blade 1, cosine and sine in those of blades 2 and 3, and so on.
+/// takes the place of blade 1, cosine and sine those of blades 2 and 3, and so on.
 class ColemanTransform {
 public:
-    /// Of two blades there are the collective and the differential row, T is constant and the system stays periodic
-    /// (see floquet()).
-    /// Without blades rotating pairs are all there is to turn.
+    /// Two blades have the collective and the differential row only; T is constant and the system stays periodic (see
+    /// floquet()). Without blades only rotating pairs are transformed.
     /// @throws InputError if there is one blade or more than 32, or if they differ in their number of coordinates.
     ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
 
@@ -43,17 +42,17 @@ public:
     /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G
     /// constant and of 2 x 2 blocks [0 n; -n 0],
     ///   M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
-    /// T couples no more than the B blades' rows of one coordinate, and T(psi) is T(0) with these pairs of columns
-    /// turned by n psi.  Cost O(n^2 B).
-    /// @param system  is overwritten by its transform; nothing is allocated
+    /// T couples only the B blades' rows of one coordinate, and T(psi) is T(0) with its cosine-sine pairs of columns
+    /// rotated by n psi.  Cost O(n^2 B).
+    /// @param system  overwritten by its transform; nothing is allocated
     void transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const;
-    /// The same, on a copy.
+    /// Transforms a copy.
     SecondOrderSystem transform(SecondOrderSystem system, double psi, double rotor_speed) const;
 
 private:
     static constexpr int most_blades = 32;
 
-    // Two columns that turn into one another: a' = -factor b, b' = factor a (derivatives by psi); in one, T turns them
+    // Two columns that rotate into one another: a' = -factor b, b' = factor a (derivatives by psi), i.e. T rotates them
     // by factor * psi.
     struct TurningPair {
         int a, b;

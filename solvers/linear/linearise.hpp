@@ -1,5 +1,5 @@
 /// @file
-/// Linearisation about an operating point, exact and with its parts kept apart.
+/// Exact linearisation about an operating point, with its contributions kept separate.
 #pragma once
 
 #include "mbs/kernels/workspace.hpp"
@@ -28,7 +28,7 @@ struct Linearisation {
     Matrix stiffness() const { return elastic + geometric(); }
 };
 
-/// Linearises a system about one operating point after the other. Exact: analytic derivatives of the recursions and of
+/// Linearises a system about one operating point after another. Exact: analytic derivatives of the recursions and of
 /// the force elements (user forces without a Jacobian are differenced). Keeps a reference to the system; one per
 /// thread.
 class Lineariser {
@@ -36,8 +36,8 @@ public:
     explicit Lineariser(const System& system);
 
     /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
-    /// does so or is differenced.  Cost O(n^2).
-    /// @throws InputError for vectors of another size, and for values that are not finite, with the coordinate's name
+    ///             allocates or is differenced.  Cost O(n^2).
+    /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's name
     void linearise(const OperatingPoint& at, Linearisation& out);
 
 private:
@@ -46,7 +46,7 @@ private:
     ForceDerivatives forces_;
 };
 
-/// The same, once.  @throws also MemoryError
+/// A single linearisation with a temporary Lineariser. @throws also MemoryError
 Linearisation linearise(const System& system, const OperatingPoint& at);
 
 /// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
@@ -58,7 +58,7 @@ struct SecondOrderSystem {
 
 /// The rows and columns of `coordinates`. The spin is cyclic if it is among them and no force depends on it.
 /// @param out  overwritten; allocates nothing if it has the right size already.  Cost O(n^2).
-/// @throws InputError for coordinates that there are not and matrices of different sizes
+/// @throws InputError for coordinates out of range and matrices of different sizes
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out);
 SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin = -1);
 

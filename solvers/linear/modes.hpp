@@ -19,17 +19,16 @@ struct Mode {
     double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
 };
 
-/// How many times the lowest frequency a mode may have before rounding is as large as what is computed of it: see
-/// ModeSolver.
+/// Ratio to the lowest frequency above which a mode is dominated by rounding error: see ModeSolver.
 inline constexpr double most_certain_ratio = 1e7;
 
 /// All oscillating modes by natural frequency, then the aperiodic ones (real eigenvalues). Rigid-body modes (|lambda|
-/// below 1e-4 of the lowest single-coordinate frequency, as the zero pair of a free rotor) are left out. Low modes come
-/// out to working precision however stiff others are; a mode at r times the lowest frequency has an error of about
-/// 1e-16 r^2. Above 1e6 times the lowest frequency (a coordinate almost without mass) one that does not satisfy the
-/// equations to a hundredth is rounding and left out.
+/// below 1e-4 of the lowest single-coordinate frequency, such as the zero pair of a free rotor) are left out. Low modes
+/// are computed to working precision however stiff the others are; a mode at r times the lowest frequency has an error
+/// of about 1e-16 r^2. Above 1e6 times the lowest frequency (a coordinate with almost no mass) a mode that does not
+/// satisfy the equations to one per cent is regarded as rounding and left out.
 ///
-/// Made once for a number of rows: the memory is kept from one system to the next, nothing else is. One per thread.
+/// Made once for a number of rows: only the memory is kept from one system to the next. One per thread.
 class ModeSolver {
 public:
     explicit ModeSolver(Eigen::Index rows);
@@ -43,7 +42,7 @@ public:
 
     /// @param out  overwritten; nothing is allocated if its shape has the right size already
     void copy(std::size_t mode, Mode& out) const;
-    /// See the function of the same name.
+    /// See the free function of the same name.
     void energy_by_row(std::size_t mode, Vector& out) const;
 
 private:
@@ -62,7 +61,7 @@ private:
     std::vector<Found> found_;
 };
 
-/// The same, once.
+/// All modes, with a temporary ModeSolver.
 std::vector<Mode> modes(const SecondOrderSystem& system);
 
 /// Energy product x^H K_e y + conj(lambda_x) lambda_y x^H M y of two modes; complex MAC = |xy|^2 / (xx yy).

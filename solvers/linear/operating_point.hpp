@@ -1,5 +1,5 @@
 /// @file
-/// Where a machine is and how it moves: what it is linearised about.
+/// State of a machine about which it is linearised.
 #pragma once
 
 #include "mbs/base/types.hpp"

@@ -7,8 +7,8 @@
 
 namespace cardan::solvers {
 
-/// Eigenvalues of a full matrix take some 25 (2 n)^3 operations and eight matrices of (2 n)^2 numbers: with this many
-/// unknowns minutes per point and 600 MB, with six times as many a day and 20 GB.
+/// Eigenvalues of a full matrix take some 25 (2 n)^3 operations and eight matrices of (2 n)^2 numbers: this many
+/// unknowns take minutes per point and 600 MB, six times as many a day and 20 GB.
 inline constexpr std::size_t most_unknowns = 1500;
 
 /// @param machine  named in the error

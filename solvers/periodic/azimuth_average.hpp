@@ -12,27 +12,27 @@ struct AzimuthAverageOptions {
     double rotor_speed = 0;  ///< rad/s
     int azimuths = 24;       ///< per revolution
     int harmonics = 4;       ///< of the periodic steady state
-    double standstill = 0;   ///< where the rotor stands if it does not turn, rad: the one azimuth that is taken then
+    double standstill = 0;   ///< azimuth of the rotor if it does not turn, rad; the only azimuth used then
 };
 
-/// M z'' + C z' + K z = 0 in multi-blade coordinates, the mean over a revolution; the spin is prescribed.
+/// M z'' + C z' + K z = 0 in multi-blade coordinates, averaged over a revolution; the spin is prescribed.
 struct AzimuthAverage {
     SecondOrderSystem system;
     std::vector<MultiBladeRow> rows;
-    /// What the mean leaves out: largest deviation of K and of M at an azimuth, each relative to the norm of the mean.
+    /// What averaging neglects: largest deviation of K and of M at an azimuth, each relative to the norm of the mean.
     double remainder = 0;
     double steady_remainder = 0;  ///< see PeriodicSteadyState::remainder
 };
 
-/// With gravity (or an unbalance) the steady state repeats itself with the revolution, and so do the multi-blade
-/// matrices. Their mean has the frequencies that OpenFAST's linearisation reports; how good it is, Floquet's theory
-/// says. Steady state by harmonic balance, at standstill the equilibrium.
-/// Cost: one harmonic balance and O(azimuths n^2).
+/// With gravity (or an unbalance) the steady state is periodic with the revolution, and so are the multi-blade
+/// matrices. Their mean has the frequencies that OpenFAST's linearisation reports; Floquet theory shows how good that
+/// approximation is. The steady state is found by harmonic balance; at standstill it is the equilibrium. Cost: one
+/// harmonic balance and O(azimuths n^2).
 /// @throws InputError for fewer than three azimuths in rotation, and as harmonic_balance() and ColemanTransform;
 /// NumericalError where no steady state is found
 AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, const AzimuthAverageOptions& options);
 
-/// The mode of `modes` that comes nearest to a given one, by the energy MAC in the energy product of `system`.
+/// The mode of `modes` closest to a given one, by the MAC in the energy product of `system`.
 struct NearestMode {
     std::size_t index = 0;
     double mac = 0;

@@ -9,7 +9,7 @@ namespace cardan::solvers {
 
 struct FloquetOptions {
     TransitionOptions transition = {};
-    /// Integration over T/Q only: Phi(T) = P^-Q (P Phi(T/Q))^Q                        [Peters 1994; Lee et al., eq. 18]
+    /// Integrates over T/Q only: Phi(T) = P^-Q (P Phi(T/Q))^Q                        [Peters 1994; Lee et al., eq. 18]
     BladeSymmetry symmetry = {};
     /// Steps per period; 0: doubled until the exponents of all resolved modes with a principal frequency up to
     /// `per_period` times 2 pi / T have an estimated error below `tolerance` times 2 pi / T, or `most_steps` is
@@ -17,8 +17,8 @@ struct FloquetOptions {
     int steps = 0;
     double per_period = 10, tolerance = 1e-9;
     int most_steps = 4096;
-    /// The monodromy matrix is kept as a product of so many factors (per T/Q): strongly damped motions keep their
-    /// accuracy, and the vectors come out at the places between.
+    /// The monodromy matrix is kept as a product of this many factors (per T/Q): strongly damped motions keep their
+    /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;
     /// Weight W of x^H W x for the participation of harmonics in a system of first order; empty: unit matrix.
     Matrix weight = {};
@@ -27,36 +27,35 @@ struct FloquetOptions {
 /// Result of floquet() and hill().
 struct Floquet {
     double period = 0;  ///< s
-    /// By principal frequency, then by growth: one of every complex conjugate pair.
+    /// Sorted by principal frequency, then by growth; one of every complex conjugate pair.
     std::vector<FloquetMode> modes;
-    /// Motions too fast for the samples over the period: their frequencies are aliases, their decay is that of the
-    /// method of integration. A larger FloquetOptions::per_period resolves them. (Told in systems of second order
-    /// only.)
+    /// Motions too fast for the samples over the period: their frequencies are aliased and their decay is that of the
+    /// integration method. A larger FloquetOptions::per_period resolves them. (Detected in second-order systems only.)
     std::vector<FloquetMode> unresolved;
     int steps = 0;  ///< per period, of the finest integration; 0: none
-    /// Multipliers that are zero or indistinguishable from rounding: algebraic states, and motions that are damped away
-    /// (by the method of integration if they are too fast for its steps). They are no modes.
+    /// Number of multipliers that are zero or indistinguishable from rounding: algebraic states, and motions that are
+    /// damped out (by the integration method if they are too fast for its steps). They are not modes.
     int damped_out = 0;
     std::string message;  ///< which modes are not as accurate as wanted, empty if all are
 
-    /// Largest growth rate of all modes but rigid ones, 1/s; -infinity without any.
+    /// Largest growth rate of all modes except rigid ones, 1/s; -infinity without any.
     double growth() const;
-    /// How far the fastest growing motion is from growing, 1/s; negative: unstable.
+    /// Smallest decay rate, 1/s; negative: unstable.
     double stability_margin() const { return -growth(); }
 };
 
-/// Multipliers and vectors of the monodromy matrix, by integration over a period or over its Q-th part with the blades
-/// renumbered; the product is never multiplied out (ProductEigen).
+/// Multipliers and vectors of the monodromy matrix, by integration over a period, or over its Q-th part with the blades
+/// renumbered; the product is never formed (ProductEigen).
 ///
 /// Errors of exponents are estimated from the integration with half as many steps, to first order in the difference,
 /// with the left eigenvectors; for a mode of frequency f they fall like (f / steps)^(2 stages). Rounding adds about
 /// 1e-15 times the condition number: a defective double multiplier (free yaw) splits by some 1e-8 per period.
-/// Motions too fast for the steps are not resolved: the method damps them, and nothing is said about their stability.
+/// Motions too fast for the steps are not resolved: the method damps them, and their stability remains unknown.
 ///
 /// Cost for n coordinates and s stages: 2/3 (s n)^3 + 4 s^2 n^3 per step and 30 factors (2 n)^3 per refinement.
 ///
-/// @throws InputError for options out of range, and if the symmetry is none (asymmetry() above 1e-7); NumericalError
-/// for coefficients that are not finite, and if the eigenvalue iteration fails
+/// @throws InputError for options out of range, and if the system does not have the symmetry (asymmetry() above 1e-7);
+/// NumericalError for coefficients that are not finite, and if the eigenvalue iteration fails
 Floquet floquet(const PeriodicSystem& system, const FloquetOptions& options = {});
 
 }  // namespace cardan::solvers

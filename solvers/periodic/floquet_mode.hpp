@@ -13,12 +13,12 @@ enum class FloquetKind : std::uint8_t {
     aperiodic,    ///< real exponent, no oscillation prevails
     synchronous,  ///< real multiplier: the motion is locked at a multiple of 2 pi / T while it grows or decays
     subharmonic,  ///< negative multiplier: locked at an odd multiple of pi / T (period doubling)
-    rigid         ///< exponent zero: a coordinate on which nothing depends; such exponents come in pairs, and a pair
-                  ///< with one eigenvector only (defective) is split by rounding into +-sqrt
+    rigid  ///< exponent zero: a cyclic coordinate; such exponents come in pairs, and a defective pair (with only one
+           ///< eigenvector) is split by rounding into +-sqrt
 };
 
-/// x(t) = Re(p(t) exp(exponent t)), p(t) = sum_j c_j exp(i j 2 pi t / T). Of the exponents lambda + i j 2 pi / T that
-/// all describe the same motion it is the one whose harmonic, then that with j = 0, holds most energy; of a complex
+/// x(t) = Re(p(t) exp(exponent t)), p(t) = sum_j c_j exp(i j 2 pi t / T). Of the exponents lambda + i j 2 pi / T, which
+/// all describe the same motion, it is the one whose harmonic (then the one with j = 0) holds most energy; of a complex
 /// conjugate pair the member with positive frequency.                               [Lee et al. 2002, eqs. 20 and 21]
 struct FloquetMode {
     Complex exponent;   ///< growth rate + i principal frequency, 1/s; imaginary part >= 0
@@ -29,7 +29,7 @@ struct FloquetMode {
     ComplexMatrix harmonics;
     int first_harmonic = 0;
     /// Share of every column in sum_j |lambda_j|^2 c_j^H M c_j + c_j^H K_e c_j, lambda_j = exponent + i j 2 pi / T; M
-    /// and K_e in the mean over the period. Sums to one.
+    /// and K_e averaged over the period. Sums to one.
     Vector participation;
     double condition = 0;  ///< of the exponent: 1 well conditioned, above 1e6 nearly defective (0: not known)
     double error = 0;      ///< estimated, of the exponent, 1/s (NaN: not known)
@@ -38,11 +38,11 @@ struct FloquetMode {
     Complex multiplier() const { return std::exp(exponent * period); }
     double growth() const { return exponent.real(); }
     double frequency_hz() const { return exponent.imag() / (2 * pi); }
-    /// In multiples of 2 pi / T: per revolution.
+    /// Principal frequency in multiples of 2 pi / T: per revolution.
     double per_period() const { return exponent.imag() * period / (2 * pi); }
     /// -Re(lambda) / |lambda|
     double damping_ratio() const { return -exponent.real() / std::abs(exponent); }
-    /// Share of harmonic j beside the principal one (j = 0); 0 outside.
+    /// Participation of harmonic j relative to the principal one (j = 0); 0 outside the range.
     double share(int j) const;
     /// p(t)
     ComplexVector shape(double time) const;
@@ -54,10 +54,10 @@ std::string kind_name(const FloquetMode& mode);
 /// x^H A x of a symmetric matrix, a real number.
 double hermitian_form(const Matrix& A, const ComplexVector& x);
 
-/// What a method has found: a solution exp(lambda t) sum_j c_j exp(i j omega t), with lambda modulo i omega.
+/// Raw result of a method: a solution exp(lambda t) sum_j c_j exp(i j omega t), with lambda modulo i omega.
 struct FloquetSolution {
     Complex exponent;
-    bool real_multiplier = false;  ///< of the part of the period that was looked at
+    bool real_multiplier = false;  ///< over the integrated part of the period
     ComplexMatrix harmonics;       ///< c_j from j = -J to J
     double condition = 0, error = 0;
     bool resolved = true;  ///< by the samples over the period
@@ -71,18 +71,18 @@ struct EnergyWeights {
     EnergyWeights(const PeriodicSystem& system, int samples, const Matrix& weight);
 };
 
-/// Principal frequency, participation, kind and scale.
+/// Determines principal frequency, participation, kind and scale.
 FloquetMode make_mode(const FloquetSolution& solution, const EnergyWeights& weights, double period);
 
-/// Of each pair of complex conjugates among the logarithms (imaginary parts modulo 2 pi) the one with positive
-/// imaginary part, and every real one (imaginary part 0 or pi).
+/// The member with positive imaginary part of each complex conjugate pair among the logarithms (imaginary parts modulo
+/// 2 pi), and every real one (imaginary part 0 or pi).
 struct Representative {
     std::size_t index;
     bool real;
 };
 std::vector<Representative> representatives(const std::vector<Complex>& logarithms);
 
-/// By frequency, then by growth; a rigid complex pair becomes two.
+/// Sorts by frequency, then by growth; a rigid complex pair becomes two modes.
 void sort_modes(std::vector<FloquetMode>& modes);
 
 }  // namespace cardan::solvers

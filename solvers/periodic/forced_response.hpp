@@ -10,8 +10,8 @@ namespace cardan::solvers {
 struct ForcedResponse {
     double period = 0;    ///< T, s
     Matrix coefficients;  ///< a row per coordinate, columns h0, hc_1, hs_1, hc_2 ...
-    /// Largest entry of the residual, at times between those that were balanced, over that of the load: what the
-    /// harmonics left out would have to carry.
+    /// Largest entry of the residual, at times between those that were balanced, relative to that of the load: what the
+    /// neglected harmonics would have to balance.
     double remainder = 0;
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
@@ -19,10 +19,10 @@ struct ForcedResponse {
     Vector at(double time, int derivative = 0) const;
 };
 
-/// The harmonics 0 ... `harmonics` of M(t) q'' + C(t) q' + K(t) q - f(t) vanish: Galerkin's method over the period, the
-/// equations evaluated at `samples` equidistant times (0: 4 (harmonics + 1)). Exact but for the harmonics left out. It
-/// is the response that is left when transients have died away, if the system is stable.
-/// One linear system of n (2 harmonics + 1) rows.
+/// Makes the harmonics 0 ... `harmonics` of M(t) q'' + C(t) q' + K(t) q - f(t) vanish: Galerkin's method over the
+/// period, with the equations evaluated at `samples` equidistant times (0: 4 (harmonics + 1)). Exact apart from the
+/// neglected harmonics. If the system is stable, this is the response that remains when transients have decayed. Cost:
+/// one linear system of n (2 harmonics + 1) rows.
 /// @throws InputError for a system of first order, no harmonics, or fewer than 2 harmonics + 1 samples; NumericalError
 /// if a load is not finite or of the wrong size, or if the equations are singular: undamped resonance
 ForcedResponse forced_response(const PeriodicSystem& system, const std::function<Vector(double time)>& load,

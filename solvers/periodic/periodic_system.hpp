@@ -9,9 +9,9 @@
 
 namespace cardan::solvers {
 
-/// M(t) q'' + C(t) q' + K(t) q = 0, or in general E(t) x' = A(t) x, with coefficients of period T that can be had at
-/// any time. E may be singular if the system has index one (algebraic rows 0 = D x + E_y y, solvable for y); then the
-/// multipliers of what is algebraic are zero.
+/// M(t) q'' + C(t) q' + K(t) q = 0, or in general E(t) x' = A(t) x, with coefficients of period T that can be evaluated
+/// at any time. E may be singular if the system has index one (algebraic rows 0 = D x + E_y y, solvable for y); then
+/// the multipliers of the algebraic states are zero.
 class PeriodicSystem {
 public:
     /// Fills in M, C, K and the elastic part K_elastic of K, which weighs energies (empty or zero: none).
@@ -23,7 +23,7 @@ public:
     static PeriodicSystem first_order(double period, Eigen::Index states, FirstOrder at);
 
     double period() const { return period_; }
-    /// 2 pi / T, rad/s; the size of the rotor speed for a rotor.
+    /// 2 pi / T, rad/s; for a rotor, the magnitude of the rotor speed.
     double frequency() const { return 2 * pi / period_; }
     bool is_second_order() const { return static_cast<bool>(second_); }
     /// Rows of the matrices: coordinates of a system of second order, states of one of first order.
@@ -31,9 +31,9 @@ public:
     /// 2 rows() or rows().
     Eigen::Index states() const { return is_second_order() ? 2 * rows_ : rows_; }
 
-    /// Of second order only.  @throws NumericalError if a matrix has the wrong size or is not finite
+    /// Second-order systems only. @throws NumericalError if a matrix has the wrong size or is not finite
     void at(double time, SecondOrderSystem& out) const;
-    /// Both kinds; x = (q, q') for those of second order.  @throws as above
+    /// Both kinds; x = (q, q') for second-order systems.  @throws as above
     void at(double time, Matrix& E, Matrix& A) const;
 
 private:
@@ -46,18 +46,19 @@ private:
 };
 
 /// A system linearised about its periodic (or constant) steady state, over some of its coordinates.
-/// @param unknowns  coordinates, in the order of the rows; may hold the spin: then its drive keeps the torque that the
-/// steady state needs, whatever the disturbance. The result refers to `system`, copies share their memory: one thread.
+/// @param unknowns  coordinates, in the order of the rows; may include the spin: its drive then keeps the steady-state
+///                  torque whatever the disturbance. The result keeps a reference to `system`, and copies share memory:
+///                  use it in one thread.
 /// @throws InputError for a steady state that did not converge or belongs to another system, and for coordinates that
-/// are not there
+/// do not exist
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns);
 /// Over all free coordinates but the spin.
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about);
 
-/// The system in multi-blade rows, turning with psi = rotor_speed * t from psi = 0.
+/// The system in multi-blade rows, rotating with psi = rotor_speed * t from psi = 0.
 PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed);
 
-/// Mean of the matrices over a period, by as many equal steps: exact for harmonics below their number.
+/// Mean of the matrices over a period from `samples` equidistant times: exact for harmonics below that number.
 /// @throws InputError for a system of first order or fewer than one sample
 SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples);
 
@@ -68,17 +69,17 @@ struct BladeSymmetry {
     Matrix P = {};  ///< empty: none
 };
 
-/// Blade k + 1 takes over from blade k (the other way round if the rotor turns backward); rotating pairs turn by
-/// 2 pi / Q; the `odd` coordinates change sign, which is right for the teeter of two blades.
+/// Blade k + 1 takes the place of blade k (the other way round if the rotor turns backward); rotating pairs turn by 2
+/// pi / Q; the `odd` coordinates change sign, as the teeter angle of a two-bladed rotor does.
 /// @param coordinates  of the rows of the system
 /// @throws InputError if there are fewer than two blades, if they differ in their number of coordinates or have only
-/// some of them among `coordinates`, or if an odd coordinate is not there or there are more than two blades
+/// some of them among `coordinates`, or if an odd coordinate does not exist or there are more than two blades
 BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coordinates, double rotor_speed,
                              const std::vector<int>& odd = {});
 
-/// Largest difference between the matrices at t + T/Q seen through P and those at t, over a few times t, relative to
-/// the diagonals: of order two at the frequency 2 pi / T, |K_ii| + omega |C_ii| + omega^2 |M_ii|. Zero but for rounding
-/// if the symmetry is one.
+/// Largest difference between the matrices at t + T/Q, transformed by P, and those at t, over a few times t, relative
+/// to the diagonals: of order two at the frequency 2 pi / T, |K_ii| + omega |C_ii| + omega^2 |M_ii|. Zero up to
+/// rounding if the symmetry holds.
 /// @throws InputError for a P of the wrong size, or if P^Q is not the unit matrix
 double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry);
 

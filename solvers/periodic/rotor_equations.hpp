@@ -1,5 +1,5 @@
 /// @file
-/// Equations of motion of a system whose spin coordinate turns at constant speed, at one azimuth after the other.
+/// Equations of motion of a system whose spin coordinate turns at constant speed, at one azimuth after another.
 #pragma once
 
 #include "solvers/algebra/azimuth_series.hpp"
@@ -27,21 +27,21 @@ public:
     void set_azimuth(double psi);
     /// Unknowns, their rates and accelerations.
     void set(VectorIn q, VectorIn qd, VectorIn qdd);
-    /// All of this on a series of the unknowns.
+    /// Sets all of this from a series of the unknowns.
     void set_on(const Matrix& own, double psi);
     void residual(VectorOut r);
     /// M, C, K: derivatives of the residual by accelerations, rates and positions.
     void linearise(SecondOrderSystem& out);
 
-    /// Coefficients of the unknowns at the start, with as many harmonics as wanted; and the other way round, with the
-    /// prescribed rows.
+    /// Coefficients of the unknowns at the start, with the wanted number of harmonics; and, conversely, those of all
+    /// coordinates, prescribed rows included.
     Matrix start(int harmonics) const;
     Matrix all(const Matrix& own) const;
-    /// What a residual is measured by: the larger of stiffness and inertia at the rotor speed of each unknown, in the
-    /// mean over a revolution of the series.
+    /// Scale of a residual: for each unknown the larger of its stiffness and its inertia at the rotor speed, averaged
+    /// over a revolution of the series.
     Vector scale(const Matrix& own);
-    /// Largest residual over scale of the series at `count` azimuths half way between equidistant ones; NaN if it
-    /// cannot be evaluated.
+    /// Largest scaled residual of the series at `count` azimuths half way between equidistant ones; NaN if it cannot be
+    /// evaluated.
     double largest_residual(const Matrix& own, int count, const Vector& scale);
 
 private:

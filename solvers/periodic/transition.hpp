@@ -17,9 +17,9 @@ struct TransitionOptions {
     int stages = 5;  ///< of Radau's method, 1 ... 9
 };
 
-/// x(t1) = Phi x(t0) over `intervals` equal parts of [t0, t1], one matrix each, by `steps` equal steps in each.
-/// States are (q, q') for a system of second order. Cost per step: an elimination of stages * n rows (of second order),
-/// stages * states (of first), or of one times the states (midpoint).
+/// x(t1) = Phi x(t0) over `intervals` equal parts of [t0, t1], one matrix for each, with `steps` equal steps in each.
+/// States are (q, q') for a second-order system. Cost per step: an elimination of stages * n rows (second order),
+/// stages * states rows (first order), or states rows (midpoint).
 /// @throws InputError for numbers < 1; NumericalError if a coefficient is not finite or a step has no solution
 std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double t1, int intervals, int steps,
                                 const TransitionOptions& options = {});

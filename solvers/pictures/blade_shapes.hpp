@@ -9,8 +9,8 @@
 namespace cardan::solvers {
 
 /// One panel per mode, three in a row: flap and edge displacement (left axis, largest 1) and twist (right axis) over
-/// the radius at the instant of the largest displacement. Symbols are the nodes; between them cubics that have the
-/// nodes' rotations as slopes. The ending of the path says the kind: .svg, .png or .pdf.
+/// the radius at the instant of the largest displacement. Symbols mark the nodes; between them run cubics with the
+/// nodes' rotations as slopes. The file extension selects the format: .svg, .png or .pdf.
 /// @throws InputError without modes; FileError, Error (gnuplot's message)
 void plot(const BladeShapes& shapes, const std::filesystem::path& path);
 

@@ -14,14 +14,14 @@ struct CampbellPlotOptions {
     std::vector<std::string> families = {};  ///< only these families; empty: all
     int ordinal = 0;                         ///< only the first, second, ... of each family; 0: all
     std::string title = {};                  ///< empty: the machine's name
-    double max_frequency_hz = 0;             ///< modes that stay above are left out; 0: as the modes need
+    double max_frequency_hz = 0;             ///< modes entirely above are left out; 0: automatic
     bool damping_panel = true;
     /// A diagram of one blade, drawn beside the machine's (thin black lines).
     const Campbell* isolated_blade = nullptr;
 };
 
 /// Frequency panel over damping panel; nP lines dashed; colour by family, line style by rotor pattern, doubtful points
-/// hollow. The ending of the path says the kind: .svg, .png or .pdf.
+/// hollow. The file extension selects the format: .svg, .png or .pdf.
 /// @throws FileError, Error (gnuplot's message)
 void plot(const Campbell& diagram, const std::filesystem::path& path, const CampbellPlotOptions& options = {});
 
@@ -29,16 +29,16 @@ void plot(const Campbell& diagram, const std::filesystem::path& path, const Camp
 void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
                  const std::vector<CampbellPlotOptions>& panels);
 
-/// Differences of two diagrams (see differences()) over rotor speed, frequency over damping; modes with less than a
-/// hundredth of the largest difference of frequency are left out.
-/// @param what  is less what, for the title; empty: the methods
+/// Differences of two diagrams (see differences()) over rotor speed, frequency over damping; modes with less than one
+/// per cent of the largest frequency difference are left out.
+/// @param what  "A minus B", for the title; empty: the methods
 /// @throws FileError, Error (gnuplot's message); InputError without any common mode and as differences()
 void plot_differences(const Campbell& diagram, const Campbell& reference, const std::filesystem::path& path,
                       const std::string& what = {});
 
 /// A mode of a branch at one point: side view (x, z), front view (y, z) seen along the wind and top view (x, y);
-/// undeformed grey, deformed in colour at the instant of largest motion and a quarter period later (a whirl is seen by
-/// both). By Floquet's theory the periodic shape at azimuth 0, blade 1 up.
+/// undeformed grey, deformed in colour at the instant of largest motion and a quarter period later (the two together
+/// show whirl). For Floquet modes the periodic shape at azimuth 0, blade 1 up.
 void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point, const std::filesystem::path& path);
 
 }  // namespace cardan::solvers

@@ -1,5 +1,5 @@
 /// @file
-/// Units of pictures and printouts. Inside and in files everything is SI; here numbers become what people read.
+/// Display units of pictures and printouts. Internally and in files everything is SI.
 #pragma once
 
 #include "mbs/system/channel.hpp"
@@ -25,16 +25,16 @@ struct ShownUnits {
 
 ShownUnits shown_units(const Channel& channel, AngleUnits angles);
 
-/// The same with a decimal prefix, for numbers of about this size: kN m, MW, mm. Units with prefixes are N, N m, W, J,
-/// Pa, and downwards m and s. From 0.01 to 1000 there is none.
+/// Adds a decimal prefix for numbers of about this size: kN m, MW, mm. Units that take prefixes are N, N m, W, J, Pa
+/// and, for small values only, m and s. From 0.01 to 1000 there is no prefix.
 /// @param largest  absolute value in these units; 0 or not finite: no prefix
 ShownUnits with_prefix(std::string_view units, double largest);
 
-/// As people write it: "m s-2" is "m/s²", "N m rad-1" is "N m/rad", "kg m2" is "kg m²"; a pure number ("1", "-") is
+/// In ordinary notation: "m s-2" is "m/s²", "N m rad-1" is "N m/rad", "kg m2" is "kg m²"; a pure number ("1", "-") is
 /// "–". What is not in the notation of the channels stays as it is.
 std::string written(std::string_view units);
 
-/// Units of a power spectral density of a channel, as people write it: "m²/Hz", "(N m)²/Hz".
+/// Units of a power spectral density of a channel, in ordinary notation: "m²/Hz", "(N m)²/Hz".
 std::string written_density(std::string_view units);
 
 }  // namespace cardan::solvers

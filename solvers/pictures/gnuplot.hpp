@@ -11,7 +11,7 @@
 
 namespace cardan::solvers {
 
-/// Size in pixels; a PDF has 96 of them to the inch.
+/// Size in pixels, 96 per inch in a PDF.
 struct PictureSize {
     int width = 1000;
     int height = 700;
@@ -22,8 +22,8 @@ struct Colour {
     std::string_view hex;  ///< "#rrggbb"
 };
 
-/// Colours that people with any kind of colour blindness can tell apart, on white and in this order of preference.
-/// [Okabe and Ito 2008, without their yellow, which is too faint for a line on white]
+/// Colours that remain distinguishable with any kind of colour blindness, on white, in order of preference. [Okabe and
+/// Ito 2008, without their yellow, which is too faint for a line on white]
 inline constexpr std::array<Colour, 7> palette{{{"blue", "#0072b2"},
                                                 {"vermilion", "#d55e00"},
                                                 {"green", "#009e73"},
@@ -32,7 +32,7 @@ inline constexpr std::array<Colour, 7> palette{{{"blue", "#0072b2"},
                                                 {"sky blue", "#56b4e9"},
                                                 {"black", "#000000"}}};
 
-/// The colour of the index-th family; beyond the last it begins again, so let dashes or symbols differ as well.
+/// The colour of the index-th family; colours repeat after the last one, so vary dashes or symbols as well.
 [[nodiscard]] constexpr const Colour& colour(std::size_t index) {
     return palette[index % palette.size()];
 }
@@ -41,25 +41,25 @@ inline constexpr std::array<Colour, 7> palette{{{"blue", "#0072b2"},
 /// commands from quotes, backquotes or line ends (control characters become blanks).
 [[nodiscard]] std::string gnuplot_text(std::string_view shown);
 
-/// The lines "$name << EOD ... EOD" that put columns of equal length into a script; numbers as exact as a double is,
-/// what is not finite as NaN, which leaves a gap in a line. Throws InputError for another name or unequal lengths.
+/// The lines "$name << EOD ... EOD" that put columns of equal length into a script; numbers with full double precision,
+/// non-finite values as NaN, which leaves a gap in a line. Throws InputError for an invalid name or unequal lengths.
 [[nodiscard]] std::string gnuplot_data(std::string_view name, std::span<const std::span<const double>> columns);
 
-/// Runs gnuplot. No shell is involved and no settings of the user are read (gnuplot -d).
+/// Runs gnuplot without a shell and without the user's settings (gnuplot -d).
 class Gnuplot {
 public:
     /// @param program  a name looked up in PATH, or a path
     explicit Gnuplot(std::string program = "gnuplot") : program_(std::move(program)) {}
 
     /// Runs a script from beginning to end and returns what gnuplot printed: warnings and the output of `print`.
-    /// Throws Error with gnuplot's message when a command fails; FileError when gnuplot is not there.
-    /// The script is trusted: gnuplot has commands that run programs. Foreign texts go through gnuplot_text.
+    /// Throws Error with gnuplot's message if a command fails, FileError if gnuplot is not installed. The script is
+    /// trusted: gnuplot has commands that run programs. Foreign texts go through gnuplot_text.
     std::string run(std::string_view script) const;
 
-    /// Draws body into a file of the kind its ending names: .svg, .png or .pdf. Before the body come: the terminal
-    /// (white background, DejaVu Sans, enhanced text), UTF-8, line types 1 to 7 in the colours of the palette, a light
-    /// grid. The file appears when it is complete; an older one stays until then.
-    /// Throws FileError for another ending, a path that cannot be written (before gnuplot runs) and a full disk.
+    /// Draws body into a file whose extension selects the format: .svg, .png or .pdf. Sets up before the body: the
+    /// terminal (white background, DejaVu Sans, enhanced text), UTF-8, line types 1 to 7 in the colours of the palette,
+    /// a light grid. The file appears when it is complete; an older one stays until then. Throws FileError for another
+    /// ending, a path that cannot be written (before gnuplot runs) and a full disk.
     /// @return what gnuplot printed: warnings
     std::string write_picture(const std::filesystem::path& path, std::string_view body, PictureSize size = {}) const;
 

@@ -13,7 +13,7 @@
 
 namespace cardan::solvers {
 
-/// Channels that share a panel, by name or alias. They have the same units.
+/// Channels that share a panel, by name or alias. They must have the same units.
 struct HistoryPanel {
     std::vector<std::string> channels;
 };
@@ -21,8 +21,8 @@ struct HistoryPanel {
 /// One panel for each channel.
 std::vector<HistoryPanel> panels_one_each(const std::vector<std::string>& channels);
 
-/// Channels with the same shown units together, in the order in which the units come, at most seven (the colours) in a
-/// panel. Pure numbers stay alone.
+/// Groups channels with the same display units, in the order in which the units occur, at most seven (the number of
+/// colours) per panel. Pure numbers get panels of their own.
 /// @throws InputError for an unknown channel
 std::vector<HistoryPanel> panels_by_units(const History& history, const std::vector<std::string>& channels,
                                           AngleUnits angles = AngleUnits::degrees);
@@ -33,37 +33,37 @@ struct HistoryMark {
     std::string label;
 };
 
-/// Units are part of every label. Numbers are SI with decimal prefixes (kN m, mm) as their size asks for; angles in
-/// degrees and speeds in rpm are the default because they are read most easily.
+/// Units are part of every label. Numbers are SI with decimal prefixes (kN m, mm) where appropriate; angles in degrees
+/// and speeds in rpm are the default because they are easiest to read.
 struct HistoryPlotOptions {
     std::string title = {};                                  ///< empty: that of the history
     double from = -std::numeric_limits<double>::infinity();  ///< s
     double to = std::numeric_limits<double>::infinity();     ///< s
     AngleUnits angles = AngleUnits::degrees;
     std::vector<HistoryMark> marks = {};
-    int width = 1200;  ///< pixels; each keeps the smallest and the largest value of what falls on it
+    int width = 1200;  ///< pixels; each column of pixels keeps its smallest and largest value
 };
 
-/// Panels above each other over one time axis, with the channels' long names above them. The ending of the path says
-/// the kind: .svg, .png or .pdf.
-/// @throws InputError for an unknown channel, units in a panel that differ, fewer than two samples from `from` to `to`,
-///         values and times that are not equally many, times that fall; FileError, Error (gnuplot's message)
+/// Panels above each other over one time axis, with the channels' long names above them. The file extension selects the
+/// format: .svg, .png or .pdf.
+/// @throws InputError for an unknown channel, different units in one panel, fewer than two samples from `from` to `to`,
+/// different numbers of values and times, descending times; FileError, Error (gnuplot's message)
 void plot(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
           const HistoryPlotOptions& options = {});
 
-/// Where the energy is, from the recorder's channels: kinetic energy, change of the potential energy since the start,
-/// dissipated energy and what drives and loads supplied in one panel, the error of the integration in a second one.
-/// Kinetic + potential + dissipated less supplied energy keeps its value but for this error.
+/// Energy balance from the recorder's channels: kinetic energy, change of potential energy since the start, dissipated
+/// energy and the energy supplied by drives and loads in one panel, the integration error in a second one. Kinetic +
+/// potential + dissipated - supplied energy is constant up to this error.
 /// @throws as plot(); InputError if an energy was not recorded
 void plot_energies(const History& history, const std::filesystem::path& path, const HistoryPlotOptions& options = {});
 
 struct SpectrumPlotOptions {
     std::string title = {};  ///< empty: that of the history
     AngleUnits angles = AngleUnits::degrees;
-    SpectrumOptions spectrum = {};  ///< with the part of the history
+    SpectrumOptions spectrum = {};  ///< includes the time range
     bool density = false;           ///< power spectral densities instead of amplitudes
     double max_frequency_hz = 0;    ///< 0: half the sampling frequency
-    double rotor_frequency_hz = 0;  ///< > 0: lines at its multiples nP where they have room, see rotor_multiples()
+    double rotor_frequency_hz = 0;  ///< > 0: lines at its multiples nP where there is room, see rotor_multiples()
     int blades = 3;
     int width = 1200;  ///< pixels
 };

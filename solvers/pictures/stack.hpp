@@ -1,5 +1,5 @@
 /// @file
-/// Panels above each other that share their x-axis, as one picture by gnuplot.
+/// Vertically stacked panels with a common x-axis, as one gnuplot picture.
 #pragma once
 
 #include <filesystem>
@@ -31,7 +31,7 @@ struct PanelStack {
     std::string x_label;
     double x_low = 0, x_high = 1;
     std::vector<StackPanel> panels;
-    std::vector<StackMark> marks;  ///< those outside the axis are left out; labels that would overlap move up
+    std::vector<StackMark> marks;  ///< marks outside the axis range are left out; labels that would overlap move up
     int width = 1200;              ///< pixels
 };
 

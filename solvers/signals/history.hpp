@@ -1,5 +1,5 @@
 /// @file
-/// Histories in memory: what was recorded over time.
+/// Recorded time histories in memory.
 #pragma once
 
 #include "mbs/system/channel.hpp"

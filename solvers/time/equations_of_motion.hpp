@@ -1,5 +1,5 @@
 /// @file
-/// A system with prescribed motions of some coordinates, as the methods of time integration see it.
+/// A system with prescribed motions of some coordinates, as seen by the integration methods.
 #pragma once
 
 #include "mbs/kernels/dynamics.hpp"
@@ -12,7 +12,7 @@
 
 namespace cardan::solvers {
 
-/// The place that errors of these equations and their integration name.
+/// The context named in errors of these equations and their integration.
 inline constexpr const char* in_integration = "time integration";
 
 /// A coordinate and the motion that is imposed on it.
@@ -25,26 +25,26 @@ struct Drive {
 struct DynamicState {
     double time = 0;
     Vector q, qd, qdd;
-    Vector actuator;  ///< what a drive adds to Q on its coordinate, N m or N; zero on free ones
+    Vector actuator;  ///< generalised force of the drive on its coordinate, N m or N; zero on free ones
 };
 
 /// Rates of work at a state, W.
 struct Powers {
     double forces = 0;       ///< Q . qd of all force elements
-    double dissipation = 0;  ///< what the dampers of the linear laws take away, >= 0
-    double drives = 0;       ///< of the drives, positive if they drive
+    double dissipation = 0;  ///< power dissipated by the dampers of the linear laws, >= 0
+    double drives = 0;       ///< power of the drives, positive if they supply energy
 };
 
 /// The free coordinates f are the unknowns, x = (q_f, qd_f); the driven ones follow from the time. Coordinates are
-/// driven by a motion, or at the constant rate they have at first if only their role says "driven".
+/// driven by a motion or, if only their role says "driven", at their constant initial rate.
 ///
-/// Two forms of the same equations: accelerations for methods of first order, and the residual
+/// Two forms of the same equations: accelerations for first-order methods, and the residual
 ///   r_f = g qdd + Gamma qd qd - Q
-/// for methods of second order. Nothing allocates after construction but what user forces and motions do. Keeps a
-/// reference to the system; one object per thread.
+/// for second-order methods. Nothing allocates after construction except user forces and motions. Keeps a reference to
+/// the system; one object per thread.
 class EquationsOfMotion {
 public:
-    /// @param q, qd  size n: start, for the coordinates that are driven without a motion
+    /// @param q, qd  size n: initial values, for the coordinates that are driven without a motion
     /// @throws InputError: wrong sizes or coordinates, two motions for one coordinate, values not finite
     EquationsOfMotion(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd);
 
@@ -57,13 +57,13 @@ public:
     /// Replaces the motion of a driven coordinate from now on.
     /// @throws InputError if the coordinate is not driven, or if its position or rate would jump at `time`
     void set_motion(int coordinate, Motion motion, double time);
-    /// Other forces from now on (nullptr: those of the system); they must live as long as they are in use.
+    /// Replaces the forces from now on (nullptr: those of the system); they must outlive their use.
     void set_forces(const Forces* forces);
     const Forces& forces() const { return *forces_; }
 
-    /// Breaks of all motions, rising, each once.
+    /// Breaks of all motions, ascending, without duplicates.
     std::vector<double> breaks() const;
-    /// Motions are evaluated on the smooth piece that holds at this time until told otherwise.
+    /// Motions are evaluated on the smooth piece that is active at this time, until the next call.
     void set_piece(double inside) { inside_ = inside; }
 
     /// Accelerations of the unknowns.
@@ -71,7 +71,7 @@ public:
     /// @param qdd  out, size()
     /// @return false if a number in the state or in the result is not finite; problem() says which
     bool accelerations(double time, const double* x, double* qdd);
-    /// By positions and rates: exact. Results in by_q(), by_qd(), size() x size().
+    /// Exact derivatives of the accelerations by positions and rates. Results in by_q(), by_qd(), size() x size().
     /// @return false if the metric is not positive definite at the state; problem() says where
     bool jacobian(double time, const double* x);
     const Matrix& by_q() const { return by_q_; }
@@ -80,20 +80,20 @@ public:
     /// Residual of the unknowns at given accelerations.
     /// @param x, qdd  as above;  @param r  out, size()
     bool residual(double time, const double* x, const double* qdd, double* r);
-    /// Tangent at the last residual(), which nothing else may have followed: c_qdd dr/dqdd + c_qd dr/dqd + c_q dr/dq,
+    /// Tangent at the last residual(), which must be the preceding call: c_qdd dr/dqdd + c_qd dr/dqd + c_q dr/dq,
     /// exact.
     /// @param K  out, size() x size()
     void tangent(double c_qdd, double c_qd, double c_q, MatrixOut K);
 
-    /// All coordinates, accelerations and forces of drives at a state.
-    /// @return false, and `out` as it was, if a number is not finite; problem() says which
+    /// All coordinates, accelerations and drive forces at a state. @return false, with `out` unchanged, if a number is
+    /// not finite; problem() says which
     bool complete(double time, const double* x, DynamicState& out);
     /// Time, positions and rates alone.
     void positions(double time, const double* x, DynamicState& out);
     bool powers(double time, const double* x, Powers& out);
     double kinetic_energy(const DynamicState& at);
     double potential_energy(const DynamicState& at);
-    /// A function of the user's at a state.
+    /// Evaluates a user function at a state.
     double evaluate(const std::function<double(const ForceInput&)>& function, double time, const double* x);
 
     /// What went wrong when a function returned false.

@@ -18,42 +18,43 @@ struct MotionState {
 
 /// A function of time with its exact derivatives. Between two neighbouring breaks() it is smooth (has derivatives of
 /// all orders, for function() as many as the function has); across a break position and velocity are continuous.
-/// Evaluation allocates nothing, but what a function of the user's own allocates.
+/// Evaluation allocates nothing, except in user functions.
 ///
-/// All lengths of time in s, times on the clock of the integration, values in rad or m. Values that are not finite,
-/// times that do not rise and periods that are not positive throw InputError.
+/// Durations are in s, times are those of the integration, values in rad or m. Values that are not finite, times that
+/// do not ascend and periods that are not positive throw InputError.
 class Motion {
 public:
     /// Held at a position.
     static Motion constant(double position);
     /// position + rate (t - since).
     static Motion constant_rate(double position, double rate, double since = 0);
-    /// Rest at `from` until t0, rest at `to` from t1 on, between them the quintic 10 x^3 - 15 x^4 + 6 x^5: acceleration
-    /// continuous, greatest velocity 15/8 of the mean one.
+    /// At rest at `from` until t0 and at `to` from t1 on, in between the quintic 10 x^3 - 15 x^4 + 6 x^5: continuous
+    /// acceleration, peak velocity 15/8 of the mean.
     static Motion ramp(double from, double to, double t0, double t1);
-    /// The same for the rate, from `rate_from` to `rate_to`; the position is `position` at t0. Start-up and shut-down
-    /// of a rotor. Derivative of the acceleration continuous.
+    /// The same ramp for the rate, from `rate_from` to `rate_to`; the position is `position` at t0. For start-up and
+    /// shut-down of a rotor. The jerk is continuous.
     static Motion rate_ramp(double position, double rate_from, double rate_to, double t0, double t1);
-    /// To rest at a target within limits of rate and acceleration, from any state (see Travel): a drive with orders. As
-    /// the action of an event: set_motion(i, Motion::travel({t, {q, qd, 0}, target, limits})).
+    /// To rest at a target within limits of rate, acceleration and jerk, from any state (see Travel): a commanded
+    /// drive. In the action of an event: set_motion(i, Motion::travel({t, {q, qd, 0}, target, limits})).
     static Motion travel(const Travel& travel);
     /// mean + amplitude sin(2 pi t / period + phase); phase in rad.
     static Motion harmonic(double mean, double amplitude, double period, double phase = 0);
     /// Piecewise cubic through points, monotone where the points are: velocity continuous, acceleration jumps at the
-    /// points. Outside the table the motion goes on at the velocity of the end.
-    /// @param times  at least two, rising               [Fritsch and Butland 1984; end slopes: Moler 2004, section 3.6]
+    /// points. Outside the table the motion continues at the end velocity.
+    /// @param times  at least two, ascending               [Fritsch and Butland 1984; end slopes: Moler 2004, section
+    ///               3.6]
     static Motion table(std::vector<double> times, std::vector<double> values);
-    /// A function of the user's own. Nothing but the result being finite is checked, where it is used.
-    /// @param breaks  times, rising, across which it is not smooth; position and velocity have to be continuous
+    /// A user function. The only check, on use, is that the result is finite.
+    /// @param breaks  times, ascending, across which it is not smooth; position and velocity must be continuous
     static Motion function(std::function<MotionState(double time)> own, std::vector<double> breaks = {});
 
     MotionState at(double time) const { return law_(time, time); }
-    /// The same of the smooth piece that holds at the time `inside`, continued to `time`: at a break this tells left
-    /// from right. A function of the user's own is evaluated at `time`.
+    /// State at `time`, extrapolated from the smooth piece that is active at the time `inside`: at a break this
+    /// distinguishes left from right. A user function is evaluated at `time`.
     MotionState at(double time, double inside) const { return law_(time, inside); }
-    /// Times, rising, across which a higher derivative jumps: a method of higher order has to stop and start there.
+    /// Times, ascending, across which a higher derivative jumps: a higher-order method must restart there.
     const std::vector<double>& breaks() const { return breaks_; }
-    /// What it is: "ramp", "table" ...
+    /// Kind of motion: "ramp", "table" ...
     const std::string& kind() const { return kind_; }
 
 private:

@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// What is recorded besides the user's own channels.
+/// What is recorded in addition to the user's own channels.
 struct RecorderOptions {
     bool coordinates = true;     ///< "<coordinate>", rad or m
     bool rates = true;           ///< "<coordinate> rate"
@@ -23,9 +23,9 @@ struct RecorderOptions {
 /// Values of a fixed list of channels at the state of an integrator. Keeps a reference to its model.
 class Recorder {
 public:
-    /// @param integrator  or another one of the same system with the same driven coordinates
+    /// @param integrator  this one, or any other of the same system with the same driven coordinates, is sampled
     /// @param more        channels of elements, machines and users
-    /// @throws InputError for a name or alias that comes twice, or a channel without a name, units or long_name
+    /// @throws InputError for a duplicate name or alias, or a channel without a name, units or long_name
     explicit Recorder(const Integrator& integrator, std::vector<ChannelGroup> more = {}, RecorderOptions options = {});
 
     const std::vector<Channel>& channels() const { return channels_; }
@@ -59,14 +59,14 @@ std::vector<double> sample_times(double from, double to, double step);
 /// Receives one row of values.
 using RecordRow = std::function<void(double time, const std::vector<double>& values)>;
 
-/// Advances to one time after another and hands the values at each to `row`; a time that is the present one is not
-/// advanced to. Events that stop, failure and cancellation end it as they end Integrator::advance(). What an event or a
-/// failure has reached is handed out as a last row if it lies after the row before; a run that was cancelled has the
-/// rows at its times only, so that it may go on.
-/// @throws InputError for an empty function, falling times
+/// Advances to one time after another and passes the values at each to `row`; no step is taken to a time equal to the
+/// present one. Stopping events, failure and cancellation end it as they end Integrator::advance(). The state reached
+/// by an event or a failure is output as a last row if it is later than the previous row; a cancelled run has rows at
+/// the given times only, so that it may be continued.
+/// @throws InputError for an empty function, descending times
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, const RecordRow& row);
-/// The same into memory, appended to what is there.
-/// @throws InputError if `into` has other channels
+/// Records into memory, appending to the history.
+/// @throws InputError if the channels of `into` differ
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, History& into);
 
 }  // namespace cardan::solvers

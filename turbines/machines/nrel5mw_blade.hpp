@@ -16,20 +16,20 @@
 
 namespace cardan::turbines {
 
-/// How the table of the blade is read. The defaults are the blade of the reference frequencies in
-/// docs/nrel5mw_blade.md.
+/// How the blade table is used. The defaults give the blade of the reference frequencies in docs/nrel5mw_blade.md.
 struct Nrel5mwBladeOptions {
-    /// On mass and sectional inertia. The report raises the table's masses by 4.536 % to reach the nominal mass of the
-    /// blade (AdjBlMs of the FAST input file, blade_mass_adjust_factor in nrel5mw_turbine.csv).
+    /// Factor on mass and sectional inertia. The report raises the table's masses by 4.536 % to reach the nominal mass
+    /// of the blade (AdjBlMs of the FAST input file, blade_mass_adjust_factor in nrel5mw_turbine.csv).
     double mass_factor = 1.04536;
-    bool mass_offset = true;  ///< the tabulated offset of the mass centre from the pitch axis; else it lies on the axis
-    bool axial = true;        ///< elastic along the axis with the tabulated EA; else inextensible
-    /// GA / EA, the same in both directions; infinite: rigid in shear. The source has no shear stiffness.
+    bool mass_offset =
+        true;           ///< the tabulated offset of the mass centre from the pitch axis; otherwise it lies on the axis
+    bool axial = true;  ///< extensible with the tabulated EA; otherwise inextensible
+    /// GA / EA, the same in both directions; infinite: rigid in shear. The source gives no shear stiffness.
     double shear_ratio = std::numeric_limits<double>::infinity();
 };
 
-/// The blade as a beam along the pitch axis. Shear and tension centre lie on that axis; all columns of the table are
-/// linear between the stations.
+/// The blade as a beam along the pitch axis. Shear and tension centre lie on that axis; all columns of the table vary
+/// linearly between the stations.
 struct Nrel5mwBlade {
     BeamLine line;           ///< from the root out; x radial, y to the leading edge, z downwind
     double root_radius = 0;  ///< first station, from the rotor apex along the pitch axis, m: 1.5
@@ -43,12 +43,12 @@ struct Nrel5mwBlade {
 /// The built-in table.
 /// @throws InputError for an option out of range
 Nrel5mwBlade nrel5mw_blade(const Nrel5mwBladeOptions& options = {});
-/// The same from a folder with nrel5mw_blade.csv.
+/// As above, from a folder with nrel5mw_blade.csv.
 /// @throws FileError, ParseError, InputError
 Nrel5mwBlade nrel5mw_blade(const std::filesystem::path& folder, const Nrel5mwBladeOptions& options = {});
 
-/// Elements for this blade: extension free, as rotation asks for. Equal lengths; with segment masses hinges at
-/// delta_gauss. With static moments hinges at 1/6 and, from two elements on, the last metre as an element of its own:
+/// Elements for this blade: extension free, as rotation requires. Equal lengths; with segment masses, hinges at
+/// delta_gauss; with static moments, hinges at 1/6 and, from two elements on, the last metre as an element of its own:
 /// the sections fall off so steeply there (EI by 27 over the last 0.8 m) that this partition would need a negative
 /// inertia in a longer last element.
 CardanBeamOptions nrel5mw_blade_elements(int elements = 16, Partition partition = Partition::segment_masses);

@@ -4,7 +4,7 @@
 
 namespace cardan::turbines {
 
-/// In m and rad, with the signs of this library.
+/// Dimensions in m and rad, with the sign conventions of this library.
 struct Nrel5mwGeometry {
     double tower_height;
     double shaft_above_tower;  ///< where the shaft axis meets the tower axis, above the tower top
@@ -14,7 +14,7 @@ struct Nrel5mwGeometry {
     double hub_radius;
 };
 
-/// Read once.
+/// The data, read once.
 const Nrel5mwGeometry& nrel5mw_geometry();
 
 }  // namespace cardan::turbines

@@ -8,7 +8,7 @@
 ///   roll   about Z0   pitch  about Y0   yaw    about X0      turned in the order roll, pitch, yaw
 ///
 /// A positive pitch th moves the top of the tower UPWIND: I1 = cos th X0 - sin th Z0. OpenFAST's platform pitch and
-/// sway have the opposite signs, its surge, heave, roll and yaw the same ones.
+/// sway have opposite signs, its surge, heave, roll and yaw the same signs.
 #pragma once
 
 #include "elements/machine/moving_base.hpp"
@@ -18,7 +18,7 @@
 
 namespace cardan::turbines {
 
-/// Proportional to the stiffness, s: damping ratio 0.477465 % at the first flap frequency of the blade.
+/// Stiffness-proportional damping coefficient, s: damping ratio 0.477465 % at the first flap frequency of the blade.
 inline constexpr double nrel5mw_platform_damping = 2.244135e-3;
 
 /// Beam elements as in nrel5mw_blade_elements(), with damping D = beta K.
@@ -34,7 +34,7 @@ struct Nrel5mwPlatformOptions {
 };
 
 /// Heights, overhang, tilt (5 degrees), cone (2.5 degrees, tips upwind) are those of nrel5mw_turbine.csv. All bodies
-/// but the blades are massless: forces of the drives are those that the blades ask for.
+/// except the blades are massless: the drive forces are those required by the blades.
 struct Nrel5mwPlatform {
     std::shared_ptr<const System> system;
     RotorMap rotor;
@@ -50,17 +50,17 @@ struct Nrel5mwPlatform {
     std::vector<Blade> blades;
 };
 
-/// Driven are the platform's six coordinates, nacelle yaw, spin and the pitch of each blade; free are the blades'.
+/// The platform's six coordinates, nacelle yaw, spin and the pitch of each blade are driven; the blades' are free.
 /// @throws InputError for bad elements (see isolated_blade()), a number of blades, pitch or gravity out of range
 Nrel5mwPlatform nrel5mw_on_platform(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options = {});
 
-/// Of every blade, in its hub-fixed axes e1, e2, e3: deflection of the tip from its place on the undeformed blade, m,
-/// "blade 1 tip axial deflection", "... edge ..." (e2, to the leading edge), "... flap ..." (e3, downwind); and force
-/// and moment of the hub on the blade at its root, N and N m, "blade 1 root Fx" ... "blade 1 root Mz".
+/// Channels of every blade, in its hub-fixed axes e1, e2, e3: deflection of the tip from its position on the undeformed
+/// blade, m, "blade 1 tip axial deflection", "... edge ..." (e2, to the leading edge), "... flap ..." (e3, downwind);
+/// and force and moment of the hub on the blade at its root, N and N m, "blade 1 root Fx" ... "blade 1 root Mz".
 ChannelGroup blade_channels(const Nrel5mwPlatform& machine);
 
-/// Of every driven coordinate: its position, "platform surge" ..., and the force of its drive, "platform surge drive"
-/// ..., N or N m: what the platform, the yaw bearing, the shaft and the pitch bearings carry of the blades.
+/// Channels of every driven coordinate: its position, "platform surge" ..., and the force of its drive, "platform surge
+/// drive" ..., N or N m: the loads of the blades on platform, yaw bearing, shaft and pitch bearings.
 ChannelGroup drive_channels(const Nrel5mwPlatform& machine);
 
 }  // namespace cardan::turbines

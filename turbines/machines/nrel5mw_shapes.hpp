@@ -1,9 +1,9 @@
 /// @file
-/// The shapes to which ElastoDyn limits tower and blades of the NREL 5 MW machine.
+/// The mode shapes to which ElastoDyn restricts tower and blades of the NREL 5 MW machine.
 ///
 /// FAST's ElastoDyn lets a tower bend in two given shapes per direction, a blade in two flapwise and one edgewise one.
-/// With joint coordinates that follow these shapes the same limits can be put on a chain of beam elements, to see what
-/// they do to frequencies.
+/// With joint coordinates that follow these shapes a chain of beam elements can be restricted in the same way, to see
+/// the effect on frequencies.
 #pragma once
 
 #include "elements/cardan_beam/cardan_beam.hpp"
@@ -17,8 +17,8 @@ struct Deflection {
     double v = 0, w = 0, v_slope = 0, w_slope = 0;
 };
 
-/// Rotations of the hinges that lead the ends of all elements along a deflection, in displacement and slope; at the
-/// root both are zero.
+/// Hinge rotations for which the ends of all elements follow a deflection in displacement and slope; at the root both
+/// are zero.
 /// @param deflection  at x along the beam, m
 /// @return one entry per body of the elements, in their order; zero for extension and torsion
 Vector following(const CardanBeam& beam, const std::function<Deflection(double x)>& deflection);
@@ -33,7 +33,7 @@ extern const std::array<ModePolynomial, 3> elastodyn_blade_polynomials;
 
 /// One column per shape, 1 m at the end of the beam: fore-aft twice, side-side twice.
 Matrix elastodyn_tower_shapes(const CardanBeam& tower);
-/// Flap, flap, edge: curvatures across and along the chord at each place, turned by the structural twist there.
+/// Flap, flap, edge: curvatures across and along the chord at each station, rotated by the local structural twist.
 Matrix elastodyn_blade_shapes(const CardanBeam& blade);
 
 }  // namespace cardan::turbines

@@ -28,13 +28,13 @@ struct TeeteredHubDescription {
     RigidInertia inertia;
     double root_arm = 0;    ///< d_h2: blade roots from the shaft axis, spanwise, m
     double undersling = 0;  ///< d_h1: the point where the blade axes meet lies this far upwind of the teeter axis, m
-    double delta3 = 0;  ///< turn of the teeter axis in the rotor plane, rad; positive: a blade that teeters downwind
-                        ///< turns its leading edge upwind by tan(delta3) of the teeter angle
-    double cone = 0;    ///< blade axes out of the rotor plane, tips downwind positive, rad
+    double delta3 = 0;      ///< rotation of the teeter axis in the rotor plane, rad; positive: a blade that teeters
+                            ///< downwind pitches its leading edge upwind by tan(delta3) times the teeter angle
+    double cone = 0;        ///< blade axes out of the rotor plane, tips downwind positive, rad
     Spring teeter;
 };
 
-/// Every datum of the machine; each may be changed before assembly.
+/// All data of the machine; any of them may be changed before assembly.
 struct TeeteredDescription {
     std::string name;
     std::string source;      ///< the text it was read from; kept with every result
@@ -55,14 +55,14 @@ struct TeeteredDescription {
 
 /// Table I of the paper.
 TeeteredDescription teetered_description();
-/// The same from a folder with teetered.csv.
+/// As above, from a folder with teetered.csv.
 /// @throws FileError, ParseError, InputError
 TeeteredDescription teetered_description(const std::filesystem::path& folder);
-/// The data as YAML (SI units), without `source`: what histories and diagrams keep as the machine that was computed.
-/// There is no reader for it. @throws InputError: a number that is not finite
+/// The data as YAML (SI units), without `source`, as stored with histories and diagrams. There is no reader for it.
+/// @throws InputError: a number that is not finite
 std::string as_computed(const TeeteredDescription& description);
-/// Tower stiffnesses as multiples of the blade's: EI fore-aft of flap, lateral of lag, GJ of GJ (Table III: 10, 100,
-/// 1000).
+/// Tower stiffnesses as multiples of the blade's: fore-aft EI of flap EI, lateral EI of lag EI, GJ of GJ (Table III:
+/// 10, 100, 1000).
 /// @throws InputError: ratio not finite and positive
 TeeteredDescription with_tower_rigidity(TeeteredDescription description, double ratio);
 
@@ -95,9 +95,9 @@ public:
     const Tree& tree() const { return *tree_; }
     const std::string& source() const { return source_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
-    /// Coordinates that change sign in the symmetry of half a revolution: teeter. The equations of motion do not change
-    /// if the azimuth grows by pi, the blades exchange their coordinates and these coordinates change sign. Empty if
-    /// it is locked.
+    /// Coordinates that change sign in the half-revolution symmetry: teeter. The equations of motion are invariant if
+    /// the azimuth increases by pi, the blades exchange their coordinates and these coordinates change sign. Empty if
+    /// teeter is locked.
     const std::vector<int>& half_turn_odd() const { return half_turn_odd_; }
     /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.
     std::string summary() const;

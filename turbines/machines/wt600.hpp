@@ -1,8 +1,8 @@
 /// @file
 /// The 600 kW three-blade machine of Zhao, Maisser and Wu, Renewable Energy 32 (2007) 532-546.
 ///
-/// The paper gives its Table 1 and no distributed data; turbines/data/wt600_*.csv is a documented data set within the
-/// bounds of that table.
+/// The paper gives its Table 1 and no distributed data; turbines/data/wt600_*.csv is a documented data set consistent
+/// with that table.
 #pragma once
 
 #include "turbines/model/assembly.hpp"
@@ -13,7 +13,7 @@ namespace cardan::turbines {
 
 /// The built-in data set.
 TurbineDescription wt600_description();
-/// The same from a folder with wt600_blade.csv and wt600_turbine.csv.
+/// As above, from a folder with wt600_blade.csv and wt600_turbine.csv.
 /// @throws FileError, ParseError, InputError
 TurbineDescription wt600_description(const std::filesystem::path& folder);
 

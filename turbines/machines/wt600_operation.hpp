@@ -1,7 +1,7 @@
 /// @file
 /// The 600 kW machine in operation: generator, brake, pitch drives and a prescribed load on the rotor.
 ///
-/// The induction machine is that of the data set. The rest is assumed: nothing is published about it.
+/// The induction machine is that of the data set. The rest is assumed, since nothing has been published about it.
 #pragma once
 
 #include "elements/machine/brake.hpp"
@@ -15,35 +15,35 @@
 namespace cardan::turbines {
 
 enum class Wt600Generator : std::uint8_t {
-    induction,  ///< at the grid: 1500 rpm, Kloss' law; about 30.4 rpm of the rotor at 600 kW
-    converter   ///< torque over speed: best tip speed ratio from 20 rpm up to 600 kW at 32.92 rpm
+    induction,  ///< grid-connected: 1500 rpm, Kloss' law; about 30.4 rpm of the rotor at 600 kW
+    converter   ///< torque-speed curve: best tip speed ratio from 20 rpm up to 600 kW at 32.92 rpm
 };
 
 /// "generator_sync_speed" ... of the data set.  @throws FileError, ParseError
 InductionMachine wt600_induction_machine();
 InductionMachine wt600_induction_machine(const std::filesystem::path& folder);
-/// Speed of the rotor in rated operation, rad/s: tip speed ratio times nominal wind speed over radius, all of the
-/// paper's Table 1, 6.25 * 11.86 / 21.5 = 3.4477 rad/s (32.92 rpm).
+/// Rated rotor speed, rad/s: tip speed ratio times nominal wind speed / radius, all from the paper's Table 1, 6.25 *
+/// 11.86 / 21.5 = 3.4477 rad/s (32.92 rpm).
 double wt600_rated_speed();
-/// Torque of the generator with converter (assumed): none below 19 rpm of the rotor, from 20 rpm to the rated speed
-/// that of the best tip speed ratio, from there on 3481 N m, which is 600 kW at the rated speed.
+/// Torque-speed curve of the generator with converter (assumed): zero below 19 rpm of the rotor, for the best tip speed
+/// ratio from 20 rpm to the rated speed, constant 3481 N m above, which is 600 kW at the rated speed.
 TorqueTable wt600_torque_table();
-/// Load on the rotor (assumed): at the tip speed ratio of Table 1, 6.25, the power coefficient that makes the nominal
-/// power of the nominal wind, 0.404, and a thrust coefficient of 0.8.
+/// Load on the rotor (assumed): at the tip speed ratio of Table 1, 6.25, the power coefficient that gives nominal power
+/// at nominal wind speed, 0.404, and a thrust coefficient of 0.8.
 RotorCurve wt600_rotor_curve();
 
 struct Wt600OperationOptions {
     AssemblyOptions assembly = {.gravity = Vec3(0, 0, -units::standard_gravity)};
     std::filesystem::path data = {};  ///< folder of the data set; empty: built in
     Wt600Generator generator = Wt600Generator::induction;
-    bool at_grid = true;      ///< the generator's contact at the start
-    double pitch = 0;         ///< ordered at the start, rad, positive toward feather
+    bool at_grid = true;      ///< generator connected at the start
+    double pitch = 0;         ///< pitch command at the start, rad, positive toward feather
     double wind = 11.86;      ///< m/s
     double tower_shadow = 0;  ///< see RotorCurve
 };
 
-/// The machine with what acts on it. Pitch drives have taken the place of the pitch springs, with the same stiffness.
-/// Switches and orders are shared by copies: one simulation at a time.
+/// The machine and everything that acts on it. Pitch drives replace the pitch springs, with the same stiffness.
+/// Switches and orders are shared by copies: use them in one simulation at a time.
 struct Wt600Operation {
     Turbine turbine;
     std::shared_ptr<Switch> grid, brake_valve;
@@ -51,7 +51,7 @@ struct Wt600Operation {
     Generator generator;
     Brake brake;  ///< on the generator's shaft: 6 kN m within 0.5 s, regularised at 1 rad/s (assumed)
     RotorLoad rotor;
-    std::vector<ChannelGroup> channels;  ///< of the turbine and of all these
+    std::vector<ChannelGroup> channels;  ///< of the turbine and all of the above
 };
 
 /// @throws InputError, FileError, ParseError

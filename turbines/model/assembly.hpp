@@ -17,27 +17,29 @@ namespace cardan::turbines {
 /// description (GJ = stiffness x overhang). It reaches from the tilt joint to the hub.
 struct ShaftBeam {
     double EI = 0;    ///< N m^2
-    double mass = 1;  ///< kg/m; not zero, for nothing else gives the tilt joint an inertia apart from the hub's
+    double mass = 1;  ///< kg/m; not zero: nothing else gives the tilt joint an inertia of its own
 };
 
 struct AssemblyOptions {
     int tower_elements = 3;
     int blade_elements = 3;
-    std::optional<double> delta = {};  ///< of tower and blades; empty: what suits the partition; see CardanBeamOptions
+    std::optional<double> delta =
+        {};  ///< hinge position in tower and blades; empty: suits the partition; see CardanBeamOptions
     Partition partition = Partition::segment_masses;
-    double pitch = 0;                ///< of all blades, leading edge upwind positive, rad
+    double pitch = 0;                ///< pitch setting of all blades, leading edge upwind positive, rad
     Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2
     bool structural_damping = true;  ///< of tower and blades
     bool joint_damping = true;       ///< of yaw, tilt, drive train, pitch
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
-    /// Under the whole machine, prescribed or free: a floating platform, a shaking table; none: the ground.
+    /// A moving base under the whole machine, prescribed or free: a floating platform, a shaking table; none: fixed to
+    /// the ground.
     std::optional<PlatformOptions> platform = std::nullopt;
-    /// Elements of tower and blades in full: extension, torsion, element ends ... They take the place of numbers of
-    /// elements, delta and partition above. Their damping must be empty: the description has it.
+    /// Complete element options of tower and blades: extension, torsion, element ends ... They replace the numbers of
+    /// elements, delta and partition above. Their damping must be empty: it is part of the description.
     std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
 };
 
-/// Where things are in the tree of a machine, for loads and channels. What a machine does not have is empty.
+/// Where to find parts in the tree of a machine, for loads and channels. Parts that a machine lacks are empty.
 struct MachineLayout {
     /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
     std::optional<MovingBase> platform;
@@ -63,8 +65,8 @@ public:
     const Tree& tree() const { return *tree_; }
     const ForceSet& forces() const { return *forces_; }
     const MachineLayout& layout() const { return *layout_; }
-    /// The same machine under other forces: mostly a copy of forces() with generator, brake or loads added.
-    /// @param remark  what they are, for the description in files
+    /// The same machine with other forces: usually a copy of forces() with generator, brake or loads added.
+    /// @param remark  describes the forces, for the description stored in files
     /// @throws InputError as System does
     Turbine with_forces(const ForceSet& forces, const std::string& remark = {}) const;
     const std::string& source() const { return source_; }
@@ -100,7 +102,7 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {});
 
 /// The tower clamped at its foot, alone or with everything above it as one rigid body: blades undeformed, blade 1 up,
-/// at their pitch setting. It has no rotor: only standstill can be asked for.
+/// at their pitch setting. It has no rotor and can only be analysed at standstill.
 Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options = {},
                        bool with_top = false);
 

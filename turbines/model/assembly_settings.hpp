@@ -1,5 +1,5 @@
 /// @file
-/// The options of an assembly in words, for the description that is kept with every result.
+/// The options of an assembly as text, for the description stored with every result.
 #pragma once
 
 #include "turbines/model/assembly.hpp"

@@ -1,5 +1,5 @@
 /// @file
-/// Beam lines made from tables that stay with them: what the readers of model files make and what a file can hold.
+/// Beam lines that keep the table they were made from, as produced by the readers of model files and stored in files.
 #pragma once
 
 #include "elements/sections/reference_line.hpp"
@@ -14,8 +14,9 @@ struct BeamTable {
     /// One per station, or none if there are matrices.
     std::vector<EngineeringSection> sections = {};
     Interpolation interpolation = Interpolation::linear;  ///< of `sections`
-    /// One per station, or none if there are sections: in the section's own axes, x along the beam, which are turned by
-    /// `beta` about +x (structural twist: beta = -twist). Entries and beta are linear between stations, as in BeamDyn.
+    /// One per station, or none if there are sections: in the section's own axes, x along the beam, rotated by `beta`
+    /// about +x (structural twist: beta = -twist). Entries and beta are interpolated linearly between stations, as in
+    /// BeamDyn.
     std::vector<SectionMatrices> matrices = {};
     std::vector<double> beta = {};        ///< rad, one per matrix
     std::vector<Vec3> points = {};        ///< of the reference line in beam axes, from (0, 0, 0), m; empty: straight
@@ -23,16 +24,16 @@ struct BeamTable {
 };
 
 /// The beam line of a table.
-/// @throws InputError: sections and matrices both or neither, first station not 0, and as SectionTable, beam_section(),
-/// ReferenceLine and along() do; the station is named
+/// @throws InputError: both or neither of sections and matrices, first station not 0, and as SectionTable,
+/// beam_section(), ReferenceLine and along() do; the station is named
 BeamLine beam_line(const BeamTable& table);
 
-/// A straight line as a table of engineering constants: `parts` intervals between its breaks, jumps kept. What the
-/// table holds between the stations is linear and so near, not equal, to a line that is not.
+/// A straight line sampled into a table of engineering constants: `parts` intervals between its breaks, jumps kept.
+/// Linear interpolation between the stations only approximates a line that is not piecewise linear.
 /// @throws InputError: a curved line, sections that engineering constants cannot express (see EngineeringForm)
 BeamTable sampled(const BeamLine& line, int parts = 16);
 
-/// The table that a line was made from by beam_line(); null for lines made in another way. Valid as long as the line.
+/// The table from which beam_line() made a line; null for other lines. Valid as long as the line.
 const BeamTable* table_of(const BeamLine& line);
 
 }  // namespace cardan::turbines

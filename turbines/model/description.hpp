@@ -16,12 +16,12 @@ struct Spring {
 
     bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
 };
-/// In the place of a joint that a machine does not have.
+/// Stands for a joint that a machine does not have.
 inline constexpr Spring rigid_joint{std::numeric_limits<double>::infinity(), 0};
 
 struct TowerDescription {
     BeamLine line;                  ///< from the ground up
-    double first_mode_damping = 0;  ///< ratio of the first bending mode, stiffness proportional
+    double first_mode_damping = 0;  ///< damping ratio of the first bending mode, stiffness-proportional
     BeamDamping damping = {};       ///< in its place or beside it; bending about z of the beam is fore-aft
 };
 
@@ -43,7 +43,7 @@ struct NacelleDescription {
 struct DriveTrainDescription {
     double gear_ratio = 1;
     double generator_inertia = 0;  ///< fast side, kg m^2
-    double gearbox_inertia = 0;    ///< slow side, kg m^2; where it is zero one of the shafts must be rigid
+    double gearbox_inertia = 0;    ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
     Spring high_speed_shaft;       ///< fast side, generator - gearbox
     Spring main_shaft;             ///< slow side, gearbox - hub
 };
@@ -60,11 +60,12 @@ inline Mat3 hub_axes() {
 }
 
 struct BladeDescription {
-    BeamLine line;                  ///< from the root out; x radial, y to the leading edge, z downwind
-    Spring pitch;                   ///< pitch mechanism
-    double cone = 0;                ///< blade axis out of the rotor plane, tips downwind positive, rad
-    double first_flap_damping = 0;  ///< ratio of the first flap mode of the clamped blade, stiffness proportional
-    BeamDamping damping = {};       ///< in its place or beside it
+    BeamLine line;    ///< from the root out; x radial, y to the leading edge, z downwind
+    Spring pitch;     ///< pitch mechanism
+    double cone = 0;  ///< blade axis out of the rotor plane, tips downwind positive, rad
+    double first_flap_damping =
+        0;                     ///< damping ratio of the first flap mode of the clamped blade, stiffness-proportional
+    BeamDamping damping = {};  ///< in its place or beside it
 };
 
 struct TurbineDescription {

@@ -7,17 +7,18 @@
 
 namespace cardan::turbines {
 
-/// Damping of the coordinate of a generator's shaft by its slip: the slope of Kloss' formula at a torque on the rising
-/// part of the curve, times the gear ratio squared. Small departures from the speed at which the machine gives this
-/// torque feel it whatever that speed is: at constant flux the curve of torque over slip speed moves with the
-/// frequency of the grid or of a converter.
+/// Damping of a generator's shaft coordinate by slip: the slope of Kloss' formula at a torque on the rising part of the
+/// curve, times the gear ratio squared. It applies to small deviations from the speed at which the generator gives this
+/// torque, whatever that speed is: at constant flux the torque-slip curve shifts with the frequency of the grid or
+/// converter.
 /// @param torque  of the generator at the operating point, N m, positive where it brakes; 0: at synchronous speed
 /// @return N m s/rad
 /// @throws InputError for a bad law, or a torque that is not below the breakdown torque
 double slip_damping(const InductionMachine& law, double gear_ratio, double torque = 0);
 
-/// The machine with this damper on its generator's azimuth. For equations linearised about a steady rotation alone
-/// (modes, linear models): there the constant torque drops out, and in time the damper would brake towards rest.
+/// The machine with this damper on its generator's azimuth. Only for equations linearised about a steady rotation
+/// (modes, linear models), where the constant torque drops out; in a time simulation the damper would brake the machine
+/// to standstill.
 /// @throws InputError if there is no generator, and as slip_damping()
 Turbine with_generator_slip(const Turbine& turbine, const InductionMachine& law, double torque = 0);
 

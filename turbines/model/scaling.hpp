@@ -1,12 +1,12 @@
 /// @file
-/// A machine of another size by the rules of similarity: same materials, same shape, same tip speed.
+/// A machine of another size by similarity rules: same materials, same shape, same tip speed.
 #pragma once
 
 #include "turbines/model/description.hpp"
 
 namespace cardan::turbines {
 
-/// The machine with all lengths multiplied by s. Speeds and stresses under aerodynamic loads stay, so that
+/// The machine with all lengths multiplied by s. Speeds and stresses under aerodynamic loads stay the same, so that
 ///
 ///   length, time                          s      mass                                s^3
 ///   mass per length, EA, GA               s^2    inertia per length                  s^4
@@ -15,12 +15,12 @@ namespace cardan::turbines {
 ///   rotor speed, natural frequencies      1/s    power, thrust                       s^2
 ///   angles, twist, damping ratios, gear ratio    unchanged
 ///
-/// By dimensions frequencies over rotor speed stay exactly the same as long as gravity plays no part: it does not
-/// scale, and the stress of the own weight grows with s. From 5 MW to 15 MW: s = sqrt(3).
+/// By dimensional analysis the ratios of frequencies to rotor speed stay exactly the same as long as gravity is
+/// neglected: it does not scale, and stresses due to self-weight grow with s. From 5 MW to 15 MW: s = sqrt(3).
 /// @throws InputError unless s is finite and positive
 TurbineDescription scaled(const TurbineDescription& description, double s);
 
-/// The same of a beam.
+/// Likewise for a beam.
 BeamLine scaled(const BeamLine& line, double s);
 
 }  // namespace cardan::turbines

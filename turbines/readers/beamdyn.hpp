@@ -1,8 +1,8 @@
 /// @file
 /// BeamDyn input files of OpenFAST as the blade of a description.
 ///
-/// Their axes are x downwind, y to the trailing edge, z along the blade; key points and matrices are turned into beam
-/// axes on reading (beamdyn_axes()). Twist is positive with the leading edge upwind.
+/// Their axes are x downwind, y to the trailing edge, z along the blade; key points and matrices are transformed to
+/// beam axes on reading (beamdyn_axes()). Twist is positive with the leading edge upwind.
 #pragma once
 
 #include "turbines/readers/elastodyn.hpp"
@@ -18,7 +18,7 @@ struct BeamDynBlade {
 /// through two or three; straight if all lie on z), stations count arc length; twist is linear between the key points,
 /// where BeamDyn has a spline, the matrices are linear in the section's own axes. Damping: damp_type 0 none, 1 the six
 /// mu, 2 ratios of the modes.
-/// @throws ParseError, FileError; InputError naming the station for matrices that are no section
+/// @throws ParseError, FileError; InputError naming the station for matrices that do not describe a section
 BeamDynBlade read_beamdyn(const std::filesystem::path& path);
 
 }  // namespace cardan::turbines

@@ -2,7 +2,7 @@
 /// Readers for the data files of turbines: comma-separated, with units, with errors that point at the character.
 ///
 /// Both kinds of file are UTF-8 text. Lines that begin with # are comments, blank lines are skipped, lines may end in
-/// CR LF. The first other line names the columns. There are no quotes: a comma separates. Numbers have a decimal
+/// CR LF. The first other line names the columns. There is no quoting: a comma always separates. Numbers have a decimal
 /// point whatever the locale. Every error is a ParseError "<file>:<line>:<column>: <what>", columns in characters from
 /// 1, or a FileError when the file cannot be read. `file` is the name used in messages.
 #pragma once
@@ -19,7 +19,7 @@ namespace cardan::turbines {
 /// A table of numbers whose header reads "name[unit],name[unit],..."; a pure number has the unit "-".
 class CsvTable {
 public:
-    /// At least one row; every field a finite number; no name twice.
+    /// Requires at least one row, finite numbers only and unique names.
     [[nodiscard]] static CsvTable parse(std::string_view text, std::string_view file);
     [[nodiscard]] static CsvTable read(const std::filesystem::path& path);
 
@@ -28,9 +28,10 @@ public:
     /// Names in the order of the file.
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
-    /// One value per row; valid as long as the table. Throws ParseError, with the names there are, for another name.
+    /// One value per row; valid as long as the table. Throws ParseError, listing the existing names, for any other
+    /// name.
     [[nodiscard]] std::span<const double> column(std::string_view name) const;
-    /// As above; throws ParseError, too, when the file has another unit.
+    /// As above; also throws ParseError if the unit in the file differs.
     [[nodiscard]] std::span<const double> column(std::string_view name, std::string_view expected_unit) const;
     [[nodiscard]] const std::string& unit(std::string_view name) const;
 
@@ -55,7 +56,7 @@ private:
 /// with / between them, or a text.
 class CsvQuantities {
 public:
-    /// At least one quantity; none twice. Values are looked at when they are asked for.
+    /// Requires at least one quantity and no duplicates. Values are parsed when they are requested.
     [[nodiscard]] static CsvQuantities parse(std::string_view text, std::string_view file);
     [[nodiscard]] static CsvQuantities read(const std::filesystem::path& path);
 
@@ -63,15 +64,15 @@ public:
     /// Names in the order of the file.
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] bool has(std::string_view quantity) const { return find(quantity) != nullptr; }
-    /// Throws ParseError for a quantity that is missing (with the names there are), in another unit, or not a finite
+    /// Throws ParseError for a quantity that is missing (listing the existing names), in another unit, or not a finite
     /// number.
     [[nodiscard]] double number(std::string_view quantity, std::string_view expected_unit) const;
     /// The numbers of "2.5e4/1.0e5/1.0e5"; a single number is a list of one.
     [[nodiscard]] std::vector<double> numbers(std::string_view quantity, std::string_view expected_unit) const;
-    /// As above; throws InputError, too, when there are more or fewer of them.
+    /// As above; also throws InputError if there are more or fewer of them.
     [[nodiscard]] std::vector<double> numbers(std::string_view quantity, std::string_view expected_unit,
                                               std::size_t count) const;
-    /// The value as it is written.
+    /// The value as written in the file.
     [[nodiscard]] const std::string& text(std::string_view quantity) const;
     [[nodiscard]] const std::string& unit(std::string_view quantity) const;
     /// The fourth column; empty when there is none.

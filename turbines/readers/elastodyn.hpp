@@ -2,10 +2,10 @@
 /// ElastoDyn input files of OpenFAST (and the blade and tower files of FAST 7) as a description of a machine.
 ///
 /// ElastoDyn's blades and tower are mode shapes over distributed masses and bending stiffnesses; here they become beams
-/// with these properties, and the mode shapes are not used. What the files do not give is rigid: torsion, extension and
-/// shear, and the joints that ElastoDyn has not (main frame, pitch and yaw bearing in translation). Signs on reading
-/// (theirs -> here): shaft tilt and overhang change sign, cone, twist and positions in the nacelle keep theirs; degrees
-/// become radians, percent of critical damping become ratios. docs/coming_from_openfast.md has the table.
+/// with these properties, and the mode shapes are not used. What the files do not specify is rigid: torsion, extension
+/// and shear, and the joints that ElastoDyn lacks (main frame, pitch bearing, yaw bearing in translation). Signs on
+/// reading (theirs -> here): shaft tilt and overhang change sign, cone, twist and positions in the nacelle keep theirs;
+/// degrees become radians, percent of critical damping become ratios. docs/coming_from_openfast.md has the table.
 #pragma once
 
 #include "turbines/readers/openfast_file.hpp"
@@ -15,7 +15,7 @@ namespace cardan::turbines {
 /// A blade or a tower.
 struct ElastoDynBeam {
     BeamLine line;
-    /// By modes of the clamped beam: of a blade flap (about y) and edge (about z), of a tower side-side (about y) and
+    /// By modes of the clamped beam: for a blade flap (about y) and edge (about z), for a tower side-side (about y) and
     /// fore-aft (about z).
     BeamDamping damping;
     std::vector<FileNote> notes;
@@ -23,14 +23,14 @@ struct ElastoDynBeam {
 };
 
 /// Blade file: linear between the stations, with the adjustment factors. Columns of FAST 7 files for torsion,
-/// extension, inertia and mass centre are used where they are there.
+/// extension, inertia and mass centre are used if present.
 /// @param length  from blade root to tip, m
 /// @throws ParseError, FileError
 ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length);
 /// Tower file, likewise. Beam axes: x up, y downwind.
 ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length);
 
-/// What other files of a model say in the place of ElastoDyn's.
+/// Data from other files of a model that replace ElastoDyn's.
 struct ElastoDynContext {
     std::optional<ElastoDynBeam> blade = std::nullopt;  ///< from BeamDyn; BldFile is not read then
     Spring yaw = rigid_joint;                           ///< of the yaw drive (ServoDyn), where YawDOF is True
@@ -38,7 +38,7 @@ struct ElastoDynContext {
 };
 
 /// The main file, with the blade and tower files it names.
-/// @throws ParseError, FileError; InputError for sections that make no beam
+/// @throws ParseError, FileError; InputError for sections that do not form a valid beam
 TurbineFile read_elastodyn(const std::filesystem::path& path, const ElastoDynContext& context = {});
 
 }  // namespace cardan::turbines

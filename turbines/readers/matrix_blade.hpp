@@ -1,5 +1,5 @@
 /// @file
-/// Blades given by 6 x 6 matrices in the axes of BeamDyn, as BeamDyn and windIO have them.
+/// Blades given by 6 x 6 matrices in BeamDyn's axes, as in BeamDyn and windIO.
 #pragma once
 
 #include "turbines/model/beam_table.hpp"
@@ -22,7 +22,7 @@ struct MatrixBlade {
 /// @throws InputError
 BeamTable matrix_blade_table(const std::string& name, const MatrixBlade& blade);
 
-/// Value at a place between places that increase; the last or first value beyond them.
+/// Linear interpolation between increasing positions; constant beyond the ends.
 double interpolated(const std::vector<double>& places, const std::vector<double>& values, double at);
 
 }  // namespace cardan::turbines

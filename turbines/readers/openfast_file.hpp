@@ -3,7 +3,7 @@
 ///
 /// Entries are found by keyword, not by line number, so that files of all versions are read alike. Keywords are
 /// compared without regard to case. The first line is a heading and the second a title, as are later lines that begin
-/// with "---", "===", "!" or "#". Numbers may be written as Fortran does (1.0D+3, .5, 5.).
+/// with "---", "===", "!" or "#". Numbers may be in Fortran notation (1.0D+3, .5, 5.).
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -15,10 +15,10 @@
 
 namespace cardan::turbines {
 
-/// Numbers in columns with names.
+/// Numbers in named columns.
 class OpenFastTable {
 public:
-    /// @throws ParseError with the names there are
+    /// @throws ParseError listing the existing names
     [[nodiscard]] const std::vector<double>& column(std::string_view name) const;
     [[nodiscard]] bool has(std::string_view name) const;
     [[nodiscard]] std::size_t rows() const { return lines.size(); }
@@ -32,7 +32,7 @@ public:
     std::vector<int> lines;  ///< of the rows
 };
 
-/// Keywords that mean nothing for the structure, and why. An entry that ends in * is the beginning of a keyword.
+/// Keywords that are irrelevant for the structure, and why. An entry that ends in * matches keywords by prefix.
 struct KeywordGroup {
     std::vector<std::string_view> keywords;
     std::string_view why;
@@ -55,8 +55,8 @@ public:
     const std::string& text() const { return text_; }
 
     bool has(std::string_view keyword) const { return find(keyword) != nullptr; }
-    /// What follows throws ParseError for a keyword that is not there or there twice, for more values than one, and for
-    /// a value that is not of the kind. What was asked for counts as used.
+    /// The following functions throw ParseError for a keyword that is missing or occurs twice, for more than one value,
+    /// and for a value of the wrong kind. Entries that were requested count as used.
     double number(std::string_view keyword);
     double number_or(std::string_view keyword, double otherwise);
     std::vector<double> numbers(std::string_view keyword, std::size_t count);
@@ -64,9 +64,9 @@ public:
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);
-    /// A path seen from the folder of this file.
+    /// A path relative to the folder of this file.
     std::filesystem::path path(std::string_view keyword);
-    /// What `read()` makes of the file that the keyword names. @throws ParseError at the keyword for FileError
+    /// Applies `read()` to the file that the keyword names. @throws ParseError at the keyword instead of FileError
     template <class Read>
     auto follow(std::string_view keyword, const Read& read) const {
         try {
@@ -82,14 +82,14 @@ public:
     /// keyword; lines without numbers are passed over.
     std::vector<Row> rows_below(std::string_view what);
 
-    /// The lines after that of the keyword count as used.
+    /// Marks the lines after the keyword as used.
     void pass_over(std::string_view keyword, std::size_t lines);
 
-    /// A note on the entry, which then counts as used.
+    /// Adds a note on the entry, which then counts as used.
     void note(std::string_view keyword, std::string why);
-    /// The same if the entry is there and its number not the one without effect.
+    /// As note(), if the entry exists and its number differs from the one without effect.
     void note_unless(std::string_view keyword, double neutral, std::string why);
-    /// What was not used: by groups, then one by one.
+    /// Notes on unused entries: by groups, then one by one.
     std::vector<FileNote> notes(const std::vector<KeywordGroup>& groups) const;
 
     [[noreturn]] void fail(std::string_view keyword, std::string_view what) const;

@@ -8,9 +8,9 @@
 
 namespace cardan::turbines {
 
-/// An entry of a model file that has no part in the description, or another one than in the program it was made for.
-/// Entries without meaning for the structure (output, solver settings, aerodynamics) come as one note per group: their
-/// keywords are listed, line and value are those of none.
+/// An entry of a model file that is not used in the description, or used differently than in the program it was made
+/// for. Entries that are irrelevant for the structure (output, solver settings, aerodynamics) give one note per group
+/// that lists their keywords; line and value are then empty.
 struct FileNote {
     std::string file;
     int line = 0;  ///< 0: none
@@ -22,9 +22,9 @@ struct FileNote {
 /// "file:12: NacYaw = 3: the nacelle points into the wind here"
 std::string to_text(const FileNote& note);
 
-/// Freedoms of the machine that a file may switch off (ElastoDyn's flags); the description does not tell them.
+/// Degrees of freedom that a file may switch off (ElastoDyn's flags); they are not part of the description.
 struct FileFreedoms {
-    bool generator = true;  ///< false: the rotor turns at its speed, whatever happens (RotorSpin::prescribed)
+    bool generator = true;  ///< false: the rotor turns at constant speed (RotorSpin::prescribed)
     /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, both of the blades).
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
 };
@@ -33,11 +33,11 @@ struct FileFreedoms {
 struct TurbineFile {
     TurbineDescription description;
     FileFreedoms freedoms = {};
-    /// Of the yaw drive, also where the files have the yaw bearing locked and the description has it rigid; rigid: they
-    /// give no spring.
+    /// Spring of the yaw drive, even if the files lock the yaw bearing and it is rigid in the description; rigid: the
+    /// files give no spring.
     Spring yaw_drive = rigid_joint;
     std::vector<FileNote> notes;
-    double rotor_speed = 0;  ///< rated or initial rotor speed, rad/s; 0: the files name none
+    double rotor_speed = 0;  ///< rated or initial rotor speed, rad/s; 0: not given in the files
     double pitch = 0;        ///< pitch setting of the blades, leading edge upwind, rad
 };
 

@@ -1,6 +1,6 @@
 /// @file
-/// The NREL 5 MW blade by assumed modes, clamped to a hub that moves as prescribed: an independent model beside the
-/// joint chain of turbines/machines/nrel5mw_blade.hpp, and the model of a paper of 2018 (docs/nrel5mw_paper2018.md).
+/// An assumed-modes model of the NREL 5 MW blade, clamped to a hub with prescribed motion: an independent check of the
+/// joint chain of turbines/machines/nrel5mw_blade.hpp, and the model of a 2018 paper (docs/nrel5mw_paper2018.md).
 #pragma once
 
 #include "elements/reference/assumed_modes_blade.hpp"
@@ -9,18 +9,18 @@
 
 namespace cardan::turbines {
 
-/// As the paper has it: twist, mass centres off the axis, five polynomials for each deflection and three sines for
-/// torsion over the whole length, inextensible, no rotary inertia of bending. Inferred, because its frequencies come
-/// out with them: mass times 1.04536 and polynomials from (x/L)^2 on (NP = 2).
+/// The model as in the paper: twist, mass centres off the axis, five polynomials for each deflection and three sines
+/// for torsion over the whole length, inextensible, no rotary inertia in bending. Two choices are inferred because they
+/// reproduce its frequencies: mass times 1.04536 and polynomials from (x/L)^2 on (NP = 2).
 /// @param tension  wrong_end reproduces its frequencies in rotation, which are wrong
 AssumedModesBlade nrel5mw_blade_of_2018(TensionIntegral tension = TensionIntegral::from_free_tip,
                                         const BeamLine& line = nrel5mw_blade().line);
-/// The paper's model with other functions than its own.
+/// The paper's model with other basis functions.
 /// @throws InputError, see AssumedModesBlade
 AssumedModesBlade nrel5mw_blade_of_2018(const AssumedModesBasis& basis, TensionIntegral tension,
                                         const BeamLine& line = nrel5mw_blade().line);
 
-/// The same blade by functions that converge, cubics for v and w and quadratics for torsion and extension between all
+/// The same blade with a convergent basis, cubics for v and w and quadratics for torsion and extension between all
 /// stations, with rotary inertia: 384 coordinates.
 AssumedModesBlade nrel5mw_blade_converged(const BeamLine& line = nrel5mw_blade().line);
 
@@ -34,7 +34,7 @@ struct Nrel5mwMotion {
     PrescribedCoordinate roll, pitch, yaw;      ///< pitch positive: the top of the tower moves upwind
     PrescribedCoordinate nacelle_yaw, azimuth;  ///< blade up at azimuth 0
 };
-/// Of the root of the blade, axes e1 (along the blade), e2 (to the leading edge), e3 (downwind).
+/// Motion of the blade root, axes e1 (along the blade), e2 (to the leading edge), e3 (downwind).
 /// @param gravity  m/s^2, downward
 HubMotion nrel5mw_blade_root(const Nrel5mwMotion& motion, double gravity = units::standard_gravity);
 

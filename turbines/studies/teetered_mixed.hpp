@@ -1,6 +1,6 @@
 /// @file
 /// The two-bladed teetered machine with mixed beam elements (elements/reference/mixed_beam.hpp), as in the paper of
-/// Lee, Hodges and Patil (2002): the same description, another model. No tree, no joint chain.
+/// Lee, Hodges and Patil (2002): the same description with a different model, without a tree or joint chain.
 #pragma once
 
 #include "elements/reference/mixed_beam.hpp"

@@ -9,12 +9,13 @@
 namespace cardan::turbines {
 
 /// @param file  name for messages
-/// @throws ParseError: no YAML, another version, a key that is missing, unknown or there twice, a value of another kind
+/// @throws ParseError: invalid YAML, another version, a key that is missing, unknown or duplicate, a value of the wrong
+/// kind
 TurbineDescription parse_description(const std::string& text, const std::string& file);
 /// @throws FileError, ParseError
 TurbineDescription read_description(const std::filesystem::path& path);
 
-/// Is it one of ours (the key `cardan_turbine`)? Other YAML models are windIO's.
+/// True for our own format (the key `cardan_turbine`); other YAML models are taken to be windIO.
 bool is_description(const std::string& text);
 
 }  // namespace cardan::turbines

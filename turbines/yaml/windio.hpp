@@ -9,11 +9,11 @@
 namespace cardan::turbines {
 
 /// Blade: reference axis, twist and the 6 x 6 matrices (elastic_properties_mb, elastic_properties), in BeamDyn's axes;
-/// without matrices there is no blade, for layers and webs are not made into sections here. Tower: tubes of outer
-/// diameter, layers, materials and outfitting factor (shear stiffness G A / 2), sections linear between eight stations
-/// per interval of the given grids. Hub, nacelle, gearbox and generator: rigid bodies, gear ratio and torsional
-/// stiffness where they are given; what is not is rigid, and noted. Angles: rad in version 1, degrees in version 2
-/// (windIO_version). The overhang is counted horizontally there, the height of the hub above the tower top at the
+/// without matrices there is no blade, because layers and webs are not converted to sections here. Tower: tubes of
+/// outer diameter, layers, materials and outfitting factor (shear stiffness G A / 2), sections linear between eight
+/// stations per interval of the given grids. Hub, nacelle, gearbox and generator: rigid bodies, gear ratio and
+/// torsional stiffness where given; what is missing is rigid, and noted. Angles: rad in version 1, degrees in version 2
+/// (windIO_version). In windIO the overhang is measured horizontally, and the hub height above the tower top at the
 /// rotor.
 /// @throws ParseError, FileError, InputError
 TurbineFile read_windio(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
 /// @file
-/// The steps of reading URDF, inside of cardan::urdf.
+/// The steps of reading URDF. Internal to cardan::urdf.
 ///
 ///   text --outline--> links, joints, notes, tidy text --urdfdom--> values --(urdf_read.cpp)--> Tree
 ///                          |
@@ -27,11 +27,11 @@ struct JointEntry {
     bool has_axis = false, has_limit = false;
 };
 
-/// A URDF document as far as it concerns dynamics, in the order of the file.
+/// The parts of a URDF document that concern dynamics, in the order of the file.
 struct Outline {
     std::string source;
     std::string robot_name;
-    std::string tidy;  ///< what urdfdom gets to read: no geometry, no unknown tags, white space in order
+    std::string tidy;  ///< the text given to urdfdom: no geometry, no unknown tags, white space normalised
     std::vector<LinkEntry> links;
     std::vector<JointEntry> joints;
     std::vector<std::string> notes;
@@ -39,8 +39,8 @@ struct Outline {
     std::string at(int line) const { return text(source, ":", line, ": "); }
 };
 
-/// Parses the XML and holds it against the vocabulary of URDF: unknown tags and attributes become notes, values that
-/// are no finite numbers and missing ones become errors.
+/// Parses the XML and checks it against the vocabulary of URDF: unknown tags and attributes become notes; missing
+/// values and values that are not finite numbers become errors.
 /// @throws InputError
 Outline outline(std::string_view xml, std::string_view source);
 
@@ -52,11 +52,11 @@ struct Structure {
 /// @throws InputError: names given twice, unknown links and joint types, loops, several roots
 Structure structure(const Outline& outline);
 
-/// What urdfdom makes of the text. It speaks through console_bridge; all that it says is collected meanwhile.
-/// @throws InputError with urdfdom's words if it reports any error: a link with errors is otherwise kept half read
+/// The text parsed by urdfdom, whose console_bridge messages are collected meanwhile. @throws InputError with urdfdom's
+/// message if it reports any error, since it would keep a faulty link half read
 std::shared_ptr<urdf::ModelInterface> urdfdom_model(const Outline& outline, std::vector<std::string>& warnings);
 
-/// Hands out names that were not used before.
+/// Hands out unused names.
 class UniqueNames {
 public:
     void reserve(std::string_view name) { used_.emplace(name); }

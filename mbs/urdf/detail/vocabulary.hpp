@@ -24,7 +24,7 @@ struct TagRule {
     std::string_view passed_over = {};         ///< why it is known but not read; empty: it is read
 };
 
-/// The rule of a tag; null: unknown.
+/// The rule for a tag; null: unknown.
 const TagRule* find_tag(std::string_view path);
 
 }  // namespace cardan::urdf_impl

@@ -45,7 +45,7 @@ inline SundialsContext make_sundials_context() {
     return SundialsContext(context);
 }
 
-/// Takes messages and forgets them: reasons are told through return values.
+/// Discards messages: failures are reported through return values.
 inline void sundials_quiet(int, const char*, const char*, char*, void*) {}
 
 }  // namespace cardan::solvers

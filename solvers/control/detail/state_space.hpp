@@ -9,7 +9,8 @@
 
 namespace cardan::solvers::detail {
 
-/// What a change of every state (first) and input does to the whole machine: a column each, a row per coordinate.
+/// Effect of a unit change of each state (first) and input on the whole machine: one column each, one row per
+/// coordinate.
 struct Directions {
     Matrix q, qd;     ///< change of positions and rates
     Matrix qdd;       ///< of accelerations, by the linear model
@@ -31,11 +32,11 @@ public:
     std::vector<int> unknowns, driven;  ///< coordinates with an equation of motion, and the others
     std::vector<Signal> state_signals, input_signals;
 
-    /// Directions as far as they are known without equations of motion, at the poses of `kin`.
+    /// Directions as far as they follow from kinematics alone, at the poses of `kin`.
     void begin(const Kinematics& kin, Directions& out) const;
     /// Values of the inputs at an operating point.
     Vector input_values(const OperatingPoint& at) const;
-    /// A wrench per unit of the input of a column; none for other columns.
+    /// The wrench per unit input for a column; none for other columns.
     std::optional<FrameLoad> wrench_of(Eigen::Index column) const;
 
 private:

@@ -1,5 +1,5 @@
 /// @file
-/// What may be stored in an HDF5 file of ours: names, texts, attributes. Nothing here uses the HDF5 library.
+/// Checks of what may be stored in our HDF5 files: names, texts, attributes. Nothing here uses the HDF5 library.
 #pragma once
 
 #include "solvers/hdf5/file.hpp"
@@ -12,17 +12,17 @@ namespace cardan::solvers::detail {
 /// @throws InputError "<path>: <object>: <why>"
 [[noreturn]] void refuse(const std::string& path, std::string_view object, std::string_view why);
 
-/// The first thing that keeps a text from being stored (NUL, not UTF-8); empty: nothing.
+/// Why a text cannot be stored (NUL, not UTF-8); empty: it can.
 std::string flaw(std::string_view text);
 
-/// Without the leading slash; parts between slashes are names.
+/// The name without a leading slash; the parts between slashes are names.
 /// @throws InputError
 std::string checked_name(const std::string& path, std::string_view name);
 
 /// @throws InputError: an attribute without a name, a text that cannot be stored
 void check_attributes(const std::string& path, std::string_view object, const Attributes& attributes);
 
-/// units, long_name and the rest as attributes.
+/// Units, long_name and the rest as attributes.
 /// @throws InputError: units or long_name missing, and as above
 Attributes checked_attributes(const std::string& path, std::string_view object, const Description& about);
 

@@ -1,6 +1,6 @@
 /// @file
-/// Drivers of HDF5's virtual file layer, which says how bytes come to a file and from it.
-/// Internal: includes hdf5.h, not for users of the library.
+/// Drivers of HDF5's virtual file layer, which defines how bytes are written to a file and read from it. Internal:
+/// includes hdf5.h, not for users of the library.
 #pragma once
 
 #include "solvers/hdf5/detail/storage.hpp"
@@ -10,7 +10,7 @@
 
 namespace cardan::solvers::detail {
 
-/// What both drivers leave to HDF5: to gather small pieces; their files are plain ones.
+/// Features that both drivers leave to HDF5: gathering small pieces. Their files are plain files.
 inline herr_t query_features(const H5FD_t*, unsigned long* flags) noexcept {
     if (flags != nullptr) {
         *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |

@@ -1,5 +1,5 @@
 /// @file
-/// The inside of Hdf5File, shared by its writing and its reading half. Internal: not for users of the library.
+/// Implementation of Hdf5File, shared by its writing and reading halves. Internal: not for users of the library.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -33,7 +33,7 @@ struct Hdf5File::Impl {
     detail::DiskState disk;
     const detail::JournaledFile* journal = nullptr;  ///< of histories: the file beneath HDF5, while it is open
     hid_t file = -1;
-    bool failed = false;  ///< a step of writing failed: what is on the disk cannot be trusted
+    bool failed = false;  ///< a write failed: the contents on disk cannot be trusted
 
     herr_t close() {
         const detail::Quiet quiet;
@@ -42,7 +42,7 @@ struct Hdf5File::Impl {
 
     /// FileError "<path>: <object>: cannot <action>: <reason>"; an empty object is the file itself.
     [[noreturn]] void fail(std::string_view object, std::string_view action) const;
-    /// The code, when it is not negative; otherwise fail().
+    /// Returns the code if it is not negative; otherwise fail().
     template <class Code>
     Code ok(Code code, std::string_view object, std::string_view action) const {
         if (code < 0) fail(object, action);
@@ -53,7 +53,7 @@ struct Hdf5File::Impl {
         return {ok(id, object, action), closer};
     }
 
-    /// Does what changes the file; after any failure, also one of the disk, the file counts as failed.
+    /// Runs steps that change the file; after any failure, including disk errors, the file counts as failed.
     template <class Steps>
     void change(std::string_view object, Steps&& steps) {
         try {

@@ -12,11 +12,11 @@
 
 namespace cardan::solvers::detail {
 
-/// What is found in the attribute `format` of the root.
+/// Value of the attribute `format` of the root.
 constexpr const char* history_format = "cardan history";
 constexpr int history_format_version = 2;
 
-/// Names of the variables that hold the channels: those of the channels as far as netCDF allows them.
+/// Names of the variables that hold the channels: the channel names, as far as netCDF allows them.
 [[nodiscard]] std::vector<std::string> variable_names(const std::vector<Channel>& channels);
 
 /// For a new file.
@@ -37,7 +37,7 @@ void read_state(const Hdf5File& file, HistoryInfo& info);
 /// A data set of one axis, opened to be lengthened and written, with room for one chunk in memory.
 [[nodiscard]] Handle open_variable(const Hdf5File& file, const std::string& name);
 
-/// What is stored; being_written and needs_repair are not known here.
+/// Stored contents; being_written and needs_repair are not known here.
 struct StoredHistory {
     HistoryInfo info;
     std::vector<std::string> variables;  ///< one per channel
@@ -45,9 +45,9 @@ struct StoredHistory {
 };
 /// All but the channels.  @throws FileError if it is no history or if its parts do not fit together
 [[nodiscard]] StoredHistory read_frame(const Hdf5File& file);
-/// @param rows  values that the variable must have
+/// @param rows  number of values that the variable must have
 [[nodiscard]] Channel read_channel(const Hdf5File& file, const std::string& variable, std::size_t rows);
-/// The two together.
+/// Both of the above.
 [[nodiscard]] StoredHistory read_stored(const Hdf5File& file);
 /// Rows first ... first + count - 1 of a variable.
 [[nodiscard]] std::vector<double> read_rows(const Hdf5File& file, const std::string& variable, std::size_t first,
@@ -64,7 +64,7 @@ public:
     HistorySource& operator=(const HistorySource&) = delete;
     ~HistorySource() = default;
 
-    /// use(file), in which no flush of a writer shows; between two calls there may be one.
+    /// Calls use(file), during which no writer's flush becomes visible; one may occur between two calls.
     template <class Use>
     auto read(const Use& use) {
         for (int i = 0; i < attempts; ++i) {

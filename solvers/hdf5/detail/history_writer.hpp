@@ -1,5 +1,5 @@
 /// @file
-/// The inside of HistoryWriter. Internal: not for users of the library.
+/// Implementation of HistoryWriter. Internal: not for users of the library.
 #pragma once
 
 #include "solvers/hdf5/detail/history.hpp"
@@ -38,12 +38,12 @@ struct HistoryWriter::Impl {
 
     [[nodiscard]] Hdf5File::Impl& raw() const { return Hdf5File::Impl::of(*file); }
     void open_variables(const std::vector<std::string>& names);
-    /// Commits what was prepared; from here on give_up() keeps what was written.
+    /// Commits the prepared file; from here on give_up() keeps what was written.
     void begin_writing(const HistoryStorage& storage);
     void append(double time, std::span<const double> row);
     void flush();
     void finish(const IntegrationStatistics* statistics);
-    /// Keeps what there is, if it can be kept, and closes.
+    /// Saves what can be saved, and closes.
     void give_up() noexcept;
 
 private:

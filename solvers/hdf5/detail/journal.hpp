@@ -1,6 +1,5 @@
 /// @file
-/// A file that changes in commits, each of which happens wholly or not at all, whenever its writer is killed.
-/// Internal: not for users of the library.
+/// A file that changes only in atomic commits, even if its writer is killed. Internal: not for users of the library.
 #pragma once
 
 #include <array>
@@ -14,23 +13,24 @@
 
 namespace cardan::solvers::detail {
 
-/// Bytes on the disk between commits are those of the last commit, so that any program can read them. What is written
-/// below their end is held back in memory, in blocks; what is written behind it goes there at once, where nobody looks.
-/// commit() then
+/// Between commits the bytes on disk are those of the last commit, so that any program can read them. Writes below the
+/// end of the committed contents are held back in memory, in blocks; writes beyond it go to disk immediately, where
+/// nobody looks. commit() then
 ///   1. writes the held-back blocks and a footer with a checksum, the journal, behind all that,
 ///   2. overwrites the first bytes, in which a format has its signature, by a mark,
 ///   3. writes the blocks to their places, those first bytes last,
 ///   4. cuts the journal off.
-/// Killed in 1: the footer is not there, the last commit stands. Killed later: whoever opens the file next finds footer
-/// and journal and has the new commit, a writer by doing 2 to 4 again, a reader in memory. A program that knows nothing
-/// of journals finds no signature in what is neither the one nor the other, and refuses it.
+/// If killed in step 1, the footer is missing and the last commit stands. If killed later, whoever opens the file next
+/// finds the footer and journal and obtains the new commit: a writer by repeating steps 2 to 4, a reader in memory. A
+/// program that knows nothing of journals finds no signature in a half-committed file and rejects it.
 ///
-/// Two kinds of locks: a writer holds flock() exclusively as long as it has the file open, as HDF5 itself has it, so
-/// that there is one writer and no reader unawares. A reader that finds it held is `live`: it holds steps 2 to 4 off
-/// by a lock on bytes far behind any file's end, for two seconds at most; what it has read until then is one commit,
-/// what it read later must be thrown away (expired()). A writer waits longer than that and goes on in any case.
+/// Two kinds of locks: a writer holds an exclusive flock() as long as it has the file open, as HDF5 itself does, so
+/// that there is only one writer and no unsuspecting reader. A reader that finds it held is `live`: it blocks steps 2
+/// to 4 by a lock on bytes far beyond any file's end, for two seconds at most. What it has read until then belongs to
+/// one commit; anything read later must be discarded (expired()). A writer waits longer than that and then continues in
+/// any case.
 ///
-/// Functions return errno, 0: done. No HDF5 in here.
+/// Functions return errno, 0 on success. Nothing here uses HDF5.
 class JournaledFile {
 public:
     enum class Mode : std::uint8_t { create, change, read };
@@ -43,8 +43,8 @@ public:
     JournaledFile& operator=(const JournaledFile&) = delete;
     ~JournaledFile();  ///< closes without commit
 
-    /// Creates or empties, opens for change (a commit that was broken off is completed first), or opens for reading.
-    /// EWOULDBLOCK: another program or object is writing it, or reading it while this one wants to write.
+    /// Creates or empties the file, opens it for changes (first completing an interrupted commit), or opens it for
+    /// reading. EWOULDBLOCK: another program or object is writing it, or reading it while this one wants to write.
     int open(const char* path, Mode mode);
     int close();
 
@@ -56,17 +56,17 @@ public:
     [[nodiscard]] Mode mode() const { return mode_; }
     [[nodiscard]] bool live() const { return live_; }
     [[nodiscard]] bool expired() const { return live_ && Clock::now() - opened_ > lease; }
-    /// Time for a reader to close the file and to open it anew, if more is to be read.
+    /// True if a reader should close and reopen the file before reading more.
     [[nodiscard]] bool stale() const { return live_ && Clock::now() - opened_ > lease / 4; }
-    /// Each commit waits until the disk has it, which makes it safe against loss of power.
+    /// Makes each commit wait for the disk, which makes it safe against power loss.
     void synchronise(bool on) { synchronise_ = on; }
 
-    /// What was written, committed or not; zeros behind the end.
+    /// Reads what was written, committed or not; zeros beyond the end.
     int read(std::uint64_t address, std::span<char> to) const;
-    /// After an error of the disk, which is kept (error()), all goes to memory and nothing is committed any more.
+    /// After a disk error, which is remembered (error()), everything goes to memory and nothing is committed any more.
     void write(std::uint64_t address, std::span<const char> from);
     /// @param end  length of the contents from now on
-    /// @return also ENOENT if the file has been removed, EIO if somebody has cut it off
+    /// @return also ENOENT if the file has been removed, EIO if it has been truncated
     int commit(std::uint64_t end);
     [[nodiscard]] int error() const { return error_; }
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the HDF5 file layer needs from the C library: owned identifiers, the error stack, storage that may fill up.
+/// What the HDF5 file layer needs from the C library: owned identifiers, the error stack, handling of a full disk.
 /// Internal: includes hdf5.h, not for users of the library.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace cardan::solvers::detail {
 
-/// While it lives, the C library prints no errors on this thread; the setting of the host program returns afterwards.
+/// While it exists, the C library prints no errors on this thread; the host program's setting is restored afterwards.
 class Quiet {
 public:
     Quiet() {
@@ -48,7 +48,7 @@ public:
 
     [[nodiscard]] hid_t get() const { return id_; }
     [[nodiscard]] bool valid() const { return id_ >= 0; }
-    /// Negative on failure: buffered data may be written only now.
+    /// Negative on failure, which may happen because buffered data are only written now.
     herr_t close() { return id_ < 0 ? 0 : closer_(std::exchange(id_, -1)); }
 
 private:
@@ -56,16 +56,16 @@ private:
     Closer closer_;
 };
 
-/// What happened on the disk so far.
+/// Disk errors so far.
 struct DiskState {
     int error = 0;  ///< errno of the first operation that failed; 0: none
 };
 
-/// File access list for a file to be written. A write that fails (full disk, quota, lost mount) is noted in `state` and
-/// reported to the C library as done: HDF5 1.10 does not survive a failed flush; it can neither close the file nor end
-/// the program without a crash. Whoever writes looks at `state` after each step. `state` outlives the file.
-/// The file is locked against other writers and readers as long as it is open. Its format is that of HDF5 1.8, whose
-/// headers have checksums.
+/// File access list for a file to be written. A write that fails (full disk, quota, lost mount) is recorded in `state`
+/// and reported to the C library as successful: HDF5 1.10 does not survive a failed flush and can then neither close
+/// the file nor end the program without crashing. Writers must check `state` after each step. `state` outlives the
+/// file. The file is locked against other writers and readers as long as it is open. Its format is that of HDF5 1.8,
+/// whose headers have checksums.
 [[nodiscard]] Handle writing_access(DiskState& state);
 
 }  // namespace cardan::solvers::detail

@@ -1,8 +1,8 @@
 /// @file
-/// Texts in HDF5 files, so that a damaged file leads nobody astray. Texts of variable length lie in a heap that has no
-/// checksums and that the C library follows without looking; arrays of texts of fixed length are read wrong by netCDF.
-/// So attributes are of fixed length, and arrays are characters with one more axis, as netCDF has them.
-/// Internal: includes hdf5.h, not for users of the library.
+/// Texts in HDF5 files, stored so that damage cannot go unnoticed. Variable-length strings lie in a heap without
+/// checksums, which the C library follows blindly; arrays of fixed-length strings are read incorrectly by netCDF. So
+/// attributes have fixed length, and arrays are character arrays with one more axis, as in netCDF. Internal: includes
+/// hdf5.h, not for users of the library.
 #pragma once
 
 #include "solvers/hdf5/detail/storage.hpp"
@@ -14,27 +14,27 @@
 
 namespace cardan::solvers::detail {
 
-/// UTF-8, filled up with NUL. One byte is the least that HDF5 has.
+/// UTF-8, padded with NUL. HDF5 needs at least one byte.
 [[nodiscard]] Handle text_type(std::size_t bytes);
 
-/// Texts one after the other, each filled up with NUL to the length of the longest.
+/// Texts one after another, each padded with NUL to the length of the longest.
 struct CharacterBlock {
     explicit CharacterBlock(std::span<const std::string> texts);
     std::size_t length = 1;  ///< bytes of a text
     std::vector<char> characters;
 };
 
-/// netCDF4-python up to 1.6 cuts arrays of texts at wrong places when it is told to decode them, unless there is one or
-/// all are ASCII.
+/// netCDF4-python up to 1.6 splits arrays of texts in the wrong places when told to decode them, unless there is only
+/// one text or all are ASCII.
 [[nodiscard]] bool may_be_decoded(std::span<const std::string> texts);
 
-/// An array of characters, whose last axis runs over a text?
+/// True for an array of characters whose last axis runs along a text.
 [[nodiscard]] bool is_character_array(hid_t type, int axes);
 
-/// Up to the fill.
+/// The text without its padding.
 [[nodiscard]] std::string text_of(const char* from, std::size_t size, H5T_str_t padding);
 
-/// What netCDF writes as the name of a scale of an axis that has no values.
+/// What netCDF writes as the name of the scale of an axis without values.
 [[nodiscard]] std::string name_without_values(std::size_t length);
 
 }  // namespace cardan::solvers::detail

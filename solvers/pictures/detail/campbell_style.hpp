@@ -1,5 +1,5 @@
 /// @file
-/// What pictures of Campbell diagrams and of their differences have in common.  Internal.
+/// Style shared by pictures of Campbell diagrams and of their differences. Internal.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
@@ -9,7 +9,7 @@
 
 namespace cardan::solvers {
 
-/// gnuplot's dash type by which one pattern of the rotor is told from another of the same family.
+/// gnuplot dash type that distinguishes rotor patterns of the same family.
 int dash(RotorPattern pattern);
 
 /// Rotor speeds in rev/min, or the values of another parameter.

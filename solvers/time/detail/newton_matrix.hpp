@@ -21,13 +21,13 @@ class NewtonMatrix {
 public:
     NewtonMatrix(EquationsOfMotion& equations, SUNContext context);
 
-    /// @param fresh  evaluates A and B at the state; else those of the last time are used
+    /// @param fresh  evaluates A and B at the state; otherwise the previous ones are reused
     /// @return false if they cannot be evaluated; problem() of the equations says why
     bool form(double time, const double* x, double c, bool fresh);
     /// x = M^-1 b, both of size 2 n; may be the same
     void solve(const double* b, double* x);
 
-    /// Handles for SUNDIALS, which know this object; they live as long as it.
+    /// Handles for SUNDIALS that refer to this object and live as long as it does.
     SUNMatrix matrix() { return matrix_.get(); }
     SUNLinearSolver solver() { return solver_.get(); }
 

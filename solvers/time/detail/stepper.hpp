@@ -1,5 +1,5 @@
 /// @file
-/// What the integrator needs of a method of integration.
+/// What the integrator requires of an integration method.
 #pragma once
 
 #include "solvers/time/integrate.hpp"
@@ -23,32 +23,32 @@ private:
     Vector absolute_, largest_;
 };
 
-/// The entry of x whose error is largest beside its weight.
+/// The entry of x with the largest weighted error.
 struct LimitingEntry {
     int entry = -1;
-    double error = 0;  ///< weighted; 1 is what is allowed in the mean
+    double error = 0;  ///< weighted; 1 is the allowed RMS value
 };
 LimitingEntry limiting_entry(const double* errors, const double* weights, int size);
 
-/// Counters added, or taken away (sign -1); order and step of the later one.
+/// Counters added, or subtracted (sign -1); order and step size of the later one.
 IntegrationStatistics sum(const IntegrationStatistics& earlier, const IntegrationStatistics& later, int sign = 1);
 
-/// One method of integration of the unknowns x.
+/// An integration method for the unknowns x.
 ///
-/// A method of one step depends on more than the state: on matrices that are kept from step to step, on estimates, on
-/// the step that it would take next. Every 100 steps it drops all but the last of these, so that from there on its
-/// steps follow from a few numbers, in any process: origin().
+/// Even a one-step method depends on more than the state: on matrices kept from step to step, on estimates, on the next
+/// step size. Every 100 steps it drops all of these but the last, so that from there on its steps are determined by a
+/// few numbers, in any process: origin().
 class Stepper {
 public:
     virtual ~Stepper() = default;
-    /// Starts without history. Steps will end at `stop` (infinity: nowhere) or before.
+    /// Starts without history. Steps will not go beyond `stop` (infinity: no limit).
     void start(double time, const double* x, double stop);
-    /// One accepted step. @param horizon  the time the user wants next: a scale for the first step, no limit
-    /// @return false: no step was possible, failure() says why. Exceptions of user functions pass through.
+    /// One accepted step. @param horizon  the next output time: a scale for the first step, not a limit
+    /// @return false: no step was possible, failure() says why. Exceptions of user functions propagate.
     bool step(double horizon);
-    /// Of what the present state has come; of a method of several steps: nothing to repeat.
+    /// From what the present state has been computed; for a multistep method: nothing to repeat.
     const MethodState& origin() const { return origin_; }
-    /// Takes those steps (again).  @return false if they are not of this method, or if one fails
+    /// Repeats those steps. @return false if they belong to another method, or if one fails
     bool repeat(const MethodState& from, double stop);
     /// End of the last step.
     virtual double time() const = 0;
@@ -58,18 +58,18 @@ public:
     const std::string& failure() const { return failure_; }
 
 protected:
-    /// @param memory  numbers that do_resume() needs, one at least; 0: a method of several steps
+    /// @param memory  how many numbers do_resume() needs, at least one; 0: a multistep method
     Stepper(int unknowns, int memory);
     virtual void do_start(double time, const double* x, double stop) = 0;
     virtual bool do_step(double horizon) = 0;
-    /// The step to come, s, and what else the next steps follow from.
+    /// Writes the next step size, s, and whatever else determines the next steps.
     virtual void remember(double* /*memory*/) const {}
-    /// Drops everything but that.
+    /// Drops everything except that.
     virtual void do_resume(double /*time*/, const double* /*x*/, double /*stop*/, const double* /*memory*/) {}
 
-    /// A step from one time to the other is no step: the clock has not moved, or by a few of its last digits only.
+    /// True if the time has not advanced, or only in its last few digits.
     static bool stands_still(double from, double to);
-    /// Weighted errors below this do not tell what limits a step.
+    /// Weighted errors below this do not indicate what limits a step.
     static constexpr double informative = 1e-3;
     static constexpr std::string_view standstill = "the step became as short as the clock can tell";
 
@@ -81,12 +81,13 @@ private:
     MethodState origin_;
 };
 
-/// Numbers that methods of one step remember: as many for each, so that a file of one has room for another.
+/// Number of values that one-step methods remember: the same for all, so that a file written by one has room for
+/// another.
 inline int step_memory(const EquationsOfMotion& equations) {
     return 3 + 3 * equations.size();
 }
 
-/// @throws InputError for options that the method does not have; NumericalError if SUNDIALS cannot be set up
+/// @throws InputError for options the method does not support; NumericalError if SUNDIALS cannot be set up
 std::unique_ptr<Stepper> make_cvode_stepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 std::unique_ptr<Stepper> make_arkode_stepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 std::unique_ptr<Stepper> make_alpha_stepper(EquationsOfMotion& equations, const IntegrationOptions& options);

@@ -1,5 +1,5 @@
 /// @file
-/// What the steppers of CVODE and ARKODE have in common. For sources only: it includes SUNDIALS.
+/// Common base of the steppers of CVODE and ARKODE. For sources only: it includes SUNDIALS.
 #pragma once
 
 #include "solvers/algebra/detail/sundials_memory.hpp"
@@ -19,23 +19,23 @@ public:
 protected:
     SundialsStepper(const char* library, EquationsOfMotion& equations, const IntegrationOptions& options, int memory);
 
-    // Exceptions must not cross the C library: they are kept and rethrown outside. What only concerns a trial state
-    // may be tried again with a shorter step.
+    // Exceptions must not cross the C library: they are stored and rethrown outside. If only a trial state is affected,
+    // a shorter step may be tried.
     static int rates(realtype t, N_Vector x, N_Vector xd, void* user);
     static int weights(N_Vector x, N_Vector w, void* user);
     int form_matrix(realtype t, N_Vector x, realtype c, booleantype old_will_do, booleantype* is_new);
     void rethrow();
 
     void use_newton() { newton_.emplace(equations_, context_.get()); }
-    /// Counters begin again; those so far are kept.
+    /// Counters restart; earlier counts are kept.
     void begin(double time, const double* x, double stop);
-    /// The time to hand to the library, which takes it as a scale for its first step.
+    /// The time to pass to the library, which uses it as a scale for its first step.
     double towards(double horizon) const;
     virtual IntegrationStatistics since_start() const = 0;
 
     /// Estimated local errors and their weights, into errors() and error_weights().
     virtual bool local_errors() = 0;
-    /// Why no step was possible, with what limits it.
+    /// Why no step was possible, and what limits the step.
     /// @param flag  of the library; not negative: the clock stood still
     std::string explain(int flag, std::string_view advice);
 
@@ -55,7 +55,7 @@ private:
     const char* library_;
     std::exception_ptr thrown_;
     IntegrationStatistics before_;  ///< up to the last start
-    // In this order: what a derived class owns goes first, the context last.
+    // Order of destruction matters: what a derived class owns first, the context last.
     SundialsContext context_;
     SundialsVector x_, errors_, error_weights_;
 

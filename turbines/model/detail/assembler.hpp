@@ -10,13 +10,13 @@ struct PartDamping {
     BeamDamping tower, blade;
 };
 
-/// Adds the parts in their order and remembers what the rotor map needs. The arguments must live as long.
+/// Adds the parts in order and remembers what the rotor map needs. The arguments must outlive the object.
 class Assembler {
 public:
     /// @throws InputError for data out of range; the part is named
     Assembler(const TurbineDescription& description, const AssemblyOptions& options, const PartDamping& damping);
 
-    // One of these, once.
+    // Call exactly one of these, once.
     void whole_machine();
     void one_blade();
     void tower_alone(const RigidInertia& head);
@@ -35,7 +35,7 @@ public:
 private:
     void check(const char* part, const std::optional<CardanBeamOptions>& beam) const;
     Spring spring(const Spring& s) const { return {s.stiffness, options_.joint_damping ? s.damping : 0.0}; }
-    // The frame behind a joint on a spring; a rigid one is none.
+    // The frame outboard of a joint with a spring; for a rigid joint no joint is added.
     FrameId past_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name, const PartLabel& label,
                        const Spring& law);
     JointedFrame sprung_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,

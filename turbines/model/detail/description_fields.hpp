@@ -1,5 +1,5 @@
 /// @file
-/// The fields of a description, once for writing and for reading. Inside of description_yaml: not installed.
+/// The fields of a description, listed once for both writing and reading. Internal to description_yaml: not installed.
 #pragma once
 
 #include "turbines/model/beam_table.hpp"

@@ -1,5 +1,5 @@
 /// @file
-/// Writes descriptions of machines as YAML. Inside of the library: not installed.
+/// Writes descriptions of machines as YAML. Internal: not installed.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -10,7 +10,7 @@
 
 namespace cardan::turbines {
 
-// As the reader takes them.
+// In the form the reader expects.
 inline std::string digits(double value, const std::string& where, bool or_infinite = false) {
     if (or_infinite && value == std::numeric_limits<double>::infinity()) return ".inf";
     if (!std::isfinite(value)) throw InputError(where, "number", value, or_infinite ? "finite, or infinite" : "finite");
@@ -36,10 +36,10 @@ inline std::string quoted(const std::string& words) {
     return out + "\"";
 }
 
-// Beam lines that are no tables are refused, or told by a table that comes near.
+// Beam lines without a table are rejected, or approximated by one.
 enum class BeamLines { exact, near };
 
-// Writes block by block, lists of numbers in one line.
+// Writes in block style, with lists of numbers on one line.
 class Writer {
 public:
     explicit Writer(BeamLines lines) : lines_(lines) {}
@@ -99,7 +99,7 @@ public:
     std::string out;
 
 private:
-    // Curved ones, and sections beyond engineering constants, are named at least.
+    // Curved lines, and sections that engineering constants cannot express, are at least named.
     void sampled_line(const char* key, const BeamLine& l) {
         std::optional<BeamTable> table;
         try {

@@ -1,6 +1,6 @@
 /// @file
-/// YAML with errors that name file, line, column, place in the document and what was expected. Inside of the readers of
-/// YAML models: not installed.
+/// YAML with errors that name file, line, column, place in the document and what was expected. Internal to the readers
+/// of YAML models: not installed.
 #pragma once
 
 #include "turbines/yaml/detail/tree.hpp"
@@ -14,10 +14,10 @@
 
 namespace cardan::turbines {
 
-/// A node and where it is. Everything that reads throws ParseError if the node is of another kind.
+/// A node and where it is. All reading functions throw ParseError if the node is of another kind.
 class YamlNode {
 public:
-    /// The only document of a text. @throws ParseError, see yaml_trees(), and if it is no map
+    /// The only document of a text. @throws ParseError, see yaml_trees(), and if it is not a map
     static YamlNode parse(const std::string& text, const std::string& file);
 
     const std::string& file() const { return document_->file; }
@@ -26,13 +26,13 @@ public:
     bool is_map() const { return tree_->kind == YamlTree::Kind::map; }
     bool is_list() const { return tree_->kind == YamlTree::Kind::list; }
 
-    /// Was it asked for, by the key or as an item of a list?
+    /// True if it was requested, by key or as an item of a list.
     bool was_read() const { return document_->read.contains(path_); }
 
-    /// Entry of a map. @throws ParseError with the keys there are
+    /// Entry of a map. @throws ParseError listing the existing keys
     YamlNode operator[](std::string_view key) const;
     std::optional<YamlNode> find(std::string_view key) const;
-    /// By dots: "structure.elastic_properties"; none if one of the steps is not there.
+    /// Entry by a dotted path, "structure.elastic_properties"; none if any part of it does not exist.
     std::optional<YamlNode> find_path(std::string_view keys) const;
     std::vector<std::string> keys() const;
     /// All entries of the map; they do not count as read.
@@ -42,10 +42,10 @@ public:
     std::string word() const;
     bool flag() const;
     int integer(int least, int most) const;
-    /// Finite, or infinite too (".inf").
+    /// A finite number, optionally also infinite (".inf").
     double number(bool or_infinite = false) const;
     std::vector<double> numbers(bool or_infinite = false) const;
-    /// As many as `count`.
+    /// Exactly `count` numbers.
     std::vector<double> numbers(std::size_t count) const;
 
     [[noreturn]] void fail(std::string_view what) const;

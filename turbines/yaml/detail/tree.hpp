@@ -1,5 +1,5 @@
 /// @file
-/// The tree of a YAML document, with limits that hold while it is read. Inside of the readers of YAML models: not
+/// The tree of a YAML document, with limits enforced while it is read. Internal to the readers of YAML models: not
 /// installed.
 #pragma once
 
@@ -11,13 +11,12 @@
 
 namespace cardan::turbines {
 
-/// What a document may ask of the machine that reads it. Models of turbines have 2 MiB, 200 000 nodes and a depth
-/// of 12.
+/// Limits on the resources a document may use. Turbine models have 2 MiB, 200 000 nodes and a depth of 12.
 struct YamlLimits {
     std::size_t bytes = std::size_t{8} << 20;
-    std::size_t nodes = 1'000'000;  ///< what an alias stands for counts each time
+    std::size_t nodes = 1'000'000;  ///< the target of an alias counts each time
     std::size_t depth = 60;         ///< likewise
-    std::size_t line = 1 << 20;     ///< bytes of one line: what the parser holds back until it knows a key
+    std::size_t line = 1 << 20;     ///< bytes of one line, which the parser buffers until it recognises a key
     std::size_t key = 1024;         ///< bytes
 };
 
@@ -27,16 +26,16 @@ struct YamlTree {
     Kind kind = Kind::null;
     int line = 1, column = 1;  ///< from 1
     std::string scalar = {};
-    /// Items, or keys and values in turn. An alias is the same node again, so that there is no loop.
+    /// Items, or alternating keys and values. An alias refers to the same node again; there are no cycles.
     std::vector<const YamlTree*> children = {};
-    std::size_t nodes = 1, depth = 1;  ///< with all that is in it
+    std::size_t nodes = 1, depth = 1;  ///< including all descendants
 };
 
 /// All nodes of a document; the first one is its root.
 using YamlTrees = std::vector<std::unique_ptr<YamlTree>>;
 
-/// @throws ParseError with file, line and limit: what is no text (require_text()) or has control characters, is no
-/// YAML, is more than one document, goes beyond the limits, has an alias of what the alias is in
+/// @throws ParseError with file, line and limit: if it is not text (require_text()) or has control characters, is not
+/// YAML, contains more than one document, exceeds the limits, or has an alias to a node that contains the alias
 [[nodiscard]] YamlTrees yaml_trees(const std::string& text, const std::string& file, const YamlLimits& limits = {});
 
 }  // namespace cardan::turbines

@@ -1,5 +1,5 @@
 /// @file
-/// Blade and tower of a windIO file. Inside of windio: not installed.
+/// Blade and tower of a windIO file. Internal to windio: not installed.
 #pragma once
 
 #include "mbs/base/units.hpp"
@@ -9,7 +9,7 @@
 
 namespace cardan::turbines {
 
-/// A windIO document: finds entries under the names of both versions and knows which ones were looked at.
+/// A windIO document: finds entries under the names of both versions and tracks which ones were read.
 class WindioFile {
 public:
     explicit WindioFile(YamlNode root);
@@ -21,11 +21,11 @@ public:
     }
     /// rad/s per unit of rotor speed: version 1 counts in rad/s, version 2 in rev/min.
     double rotor_speed() const { return version_ == 2 ? units::rpm : 1; }
-    /// The first of several paths ("components.hub.diameter") that is there; none.
+    /// The first of several paths ("components.hub.diameter") that exists, if any.
     std::optional<YamlNode> find(std::initializer_list<const char*> paths) const;
-    /// @throws ParseError naming the paths, where the first one ends
+    /// @throws ParseError naming the paths, at the point where the first one ends
     YamlNode get(std::initializer_list<const char*> paths) const;
-    /// Entries that nobody looked at beside others that were read, and the other top-level keys as a group.
+    /// Unread entries next to others that were read, and the other top-level keys as a group.
     std::vector<FileNote> unused() const;
     const YamlNode& root() const { return root_; }
     void note(const YamlNode& node, std::string value, std::string why);
@@ -39,7 +39,7 @@ private:
 
 BeamTable windio_blade(WindioFile& file);
 BeamDamping windio_blade_damping(WindioFile& file);
-/// Of the matrices of its elastic properties; without them a tube of its layers.
+/// From the matrices of its elastic properties; without them, a tube made of its layers.
 BeamTable windio_tower(WindioFile& file);
 BeamDamping windio_tower_damping(WindioFile& file);
 
