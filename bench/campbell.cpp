@@ -123,8 +123,8 @@ BENCHMARK(point_modes)->Unit(benchmark::kMicrosecond);
 
 void point_shares(benchmark::State& state) {
     Stages stages;
-    const solvers::Identification identification(stages.lin, stages.system.model, stages.rotor, stages.unknowns,
-                                                 stages.coleman.rows());
+    const solvers::EnergyShares energy_shares(stages.lin, stages.system.model, stages.rotor, stages.unknowns,
+                                              stages.coleman.rows());
     solvers::Mode mode;
     Vector by_row;
     std::vector<solvers::Share> shares;
@@ -133,7 +133,7 @@ void point_shares(benchmark::State& state) {
         for (std::size_t i = 0; i < count; ++i) {
             stages.mode_solver.copy(i, mode);
             stages.mode_solver.energy_by_row(i, by_row);
-            identification.shares(mode, shares);
+            energy_shares.shares(mode, shares);
         }
 }
 BENCHMARK(point_shares)->Unit(benchmark::kMicrosecond);

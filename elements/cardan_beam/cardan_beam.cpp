@@ -34,7 +34,7 @@ std::vector<double> element_ends(const BeamLine& line, const CardanBeamOptions& 
 
 // What a place of the hinges costs that does not suit the partition; empty: nothing.
 std::string unsuited_delta(const CardanBeamOptions& options) {
-    const double delta = options.hinge_delta(), suited = suited_delta(options.partition);
+    const double delta = options.hinge_delta(), suited = recommended_delta(options.partition);
     if (places_hinges(options.partition) || std::abs(delta - suited) < 1e-4) return {};
     const bool moments = options.partition == Partition::static_moment;
     return text("hinges at delta = ", delta, " with ", partition_name(options.partition), ": ",

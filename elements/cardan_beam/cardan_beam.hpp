@@ -26,8 +26,8 @@ enum class CardanOrder : std::uint8_t { mirrored, same };
 struct CardanBeamOptions {
     int elements = 3;                     ///< equal lengths, unless `boundaries` is given
     std::vector<double> boundaries = {};  ///< element ends from 0 to the length of the beam, m
-    /// Place of the hinges, 0 < delta < 0.5. Empty: suited_delta() of the partition; any other value lowers the order
-    /// of convergence and gives a warning. Ignored by partitions that place the hinges themselves.
+    /// Place of the hinges, 0 < delta < 0.5. Empty: recommended_delta() of the partition; any other value lowers the
+    /// order of convergence and gives a warning. Ignored by partitions that place the hinges themselves.
     std::optional<double> delta = {};
     Partition partition = Partition::segment_masses;
     CardanOrder order = CardanOrder::mirrored;
@@ -45,7 +45,7 @@ struct CardanBeamOptions {
     /// names the coordinate.
     double bending_armature = 0;
     double torsion_armature = 0;  ///< on the torsion coordinate, times the polar inertia of the element
-    double hinge_delta() const { return delta.value_or(suited_delta(partition)); }
+    double hinge_delta() const { return delta.value_or(recommended_delta(partition)); }
 };
 
 /// What was added to the tree.

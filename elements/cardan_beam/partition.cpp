@@ -156,7 +156,7 @@ ElementInertia partition_element(const ElementLine& on, double delta, Partition 
     element.body[0].J += left;
     element.body[3].J += right;
     element.polar_inertia += left(0, 0) + right(0, 0);
-    element.tilted_moment = take_masses_off_the_tilt(on, element);
+    element.tilted_moment = shift_tilted_masses(on, element);
     return element;
 }
 

@@ -23,7 +23,7 @@ enum class Partition : std::uint8_t {
 
 /// Hinge position that suits a partition, as a fraction of the length; delta_gauss for partitions that place the hinges
 /// themselves.
-constexpr double suited_delta(Partition partition) {
+constexpr double recommended_delta(Partition partition) {
     return partition == Partition::static_moment ? 1. / 6 : delta_gauss;
 }
 

@@ -201,7 +201,7 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
 }
 
 SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
-                               const Transmission& carried, double s) {
+                               const JointLoads& loads, double s) {
     const Cut cut = cut_at(beam, s);
     const CardanBeam::Element& element = *cut.element;
     const Model& model = kin.model();
@@ -219,17 +219,17 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const double hinge_s = element.start + hinge[cut.segment] * element.arc;
 
     WrenchSum sum(here.p);
-    sum.add(carried.joint[joint].force, carried.joint[joint].moment, carried.motion[joint].origin);
+    sum.add(loads.joint[joint].force, loads.joint[joint].moment, loads.motion[joint].origin);
     const int body = model.frame(element.segments[cut.segment].carrier).body;
     BodyMotion motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // a beam clamped to the base
-    if (body >= 0) motion = carried.motion[static_cast<std::size_t>(body)];
+    if (body >= 0) motion = loads.motion[static_cast<std::size_t>(body)];
     const Load load =
         of_segment(cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s)) * (inward ? 1 : -1);
     sum.add(load.head<3>(), load.tail<3>(), axes.p);
     add_wrenches(sum, beam, cut, axes, kin, forces, inward);
-    SectionLoads loads;
-    loads.values = -sum.in(here.R);
-    return loads;
+    SectionLoads result;
+    result.values = -sum.in(here.R);
+    return result;
 }
 
 }  // namespace cardan

@@ -37,6 +37,6 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
 /// on its segments (distributed loads, CardanBeam::Segment::carrier) or nodes, not merely on the same body. User forces
 /// are left out, since they are not given as wrenches.
 SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, const Forces& forces,
-                               const Transmission& carried, double s);
+                               const JointLoads& loads, double s);
 
 }  // namespace cardan

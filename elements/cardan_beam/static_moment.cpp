@@ -60,7 +60,7 @@ void move_to_static_moment(const ElementLine& on, double delta, ElementInertia& 
     }
     if (own < 0)  // so it is if D < 0
         throw InputError(where(on), "moment of inertia left for the middle bodies [kg m^2]", own,
-                         std::abs(delta - suited_delta(Partition::static_moment)) < 1e-4
+                         std::abs(delta - recommended_delta(Partition::static_moment)) < 1e-4
                              ? text(">= 0: the element is too tapered for static moments; take another partition, or "
                                     "end an element where the stiffness begins to fall")
                              : text(">= 0: delta = ", delta, " leaves them none; static moments are made for 1/6, ",

@@ -60,7 +60,7 @@ double move(RigidInertia& end, RigidInertia& between, const Eigen::Vector2d& mom
 
 }  // namespace
 
-Eigen::Matrix2d part_of_shear(const ElementLine& on, const Hinges& hinges) {
+Eigen::Matrix2d shear_fraction(const ElementLine& on, const Hinges& hinges) {
     if (!is_flexible_in_shear(on)) return Eigen::Matrix2d::Zero();
     // Opposite moments m and -m at the hinges bend by M = m (x1 + x2 - 2 x) / d and shear by V = 2 m / d.
     const double d = hinges.second - hinges.first, sum = hinges.first + hinges.second, arc = on.end() - on.start();
@@ -77,8 +77,8 @@ Eigen::Matrix2d part_of_shear(const ElementLine& on, const Hinges& hinges) {
     return sheared * all.inverse();
 }
 
-double take_masses_off_the_tilt(const ElementLine& on, ElementInertia& element) {
-    const Eigen::Matrix2d share = part_of_shear(on, element.hinges).transpose();
+double shift_tilted_masses(const ElementLine& on, ElementInertia& element) {
+    const Eigen::Matrix2d share = shear_fraction(on, element.hinges).transpose();
     if (share.isZero(0)) return 0;
     std::array<RigidInertia, 4>& B = element.body;
     const auto moment = [&](const RigidInertia& body) {

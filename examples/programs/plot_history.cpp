@@ -165,7 +165,7 @@ void draw(const Arguments& a, const std::string& suffix, const std::string& what
 
 // To put behind a number.
 std::string unit(const solvers::ShownUnits& shown) {
-    return shown.units == "1" ? "" : text(" ", solvers::written(shown.units));
+    return shown.units == "1" ? "" : text(" ", solvers::display_text(shown.units));
 }
 
 void print_values(const solvers::History& history, const std::vector<std::string>& names, const Arguments& a) {

@@ -47,7 +47,7 @@ private:
 void refuse_if_written(const std::string& path) {
     const Opened file(path, O_RDONLY | O_NONBLOCK);
     if (file.fd() >= 0 && is_locked(file.fd(), LOCK_SH))
-        throw FileError(path, text("cannot be replaced: ", who_has_it_open(path)));
+        throw FileError(path, text("cannot be replaced: ", lock_holder(path)));
 }
 
 // Of a line of /proc/locks: "7: FLOCK  ADVISORY  WRITE 4711 08:01:123456 0 EOF"; 0: it is of another file.
@@ -70,7 +70,7 @@ int holder(const std::string& path) {
 
 }  // namespace
 
-std::string who_has_it_open(const std::string& path) {
+std::string lock_holder(const std::string& path) {
     std::string answer = "another program, or another object of this one, has it open";
     // Who has just begun the file may be about to lock it again, under its other name.
     for (int attempt = 0; attempt < 10; ++attempt) {
@@ -109,7 +109,7 @@ bool PendingFile::lock_partial() {
     if (file.fd() < 0)
         throw FileError(path_,
                         text("cannot be written: ", std::generic_category().message(errno), " (", partial_, ")"));
-    if (is_locked(file.fd(), LOCK_EX)) throw FileError(path_, text("cannot be written: ", who_has_it_open(path_)));
+    if (is_locked(file.fd(), LOCK_EX)) throw FileError(path_, text("cannot be written: ", lock_holder(path_)));
     struct stat mine {};
     struct stat now {};
     if (::fstat(file.fd(), &mine) == 0 &&
@@ -147,7 +147,7 @@ void PendingFile::give_name(bool replace) const {
         const bool none = older.fd() < 0 && errno == ENOENT;
         if (!none && !replace) throw FileError(path_, "is there already");
         if (!none && older.fd() >= 0 && is_locked(older.fd(), LOCK_SH))
-            throw FileError(path_, text("cannot be replaced: ", who_has_it_open(path_)));
+            throw FileError(path_, text("cannot be replaced: ", lock_holder(path_)));
         if (none && ::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0) return;
         if (none && errno == EEXIST) continue;
         std::error_code code;  // of a file system that cannot rename in this way, as well

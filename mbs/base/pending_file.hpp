@@ -48,7 +48,7 @@ private:
 };
 
 /// Who has locked a file, as far as the system can tell.
-std::string who_has_it_open(const std::string& path);
+std::string lock_holder(const std::string& path);
 
 /// Writes a whole text through a PendingFile. On FileError the previous file stays, and no partial file is left.
 void write_file(const std::filesystem::path& path, std::string_view contents);

@@ -27,7 +27,7 @@ struct ChannelInput {
     const Vector& actuator;  ///< generalised forces of the drives on their coordinates, N m or N
     const Kinematics& kinematics;
     const Forces& forces;
-    const Transmission& carried;  ///< motion and joint loads of all bodies
+    const JointLoads& loads;  ///< motion and joint loads of all bodies
 };
 
 /// Channels that are computed together.

@@ -12,13 +12,13 @@ void add_at(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to,
 
 }  // namespace
 
-Transmission transmission(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd) {
+JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd) {
     const Model& model = kin.model();
-    require_model("transmission", "set of forces", forces.model_serial(), model.serial());
+    require_model("joint loads", "set of forces", forces.model_serial(), model.serial());
     const Workspace& ws = kin.workspace();
     Vector tau(model.size());
     inverse_dynamics<double>(kin, qd, qdd, tau);
-    Transmission t;
+    JointLoads t;
     for (int k = 0; k < model.size(); ++k) {
         const auto i = static_cast<std::size_t>(k);
         const Workspace::Motion& motion = ws.motion[i];

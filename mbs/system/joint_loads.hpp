@@ -21,7 +21,7 @@ struct BodyMotion {
 };
 
 /// Motion and joint loads of all bodies at one state.
-struct Transmission {
+struct JointLoads {
     std::vector<BodyMotion> motion;  ///< one per body
     /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
     /// inertial forces of the subtree minus gravity and wrenches on it, base axes. User forces are left out, since they
@@ -30,6 +30,6 @@ struct Transmission {
 };
 
 /// @param qd, qdd  rates and accelerations, size n
-Transmission transmission(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd);
+JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd);
 
 }  // namespace cardan

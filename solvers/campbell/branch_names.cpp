@@ -22,9 +22,9 @@ struct Label {
     int row = -1;
 };
 
-std::vector<Label> component_labels(const Identification& identification, bool whirl) {
+std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whirl) {
     std::vector<Label> labels;
-    const auto& components = identification.components();
+    const auto& components = energy_shares.components();
     const RotorPattern first = whirl ? RotorPattern::backward : RotorPattern::cosine,
                        second = whirl ? RotorPattern::forward : RotorPattern::sine;
     for (std::size_t i = 0; i < components.size(); ++i) {
@@ -38,13 +38,13 @@ std::vector<Label> component_labels(const Identification& identification, bool w
             labels.push_back({c, RotorPattern::none});
             continue;
         }
-        if (identification.two_blades()) {
+        if (energy_shares.two_blades()) {
             for (const RotorPattern pattern : {RotorPattern::symmetric, RotorPattern::antisymmetric})
                 labels.push_back({c, pattern});
             continue;
         }
         labels.push_back({c, RotorPattern::collective});
-        for (int n = 1; n <= identification.harmonics(); ++n) {
+        for (int n = 1; n <= energy_shares.harmonics(); ++n) {
             labels.push_back({c, first, n});
             labels.push_back({c, second, n});
         }
@@ -80,13 +80,13 @@ std::string motion_name(const std::string& row, const std::string& kind, const s
 
 class Naming {
 public:
-    Naming(const std::vector<CampbellPoint>& points, const Identification& identification,
+    Naming(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
            const std::vector<std::string>& rows, bool whirl, NeighbourNames* neighbour)
         : points_(points),
-          identification_(identification),
+          energy_shares_(energy_shares),
           rows_(rows),
           neighbour_(neighbour),
-          labels_(component_labels(identification, whirl)) {}
+          labels_(component_labels(energy_shares, whirl)) {}
 
     std::vector<Branch> name(std::vector<Branch> branches) {
         for (const Branch& branch : branches)
@@ -141,7 +141,7 @@ private:
     void name_motions(std::vector<Branch>& branches) const;
 
     const std::vector<CampbellPoint>& points_;
-    const Identification& identification_;
+    const EnergyShares& energy_shares_;
     const std::vector<std::string>& rows_;
     NeighbourNames* neighbour_;  // may be null
     std::vector<Label> labels_;
@@ -187,7 +187,7 @@ std::size_t Naming::own_label(const Branch& partner) const {
     for (; l < labels_.size(); ++l) {
         const Label& label = labels_[l];
         if (label.row >= 0 || label.pattern != partner.pattern || label.harmonic != partner.harmonic) continue;
-        const Component& own = identification_.components()[static_cast<std::size_t>(label.component)];
+        const Component& own = energy_shares_.components()[static_cast<std::size_t>(label.component)];
         if (own.part == wanted.part && own.family == wanted.family && own.ordinal == wanted.ordinal) break;
     }
     return l;
@@ -204,7 +204,7 @@ void Naming::continue_names(const std::vector<Branch>& branches, Matrix& score) 
         if (l == labels_.size()) continue;
         const Label& label = labels_[l];
         const auto row = static_cast<Eigen::Index>(b), column = static_cast<Eigen::Index>(l);
-        const bool own_name = partner->name == identification_.name(label.component, label.pattern, label.harmonic);
+        const bool own_name = partner->name == energy_shares_.name(label.component, label.pattern, label.harmonic);
         score.row(row).setZero();
         score(row, column) = own_name ? outweighs : 1e-9;
     }
@@ -238,7 +238,7 @@ Label Naming::strongest(std::size_t point, const CampbellMode& mode, const Label
 }
 
 std::string Naming::label_name(const Label& label, const CampbellMode& mode) const {
-    if (label.row < 0) return identification_.name(label.component, label.pattern, label.harmonic);
+    if (label.row < 0) return energy_shares_.name(label.component, label.pattern, label.harmonic);
     return motion_name(rows_[static_cast<std::size_t>(label.row)], mode.kind_name(), "", "");
 }
 
@@ -257,8 +257,8 @@ void Naming::set(Branch& branch, const Label& label) const {
     branch.harmonic = label.harmonic;
     branch.row = label.row;
     if (label.row < 0) {
-        branch.name = identification_.name(label.component, label.pattern, label.harmonic);
-        branch.family = identification_.components()[static_cast<std::size_t>(label.component)].family;
+        branch.name = energy_shares_.name(label.component, label.pattern, label.harmonic);
+        branch.family = energy_shares_.components()[static_cast<std::size_t>(label.component)].family;
     } else {
         branch.family = rows_[static_cast<std::size_t>(label.row)];
     }
@@ -322,7 +322,7 @@ void Naming::name_motions(std::vector<Branch>& branches) const {
 
 }  // namespace
 
-std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const Identification& identification,
+std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
                                       const std::vector<std::string>& rows, bool whirl,
                                       NeighbourNames* neighbour) const {
     std::vector<Branch> tracked;
@@ -331,7 +331,7 @@ std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, 
         branch.mode = track.mode;
         branch.mac = track.mac;
     }
-    std::vector<Branch> branches = Naming(points, identification, rows, whirl, neighbour).name(std::move(tracked));
+    std::vector<Branch> branches = Naming(points, energy_shares, rows, whirl, neighbour).name(std::move(tracked));
     const auto first_frequency = [&](const Branch& branch) {
         for (std::size_t i = 0; i < points.size(); ++i)
             if (branch.mode[i] >= 0) return points[i].modes[static_cast<std::size_t>(branch.mode[i])].mode.natural_hz();

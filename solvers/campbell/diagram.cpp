@@ -159,7 +159,7 @@ void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     const double lowest = lowest_vibration(point.modes);
     for (const CampbellMode& m : point.modes) {
         const Complex lambda = m.mode.eigenvalue;
-        if (std::abs(lambda) > most_certain_ratio * lowest) continue;
+        if (std::abs(lambda) > max_reliable_ratio * lowest) continue;
         const double scale = std::isfinite(lowest) ? std::max(lowest, std::abs(lambda)) : std::abs(lambda);
         const bool grows = m.kind() != FloquetKind::rigid && lambda.real() > 1e-6 * scale;
         if (grows && lambda.real() > fastest.real()) fastest = lambda;
@@ -214,7 +214,7 @@ public:
     Campbell finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
 
 private:
-    void align(const Identification& own, CampbellPoint& point);
+    void align(const EnergyShares& own, CampbellPoint& point);
     void set_branches(const std::vector<const PointMethod*>& solvers);
     void set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
 
@@ -222,8 +222,8 @@ private:
     std::size_t points_;
     Campbell diagram_;
     std::vector<FrameId> frames_;
-    std::vector<const System*> systems_;     // by point
-    const Identification* first_ = nullptr;  // of the first machine
+    std::vector<const System*> systems_;   // by point
+    const EnergyShares* first_ = nullptr;  // of the first machine
     Tracker tracker_;
     std::optional<NeighbourNames> neighbour_;
     std::string instability_;
@@ -251,9 +251,9 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
     }
     CampbellPoint point;
     solver.solve(rotor_speed, point);
-    align(*solver.identification(), point);
+    align(*solver.energy_shares(), point);
     if (options_.method == CampbellMethod::floquet) {
-        const PeriodicLikeness likeness = periodic_likeness(solver.system(), tracker_.last(), point.modes);
+        const PeriodicMac likeness = periodic_mac(solver.system(), tracker_.last(), point.modes);
         tracker_.add(likeness.score, likeness.mac, point);
     } else {
         tracker_.add(solver.system(), point);
@@ -267,7 +267,7 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
 }
 
 // Another machine may have its component modes in another order.
-void Sweep::align(const Identification& own, CampbellPoint& point) {
+void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
     if (!first_) first_ = &own;
     if (first_ == &own) return;
     const std::vector<Component>&wanted = first_->components(), &there = own.components();
@@ -292,14 +292,14 @@ void Sweep::align(const Identification& own, CampbellPoint& point) {
 }
 
 void Sweep::set_branches(const std::vector<const PointMethod*>& solvers) {
-    const Identification* identification = solvers[0]->identification();
-    if (!identification) return;
-    diagram_.components = identification->components();
+    const EnergyShares* energy_shares = solvers[0]->energy_shares();
+    if (!energy_shares) return;
+    diagram_.components = energy_shares->components();
     const bool whirl = options_.method != CampbellMethod::frozen_azimuth &&
                        std::any_of(diagram_.points.begin(), diagram_.points.end(),
                                    [](const CampbellPoint& p) { return p.rotor_speed != 0; });
     diagram_.branches =
-        tracker_.branches(diagram_.points, *identification, diagram_.rows, whirl, neighbour_ ? &*neighbour_ : nullptr);
+        tracker_.branches(diagram_.points, *energy_shares, diagram_.rows, whirl, neighbour_ ? &*neighbour_ : nullptr);
     std::erase_if(diagram_.branches,
                   [&](const Branch& b) { return lowest_frequency(diagram_, b) > options_.max_frequency_hz; });
     drop_high_modes(diagram_, options_.max_frequency_hz);

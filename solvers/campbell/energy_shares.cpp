@@ -104,13 +104,13 @@ double Share::total() const {
     return sum;
 }
 
-Identification::Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
-                               const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
+EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                           const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
     : two_blades_(rotor.blades.size() == 2) {
     check(rotor, model);
-    require_count("identification", "rows", rows.size(), coordinates.size());
-    require_size("identification", "elastic stiffness", lin.elastic, model.size(), model.size());
-    for (const int coordinate : coordinates) require_index("identification", "coordinate", coordinate, model.size());
+    require_count("energy shares", "rows", rows.size(), coordinates.size());
+    require_size("energy shares", "elastic stiffness", lin.elastic, model.size(), model.size());
+    for (const int coordinate : coordinates) require_index("energy shares", "coordinate", coordinate, model.size());
     for (const PartAxes& part : rotor.parts) {
         Block block{}, shaft{};
         std::vector<int> own_plane;  // of rotating pairs: the one plane tells the component modes of both
@@ -157,8 +157,8 @@ Identification::Identification(const Linearisation& lin, const Model& model, con
     }
 }
 
-void Identification::add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
-                              const std::vector<int>& own, Block block) {
+void EnergyShares::add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
+                            const std::vector<int>& own, Block block) {
     const Matrix K = lin.elastic(own, own), M = lin.mass(own, own);
     const std::vector<std::string> families = coordinate_families(model, part, own);
     const ComponentModes modes = component_modes(K, M, part.part);
@@ -173,8 +173,8 @@ void Identification::add_part(const Linearisation& lin, const Model& model, cons
     blocks_.push_back(std::move(block));
 }
 
-Complex Identification::amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
-                                  const Mode& mode) {
+Complex EnergyShares::amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
+                                const Mode& mode) {
     const auto weights = block.weights.col(component);
     double re = 0, im = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -187,8 +187,8 @@ Complex Identification::amplitude(const Block& block, Eigen::Index component, co
 }
 
 // Energies, not yet divided by their sum. `higher` lends its memory.
-Share Identification::share(const Block& block, Eigen::Index component, const Mode& mode,
-                            std::vector<WhirlShare> higher) {
+Share EnergyShares::share(const Block& block, Eigen::Index component, const Mode& mode,
+                          std::vector<WhirlShare> higher) {
     Share share;
     share.component = static_cast<int>(block.first_component + component);
     share.collective = std::norm(amplitude(block, component, block.collective, mode));
@@ -208,7 +208,7 @@ Share Identification::share(const Block& block, Eigen::Index component, const Mo
     return share;
 }
 
-void Identification::shares(const Mode& mode, std::vector<Share>& out) const {
+void EnergyShares::shares(const Mode& mode, std::vector<Share>& out) const {
     out.resize(components_.size());
     double total = 0;
     for (const Block& block : blocks_)
@@ -220,7 +220,7 @@ void Identification::shares(const Mode& mode, std::vector<Share>& out) const {
     divide_by(total, out);
 }
 
-void Identification::divide_by(double total, std::vector<Share>& shares) {
+void EnergyShares::divide_by(double total, std::vector<Share>& shares) {
     const double scale = total > 0 ? 1 / total : 0.0;
     for (Share& own : shares) {
         for (double* part : {&own.collective, &own.cosine, &own.sine, &own.differential}) *part *= scale;
@@ -228,7 +228,7 @@ void Identification::divide_by(double total, std::vector<Share>& shares) {
     }
 }
 
-std::vector<Share> Identification::shares(const Mode& mode) const {
+std::vector<Share> EnergyShares::shares(const Mode& mode) const {
     std::vector<Share> all;
     shares(mode, all);
     return all;
@@ -254,7 +254,7 @@ void add(Share& sum, const Share& one, bool reversed) {
 
 }  // namespace
 
-std::vector<Share> Identification::shares(std::span<const Mode> harmonics) const {
+std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics) const {
     std::vector<Share> all(components_.size());
     double total = 0;
     for (const Block& block : blocks_)
@@ -268,7 +268,7 @@ std::vector<Share> Identification::shares(std::span<const Mode> harmonics) const
     return all;
 }
 
-std::string Identification::name(int component, RotorPattern pattern, int harmonic) const {
+std::string EnergyShares::name(int component, RotorPattern pattern, int harmonic) const {
     const Component& c = components_[static_cast<std::size_t>(component)];
     const bool only_one = std::count_if(components_.begin(), components_.end(),
                                         [&](const Component& other) { return other.family == c.family; }) == 1;

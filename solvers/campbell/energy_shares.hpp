@@ -13,8 +13,8 @@ namespace cardan::solvers {
 /// How the blades participate: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
 /// whirls, and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Two
 /// blades deflect alike, each seen from its own root (symmetric), or opposite to each other (antisymmetric): in a
-/// symmetric mode both flap out of plane in the same direction, or both lag behind the rotor [Lee et al. 2002, results].
-/// Other parts have no pattern.
+/// symmetric mode both flap out of plane in the same direction, or both lag behind the rotor [Lee et al. 2002,
+/// results]. Other parts have no pattern.
 enum class RotorPattern : std::uint8_t {
     none,
     collective,
@@ -60,12 +60,12 @@ struct Share {
 
 /// Decomposes modes into component modes. In joint coordinates the elastic stiffness is block diagonal by part, and the
 /// component modes of a part are orthogonal in it: the shares add up to one exactly.
-class Identification {
+class EnergyShares {
 public:
     /// @param lin   linearisation whose elastic stiffness and mass define the component modes (e.g. at standstill)
     /// @param rows  what the rows of the system are (ColemanTransform::rows)
-    Identification(const Linearisation& lin, const Model& model, const RotorMap& rotor,
-                   const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
+    EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                 const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 
     const std::vector<Component>& components() const { return components_; }
     /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it

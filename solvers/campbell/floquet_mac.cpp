@@ -86,13 +86,13 @@ Likeness best(const Likeness& a, const Likeness& b) {
 
 }  // namespace
 
-PeriodicLikeness periodic_likeness(const SecondOrderSystem& weights, const std::vector<const CampbellMode*>& before,
-                                   const std::vector<CampbellMode>& now) {
+PeriodicMac periodic_mac(const SecondOrderSystem& weights, const std::vector<const CampbellMode*>& before,
+                         const std::vector<CampbellMode>& now) {
     std::vector<ModalMotion> rows, columns;
     for (const CampbellMode* mode : before) rows.emplace_back(*mode, weights);
     for (const CampbellMode& mode : now) columns.emplace_back(mode, weights);
     const auto m = static_cast<Index>(rows.size()), n = static_cast<Index>(columns.size());
-    PeriodicLikeness result{Matrix(m, n), Matrix(m, n)};
+    PeriodicMac result{Matrix(m, n), Matrix(m, n)};
     for (std::size_t j = 0; j < columns.size(); ++j) {
         const ModalMotion &y = columns[j], conjugate = y.conjugate();
         const double low = 1.5 * y.frequency;

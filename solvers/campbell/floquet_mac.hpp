@@ -7,7 +7,7 @@
 namespace cardan::solvers {
 
 /// A row per mode of one point, a column per mode of another; 0 ... 1.
-struct PeriodicLikeness {
+struct PeriodicMac {
     /// Complex energy MAC of all harmonics, |xy|^2 / (xx yy) with the energy product
     ///   xy = sum_j x_j^H K_e y_(j+s) + conj(lambda_xj) lambda_y(j+s) x_j^H M y_(j+s),
     /// for the shift s = -2 ... 2 that makes it largest: the principal harmonic may change from one point to the next.
@@ -22,7 +22,7 @@ struct PeriodicLikeness {
 };
 
 /// @param weights  mean of M and K_elastic over the azimuth
-PeriodicLikeness periodic_likeness(const SecondOrderSystem& weights, const std::vector<const CampbellMode*>& before,
-                                   const std::vector<CampbellMode>& now);
+PeriodicMac periodic_mac(const SecondOrderSystem& weights, const std::vector<const CampbellMode*>& before,
+                         const std::vector<CampbellMode>& now);
 
 }  // namespace cardan::solvers

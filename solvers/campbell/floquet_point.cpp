@@ -107,7 +107,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     find_steady_state(rotor_speed);
     const PeriodicSystem periodic = multi_blade_system();
     set_mean(periodic);
-    if (!identification()) standstill_.identify(linearise(system_, state_->at(0)));
+    if (!energy_shares()) standstill_.define_components(linearise(system_, state_->at(0)));
     point.rotor_speed = rotor_speed;
     point.at = state_->at(0);
     point.periodic = state_;
@@ -233,7 +233,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     if (rigid) mode.harmonics *= factor;
     out.mode = {mode.exponent, factor * principal};
     const std::vector<Mode> harmonics = harmonics_of(mode);
-    out.shares = identification()->shares(harmonics);
+    out.shares = energy_shares()->shares(harmonics);
     if (rigid)
         for (Share& share : out.shares) share = Share{};
     Vector elastic = Vector::Zero(mean_.M.rows()), kinetic = elastic;
@@ -258,7 +258,7 @@ void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) const {
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
             m.row = naming_row(mean_, mode);
         m.row_shares = energy_by_row(mean_, mode);
-        m.shares = identification()->shares(mode);
+        m.shares = energy_shares()->shares(mode);
         m.mode = std::move(mode);
     }
     leave_out_free_spin(std::abs(state_->rotor_speed), point);

@@ -22,7 +22,7 @@ public:
     const std::vector<int>& unknowns() const override { return standstill_.unknowns(); }
     std::vector<std::string> row_names() const override { return standstill_.row_names(); }
     const SecondOrderSystem& system() const override { return mean_; }
-    const Identification* identification() const override { return standstill_.identification(); }
+    const EnergyShares* energy_shares() const override { return standstill_.energy_shares(); }
     Matrix rotating_coordinates() const override { return standstill_.rotating_coordinates(); }
     const std::string& warning() const override { return warning_; }
 
@@ -43,7 +43,7 @@ private:
     const System& system_;
     const RotorMap& rotor_;
     CampbellOptions options_;
-    PointSolver standstill_;  // also: rows, names, identification
+    PointSolver standstill_;  // also: rows, names, energy shares
     std::optional<PeriodicSteadyState> state_;
     SecondOrderSystem mean_;
     std::string warning_;

@@ -50,7 +50,7 @@ void NeighbourNames::add(const SecondOrderSystem& system, const CampbellPoint& p
             modes.push_back(m);
             branches.push_back(b);
         }
-    const Matrix found = periodic_likeness(system, modes, point.modes).mac;
+    const Matrix found = periodic_mac(system, modes, point.modes).mac;
     mac = Matrix::Zero(static_cast<Eigen::Index>(neighbour_.branches.size()), found.cols());
     for (std::size_t i = 0; i < branches.size(); ++i)
         mac.row(static_cast<Eigen::Index>(branches[i])) = found.row(static_cast<Eigen::Index>(i));

@@ -27,7 +27,7 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
 }
 
 // The coordinate alone, beside the lowest: ten times what no certain mode has.
-constexpr double rigid_ratio = 10 * most_certain_ratio;
+constexpr double rigid_ratio = 10 * max_reliable_ratio;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void set_stability_margin(CampbellPoint& point) {
     double growth = -std::numeric_limits<double>::infinity();
     for (const CampbellMode& m : point.modes) {
         const double size = std::abs(m.mode.eigenvalue), own = m.mode.eigenvalue.real();
-        if (m.kind() == FloquetKind::rigid || size > most_certain_ratio * lowest) continue;
+        if (m.kind() == FloquetKind::rigid || size > max_reliable_ratio * lowest) continue;
         const double scale = std::isfinite(lowest) ? std::max(size, lowest) : size;
         growth = std::max(growth, std::abs(own) < 1e-8 * scale ? 0 : own);
     }
@@ -74,7 +74,7 @@ void PointSolver::find_steady_state(double rotor_speed) {
 
 // At the first point: the components, and memory that it may not need itself (nothing is averaged at standstill).
 void PointSolver::start() {
-    if (!identification_) identify(lin_);
+    if (!energy_shares_) define_components(lin_);
     restrict_to(lin_, unknowns_, rotor_.spin, other_);
     turned_ = steady_.at;
     note_rigid_springs();
@@ -98,8 +98,8 @@ void PointSolver::note_rigid_springs() {
                  "; such modes count for no stability margin. Drive the coordinate instead, or let it be softer");
 }
 
-void PointSolver::identify(const Linearisation& lin) {
-    identification_.emplace(lin, system_.model, rotor_, unknowns_, rows());
+void PointSolver::define_components(const Linearisation& lin) {
+    energy_shares_.emplace(lin, system_.model, rotor_, unknowns_, rows());
 }
 
 // Eigenvalues at a frozen azimuth tell nothing about stability.
@@ -123,7 +123,7 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
         CampbellMode& m = point.modes[i];
         mode_solver_.copy(i, m.mode);
         mode_solver_.energy_by_row(i, m.row_shares);
-        identification_->shares(m.mode, m.shares);
+        energy_shares_->shares(m.mode, m.shares);
         m.row = -1;
         m.floquet.reset();
     }
@@ -138,8 +138,8 @@ void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count)
     modes.reserve(most);
     spare_.reserve(most);
     const auto n = static_cast<Eigen::Index>(unknowns_.size());
-    const std::size_t components = identification_->components().size();
-    const auto higher = static_cast<std::size_t>(identification_->harmonics() - 1);
+    const std::size_t components = energy_shares_->components().size();
+    const auto higher = static_cast<std::size_t>(energy_shares_->harmonics() - 1);
     while (modes.size() + spare_.size() < most) {
         CampbellMode& blank = spare_.emplace_back();
         blank.mode.shape.resize(n);

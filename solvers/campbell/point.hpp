@@ -28,7 +28,7 @@ public:
     /// The (transformed) system of the last point, averaged over the azimuth.
     virtual const SecondOrderSystem& system() const = 0;
     /// Made at the first point; null before.
-    virtual const Identification* identification() const = 0;
+    virtual const EnergyShares* energy_shares() const = 0;
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     virtual Matrix rotating_coordinates() const = 0;
     /// A warning about the results so far; usually empty.
@@ -36,7 +36,7 @@ public:
 };
 
 /// Sets CampbellPoint::stability_margin from the modes, rigid ones excluded. Growth or decay at rounding level counts
-/// as zero: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above most_certain_ratio
+/// as zero: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above max_reliable_ratio
 /// times the lowest are ignored.
 void set_stability_margin(CampbellPoint& point);
 
@@ -57,14 +57,14 @@ public:
     const std::vector<int>& unknowns() const override { return unknowns_; }
     std::vector<std::string> row_names() const override;
     const SecondOrderSystem& system() const override { return current_; }
-    const Identification* identification() const override { return identification_ ? &*identification_ : nullptr; }
+    const EnergyShares* energy_shares() const override { return energy_shares_ ? &*energy_shares_ : nullptr; }
     Matrix rotating_coordinates() const override;
     const std::string& warning() const override { return warning_; }
 
     /// Null without blades to transform.
     const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
     /// Defines the components from this linearisation instead of that of the first point; call before the first point.
-    void identify(const Linearisation& lin);
+    void define_components(const Linearisation& lin);
 
 private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
@@ -83,7 +83,7 @@ private:
     std::vector<int> unknowns_;
     std::optional<ColemanTransform> coleman_;
     std::vector<MultiBladeRow> plain_rows_;
-    std::optional<Identification> identification_;
+    std::optional<EnergyShares> energy_shares_;
     std::string warning_;
 
     SteadySolver steady_solver_;
@@ -98,7 +98,7 @@ private:
 };
 
 /// Smallest |eigenvalue| of the oscillating modes, rigid ones excluded; infinite without any. Eigenvalues above
-/// most_certain_ratio times as much have growth rates at rounding level.
+/// max_reliable_ratio times as much have growth rates at rounding level.
 double lowest_vibration(const std::vector<CampbellMode>& modes);
 
 /// The solver for the method of the options.

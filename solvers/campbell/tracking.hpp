@@ -30,7 +30,7 @@ public:
     /// @param rows  names of the rows (PointMethod::row_names)
     /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
     /// @param neighbour  with all points; null: none
-    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const Identification& identification,
+    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
                                  const std::vector<std::string>& rows, bool whirl,
                                  NeighbourNames* neighbour = nullptr) const;
 

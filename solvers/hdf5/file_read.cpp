@@ -173,7 +173,7 @@ auto with_attribute(const Hdf5File::Impl& impl, std::string_view object, std::st
 void Hdf5File::Impl::fail(std::string_view object, std::string_view action) const {
     std::string reason = detail::innermost_reason();
     if (disk.error != 0) reason = std::generic_category().message(disk.error);
-    if (disk.error == EWOULDBLOCK) reason = who_has_it_open(path);
+    if (disk.error == EWOULDBLOCK) reason = lock_holder(path);
     if (reason.empty()) reason = "the HDF5 library gives no reason";
     throw FileError(path, text(object, object.empty() ? "" : ": ", "cannot ", action, ": ", reason));
 }

@@ -20,7 +20,7 @@ struct Mode {
 };
 
 /// Ratio to the lowest frequency above which a mode is dominated by rounding error: see ModeSolver.
-inline constexpr double most_certain_ratio = 1e7;
+inline constexpr double max_reliable_ratio = 1e7;
 
 /// All oscillating modes by natural frequency, then the aperiodic ones (real eigenvalues). Rigid-body modes (|lambda|
 /// below 1e-4 of the lowest single-coordinate frequency, such as the zero pair of a free rotor) are left out. Low modes

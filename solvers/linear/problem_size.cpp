@@ -5,10 +5,10 @@
 namespace cardan::solvers {
 
 void check_number_of_unknowns(const std::string& machine, std::size_t unknowns) {
-    if (unknowns <= most_unknowns) return;
+    if (unknowns <= max_unknowns) return;
     throw InputError(
         machine, "number of unknowns", unknowns,
-        text("<= ", most_unknowns,
+        text("<= ", max_unknowns,
              " (all eigenvalues of a full matrix of twice the size are computed at every point: time grows "
              "with the cube); take fewer elements per part, their error is small long before"));
 }

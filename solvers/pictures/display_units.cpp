@@ -75,7 +75,7 @@ ShownUnits with_prefix(std::string_view units, double largest) {
     return {std::pow(1000.0, -thousands), prefix[index] + plain.units};
 }
 
-std::string written(std::string_view units) {
+std::string display_text(std::string_view units) {
     if (is_pure_number(units)) return "pure number";
     std::string above, below;
     int factors_below = 0;
@@ -90,9 +90,9 @@ std::string written(std::string_view units) {
     return text(above.empty() ? "1" : above, "/", several ? "(" : "", below, several ? ")" : "");
 }
 
-std::string written_density(std::string_view units) {
+std::string density_text(std::string_view units) {
     if (is_pure_number(units)) return "1/Hz";
-    const std::string one = written(units);
+    const std::string one = display_text(units);
     const bool simple = one.find_first_of(" /^²³") == std::string::npos;
     return simple ? text(one, "²/Hz") : text("(", one, ")²/Hz");
 }

@@ -32,9 +32,9 @@ ShownUnits with_prefix(std::string_view units, double largest);
 
 /// In ordinary notation: "m s-2" is "m/s²", "N m rad-1" is "N m/rad", "kg m2" is "kg m²"; a pure number ("1", "-") is
 /// "–". What is not in the notation of the channels stays as it is.
-std::string written(std::string_view units);
+std::string display_text(std::string_view units);
 
 /// Units of a power spectral density of a channel, in ordinary notation: "m²/Hz", "(N m)²/Hz".
-std::string written_density(std::string_view units);
+std::string density_text(std::string_view units);
 
 }  // namespace cardan::solvers

@@ -55,7 +55,7 @@ struct PanelCurves {
             exponent == 1 ? with_prefix(shown.front().units, size) : ShownUnits{1, shown.front().units};
         StackPanel panel;
         panel.logarithmic = logarithmic;
-        panel.y_label = text(quantity, exponent == 1 ? written(scaled.units) : written_density(scaled.units));
+        panel.y_label = text(quantity, exponent == 1 ? display_text(scaled.units) : density_text(scaled.units));
         for (std::size_t c = 0; c < curves.size(); ++c) {
             const double factor = std::pow(shown[c].factor * scaled.factor, exponent);
             for (double& y : curves[c].y) y *= factor;

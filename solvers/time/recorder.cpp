@@ -121,8 +121,8 @@ void Recorder::sample(Integrator& integrator, double* values) {
     if (more_.empty()) return;
     const Kinematics kin = kinematics(*model_, state.q, workspace_);
     const Forces& forces = integrator.forces();
-    const Transmission carried = transmission(kin, forces, state.qd, state.qdd);
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd, state.actuator, kin, forces, carried};
+    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
+    const ChannelInput input{state.time, state.q, state.qd, state.qdd, state.actuator, kin, forces, loads};
     for (const ChannelGroup& group : more_) {
         group.sample(input, values);
         values += group.channels.size();

@@ -125,8 +125,8 @@ TEST_CASE("reuse: a mode solver gives the modes of fresh ones, in any order and 
 TEST_CASE("reuse: shares and energies written into used memory are those written into fresh memory", "[property]") {
     const SmallRotor rotor = rotor_on_elastic_support();
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
-    const Identification identification(linearise(rotor.system, rotor.spinning(0)), rotor.system.model, rotor.map,
-                                        rotor.unknowns(), coleman.rows());
+    const EnergyShares energy_shares(linearise(rotor.system, rotor.spinning(0)), rotor.system.model, rotor.map,
+                                     rotor.unknowns(), coleman.rows());
     ModeSolver solver(static_cast<Eigen::Index>(rotor.unknowns().size()));
     Mode mode;
     std::vector<Share> shares(17, Share{.component = 4, .whirl = 3, .higher = {{1, 2, 3}}});
@@ -136,8 +136,8 @@ TEST_CASE("reuse: shares and energies written into used memory are those written
         const std::size_t count = solver.solve(system);
         for (std::size_t i = 0; i < count; ++i) {
             solver.copy(i, mode);
-            identification.shares(mode, shares);
-            const std::vector<Share> fresh = identification.shares(mode);
+            energy_shares.shares(mode, shares);
+            const std::vector<Share> fresh = energy_shares.shares(mode);
             REQUIRE(shares.size() == fresh.size());
             for (std::size_t c = 0; c < fresh.size(); ++c) {
                 CHECK(shares[c].component == fresh[c].component);

@@ -171,7 +171,7 @@ std::vector<Channel> channels_of(int number) {
 
 void sample_blade(const ChannelInput& at, const BladeFrames& blade, double* values) {
     const Pose<double> axes = pose(at.kinematics, blade.axes), tip = pose(at.kinematics, blade.tip);
-    const Wrench& root = at.carried.joint[static_cast<std::size_t>(blade.pitch)];
+    const Wrench& root = at.loads.joint[static_cast<std::size_t>(blade.pitch)];
     Eigen::Map<Vec3>(values, 3) = axes.R.transpose() * (tip.p - axes.p) - blade.undeformed_tip;
     Eigen::Map<Vec3>(values + 3, 3) = axes.R.transpose() * root.force;
     Eigen::Map<Vec3>(values + 6, 3) = axes.R.transpose() * root.moment;

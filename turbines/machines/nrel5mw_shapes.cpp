@@ -40,7 +40,7 @@ Matrix side_by_side(const std::vector<Vector>& columns) {
 
 }  // namespace
 
-Vector following(const CardanBeam& beam, const std::function<Deflection(double x)>& deflection) {
+Vector hinge_rotations_along(const CardanBeam& beam, const std::function<Deflection(double x)>& deflection) {
     std::vector<double> q;
     for (const CardanBeam::Element& e : beam.elements) {
         const Deflection a = deflection(e.start), b = deflection(e.start + e.length);
@@ -61,7 +61,7 @@ Vector following(const CardanBeam& beam, const std::function<Deflection(double x
 Matrix elastodyn_tower_shapes(const CardanBeam& tower) {
     std::vector<Vector> columns;
     for (std::size_t k = 0; k < 4; ++k)
-        columns.push_back(following(tower, [&](double x) {
+        columns.push_back(hinge_rotations_along(tower, [&](double x) {
             const double L = tower.line.length;
             const double d = value(elastodyn_tower_polynomials.at(k), x / L, 0),
                          slope = value(elastodyn_tower_polynomials.at(k), x / L, 1) / L;
@@ -91,7 +91,7 @@ Matrix elastodyn_blade_shapes(const CardanBeam& blade) {
             }
             last_v = v, last_w = w;
         }
-        columns.push_back(following(blade, [&](double x) {
+        columns.push_back(hinge_rotations_along(blade, [&](double x) {
             const double at = std::min(x / h, steps - 1e-9);
             const auto i = static_cast<std::size_t>(at);
             const double t = at - static_cast<double>(i);

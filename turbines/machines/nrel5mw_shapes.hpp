@@ -21,7 +21,7 @@ struct Deflection {
 /// are zero.
 /// @param deflection  at x along the beam, m
 /// @return one entry per body of the elements, in their order; zero for extension and torsion
-Vector following(const CardanBeam& beam, const std::function<Deflection(double x)>& deflection);
+Vector hinge_rotations_along(const CardanBeam& beam, const std::function<Deflection(double x)>& deflection);
 
 /// Coefficients of (x/L)^2 ... (x/L)^6.
 using ModePolynomial = std::array<double, 5>;

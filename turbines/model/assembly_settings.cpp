@@ -25,8 +25,9 @@ std::string parts_in_words(const AssemblyOptions& o) {
     words += o.blade_beam ? text("blades of ", in_words(*o.blade_beam), ", ")
                           : text(o.blade_elements, " elements per blade, ");
     if (o.tower_beam && o.blade_beam) return words;
-    return words + text(places_hinges(o.partition) ? std::string()
-                                                   : text("delta ", o.delta.value_or(suited_delta(o.partition)), ", "),
+    return words + text(places_hinges(o.partition)
+                            ? std::string()
+                            : text("delta ", o.delta.value_or(recommended_delta(o.partition)), ", "),
                         partition_name(o.partition), ", ");
 }
 

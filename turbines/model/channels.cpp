@@ -33,7 +33,7 @@ void add_external(Wrench& sum, const Source& source, const ChannelInput& in, int
 // At the root or the tip of a beam, base axes, about the node there.
 Wrench beam_load(const Source& source, const ChannelInput& in, const CardanBeam& beam, bool tip, int subtree) {
     const Pose<double> node = pose(in.kinematics, tip ? beam.tip() : beam.nodes.front());
-    const Vec6 load = equilibrium_loads(beam, in.kinematics, in.forces, in.carried, tip ? beam.line.length : 0).values;
+    const Vec6 load = equilibrium_loads(beam, in.kinematics, in.forces, in.loads, tip ? beam.line.length : 0).values;
     Wrench sum{node.R * load.head<3>(), node.R * load.tail<3>()};
     add_external(sum, source, in, subtree, node.p);
     return sum;
@@ -98,7 +98,7 @@ ChannelGroup rotor_channels(const Shared& source) {
         const Pose<double> hub = pose(kin, layout.hub), shaft = pose(kin, layout.shaft);
         const int hub_body = model.frame(layout.hub).body, shaft_body = model.frame(layout.shaft).body;
         const auto spin = [&](int body) {
-            return body < 0 ? Vec3(Vec3::Zero()) : in.carried.motion[static_cast<std::size_t>(body)].angular_velocity;
+            return body < 0 ? Vec3(Vec3::Zero()) : in.loads.motion[static_cast<std::size_t>(body)].angular_velocity;
         };
         const Vec3 axis = hub.R.col(2), up = shaft.R.transpose() * hub.R.col(0);
         const double azimuth = std::atan2(-up.y(), up.z());
@@ -108,7 +108,7 @@ ChannelGroup rotor_channels(const Shared& source) {
         values[2] = layout.gear_ratio * in.qd(model.index(*layout.generator));
         const auto joint = static_cast<std::size_t>(hub_body);
         Wrench load;
-        add_moved(load, in.carried.joint[joint], kin.origin(hub_body), hub.p, -1);
+        add_moved(load, in.loads.joint[joint], kin.origin(hub_body), hub.p, -1);
         add_external(load, *source, in, hub_body, hub.p);
         values[3] = axis.dot(load.moment);
     };
@@ -185,7 +185,7 @@ ChannelGroup tower_motion_channels(const Shared& source) {
         const Vec3 d = top.p - foot.p - foot.R * tower.line.pose(tower.line.length).p;
         const auto body = static_cast<std::size_t>(kin.model().frame(layout.tower_top).body);
         const Vec3 in_foot = foot_axes(foot.R).transpose() * d, in_top = top.R.transpose() * d,
-                   acceleration = top.R.transpose() * in.carried.motion[body].at(top.p);
+                   acceleration = top.R.transpose() * in.loads.motion[body].at(top.p);
         for (const Vec3* v : {&in_foot, &in_top, &acceleration})
             for (Eigen::Index i : {0, 1}) *values++ = (*v)(i);
         if (yaw) *values = in.q(kin.model().index(*layout.yaw));

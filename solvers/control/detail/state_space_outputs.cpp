@@ -58,8 +58,8 @@ OutputDifferences::OutputDifferences(const System& system, const std::vector<Cha
 
 Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator, const Forces& forces) {
     const Kinematics kin = kinematics(system_.model, state.q, workspace_);
-    const Transmission carried = transmission(kin, forces, state.qd, state.qdd);
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, carried};
+    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
+    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads};
     std::vector<double> all(count_);
     double* next = all.data();
     for (const ChannelGroup& group : groups_) {

@@ -30,8 +30,8 @@ struct Loaded {
     Vec6 equilibrium(double s) const {
         Workspace workspace(system->model);
         const Kinematics kin = kinematics(system->model, at.q, workspace);
-        const Transmission carried = transmission(kin, system->forces, at.qd, at.qdd);
-        return equilibrium_loads(beam, kin, system->forces, carried, s).values;
+        const JointLoads loads = joint_loads(kin, system->forces, at.qd, at.qdd);
+        return equilibrium_loads(beam, kin, system->forces, loads, s).values;
     }
     SectionLoads constitutive(double s) const { return constitutive_loads(beam, system->model, at.q, at.qd, s); }
 };

@@ -48,7 +48,7 @@ double critical(const BeamLine& line, int elements, Partition partition) {
 
 }  // namespace
 
-TEST_CASE("mean differences: discrete frequencies of the uniform cantilever and the wedge", "[published]") {
+TEST_CASE("mean differences: discrete frequencies of the uniform cantilever and the wedge", "[discrete]") {
     const BeamLine uniform = uniform_beam(1, slender(1, 1));
     for (const auto& [elements, expected] : std::vector<std::pair<int, double>>{
              {1, 3.454416}, {2, 3.513676}, {3, 3.515603}, {4, 3.51589}, {8, 3.516008}, {16, 3.516015}})
@@ -61,7 +61,7 @@ TEST_CASE("mean differences: discrete frequencies of the uniform cantilever and 
         CHECK(mode(wedge(), elements, mean) == Approx(expected).margin(6e-7).epsilon(0));
 }
 
-TEST_CASE("mean differences: discrete flap frequencies of the rotating uniform cantilever", "[published]") {
+TEST_CASE("mean differences: discrete flap frequencies of the rotating uniform cantilever", "[discrete]") {
     const auto flap1 = [](int elements, double eta) { return rotating(eta, with(elements, mean)).flap1; };
     for (const auto& [elements, expected] :
          std::vector<std::pair<int, double>>{{2, 4.802399}, {4, 4.797636}, {16, 4.79728}})

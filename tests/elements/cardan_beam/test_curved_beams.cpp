@@ -136,7 +136,7 @@ BeamLine twisted_sections(double length) {
 
 }  // namespace
 
-TEST_CASE("curved beam: the 45-degree bend with few elements has the discrete values", "[published]") {
+TEST_CASE("curved beam: the 45-degree bend with few elements has the discrete values", "[discrete]") {
     // Discrete values of chord elements with plain springs, delta = 1/6, another implementation.
     CHECK(max_abs(loaded_tip(Bend{}, plain_springs(4)) - Vec3(47.14833, 15.65716, 53.36164)) < 1e-5);
     CHECK(max_abs(loaded_tip(Bend{}, plain_springs(8)) - Vec3(47.14997, 15.66789, 53.44817)) < 1e-5);

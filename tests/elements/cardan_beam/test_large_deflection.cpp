@@ -41,7 +41,7 @@ double slope(const Pose<double>& tip) {
 
 }  // namespace
 
-TEST_CASE("cantilever bent to a half circle by a tip moment: discrete values and orders", "[analytic]") {
+TEST_CASE("cantilever bent to a half circle by a tip moment: discrete values and orders", "[analytic][discrete]") {
     const auto height = [](int elements, double delta) {
         const Pose<double> tip = bent_tip({Vec3::Zero(), {0, -pi, 0}}, WrenchAxes::base, bending_only(elements, delta));
         CHECK(tip.p.y() == Approx(0).margin(1e-12));
@@ -61,7 +61,8 @@ TEST_CASE("cantilever bent to a half circle by a tip moment: discrete values and
     CHECK(order(height(8, delta_gauss), height(16, delta_gauss), exact) == Approx(2).margin(0.05));
 }
 
-TEST_CASE("cantilever under a dead transverse tip force: discrete values, fourth and second order", "[analytic]") {
+TEST_CASE("cantilever under a dead transverse tip force: discrete values, fourth and second order",
+          "[analytic][discrete]") {
     const auto tip = [](double P, int elements, double delta) {
         return bent_tip({{0, 0, P}, Vec3::Zero()}, WrenchAxes::base, bending_only(elements, delta));
     };

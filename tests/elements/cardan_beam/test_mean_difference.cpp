@@ -84,7 +84,7 @@ TEST_CASE("mean differences: check values of the uniform element, in closed form
                       {{{1. / 6, 1. / 6, 11. / 2520}, {2. / 3, 0.5, 71. / 1890}, {1. / 6, 5. / 6, 11. / 2520}}}});
 }
 
-TEST_CASE("mean differences: check values of tapered elements", "[published]") {
+TEST_CASE("mean differences: check values of tapered elements", "[discrete]") {
     check(wedge(), {0.2618824733,
                     0.9003362145,
                     1,
@@ -104,7 +104,7 @@ TEST_CASE("mean differences: check values of tapered elements", "[published]") {
              {0.01790401664, 0.7875237995, 3.788223238e-05}}}});
 }
 
-TEST_CASE("mean differences: check values with the limiter at work", "[published]") {
+TEST_CASE("mean differences: check values with the limiter at work", "[discrete]") {
     check(exponential(3),
           {0.5794819156,
            0.9526891262,
@@ -116,7 +116,7 @@ TEST_CASE("mean differences: check values with the limiter at work", "[published
              {0.003958393975, 0.811399146, 1.688907893e-06}}}});
 }
 
-TEST_CASE("mean differences: check values of the 600 kW blade in three elements", "[published]") {
+TEST_CASE("mean differences: check values of the 600 kW blade in three elements", "[discrete]") {
     check(wt600(0), {1.766267574,
                      5.909725442,
                      1,

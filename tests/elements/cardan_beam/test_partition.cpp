@@ -76,14 +76,14 @@ TEST_CASE("shear flexibility: of the turn of the middle bodies 1 / (1 + GA h^2 /
             s.beta = beta;
             const BeamLine line = uniform_beam(h, s);
             const Eigen::Matrix2d R = Eigen::Rotation2Dd(beta).toRotationMatrix(),
-                                  part = part_of_shear(ElementLine(line, 0, h), Hinges::symmetric(delta_gauss));
+                                  part = shear_fraction(ElementLine(line, 0, h), Hinges::symmetric(delta_gauss));
             const auto share = [h](double GA, double EI) { return 1 / (1 + GA * h * h / (12 * EI)); };
             const Eigen::Matrix2d exact = R * Eigen::Vector2d(share(40, 70), share(5, 3)).asDiagonal() * R.transpose();
             CHECK((part - exact).norm() < 1e-12);
         }
     s.GA_y = s.GA_z = std::numeric_limits<double>::infinity();
     const BeamLine rigid = uniform_beam(1, s);
-    CHECK(part_of_shear(ElementLine(rigid, 0, 1), Hinges::symmetric(0.2)).isZero(0));
+    CHECK(shear_fraction(ElementLine(rigid, 0, 1), Hinges::symmetric(0.2)).isZero(0));
 }
 
 TEST_CASE(
@@ -99,7 +99,7 @@ TEST_CASE(
             const ElementLine line(flexible, 0.4, 2.5), stiff(stiffened, 0.4, 2.5);
             const ElementInertia moved = partition_element(line, 0.23, partition),
                                  segments = partition_element(stiff, 0.23, partition);
-            const Eigen::Matrix2d part = part_of_shear(line, moved.hinges).transpose();
+            const Eigen::Matrix2d part = shear_fraction(line, moved.hinges).transpose();
             CHECK(part(0, 0) > 0.9);
             CHECK(segments.tilted_moment == 0);
             CHECK((offset < 1 ? moved.tilted_moment == 0 : moved.tilted_moment > 0.1 && moved.tilted_moment < 0.7));

@@ -12,7 +12,7 @@ FlapLag rotating(int elements, double eta, double delta, Partition partition, do
 
 }  // namespace
 
-TEST_CASE("rotating cantilever: discrete flap and lag frequencies", "[published]") {
+TEST_CASE("rotating cantilever: discrete flap and lag frequencies", "[discrete]") {
     constexpr auto S = Partition::static_moment;
     const auto check = [](const FlapLag& f, double flap, double lag) {
         CHECK(f.flap1 == Approx(flap).margin(1e-6).epsilon(0));

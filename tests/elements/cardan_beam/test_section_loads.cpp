@@ -115,7 +115,7 @@ TEST_CASE("section loads: in any motion the loads at a hinge, along its axis, ar
 
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, b.at.q, workspace);
-    const Transmission carried = transmission(kin, b.system->forces, b.at.qd, b.at.qdd);
+    const JointLoads loads = joint_loads(kin, b.system->forces, b.at.qd, b.at.qdd);
     Vector tau(model.size()), Q(model.size());
     inverse_dynamics<double>(kin, b.at.qd, b.at.qdd, tau);
     b.system->forces.generalised_forces(kin, 0, b.at.q, b.at.qd, Q);
@@ -125,7 +125,7 @@ TEST_CASE("section loads: in any motion the loads at a hinge, along its axis, ar
         const Vector springs = hinge_forces({}, {element.bodies, element.kinds, element.stiffness, element.tilt}, q);
         for (std::size_t i = 0; i < 6; ++i) {
             const int a = model.index(element.bodies[i]);
-            const Wrench& joint = carried.joint[static_cast<std::size_t>(a)];
+            const Wrench& joint = loads.joint[static_cast<std::size_t>(a)];
             const Vec3 axis = kin.axis(a);
             const double along = axis.dot(model.body(a).revolute ? joint.moment : joint.force);
             // tau - Q without the spring's own -K q is what the joint transmits along its axis.

@@ -20,7 +20,7 @@ struct Row {
 
 }  // namespace
 
-TEST_CASE("Euler-Bernoulli cantilever: discrete frequencies to the printed digit", "[published]") {
+TEST_CASE("Euler-Bernoulli cantilever: discrete frequencies to the printed digit", "[discrete]") {
     constexpr auto N = Partition::segment_masses, S = Partition::static_moment;
     const double G = delta_gauss;
     const std::vector<Row> rows{
@@ -144,7 +144,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Euler-Bernoulli cantilever: a negative armature of M L^2 / 360 lifts partition S to sixth order",
-          "[published]") {
+          "[discrete]") {
     const BeamLine line = uniform_beam(1, slender(1, 1));
     CardanBeamOptions options = bending_only(1, 1. / 6, Partition::static_moment);
     options.bending_armature = -1. / 360;
@@ -159,7 +159,7 @@ TEST_CASE("Euler-Bernoulli cantilever: a negative armature of M L^2 / 360 lifts 
     CHECK(order(coarse, bending(clamped_frequencies(line, options), 3), 61.697214413536) > 5.7);
 }
 
-TEST_CASE("Timoshenko cantilever, r/L = 0.05: discrete values and second order toward the exact ones", "[published]") {
+TEST_CASE("Timoshenko cantilever, r/L = 0.05: discrete values and second order toward the exact ones", "[discrete]") {
     // E/(kG) = 3.12. Exact: roots of the transcendental equation, 46.60313987 for mode 3.
     EngineeringSection s = slender(1, 1);
     s.GA_y = s.GA_z = 1 / (0.05 * 0.05 * 3.12);
@@ -208,7 +208,7 @@ TEST_CASE("torsion and extension, clamped-free: 2 N sin(pi / 4N) for every delta
     }
 }
 
-TEST_CASE("tapered cantilever, A ~ (1 - x/2), I ~ (1 - x/2)^3: discrete values, fourth order", "[published]") {
+TEST_CASE("tapered cantilever, A ~ (1 - x/2), I ~ (1 - x/2)^3: discrete values, fourth order", "[discrete]") {
     constexpr double exact = 3.82378485;  // Bessel functions
     BeamLine line{1, {}, [](double x) {
                       const double t = 1 - x / 2;

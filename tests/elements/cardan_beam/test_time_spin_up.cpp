@@ -177,6 +177,8 @@ TEST_CASE("spin-up: the whole manoeuvre with stretch follows the geometrically e
     CHECK(lag4 > 8 * lag8);
     CHECK(along4 > 3 * along8);
     // The figure of the paper shows a largest lag of 0.57 to 0.58 m; that of the rod is 0.57379 m.
+    CHECK(most > 0.57);
+    CHECK(most < 0.58);
     CHECK(most == Approx(0.57379).margin(3e-5).epsilon(0));
     const auto sheared = Manoeuvre(8, Stretching::axial_and_shear).tips(Method::dirk, 1e-7, {6.75});
     CHECK(-sheared[0].y() == Approx(0.57379).margin(1e-4).epsilon(0));

@@ -179,9 +179,9 @@ TEST_CASE("generator: its channels are torque on its own shaft and power", "[pro
     const Vector q = one(0), qd = one(3.2), none = one(0);
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, q, workspace);
-    const Transmission carried = transmission(kin, system.forces, qd, none);
+    const JointLoads loads = joint_loads(kin, system.forces, qd, none);
     double values[2];
-    group.sample({0, q, qd, none, none, kin, system.forces, carried}, values);
+    group.sample({0, q, qd, none, none, kin, system.forces, loads}, values);
     CHECK(values[0] == machine.torque(160.0));
     CHECK(values[1] == Approx(160 * machine.torque(160.0)).epsilon(1e-14));
 }

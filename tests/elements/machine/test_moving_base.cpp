@@ -95,9 +95,9 @@ std::array<Vec3, 3> moved(const Float& f, const Motion& m, const Vec3& r) {
     frame_jacobian<double>(kin, f.base.frame, J);
     const Vec6 twist = J * qd;
     const Vec3 arm = at.R * r;
-    const Transmission carried = transmission(kin, f.system.forces, qd, qdd);
+    const JointLoads loads = joint_loads(kin, f.system.forces, qd, qdd);
     return {Vec3(at.p + arm), Vec3(twist.tail<3>() + cross<double>(Vec3(twist.head<3>()), arm)),
-            carried.motion.back().at(at.p + arm)};
+            loads.motion.back().at(at.p + arm)};
 }
 
 void check_close(const Vec3& a, const Vec3& b) {

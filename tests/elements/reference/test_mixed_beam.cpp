@@ -67,7 +67,7 @@ Frequencies frequencies(const BeamLine& line, int elements, const MixedSetting& 
 
 }  // namespace
 
-TEST_CASE("mixed beam: the blade of Lee, Hodges and Patil (2002), Table I, per rev", "[elements][mixed][published]") {
+TEST_CASE("mixed beam: the blade of Lee, Hodges and Patil (2002), Table I, per rev", "[elements][mixed][discrete]") {
     // Digits of a separate implementation of eq. 7 with the data of Table I (the frequencies of the paper's Table II do
     // not follow from them); one unit of the last digit.
     struct Row {

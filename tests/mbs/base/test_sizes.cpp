@@ -118,8 +118,8 @@ std::vector<Door> doors_of_vectors(Fixture& f, Vector& bad) {
         {"embedding second beta", [&] { f.embedding.second(x, f.field, x, f.field, bad, f.acceleration); }},
         {"embedding pull", [&] { f.embedding.pull(f.acceleration, bad); }},
         {"embedding pull second", [&] { f.embedding.pull_second(f.field, f.acceleration, bad); }},
-        {"transmission qd", [&] { transmission(kin, forces, bad, x); }},
-        {"transmission qdd", [&] { transmission(kin, forces, x, bad); }},
+        {"joint loads qd", [&] { joint_loads(kin, forces, bad, x); }},
+        {"joint loads qdd", [&] { joint_loads(kin, forces, x, bad); }},
         {"singular pivot", [&] { singular_pivot(f.A, bad); }},
     };
 }
@@ -246,7 +246,7 @@ TEST_CASE("sizes: what was made for another model is refused, also where the siz
                        {"curvature", [&] { f.curvature.update(kin).ok(); }},
                        {"embedding", [&] { f.embedding.update(kin); }},
                        {"forces", [&] { f.system.forces.generalised_forces(kin, 0, f.x, f.x, f.y); }},
-                       {"transmission", [&] { transmission(kin, f.system.forces, f.x, f.x); }}},
+                       {"joint loads", [&] { joint_loads(kin, f.system.forces, f.x, f.x); }}},
                       "belongs to another model");
     // A copy counts as the same: systems may be copied and moved with what was made for them.
     const System copy = f.system;

@@ -18,7 +18,7 @@ void require_no_allocation_by_stage(const System& system, const RotorMap& map, c
     Lineariser lineariser(system);
     const ColemanTransform coleman(map, unknowns);
     ModeSolver mode_solver(static_cast<Eigen::Index>(unknowns.size()));
-    std::optional<Identification> identification;
+    std::optional<EnergyShares> energy_shares;
     SteadyOptions options;
     SteadyState steady;
     Linearisation lin;
@@ -43,12 +43,12 @@ void require_no_allocation_by_stage(const System& system, const RotorMap& map, c
             require_none("coleman", [&] { coleman.transform_in_place(own, 0.3, speed); });
             std::size_t found = 0;
             require_none("modes", [&] { found = mode_solver.solve(own); });
-            if (!identification) identification.emplace(lin, system.model, map, unknowns, coleman.rows());
+            if (!energy_shares) energy_shares.emplace(lin, system.model, map, unknowns, coleman.rows());
             REQUIRE(found > 0);
             for (std::size_t i = 0; i < found; ++i) {
                 require_none("mode shape", [&] { mode_solver.copy(i, mode); });
                 require_none("energy by row", [&] { mode_solver.energy_by_row(i, by_row); });
-                require_none("shares by component", [&] { identification->shares(mode, shares); });
+                require_none("shares by component", [&] { energy_shares->shares(mode, shares); });
             }
         }
 }

@@ -59,7 +59,7 @@ CampbellMode conjugate(CampbellMode mode) {
 }
 
 double mac(const SecondOrderSystem& system, const CampbellMode& a, const CampbellMode& b) {
-    return periodic_likeness(system, {&a}, {b}).mac(0, 0);
+    return periodic_mac(system, {&a}, {b}).mac(0, 0);
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ TEST_CASE("periodic likeness: where two motions exchange a harmonic the branches
     // Before the exchange 0.8 and 0.6, after it with the other sign.
     const CampbellMode a = mixture(0.8, 0.6, 0, 1), b = mixture(0.8, -0.6, 1, -1);
     const std::vector<CampbellMode> after{mixture(0.8, -0.6, 0, 1), mixture(0.8, 0.6, 1, -1)};
-    const PeriodicLikeness likeness = periodic_likeness(system, {&a, &b}, after);
+    const PeriodicMac likeness = periodic_mac(system, {&a, &b}, after);
     for (Eigen::Index i : {0, 1}) {
         CHECK(likeness.score(i, i) > 0.3);
         CHECK(likeness.score(i, 1 - i) < 0.25);

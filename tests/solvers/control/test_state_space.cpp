@@ -50,8 +50,8 @@ struct SlidingMass {
         group.sample = [arm = arm, body = static_cast<std::size_t>(slider)](const ChannelInput& in, double* values) {
             const Vec3 along = in.kinematics.rotation(arm) * Vec3::UnitX();
             values[0] = in.actuator(arm);
-            values[1] = along.dot(in.carried.joint[body].force);
-            values[2] = along.dot(in.carried.motion[body].acceleration);
+            values[1] = along.dot(in.loads.joint[body].force);
+            values[2] = along.dot(in.loads.motion[body].acceleration);
             values[3] = in.q(arm) - 2 * pi * std::floor(in.q(arm) / (2 * pi));
         };
         return {group};

@@ -216,14 +216,14 @@ TEST_CASE("coleman: on a rigid hub a rotating-frame frequency splits into backwa
     CHECK(std::abs(found[2].shape(2) / found[2].shape(1) - Complex(0, -1)) < 1e-10);
 
     // So say the names.
-    const Identification identification(linearise(rotor.system, rotor.spinning(Omega)), rotor.system.model, rotor.map,
-                                        rotor.unknowns(), T.rows());
-    REQUIRE(identification.components().size() == 1);
-    CHECK(identification.shares(found[0])[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-12));
-    CHECK(identification.shares(found[1])[0].of(RotorPattern::collective) == Approx(1).epsilon(1e-12));
-    CHECK(identification.shares(found[2])[0].of(RotorPattern::forward) == Approx(1).epsilon(1e-12));
-    CHECK(identification.shares(found[0])[0].whirl == Approx(-1).epsilon(1e-12));
-    CHECK(identification.shares(found[2])[0].whirl == Approx(1).epsilon(1e-12));
+    const EnergyShares energy_shares(linearise(rotor.system, rotor.spinning(Omega)), rotor.system.model, rotor.map,
+                                     rotor.unknowns(), T.rows());
+    REQUIRE(energy_shares.components().size() == 1);
+    CHECK(energy_shares.shares(found[0])[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-12));
+    CHECK(energy_shares.shares(found[1])[0].of(RotorPattern::collective) == Approx(1).epsilon(1e-12));
+    CHECK(energy_shares.shares(found[2])[0].of(RotorPattern::forward) == Approx(1).epsilon(1e-12));
+    CHECK(energy_shares.shares(found[0])[0].whirl == Approx(-1).epsilon(1e-12));
+    CHECK(energy_shares.shares(found[2])[0].whirl == Approx(1).epsilon(1e-12));
 }
 
 TEST_CASE("coleman: isotropic shaft bending becomes a mass on fixed springs with rotating damping", "[analytic]") {

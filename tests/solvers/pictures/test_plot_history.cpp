@@ -131,11 +131,11 @@ TEST_CASE("shown units: products and powers are written as people write them") {
                                                          {"m/s^2", "m/s^2"},
                                                          {"deg", "deg"},
                                                          {"", "pure number"}};
-    for (const auto& pair : pairs) CHECK(written(pair.first) == pair.second);
-    CHECK(written_density("m") == "m²/Hz");
-    CHECK(written_density("N m") == "(N m)²/Hz");
-    CHECK(written_density("m s-2") == "(m/s²)²/Hz");
-    CHECK(written_density("1") == "1/Hz");
+    for (const auto& pair : pairs) CHECK(display_text(pair.first) == pair.second);
+    CHECK(density_text("m") == "m²/Hz");
+    CHECK(density_text("N m") == "(N m)²/Hz");
+    CHECK(density_text("m s-2") == "(m/s²)²/Hz");
+    CHECK(density_text("1") == "1/Hz");
 }
 
 TEST_CASE("panels: channels with the same shown units share one, up to the number of colours; numbers stay alone") {

@@ -23,11 +23,11 @@ public:
     Sampled(const System& system, const std::vector<ChannelGroup>& groups, const MachineState& at) {
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, at.q, workspace);
-        const Transmission carried = transmission(kin, system.forces, at.qd, at.qdd);
+        const JointLoads loads = joint_loads(kin, system.forces, at.qd, at.qdd);
         const Vector none = Vector::Zero(at.q.size());
         for (const ChannelGroup& group : groups) {
             std::vector<double> own(group.channels.size());
-            group.sample({0, at.q, at.qd, at.qdd, none, kin, system.forces, carried}, own.data());
+            group.sample({0, at.q, at.qd, at.qdd, none, kin, system.forces, loads}, own.data());
             for (std::size_t i = 0; i < own.size(); ++i) {
                 values[group.channels[i].name] = own[i];
                 if (!group.channels[i].alias.empty()) aliases[group.channels[i].alias] = own[i];

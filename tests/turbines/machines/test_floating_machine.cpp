@@ -265,12 +265,12 @@ TEST_CASE("floating machine: total momentum changes by outer forces alone", "[an
     Vector Q(model.size()), actuator = Vector::Zero(model.size());
     turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
     ForwardDynamics(model).solve(kin, state.qd, Q, state.qdd, actuator);
-    const Transmission carried = transmission(kin, turbine.system().forces, state.qd, state.qdd);
+    const JointLoads loads = joint_loads(kin, turbine.system().forces, state.qd, state.qdd);
     Vec3 rate = Vec3::Zero(), outer = Vec3(0, 0, platform.buoyancy);
     for (int i = 0; i < model.size(); ++i) {
         const double m = model.body(i).inertia.mass;
         if (m == 0) continue;
-        rate += m * carried.motion[static_cast<std::size_t>(i)].at(kin.centre_of_mass(i));
+        rate += m * loads.motion[static_cast<std::size_t>(i)].at(kin.centre_of_mass(i));
         outer += m * earth_gravity;
     }
     Vec6 x, xd, xdd;

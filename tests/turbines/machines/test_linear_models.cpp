@@ -97,11 +97,11 @@ public:
         system.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
         Q += more_Q;
         ForwardDynamics(system.model, driven_).solve(kin, at.qd, Q, qdd, actuator);
-        const Transmission carried = transmission(kin, system.forces, at.qd, qdd);
+        const JointLoads loads = joint_loads(kin, system.forces, at.qd, qdd);
         Vector values(400);
         Eigen::Index count = 0;
         for (const ChannelGroup& group : groups_) {
-            group.sample({at.time, at.q, at.qd, qdd, actuator, kin, system.forces, carried}, values.data() + count);
+            group.sample({at.time, at.q, at.qd, qdd, actuator, kin, system.forces, loads}, values.data() + count);
             count += static_cast<Eigen::Index>(group.channels.size());
         }
         return values.head(count);

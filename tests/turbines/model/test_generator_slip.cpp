@@ -129,7 +129,7 @@ TEST_CASE("generator slip: drive-train torsion of an otherwise stiff machine is 
 }
 
 TEST_CASE("generator slip: drive-train torsion of the machine falls from 4.51 to 1.44 Hz with 52 % of damping",
-          "[crosscheck]") {
+          "[discrete]") {
     // Numbers of another implementation, without other damping.
     const turbines::Turbine machine = turbines::wt600(undamped());
     const turbines::Turbine slipping = turbines::with_generator_slip(machine, turbines::wt600_induction_machine());

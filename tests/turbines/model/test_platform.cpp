@@ -91,9 +91,9 @@ struct State {
     void solve() { solve(machine.system->forces); }
     std::vector<double> sample(const ChannelGroup& group) {
         const Kinematics at = kin();
-        const Transmission carried = transmission(at, machine.system->forces, qd, qdd);
+        const JointLoads loads = joint_loads(at, machine.system->forces, qd, qdd);
         std::vector<double> values(group.channels.size());
-        group.sample({0, q, qd, qdd, actuator, at, machine.system->forces, carried}, values.data());
+        group.sample({0, q, qd, qdd, actuator, at, machine.system->forces, loads}, values.data());
         return values;
     }
 };
@@ -123,7 +123,7 @@ TEST_CASE("platform: blade roots move as the frames written out say, with veloci
         const Motion motion(seed);
         State s(m, motion);
         const Kinematics kin = s.kin();
-        const Transmission carried = transmission(kin, m.system->forces, s.qd, s.qdd);
+        const JointLoads loads = joint_loads(kin, m.system->forces, s.qd, s.qdd);
         for (std::size_t k = 0; k < 3; ++k) {
             const Frames exact = motion.frames(2 * pi / 3 * static_cast<double>(k));
             const Nrel5mwPlatform::Blade& blade = m.blades[k];
@@ -135,7 +135,7 @@ TEST_CASE("platform: blade roots move as the frames written out say, with veloci
             frame_jacobian<double>(kin, blade.beam.nodes.front(), J);
             const Vec3 velocity = (J * s.qd).tail<3>();
             CHECK((velocity - rate(exact.root)).norm() < 1e-12 * 100);
-            const BodyMotion& moved = carried.motion[static_cast<std::size_t>(s.model.index(blade.pitch))];
+            const BodyMotion& moved = loads.motion[static_cast<std::size_t>(s.model.index(blade.pitch))];
             CHECK((moved.acceleration - acceleration(exact.root)).norm() < 1e-12 * 300);
         }
         const Pose<double> apex = pose(kin, m.apex);
@@ -239,8 +239,8 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
         }
 
         const Kinematics kin = s.kin();
-        const Transmission carried = transmission(kin, m.system->forces, s.qd, s.qdd);
-        const SectionLoads section = equilibrium_loads(m.blades[0].beam, kin, m.system->forces, carried, 0);
+        const JointLoads loads = joint_loads(kin, m.system->forces, s.qd, s.qdd);
+        const SectionLoads section = equilibrium_loads(m.blades[0].beam, kin, m.system->forces, loads, 0);
         for (int i = 0; i < 6; ++i)
             CHECK(std::abs(section.values(i) + values[static_cast<std::size_t>(3 + i)]) < scale * arm);
     }

@@ -128,7 +128,7 @@ TEST_CASE("teetered machine, mixed elements: the pencil is a trigonometric polyn
     }
 }
 
-TEST_CASE("teetered machine, mixed elements: frequencies per rev of two, three and four elements", "[published]") {
+TEST_CASE("teetered machine, mixed elements: frequencies per rev of two, three and four elements", "[discrete]") {
     // Digits of a separate implementation of the paper's eq. 7 with the data of Table I; one unit of the last digit.
     struct Row {
         int elements;

@@ -182,7 +182,7 @@ double largest(const std::array<Row, 3>& found, const std::array<Row, 3>& refere
 }  // namespace
 
 TEST_CASE("ElastoDyn's machine written from positions of points: OpenFAST's frequencies, in rotation in all digits",
-          "[published]") {
+          "[discrete]") {
     // Sums over as many elements as its files ask for: BldNodes = 17, TwrNodes = 20.
     const auto found = independent(17, 20);
     CAPTURE(found[0], found[1], found[2]);
@@ -195,7 +195,7 @@ TEST_CASE("ElastoDyn's machine written from positions of points: OpenFAST's freq
 
 TEST_CASE(
     "ElastoDyn's machine at rest: of the asymmetric flap modes the lower one tilts, the higher one yaws the rotor",
-    "[published]") {
+    "[discrete]") {
     const ElastodynTurbine::Modes at_rest = elastodyn_turbine(17, 20).modes(0);
     const auto lower = at_rest.shapes.col(3), higher = at_rest.shapes.col(4);
     CHECK(at_rest.hz(3) == Approx(0.6667).epsilon(2e-4));
@@ -232,7 +232,7 @@ TEST_CASE("NREL 5 MW machine limited to ElastoDyn's shapes, 48 elements per blad
 
 TEST_CASE(
     "NREL 5 MW machine without limits: first flap and edge within 1 % of ElastoDyn's, the tower 3 % softer fore-aft",
-    "[published]") {
+    "[discrete]") {
     const auto found = computed(Nrel5mwVariant::fast, Limited::nothing, 8, 4);
     CHECK(largest(found, elastodyn, 3, 8) < 0.01);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
@@ -242,7 +242,7 @@ TEST_CASE(
 }
 
 TEST_CASE("NREL 5 MW machine with ElastoDyn's tower: OpenFAST with BeamDyn's blades but for the error of order 5",
-          "[published]") {
+          "[discrete]") {
     const auto factor = order_five();
     CHECK(factor[0] == Approx(1.010).margin(0.001));
     CHECK(factor[1] == Approx(1.005).margin(0.001));

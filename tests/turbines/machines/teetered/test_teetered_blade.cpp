@@ -122,7 +122,7 @@ TEST_CASE("teetered machine's blade: on the teeter hinge the exact blade, the mi
 }
 
 TEST_CASE("teetered machine's blade: with the paper's element the second torsion is far above three times the first",
-          "[analytic][published]") {
+          "[analytic]") {
     // The element is a box scheme: a rod of n elements has 2 n c/L tan((2k - 1) pi/4n), so that with two of them the
     // second frequency is 5.8 times the first whatever GJ and inertia are. Table II of the paper has 46.212/15.482
     // = 2.98.

@@ -78,7 +78,7 @@ void check_rigid_motions(const Campbell& d, double growth_per_rev) {
 }  // namespace
 
 TEST_CASE("campbell of the teetered machine: three elements per part give names and first frequencies within 1 %",
-          "[published]") {
+          "[discrete]") {
     const Campbell d = diagram_of(teetered_machine(3), {teetered_speed}, 11);
     CHECK(check_rows(d, teetered_ratio_100, 11, 1e-2, 1e-2) == 6);
     check_rigid_motions(d, 0.04525);
@@ -154,7 +154,7 @@ TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in
     }
 }
 
-TEST_CASE("campbell of the teetered machine: six elements per part, all modes of the table", "[published][slow]") {
+TEST_CASE("campbell of the teetered machine: six elements per part, all modes of the table", "[discrete][slow]") {
     for (const bool rigid : {true, false}) {
         const Campbell d = diagram_of(teetered_machine(6, rigid), {teetered_speed}, 140);
         const auto& rows = rigid ? teetered_rigid : teetered_ratio_100;

@@ -91,7 +91,7 @@ TEST_CASE("teetered machine: multipliers of the undamped machine come in recipro
     CHECK(rigid_motions(result).teeter.size() == 2);
 }
 
-TEST_CASE("teetered machine: three elements per part give the first modes within 1 %", "[published]") {
+TEST_CASE("teetered machine: three elements per part give the first modes within 1 %", "[discrete]") {
     for (bool rigid_tower : {false, true}) {
         const HalfTurnFloquet result = floquet(teetered_machine(3, rigid_tower), teetered_speed, 100);
         for (const TeeteredRow& row : rigid_tower ? teetered_rigid : teetered_ratio_100) {
@@ -106,7 +106,7 @@ TEST_CASE("teetered machine: three elements per part give the first modes within
     }
 }
 
-TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes of the table", "[published][slow]") {
+TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes of the table", "[discrete][slow]") {
     const HalfTurnFloquet result = floquet(teetered_machine(6, true), teetered_speed, 700);
     check_rows(result, teetered_rigid, 700);
     const RigidMotions motions = rigid_motions(result);
@@ -118,7 +118,7 @@ TEST_CASE("teetered machine: six elements per part on the rigid tower, all modes
 }
 
 TEST_CASE("teetered machine: six elements per part on a tower of a hundred times the blade's rigidity, all modes",
-          "[published][slow]") {
+          "[discrete][slow]") {
     const HalfTurnFloquet result = floquet(teetered_machine(6, false), teetered_speed, 1500);
     check_rows(result, teetered_ratio_100, 1500);
     const RigidMotions motions = rigid_motions(result);
@@ -132,7 +132,7 @@ TEST_CASE("teetered machine: six elements per part on a tower of a hundred times
 }
 
 TEST_CASE("teetered machine: with more elements the frequencies converge with order two to those of the table",
-          "[published][slow]") {
+          "[discrete][slow]") {
     std::vector<HalfTurnFloquet> results;
     const std::vector<int> elements{3, 6, 12};
     for (int n : elements) results.push_back(floquet(teetered_machine(n, false), teetered_speed, 300));

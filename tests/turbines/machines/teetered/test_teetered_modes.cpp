@@ -169,7 +169,7 @@ TEST_CASE(
     CHECK(compared == 8);
 }
 
-TEST_CASE("modes of the teetered machine: three elements per part give the first modes within 1 %", "[published]") {
+TEST_CASE("modes of the teetered machine: three elements per part give the first modes within 1 %", "[discrete]") {
     const TeeteredTurbine machine = teetered_machine(3);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(11, true);
@@ -220,7 +220,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 }
 
 TEST_CASE("modes of the teetered machine: six elements per part on the rigid tower, all modes of the table",
-          "[published][slow]") {
+          "[discrete][slow]") {
     const TeeteredTurbine machine = teetered_machine(6, true);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
@@ -230,7 +230,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on the rigid tow
 }
 
 TEST_CASE("modes of the teetered machine: six elements per part on a tower of a hundred times the blade's rigidity",
-          "[published][slow]") {
+          "[discrete][slow]") {
     const TeeteredTurbine machine = teetered_machine(6);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);

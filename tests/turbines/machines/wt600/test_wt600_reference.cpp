@@ -48,7 +48,7 @@ turbines::TurbineDescription with_wrong_twist() {
 
 }  // namespace
 
-TEST_CASE("600 kW machine: fourteen modes with three elements, to the digit, at 0 and 27 rpm", "[published]") {
+TEST_CASE("600 kW machine: fourteen modes with three elements, to the digit, at 0 and 27 rpm", "[discrete]") {
     const turbines::Turbine machine = turbines::wt600(undamped(3));
     const solvers::Campbell d = solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 27, 1));
     for (const Row& row : rows) {
@@ -58,7 +58,7 @@ TEST_CASE("600 kW machine: fourteen modes with three elements, to the digit, at 
     }
 }
 
-TEST_CASE("600 kW machine: the same fourteen modes with twelve elements, to the digit", "[published]") {
+TEST_CASE("600 kW machine: the same fourteen modes with twelve elements, to the digit", "[discrete]") {
     const turbines::Turbine machine = turbines::wt600(undamped(12));
     // Twelve elements at two speeds only, so rows are told apart by order; the second flap pair lies above row 13.
     const std::vector<double> at_0 = frequencies(machine, 0), at_27 = frequencies(machine, 27 * rpm);
@@ -75,7 +75,7 @@ TEST_CASE("600 kW machine: the same fourteen modes with twelve elements, to the 
     }
 }
 
-TEST_CASE("600 kW blade, isolated: three elements give flap and lag to four digits at 0 and 27 rpm", "[published]") {
+TEST_CASE("600 kW blade, isolated: three elements give flap and lag to four digits at 0 and 27 rpm", "[discrete]") {
     const turbines::Turbine blade = turbines::isolated_blade(turbines::wt600_description(), undamped(3));
     const std::vector<double> at_0 = frequencies(blade, 0), at_27 = frequencies(blade, 27 * rpm);
     const double expected_0[] = {1.7636, 3.4433, 5.2333}, expected_27[] = {1.8676, 3.4600, 5.3661};
@@ -86,7 +86,7 @@ TEST_CASE("600 kW blade, isolated: three elements give flap and lag to four digi
 }
 
 TEST_CASE("600 kW machine: a gearbox that spun with the high-speed shaft's twist alone would raise drive-train torsion",
-          "[published]") {
+          "[discrete]") {
     // The gearbox turns with generator plus twist, so its armature couples both; on the diagonal alone 4.5406 Hz.
     const turbines::Turbine machine = turbines::wt600(undamped(3));
     const CoordinateTable& table = machine.system().model.coordinates();

@@ -85,7 +85,7 @@ TEST_CASE("statement 1: the differential lags couple with yaw and tilt of the ro
 }
 
 TEST_CASE("statement 1 in operation: in the fixed frame the differential lags split by twice the rotor speed",
-          "[published]") {
+          "[analytic]") {
     // The paper says that they stay close; that is so in frozen-azimuth eigenvalues only. Two motions of nearly one
     // frequency in the rotating frame, delta apart at rest, come out sqrt(delta^2 + (2 Omega)^2) apart in the fixed
     // one.

@@ -58,7 +58,7 @@ Machine mast() {
     return m;
 }
 
-Identification identification_of(const SmallRotor& rotor) {
+EnergyShares energy_shares_of(const SmallRotor& rotor) {
     return {at_rest(rotor.system), rotor.system.model, rotor.map, rotor.unknowns(),
             ColemanTransform(rotor.map, rotor.unknowns()).rows()};
 }
@@ -70,18 +70,18 @@ double sum(const std::vector<Share>& shares) {
 
 }  // namespace
 
-TEST_CASE("identify: components are named after the axis of their coordinates and counted within the family",
+TEST_CASE("energy shares: components are named after the axis of their coordinates and counted within the family",
           "[analytic]") {
     const Machine m = mast();
     const System system(m.tree, m.forces);
     const std::vector<int> all = system.model.coordinates().free();
-    const Identification identification(at_rest(system), system.model, m.map, all, plain(system));
+    const EnergyShares energy_shares(at_rest(system), system.model, m.map, all, plain(system));
     std::vector<std::string> names;
     double last = 0;
-    for (std::size_t i = 0; i < identification.components().size(); ++i) {
-        const Component& c = identification.components()[i];
+    for (std::size_t i = 0; i < energy_shares.components().size(); ++i) {
+        const Component& c = energy_shares.components()[i];
         CHECK_FALSE(c.of_blades);
-        names.push_back(identification.name(static_cast<int>(i), RotorPattern::none));
+        names.push_back(energy_shares.name(static_cast<int>(i), RotorPattern::none));
         if (c.part != "mast") continue;
         CHECK(c.clamped_hz >= last);
         last = c.clamped_hz;
@@ -94,22 +94,22 @@ TEST_CASE("identify: components are named after the axis of their coordinates an
     CHECK(names.front() == "1st mast fore-aft");
     CHECK(names.back() == "car on its rail");
     // With everything else clamped the car is a mass on a spring.
-    CHECK(identification.components().back().clamped_hz == Approx(std::sqrt(700.0 / 3) / (2 * pi)).epsilon(1e-12));
-    CHECK(identification.components().back().part == "car");
+    CHECK(energy_shares.components().back().clamped_hz == Approx(std::sqrt(700.0 / 3) / (2 * pi)).epsilon(1e-12));
+    CHECK(energy_shares.components().back().part == "car");
 }
 
-TEST_CASE("identify: shares of random shapes add up to one and follow the stiffness of the parts", "[property]") {
+TEST_CASE("energy shares: shares of random shapes add up to one and follow the stiffness of the parts", "[property]") {
     const Machine m = mast();
     const System system(m.tree, m.forces);
     const std::vector<int> all = system.model.coordinates().free();
     const Linearisation lin = at_rest(system);
-    const Identification identification(lin, system.model, m.map, all, plain(system));
+    const EnergyShares energy_shares(lin, system.model, m.map, all, plain(system));
     const SecondOrderSystem whole = restrict_to(lin, all);
     Random random(5);
     for (int i = 0; i < 20; ++i) {
         const Mode mode{Complex(0, 1), random_state(random, system.model.size()).cast<Complex>() +
                                            Complex(0, 1) * random_state(random, system.model.size())};
-        const std::vector<Share> shares = identification.shares(mode);
+        const std::vector<Share> shares = energy_shares.shares(mode);
         REQUIRE(sum(shares) == Approx(1).epsilon(1e-12));
         const int car = system.model.index("car");
         REQUIRE(shares.back().total() == Approx(energy_by_row(whole, mode)(car)).epsilon(1e-10));
@@ -119,41 +119,41 @@ TEST_CASE("identify: shares of random shapes add up to one and follow the stiffn
         }
     }
     // No energy at all: no shares, and no division by zero.
-    CHECK(sum(identification.shares({Complex(0, 1), ComplexVector::Zero(system.model.size())})) == 0);
+    CHECK(sum(energy_shares.shares({Complex(0, 1), ComplexVector::Zero(system.model.size())})) == 0);
 }
 
-TEST_CASE("identify: a part without a family name is called by its own; rigid motions are no components",
+TEST_CASE("energy shares: a part without a family name is called by its own; rigid motions are no components",
           "[analytic]") {
     Machine m;
     const Link free = m.add("slide", "sledge", Tree::base(), JointKind::prismatic, Vec3::UnitY(), {4, Vec3::Zero()}, 0);
     m.add("swing", "sledge", free.axes, JointKind::revolute, Vec3::UnitX(), {2, {0, 0, 1.0}}, 50);
     m.map.parts = {{"sledge", Tree::base(), {}, {}}};
     const System system(m.tree, m.forces);
-    const Identification identification(at_rest(system), system.model, m.map, system.model.coordinates().free(),
-                                        plain(system));
-    REQUIRE(identification.components().size() == 1);
-    CHECK(identification.name(0, RotorPattern::none) == "sledge");
+    const EnergyShares energy_shares(at_rest(system), system.model, m.map, system.model.coordinates().free(),
+                                     plain(system));
+    REQUIRE(energy_shares.components().size() == 1);
+    CHECK(energy_shares.name(0, RotorPattern::none) == "sledge");
     // Two bodies that move against each other: the slider takes part, omega^2 = k / (m l^2) (M + m) / M.
-    CHECK(identification.components()[0].clamped_hz == Approx(std::sqrt(50.0 / 2 * 6 / 4) / (2 * pi)).epsilon(1e-12));
+    CHECK(energy_shares.components()[0].clamped_hz == Approx(std::sqrt(50.0 / 2 * 6 / 4) / (2 * pi)).epsilon(1e-12));
 }
 
-TEST_CASE("identify: the phase between cosine and sine tells the whirl of a rotor of three or four blades",
+TEST_CASE("energy shares: the phase between cosine and sine tells the whirl of a rotor of three or four blades",
           "[analytic]") {
     for (const int blades : {3, 4}) {
         CAPTURE(blades);
         const SmallRotor rotor =
             small_rotor({.stiffness = std::vector<double>(static_cast<std::size_t>(blades), 2000.0), .offset = 0});
-        const Identification identification = identification_of(rotor);
-        REQUIRE(identification.components().size() == 1);
-        CHECK(identification.components()[0].of_blades);
-        CHECK(identification.components()[0].clamped_hz ==
+        const EnergyShares energy_shares = energy_shares_of(rotor);
+        REQUIRE(energy_shares.components().size() == 1);
+        CHECK(energy_shares.components()[0].of_blades);
+        CHECK(energy_shares.components()[0].clamped_hz ==
               Approx(std::sqrt(2000.0 / (3 * 16)) / (2 * pi)).epsilon(1e-12));
-        CHECK(identification.name(0, RotorPattern::backward) == "blade flap (backward)");
+        CHECK(energy_shares.name(0, RotorPattern::backward) == "blade flap (backward)");
         const auto share = [&](Complex collective, Complex cosine, Complex sine, Complex differential) {
             ComplexVector shape = ComplexVector::Zero(blades);
             shape.head(3) << collective, cosine, sine;
             if (blades == 4) shape(3) = differential;
-            return identification.shares({Complex(0, 1), shape})[0];
+            return energy_shares.shares({Complex(0, 1), shape})[0];
         };
         const Complex i(0, 1);
         // cos(w t - psi) = Re (cos psi - i sin psi) exp(i w t) runs ahead with rising azimuth.
@@ -173,33 +173,33 @@ TEST_CASE("identify: the phase between cosine and sine tells the whirl of a roto
     }
 }
 
-TEST_CASE("identify: two blades deflect alike or against each other", "[analytic]") {
+TEST_CASE("energy shares: two blades deflect alike or against each other", "[analytic]") {
     const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000}, .offset = 0});
-    const Identification identification = identification_of(rotor);
-    CHECK(identification.two_blades());
-    CHECK(identification.name(0, RotorPattern::antisymmetric) == "blade flap (antisymmetric)");
-    const Share share = identification.shares({Complex(0, 1), (ComplexVector(2) << 3, Complex(0, 1)).finished()})[0];
+    const EnergyShares energy_shares = energy_shares_of(rotor);
+    CHECK(energy_shares.two_blades());
+    CHECK(energy_shares.name(0, RotorPattern::antisymmetric) == "blade flap (antisymmetric)");
+    const Share share = energy_shares.shares({Complex(0, 1), (ComplexVector(2) << 3, Complex(0, 1)).finished()})[0];
     CHECK(share.of(RotorPattern::symmetric) == Approx(0.9).epsilon(1e-13));
     CHECK(share.of(RotorPattern::antisymmetric) == Approx(0.1).epsilon(1e-12));
 }
 
-TEST_CASE("identify: shares of several harmonics are added up, and at a negative frequency the whirl is reversed",
+TEST_CASE("energy shares: shares of several harmonics are added up, and at a negative frequency the whirl is reversed",
           "[analytic]") {
     const SmallRotor rotor = small_rotor({.offset = 0});
-    const Identification identification = identification_of(rotor);
+    const EnergyShares energy_shares = energy_shares_of(rotor);
     const Complex i(0, 1);
     const Mode forward{Complex(0, 2), (ComplexVector(3) << 0, 1, -i).finished()},
         collective{Complex(0, 5), (ComplexVector(3) << 1, 0, 0).finished()},
         reversed{Complex(0, -1), (ComplexVector(3) << 0, 1, -i).finished()};
-    CHECK(identification.shares(std::vector<Mode>{reversed})[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-13));
-    const Share sum = identification.shares(std::vector<Mode>{forward, collective, reversed, reversed})[0];
+    CHECK(energy_shares.shares(std::vector<Mode>{reversed})[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-13));
+    const Share sum = energy_shares.shares(std::vector<Mode>{forward, collective, reversed, reversed})[0];
     CHECK(sum.total() == Approx(1).epsilon(1e-13));
     CHECK(sum.of(RotorPattern::collective) == Approx(1.0 / 7).epsilon(1e-13));
     CHECK(sum.of(RotorPattern::forward) == Approx(2.0 / 7).epsilon(1e-13));
     CHECK(sum.of(RotorPattern::backward) == Approx(4.0 / 7).epsilon(1e-13));
 }
 
-TEST_CASE("identify: every rotor pattern has its name", "[property]") {
+TEST_CASE("energy shares: every rotor pattern has its name", "[property]") {
     const RotorPattern all[] = {RotorPattern::none,         RotorPattern::collective, RotorPattern::backward,
                                 RotorPattern::forward,      RotorPattern::cosine,     RotorPattern::sine,
                                 RotorPattern::differential, RotorPattern::symmetric,  RotorPattern::antisymmetric};
