@@ -32,7 +32,7 @@ std::vector<double> element_ends(const BeamLine& line, const CardanBeamOptions& 
     return ends;
 }
 
-// What a place of the hinges costs that does not suit the partition; empty: nothing.
+// Warning about a hinge position that does not suit the partition; empty: none.
 std::string unsuited_delta(const CardanBeamOptions& options) {
     const double delta = options.hinge_delta(), suited = recommended_delta(options.partition);
     if (places_hinges(options.partition) || std::abs(delta - suited) < 1e-4) return {};
@@ -130,7 +130,7 @@ private:
     double step_ = 0;  ///< distance of the next joint from the frame reached
 };
 
-// Does an axial force bend or twist the element?
+// True if an axial force bends or twists the element.
 bool extension_is_coupled(const Mat6& flexibility) {
     for (Eigen::Index i = 1; i < 6; ++i)
         if (std::abs(flexibility(0, i)) > 1e-9 * std::sqrt(flexibility(0, 0) * flexibility(i, i))) return true;
@@ -152,7 +152,7 @@ Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element,
     std::vector<int> free;
     for (ElementCoordinate kind : element.kinds) free.push_back(static_cast<int>(kind));
     Matrix D = element.stiffness * F(free, free) * element.stiffness;
-    // A coordinate in which nothing dissipates has rounding on its diagonal, measured by its stiffness.
+    // A coordinate without dissipation has rounding on its diagonal, relative to its stiffness.
     const double largest = *std::max_element(tau.begin(), tau.end());
     for (Eigen::Index i = 0; i < D.rows(); ++i)
         if (D(i, i) <= 1e-12 * largest * element.stiffness(i, i)) {
@@ -193,7 +193,7 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
     if (!elements.empty()) forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
 }
 
-// Damping that is told by the modes of the beam alone: they are computed from a beam clamped at its root.
+// Modal damping of the beam alone: the modes are those of the beam clamped at its root.
 void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::string& name) {
     if (!beam.options.damping.needs_modes()) return;
     CardanBeamOptions undamped = beam.options;

@@ -53,8 +53,8 @@ Mat6 dissipation(const BeamSection& section, const std::array<double, 6>& time_c
     }
     const Vec6 inverse = scale.cwiseInverse();
     const Mat6 unit = inverse.asDiagonal() * S * inverse.asDiagonal();
-    // Rigid directions have no stiffness: the generalised inverse leaves out strains that follow from others (shear by
-    // the twist about an offset shear centre). Torsion and bending are taken first, so they keep their own coefficient.
+    // Rigid directions have no stiffness: the generalised inverse leaves out strains that follow from others (shear due
+    // to twist about an offset shear centre). Torsion and bending are taken first, so they keep their own coefficient.
     std::vector<Eigen::Index> kept;
     for (const Eigen::Index i : {3, 4, 5, 1, 2, 0}) {
         double left = unit(i, i);  // what does not follow from those kept

@@ -115,9 +115,9 @@ private:
         return sum;
     }
 
-    // Gives the end bodies what is due to them and takes it off their neighbours: pairs of forces, and moments. All
-    // stand on the far side of their hinge, so that between a section on a body and the joint from which its loads are
-    // summed up (equilibrium_loads) there is the true load.
+    // Transfers the end bodies' share from their neighbours: pairs of forces, and moments. All act on the far side of
+    // their hinge, so that between a section on a body and the joint from which its loads are summed up
+    // (equilibrium_loads) the load is the true one.
     void move_to_shapes(const CardanBeam::Element& element, const EndLoads& from, const EndLoads& to) {
         const double t = element.shape_share, arm = element.length / 10;
         const double x1 = element.hinges.first * element.length, x2 = element.hinges.second * element.length;
@@ -135,7 +135,7 @@ private:
         pair(3, x2, -1, last, last_moment);
     }
 
-    // The masses of B2 and B3 part where torsion does.
+    // The masses of B2 and B3 are divided at the torsion joint.
     void move_to_split(const CardanBeam::Element& element, const ElementLine& on) {
         const Hinges& h = element.hinges;
         const double split = std::clamp(element.rotary_split, h.first, h.second), sign = split > h.middle ? 1 : -1;

@@ -8,8 +8,8 @@ namespace {
 
 using Samples = PlanarElement::Samples;
 
-// What the chain needs of the end bodies: first moments of B4 and B1 about their hinges and second ones, (P2, Q1, I4,
-// I1). A point mass on a hinge belongs to either neighbour, so that masses come last.
+// What the chain requires of the end bodies: first moments of B4 and B1 about their hinges and second ones, (P2, Q1,
+// I4, I1). A point mass on a hinge belongs to either neighbour, so that masses come last.
 using Targets = Eigen::Vector4d;
 
 // Share of the linear term of each shape in the inertia about its hinge. Any share is of fourth order; 1/3 is best on

@@ -85,8 +85,8 @@ RigidInertia reshaped(const RigidInertia& segment, const PlanarBody& planar, con
 void move_to_mean_difference(const ElementLine& on, const MeanDifference& planar, ElementInertia& element) {
     const double arc = on.end() - on.start(), straight = on.chord() / arc;
     const Vec3 S = first_moment(element.body), centre = S / element.mass;
-    // B2 and B3 turn as one in bending; their masses part where torsion does, which keeps the mass that extension
-    // moves.
+    // B2 and B3 turn as one in bending; their masses are divided at the torsion joint, which preserves the mass that
+    // extension moves.
     const double inboard = line_mass(on, 0, element.rotary_split).mass;
     const PlanarBody& middle = planar.body[1];
     const double r = std::clamp((inboard - planar.body[0].mass) / middle.mass, 0.0, 1.0);

@@ -6,7 +6,7 @@ namespace {
 
 constexpr Eigen::Index points_per_piece = 12;
 
-// Pieces that end at the breaks inside, at least about four of them: running integrals are less exact than full ones.
+// Pieces between the inner breaks, at least about four: running integrals are less accurate than full ones.
 std::vector<double> pieces(double length, const std::vector<double>& breaks) {
     constexpr std::size_t least = 4;
     std::vector<double> ends{0};

@@ -54,7 +54,8 @@ private:
     Vec3 about_, force_ = Vec3::Zero(), moment_ = Vec3::Zero();
 };
 
-// Inertia less weight: force and moment about `about`, of bodies and lines about the origin of `axes`; base axes.
+// Inertial forces minus weight: force and moment about `about`, for bodies and lines about the origin of `axes`; base
+// axes.
 using Load = Vec6;
 
 Load of_point(double mass, const Vec3& at, const BodyMotion& motion, const Vec3& gravity, const Vec3& about) {
@@ -98,7 +99,7 @@ Load of_segment(const Cut& cut, const Placement& axes, const BodyMotion& motion,
            share * of_line(cut, axes, motion, gravity, start, end);
 }
 
-// Does a frame belong to a rigid segment? Not if it was placed on a node: that may carry anything.
+// True if a frame belongs to a rigid segment. False if it was placed on a node, which may carry anything.
 bool belongs(const CardanBeam& beam, const CardanBeam::Segment& segment, const Model& model, FrameId frame) {
     for (int at = frame.index; at >= 0; at = model.frame(FrameId{at}).parent) {
         if (at == segment.carrier.index) return true;
@@ -130,7 +131,7 @@ BodyId joint_of(const CardanBeam::Element& element, ElementCoordinate kind) {
     throw InputError("section loads: the element has no bending coordinates");
 }
 
-// What the joints of an element transmit, in the axes of its first body.
+// Loads transmitted by the joints of an element, in the axes of its first body.
 struct TransmittedWrench {
     Vec3 force, moment, about;          // of the outboard part upon the inboard one
     std::array<Placement, 4> segments;  // element axes as the rigid segments carry them

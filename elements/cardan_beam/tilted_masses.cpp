@@ -33,7 +33,7 @@ struct Pair {
         p.end.J = ordinary_tensor<double>(P);
         return p;
     }
-    // Can the end body be made of material? Binet's tensor is then positive semi-definite.
+    // True if the end body is physically possible: Binet's tensor is positive semi-definite.
     bool is_possible() const {
         const Mat3 P = binet_tensor<double>(end.J);
         return P(1, 1) >= 0 && P(2, 2) >= 0 && P.bottomRightCorner<2, 2>().determinant() >= 0 && P.determinant() >= 0;

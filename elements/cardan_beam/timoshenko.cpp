@@ -96,7 +96,7 @@ Eigen::Matrix<double, 2, 6> shear_rotation(const ElementLine& element, const Hin
 
 namespace {
 
-// A coordinate that nothing gives way in, and what to do about it.
+// A coordinate without flexibility, and what to do about it.
 void refuse_rigid(const Mat6& flexibility, ElementCoordinate kind, const std::string& where) {
     const auto i = static_cast<Eigen::Index>(kind);
     if (flexibility(i, i) > 0) return;

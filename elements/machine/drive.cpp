@@ -12,7 +12,7 @@ DriveOrder::DriveOrder(double position, const TravelLimits& limits) : limits_(li
     require_positive("order of a drive", "largest rate", limits.rate);
     require_positive("order of a drive", "largest acceleration", limits.acceleration);
     require_not_negative("order of a drive", "largest jerk", limits.jerk);
-    // That of the drive, also when it is ordered to be slow.
+    // The drive's default jerk, even for slow commands.
     if (limits.jerk == 0) limits_.jerk = default_jerk(limits);
 }
 

@@ -6,7 +6,7 @@ namespace cardan {
 
 namespace {
 
-// What torque and thrust are made of.
+// Terms of torque and thrust.
 struct Scales {
     double still, moving, thrust;  // N m, N m per rad/s, N per rad/s
 

@@ -5,7 +5,7 @@
 // waves, no wind. Three studies: modes of the free-floating machine at some rotor speeds, beside the machine with the
 // spar held and the one on land; decay tests, period and damping as measured in the time history beside the eigenvalue;
 // prescribed motions of the spar and what they do to deflections and loads.
-// Reference: pitch at 0.034 Hz (J. Jonkman, docs/nrel5mw_floating.md). Checked: the theorem of energy; periods of the
+// Reference: pitch at 0.034 Hz (J. Jonkman, docs/nrel5mw_floating.md). Checked: the energy balance; periods of the
 // decays within 1 % of the eigenvalues, if enough cycles were measured.
 #include "examples/programs/nrel5mw_floating/decay.hpp"
 #include "examples/programs/nrel5mw_floating/free_modes.hpp"
@@ -115,7 +115,7 @@ int parse(int argc, char** argv, Arguments& a) {
         "downwind.\n"
         "No waves, no wind. nrel5mw_floating STUDY --help tells the options of a study.");
     app.footer(
-        "Exit code: 0; 1 error, or the theorem of energy does not hold; 2 wrong usage; 3 the period of a decay is not "
+        "Exit code: 0; 1 error, or the energy balance does not close; 2 wrong usage; 3 the period of a decay is not "
         "within 1 % of\nthe linear model's; 130 interrupted: what was computed is written.");
     add_machine_options(app, a);
     add_modes(app, a);

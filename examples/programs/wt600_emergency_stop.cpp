@@ -4,7 +4,7 @@
 // vanishes, the rotor speeds up. At the overspeed limit all blades are ordered to feather; below a speed, or after a
 // delay, the brake is applied until the rotor stands. Equations of motion g q'' + Gamma q' q' = Q with gravity and a
 // prescribed load on the rotor (no aerodynamics, see elements/machine/rotor_load.hpp).
-// Checks: the theorem of energy, by the integration and by the recorded powers; the order of events; standstill.
+// Checks: the energy balance, by the integration and by the recorded powers; the order of events; standstill.
 #include "mbs/base/units.hpp"
 
 #include "examples/programs/wt600_simulation.hpp"

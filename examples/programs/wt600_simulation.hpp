@@ -240,7 +240,7 @@ inline double recorded_work(const solvers::History& history) {
     return work;
 }
 
-/// The theorem of energy, twice: what the integration has lost, and recorded powers against the work that it has added
+/// The energy balance, twice: what the integration has lost, and recorded powers against the work that it has added
 /// up: those of the machine's elements against the work of all forces without potential. On a platform that moves the
 /// thrust does work as well; then it is the drives of the platform against theirs. Trapezoids are wrong by half an
 /// output step at every jump of a power.

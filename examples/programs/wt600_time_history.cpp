@@ -5,7 +5,7 @@
 // --mode fixed: the induction generator (Kloss' law) is connected to the grid when it reaches the synchronous speed;
 // --mode variable: a converter loads it by a table of torque over speed. Gravity and a prescribed load on the rotor (no
 // aerodynamics, see elements/machine/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
-// Checks: the theorem of energy, by the integration and by the recorded powers; at the end the speed at which the
+// Checks: the energy balance, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"

@@ -152,7 +152,7 @@ inline double exchanged_energy(const solvers::History& history) {
     return most;
 }
 
-/// The theorem of energy: change of kinetic energy against the work of all forces, as the integration has added it up.
+/// The energy balance: change of kinetic energy against the work of all forces, as the integration has added it up.
 /// @param scale    largest kinetic energy of the run, J, or exchanged_energy()
 /// @param allowed  part of it that may be lost or won
 /// @param parked   scale is exchanged_energy()

@@ -4,7 +4,7 @@
 // rolls, pitches and yaws as prescribed; gravity, structural damping, no wind. The equations of motion are integrated
 // in time from the undeformed blade until the transient has died away; mean, extremes and harmonics of the deflection
 // of the tip and of the root moments over the last period are printed.
-// Checks: the theorem of energy over the whole run; the reference, where there is one.
+// Checks: the energy balance over the whole run; the reference, where there is one.
 // Reference: converged response of the same blade by a method that shares nothing with the joint chain, without
 // platform motion and with a pitch of 5 degrees at half the rotor's frequency (docs/nrel5mw_platform.md).
 // Goal: 0.5 % and 1 degree on every harmonic above 0.01 m with 16 elements.
@@ -57,7 +57,7 @@ int parse(int argc, char** argv, Arguments& a) {
         "where\nthe case is one of the two that have one.");
     app.footer(
         "Exit code: 0; 1 error; 2 wrong usage; 3 the reference is missed (goal: 0.5 % and 1 degree with 16 elements), "
-        "the response\nhas not become periodic, or the theorem of energy does not hold; 130 interrupted: what was "
+        "the response\nhas not become periodic, or the energy balance does not close; 130 interrupted: what was "
         "computed is written.");
     app.add_option("--case", a.reference, "reference case: no motion; pitch of 5 degrees every second revolution")
         .one_of({"none", "pitch"});

@@ -27,7 +27,7 @@ bool is_locked(int fd, int kind) {
     return ::flock(fd, kind | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
-// A file that is open while this lives.
+// A file that stays open during the lifetime of this object.
 class Opened {
 public:
     Opened(const std::string& path, int flags) { open(path, flags); }
@@ -50,7 +50,8 @@ void refuse_if_written(const std::string& path) {
         throw FileError(path, text("cannot be replaced: ", lock_holder(path)));
 }
 
-// Of a line of /proc/locks: "7: FLOCK  ADVISORY  WRITE 4711 08:01:123456 0 EOF"; 0: it is of another file.
+// Process number in a line of /proc/locks: "7: FLOCK  ADVISORY  WRITE 4711 08:01:123456 0 EOF"; 0: it is of another
+// file.
 int holder(const std::string& line, const struct stat& file) {
     int process = 0;
     unsigned first = 0, second = 0;

@@ -11,13 +11,13 @@ namespace cardan {
 
 namespace {
 
-/// Bytes of the character that `text` begins with; 0: it begins with none.
+/// Length in bytes of the first character of `text`; 0: not a valid character.
 std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
     const unsigned first = byte(0);
     if (first < 0x80) return 1;
     const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
-    // The second byte says what the first leaves open: overlong forms, surrogates, beyond U+10FFFF.
+    // The second byte decides what the first leaves open: overlong forms, surrogates, beyond U+10FFFF.
     const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
     const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
     if (length == 0 || byte(1) < least || byte(1) > most) return 0;

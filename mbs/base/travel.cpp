@@ -55,7 +55,7 @@ Travel::State Travel::Phase::at(double time) const {
             from.rate + t * (from.acceleration + t * jerk / 2), from.acceleration + t * jerk};
 }
 
-// Phases one after the other.
+// A sequence of phases.
 class Travel::Way {
 public:
     Way(double time, const State& from) : time_(time), now_(from) {}
@@ -80,7 +80,7 @@ public:
         now_.acceleration = 0;
         return add(length, 0);
     }
-    // As fast as it can.
+    // As fast as possible.
     Way& stop(double limit, double jerk) {
         return add(RateChange(now_.rate, now_.acceleration, 0, limit, jerk), std::numeric_limits<double>::infinity());
     }
@@ -141,7 +141,7 @@ Travel Travel::straight(double time, double from, double to, double duration) {
 }
 
 Travel::State Travel::at(double time, double inside) const {
-    // Before it, as if what it began from had lasted.
+    // Before the start, extrapolates the initial state.
     if (inside < start_) {
         const Phase& first = phases_[0];
         return count_ > 0 ? Phase{first.start, 0, first.from, 0}.at(time) : State{target_, 0, 0};

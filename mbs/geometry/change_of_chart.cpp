@@ -104,7 +104,7 @@ private:
         }
         return q;
     }
-    // What is missing of the poses, lengths by the size, and by how much the unknowns change it.
+    // Residual of the poses, lengths scaled by the size, and its Jacobian.
     Vector miss(const Vector& q, Matrix* J) {
         const Kinematics kin = kinematics(to_, q, workspace_);
         Vector e(rows());
@@ -122,7 +122,7 @@ private:
         }
         return e;
     }
-    // Steps of at most half a radian, halved until they help. Returns what is missing at the end.
+    // Newton steps of at most half a radian, halved until the residual falls. Returns the final residual.
     double iterate(Vector& q) {
         Matrix J(rows(), static_cast<Eigen::Index>(unknown_.size()));
         double left = miss(q, &J).norm();

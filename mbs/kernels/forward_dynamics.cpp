@@ -244,7 +244,7 @@ CARDAN_VECTORISED void ForwardDynamics::forward_on_path(const Arrays& arrays, st
 
 // After the backward sweep: loads on the coupled coordinates that stand for what the recursion left out,
 //   (g_0 + W X W^T) qdd = Q:   g_0 qdd = Q - W (1 + X W^T g_0^-1 W)^-1 X W^T g_0^-1 Q.
-// Only the way from the base to these coordinates is swept.                                             [Woodbury]
+// Only the path from the base to these coordinates is swept.                                             [Woodbury]
 void ForwardDynamics::couple(const Arrays& arrays) {
     const auto r = static_cast<Eigen::Index>(support_.size());
     const auto state = [&](std::size_t i, Eigen::Index j, Eigen::Index loads) -> OnPath& {
@@ -277,8 +277,8 @@ void ForwardDynamics::couple(const Arrays& arrays) {
 }
 
 void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator) {
-    // (The size of qd is looked at by the inverse dynamics.)
-    // What the motion needs without the accelerations of the free coordinates; the rest they produce from rest.
+    // (The inverse dynamics checks the size of qd.) What the motion needs without the accelerations of the free
+    // coordinates; the rest they produce from rest.
     Workspace& ws = kin.workspace();
     const Eigen::Index n = model_->size();
     require_model("forward dynamics", "kinematics", kin.model().serial(), model_->serial());

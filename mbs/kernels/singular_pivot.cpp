@@ -24,7 +24,7 @@ Mat6 shift(const Vec3& arm) {
     return X;
 }
 
-// What a body weighs against the worst direction, about its joint origin.
+// Largest inertia of a body in any direction, about its joint origin.
 Mat6 worst_inertia(const Model::Link& link, const Workspace::Frame& frame) {
     const Vec3 c = (frame.r - frame.o).vector();
     Vec6 diagonal;
@@ -68,8 +68,8 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
     return singular_pivot_of_support();
 }
 
-// The motion without inertia: coordinate `at` moves and what it carries yields. Where a joint further out undoes it
-// (two joints that do the same), that one is named.
+// The motion without inertia: coordinate `at` moves and the joints it carries yield. If a joint further out cancels it
+// (two joints that do the same thing), that one is named.
 int ForwardDynamics::most_distal(const Kinematics& kin, int at, double scale) const {
     std::vector<Vec6> twist(static_cast<std::size_t>(model_->body(at).subtree_end - at));
     int named = at;

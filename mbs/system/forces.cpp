@@ -9,8 +9,8 @@ namespace cardan {
 
 namespace {
 
-// Memory for user forces under a factor, kept by every thread. A user force that evaluates other forces borrows again
-// and gets fresh memory.
+// Thread-local memory for scaled user forces. A user force that evaluates other forces borrows again and gets fresh
+// memory.
 struct Scratch {
     Vector Q;
     Matrix by_q, by_qd;

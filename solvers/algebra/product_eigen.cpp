@@ -147,7 +147,7 @@ void ProductEigen::sweep(Index first, Index last, Complex sigma) {
     for (Index k = 0; k + 1 < factors(); ++k) t *= T_[at(k)](first, first);
     const Complex own = H()(first, first), below = H()(first + 1, first);
     Rotation G;
-    // Where the shift would drown the rest there is none.
+    // No shift if it would swamp the other terms.
     if (std::abs(sigma) * 1e-10 > std::abs(t) * (std::abs(own) + std::abs(below)) || t == 0.0)
         G.makeGivens(own, below);
     else
@@ -165,7 +165,7 @@ bool ProductEigen::iterate() {
     for (int i = 0; n > 1 && i < 2; ++i) sweep(0, n - 1, 0);
     int iterations = 0;
     for (Index last = n - 1; last > 0;) {
-        // Late, entries that are small beside the whole matrix count as zero.
+        // After many iterations, entries that are small relative to the whole matrix count as zero.
         const Index first = active_from(last, iterations > 30 ? machine_epsilon : 0);
         if (first == last) {
             --last;

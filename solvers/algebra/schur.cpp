@@ -27,7 +27,7 @@ SchurIteration::Reflector SchurIteration::reflector(const Column& v, double& bet
     return {v[1] / (v[0] - beta), v[2] / (v[0] - beta), (beta - v[0]) / beta};
 }
 
-// Columns from `first` on take the reflectors from the right, on so many rows.
+// Applies the reflectors from the right to the columns from `first` on, for this many rows.
 void SchurIteration::turn_columns(double* first, Index stride, Index rows, const Reflector* h, Index count,
                                   Index width) {
     Index k = 0;
@@ -70,7 +70,7 @@ void SchurIteration::turn_columns(Matrix& A, const Batch& batch, Index rows) con
                      reflectors_.data(), batch.count, batch.width);
 }
 
-// All columns from one on take the reflectors from the left.
+// Applies the reflectors from the left to all columns from one on.
 void SchurIteration::turn_rows(Matrix& A, const Batch& batch, Index from_column) const {
     std::array<std::array<double, strip>, most + 2> x{};
     for (Index j = from_column; j < A.cols(); j += strip) {
@@ -105,7 +105,7 @@ Index SchurIteration::active_from(const Matrix& T, Index last) const {
     return k;
 }
 
-// Every tenth step takes other shifts than those of the last 2 x 2 block, which may lead round in a circle.
+// Every tenth step uses exceptional shifts, because those of the last 2 x 2 block may cycle.
 SchurIteration::Shift SchurIteration::shift(const Matrix& T, Index first, Index last, int iteration) {
     if (iteration == 0 || iteration % 10 != 0)
         return {T(last, last), T(last - 1, last - 1), T(last, last - 1) * T(last - 1, last)};
@@ -116,7 +116,7 @@ SchurIteration::Shift SchurIteration::shift(const Matrix& T, Index first, Index 
     return {x, x, -0.4375 * s * s};
 }
 
-// Where a step may begin: below two small subdiagonal elements in a row, else at the top of the block.
+// Where a step may start: below two consecutive small subdiagonal elements, else at the top of the block.
 Index SchurIteration::start_of_bulge(const Matrix& T, Index first, Index last, const Shift& shift, Column& v) {
     for (Index m = last - 2;; --m) {
         const double d = T(m, m), r = shift.x - d, s = shift.y - d;

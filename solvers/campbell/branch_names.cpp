@@ -53,7 +53,7 @@ std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whir
     return labels;
 }
 
-// Part of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward share evenly.
+// Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
 double part(const CampbellMode& mode, const Label& label) {
     if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
     return mode.shares[static_cast<std::size_t>(label.component)].of(label.pattern, label.harmonic);
@@ -179,7 +179,7 @@ Matrix Naming::scores(const std::vector<Branch>& branches) const {
     return score;
 }
 
-// Of a branch of the neighbour, whose components may stand in another order; labels_.size(): none here.
+// Label of a branch of the neighbour, whose components may be in another order; labels_.size(): none here.
 std::size_t Naming::own_label(const Branch& partner) const {
     std::size_t l = 0;
     if (partner.component < 0) return labels_.size();
@@ -210,7 +210,7 @@ void Naming::continue_names(const std::vector<Branch>& branches, Matrix& score) 
     }
 }
 
-// Without a partner of the same name, and where the likeness to it is in doubt.
+// Without a partner of the same name, or where the match with it is doubtful.
 void Naming::doubt_by_neighbour(std::vector<Branch>& branches) const {
     for (std::size_t b = 0; b < branches.size(); ++b) {
         Branch& branch = branches[b];
@@ -229,7 +229,7 @@ bool Naming::continues(const Branch& branch, const Branch& partner) const {
     return branch.component == label.component && branch.pattern == label.pattern && branch.harmonic == label.harmonic;
 }
 
-// The label that holds most; `own` where none holds more.
+// The label with the largest share; `own` if none is larger.
 Label Naming::strongest(std::size_t point, const CampbellMode& mode, const Label& own) const {
     Label best = own;
     for (const Label& label : labels_)
@@ -242,8 +242,8 @@ std::string Naming::label_name(const Label& label, const CampbellMode& mode) con
     return motion_name(rows_[static_cast<std::size_t>(label.row)], mode.kind_name(), "", "");
 }
 
-// Of the energy of a label's component, the part that has its pattern (at standstill: that of its pair). A motion that
-// is at home in one blade of three has a third of each.
+// Of the energy of a label's component, the part that has its pattern (at standstill: that of its pair). A motion
+// localised in one blade of three has a third of each.
 double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
     const Share& share = mode.shares[static_cast<std::size_t>(label.component)];

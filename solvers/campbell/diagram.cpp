@@ -152,7 +152,7 @@ void check_cases(std::span<const CampbellCase> cases, const std::string& paramet
     }
 }
 
-// A growing motion is no vibration to design for; it must not hide behind the oscillating branches.
+// A growing aperiodic motion is not a branch, but it must not go unnoticed.
 void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (!warning.empty() || !(point.stability_margin < 0)) return;
     Complex fastest = 0;

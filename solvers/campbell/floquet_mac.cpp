@@ -8,7 +8,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Multiples of the rotor speed by which the principal frequency of a mode may leap where it is locked.
+// Multiples of the rotor speed by which the principal frequency of a mode may jump where it is locked.
 constexpr int most_shift = 8;
 
 // A motion: shapes of its harmonics by column and what the matrices make of them.
@@ -76,7 +76,7 @@ Likeness likeness(const ModalMotion& x, const ModalMotion& y) {
         for (const int s : {-shift, shift}) shifted = std::max(shifted, std::norm(product(x, y, s, by_shape)) / size);
     const Likeness found{std::min(1.0, std::max(in_place, shifted)),
                          std::min(1.0, std::max({in_place, principal, shifted / 4}))};
-    // A vibration may turn into a motion of a coordinate, but is not linked to one that is merely left over.
+    // A vibration may turn into a motion of a coordinate, but is not linked to one that merely remains unassigned.
     return x.elastic != y.elastic && found.score < 0.5 ? Likeness{} : found;
 }
 

@@ -19,13 +19,13 @@ constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
 constexpr double rigid_per_radian = 1e-4;
-// The same of the free spin in the mean over the azimuth, where gravity on bent blades makes a weak pendulum of it.
+// The same limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
 constexpr double free_spin_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
-// Of the blades, over the diagonals: more is no rounding.
+// Asymmetry of the blades relative to the diagonals; more is not rounding.
 constexpr double small_difference = 1e-4;
-// Harmonics at the ends that hold less are left out.
+// Outer harmonics with less energy are left out.
 constexpr double negligible_participation = 1e-12;
 
 // Kinetic energies of the rows alone; of joint coordinates each carries all that is outboard.
@@ -160,7 +160,7 @@ void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
     mean_ = mean_over_period(periodic, samples);
 }
 
-// x(t + T/Q) in multi-blade rows: there equal blades look alike, but for signs.
+// x(t + T/Q) in multi-blade rows, where equal blades look the same except for signs.
 BladeSymmetry PeriodicPointSolver::renumbering() const {
     const ColemanTransform* T = standstill_.coleman();
     if (!T || rotor_.blades.empty()) return {};
@@ -178,7 +178,7 @@ BladeSymmetry PeriodicPointSolver::symmetry(const PeriodicSystem& periodic) cons
     return asymmetry(periodic, found) < 1e-8 ? found : BladeSymmetry{};
 }
 
-// A mode that is at home in one blade has no frequency in the fixed frame: the mean invents one.
+// A mode localised in one blade has no frequency in the fixed frame: the average invents one.
 void PeriodicPointSolver::warn_of_differing_blades(const PeriodicSystem& periodic) {
     const double difference = asymmetry(periodic, renumbering());
     if (difference > small_difference)

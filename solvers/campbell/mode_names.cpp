@@ -34,7 +34,7 @@ std::string replaced(const std::array<Pair, n>& pairs, std::string_view name) {
     return known ? std::string(known->second) : capitals(name);
 }
 
-// "platform surge": there is one of each kind, and nobody counts them.
+// "platform surge": there is only one of each kind, so it gets no ordinal.
 bool is_of_platform(std::string_view name) {
     return name.starts_with("platform ");
 }

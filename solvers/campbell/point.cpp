@@ -131,8 +131,8 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     set_margin(point);
 }
 
-// Modes come and go with the rotor speed (a pair may turn into two aperiodic motions). What goes keeps its memory here,
-// and there is memory for as many as there can be.
+// The number of modes varies with rotor speed (a pair may turn into two aperiodic motions). Memory of modes that
+// disappear is kept here, and there is memory for the largest possible number.
 void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count) {
     const std::size_t most = 2 * unknowns_.size();
     modes.reserve(most);
@@ -167,7 +167,8 @@ void PointSolver::set_other_azimuth(double psi, double rotor_speed) {
     coleman_->transform_in_place(other_, psi, rotor_speed);
 }
 
-// The transformed matrices of an isotropic rotor are constant; else their mean over the azimuth is taken and said.
+// The transformed matrices of an isotropic rotor are constant; otherwise their azimuthal average is used, with a
+// warning.
 void PointSolver::average_if_periodic(double rotor_speed) {
     SecondOrderSystem& z = current_;
     set_other_azimuth(1.0, rotor_speed);

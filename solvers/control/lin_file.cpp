@@ -161,7 +161,7 @@ std::vector<std::filesystem::path> write_lin(const LinearModel& model, const std
         paths.emplace_back(text(prefix.string(), ".", i + 1, ".lin"));
         write_file(paths.back(), Writer(model).written(model.samples[i]));
     }
-    // Tools take all that are there for one model.
+    // Tools take all existing files for one model.
     for (std::size_t i = model.samples.size() + 1;; ++i)
         if (std::error_code error; !std::filesystem::remove(text(prefix.string(), ".", i, ".lin"), error)) return paths;
 }

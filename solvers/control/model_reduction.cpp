@@ -64,7 +64,7 @@ Vector checked_sizes(const char* name, const Vector& sizes, Index count) {
     return sizes;
 }
 
-// L with L L^T = X, X symmetric and positive semidefinite but for rounding.
+// L with L L^T = X, X symmetric and positive semidefinite up to rounding.
 Matrix root(const Matrix& X) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(X);
     if (solver.info() != Eigen::Success) throw NumericalError("balanced truncation: eigenvalues of a Gramian");
@@ -147,7 +147,7 @@ Balanced balance(const StateMatrices& stable, double sigma) {
                  Lo = root(lyapunov(stable.A.transpose(), stable.C.transpose() * stable.C, sigma));
     const Eigen::JacobiSVD<Matrix> svd(Lo.transpose() * Lc, Eigen::ComputeThinU | Eigen::ComputeThinV);
     Balanced result{svd.singularValues(), {}};
-    // What is rounding beside the largest cannot be balanced; it is left out in any case.
+    // States at rounding level relative to the largest cannot be balanced and are always left out.
     const Index usable = count_above(result.hankel, 1e-10);
     const Vector scale = result.hankel.head(usable).cwiseSqrt().cwiseInverse();
     const Matrix right = Lc * svd.matrixV().leftCols(usable) * scale.asDiagonal(),

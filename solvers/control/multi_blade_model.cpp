@@ -90,7 +90,7 @@ private:
     std::vector<std::vector<int>> sets_;
 };
 
-// Of two blades the mean over the azimuth is no model.
+// For two blades the azimuthal average is not a valid model.
 const RotorMap& with_three_blades(const RotorMap& rotor) {
     if (rotor.blades.size() < 3)
         throw InputError(rotor.machine, "number of blades", rotor.blades.size(),
@@ -181,7 +181,7 @@ double remainder(const Matrix& difference, const Matrix& mean) {
     return size > 0 ? difference.norm() / size : difference.norm();
 }
 
-// By row, each relative to itself. Rows that are rounding beside others in the same units are no measure.
+// By row, each relative to itself. Rows at rounding level relative to others in the same units are ignored.
 double remainder_by_row(const Matrix& difference, const Matrix& mean, const std::vector<Signal>& outputs) {
     std::map<std::string, double> largest;
     for (Index i = 0; i < mean.rows(); ++i) {
@@ -204,7 +204,7 @@ Matrix multi_blade_states(const LinearModel& model, const RotorMap& rotor, doubl
 
 namespace {
 
-// Eigen is not to be asked for the solution of nothing: a model may have no inputs or no outputs.
+// Eigen must not solve an empty system: a model may have no inputs or no outputs.
 Matrix solved(const Eigen::PartialPivLU<Matrix>& lu, const Matrix& right) {
     return right.size() > 0 ? Matrix(lu.solve(right)) : right;
 }

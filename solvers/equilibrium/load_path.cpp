@@ -34,7 +34,7 @@ std::vector<double> targets(const LoadPathOptions& options) {
     return factors;
 }
 
-// What came of one attempt: a point, or the reason why there is none.
+// Result of one attempt: a point, or the reason why there is none.
 struct Attempt {
     std::optional<LoadPathPoint> point;
     std::string reason;
@@ -90,7 +90,7 @@ public:
     // Bisection between two neighbouring points with different numbers of negative pivots.
     StabilityChange narrow(LoadPathPoint a, LoadPathPoint b) const {
         while (options_.stability_tolerance > 0 && b.factor - a.factor > options_.stability_tolerance) {
-            // At the very load where the stiffness is singular there may be no solution: then beside it.
+            // Exactly at the load where the stiffness is singular there may be no solution: then try next to it.
             Attempt attempt;
             for (const double part : {0.5, 0.4, 0.6}) {
                 const double factor = a.factor + part * (b.factor - a.factor);

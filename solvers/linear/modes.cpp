@@ -136,7 +136,7 @@ void ModeSolver::set_state_matrix(const SecondOrderSystem& system, double scale,
 void ModeSolver::collect(double scale, double s, double least) {
     Eigen::Index columns = 0;
     for (const RealEigen::Value& value : eigen_.values()) {
-        // 1 / mu turns the sign of the imaginary part: x belongs to the other member of the pair.
+        // 1 / mu flips the sign of the imaginary part: x belongs to the other member of the pair.
         const Complex lambda = scale * (s + 1.0 / std::conj(value.mu));
         if (std::abs(lambda) < least || !std::isfinite(std::abs(lambda))) continue;
         const bool complex = value.mu.imag() != 0;

@@ -266,7 +266,7 @@ bool Analysis::improvable(const FloquetMode& mode) const {
 }
 
 void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
-    // What the factors keep of it is rounding: log(1e-14).
+    // Below this the factors hold nothing but rounding: log(1e-14).
     constexpr double lowest_level = -32;
     const EnergyWeights weights(raw_, grid_.samples * options_.symmetry.parts, options_.weight);
     std::vector<Complex> logarithms;

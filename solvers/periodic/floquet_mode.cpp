@@ -163,7 +163,7 @@ std::vector<Representative> representatives(const std::vector<Complex>& logarith
     for (std::size_t i = 0; i < n; ++i) {
         if (taken[i]) continue;
         std::size_t partner = i;
-        // Real but for rounding: no matter what else is near. Of equal real ones none is the conjugate of the other.
+        // Real up to rounding, whatever else is near. Of equal real ones neither is the conjugate of the other.
         double nearest = std::max(distance_of_conjugates(logarithms[i], logarithms[i]) - own_conjugate, 0.0);
         for (std::size_t j = i + 1; j < n; ++j) {
             const double distance = distance_of_conjugates(logarithms[i], logarithms[j]);

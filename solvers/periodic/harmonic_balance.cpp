@@ -205,7 +205,7 @@ PeriodicSteadyState Balance::solve() {
         finite = step(dx) && search(dx);
         ++result.iterations;
     }
-    // No smaller residual than that is as good as the arithmetic allows if it is small.
+    // If no step reduces it, a small residual is as good as the arithmetic allows.
     finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : 1e-8));
     return result;
 }

@@ -156,7 +156,7 @@ Vector Shooting::newton_step() {
     return svd.matrixV().leftCols(rank) * right.cwiseQuotient(sizes.head(rank));
 }
 
-// Halves the step until the motion comes nearer to its beginning; else start_ is as it was.
+// Halves the step until the mismatch after one revolution falls; otherwise start_ is unchanged.
 bool Shooting::search(const Vector& step) {
     const Vector from = start_;
     const double before = miss();
@@ -180,7 +180,7 @@ PeriodicSteadyState Shooting::solve() {
         ++result.iterations;
     }
     if (begun) (void)newton_step();  // for the note
-    // No nearer than that is as good as the arithmetic allows if it is near.
+    // If no step improves it, a small mismatch is as good as the arithmetic allows.
     finish(result, begun && miss() <= std::max(options_.tolerance, possible ? 0 : 1e-8));
     return result;
 }

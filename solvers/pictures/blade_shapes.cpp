@@ -78,7 +78,7 @@ std::string hertz(double frequency) {
 }
 
 std::string panel(const BladeShape& shape, std::size_t number, bool left, bool right, bool bottom) {
-    // A mode that hardly twists shall look so: the right axis reaches at least to 1 deg per m.
+    // A mode that hardly twists should look that way: the right axis extends to at least 1 deg per m.
     double twist = 1;
     for (const auto& rotation : shape.rotation)
         twist = std::max(twist, units::to_degrees * std::abs(rotation.x().real()));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Only of what vibrates or is locked: motions that just die away would set the scale.
+// Only for vibrating or locked motions: motions that merely decay would set the scale.
 double damping(const Campbell& diagram, const Branch& branch, std::size_t point) {
     const CampbellMode* mode = diagram.mode(branch, point);
     return mode && mode->kind() != FloquetKind::aperiodic ? diagram.damping_ratio(branch, point) : nan;

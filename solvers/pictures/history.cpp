@@ -143,7 +143,7 @@ void plot_energies(const History& history, const std::filesystem::path& path, co
             energies.channels.push_back(history.channels[i]);
             energies.values.push_back(history.values[i]);
         }
-    // That of tall machines counts from the ground: its changes would not be seen.
+    // The potential energy of tall machines is measured from the ground: its changes would not be visible.
     std::vector<double>& potential = energies.values[1];
     energies.channels[1].long_name = "change of the potential energy since the start";
     for (double start = potential.empty() ? 0 : potential.front(); double& value : potential) value -= start;

@@ -74,7 +74,7 @@ Harmonics harmonics(std::span<const double> time, std::span<const double> values
     if (samples < 2 * count + 1)
         throw InputError(in_harmonics, "samples in whole periods", samples, text("at least ", 2 * count + 1));
 
-    // Normal equations: the basis is orthogonal but for the unevenness of the samples, so nothing is lost by squaring.
+    // Normal equations: the basis is orthogonal except for uneven sampling, so nothing is lost by squaring.
     const Eigen::Index unknowns = 2 * count + 1;
     Vector basis(unknowns), right = Vector::Zero(unknowns);
     Matrix left = Matrix::Zero(unknowns, unknowns);

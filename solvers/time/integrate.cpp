@@ -20,7 +20,7 @@ double resolution(double time) {
     return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
 }
 
-// Less than this in the mean of a thousand steps is no progress.
+// Less than this on average over a thousand steps is not progress.
 double shortest_step(double time) {
     return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
@@ -150,7 +150,7 @@ bool Integrator::due(std::size_t event) const {
     return before != 0 && now != before && (direction == 0 || direction == -before);
 }
 
-// What is due together with the event that happened keeps its side and comes next.
+// Events due at the same time as the one handled keep their sign and come next.
 void Integrator::set_sides(int happened) {
     for (std::size_t i = 0; i < sides_.size(); ++i) {
         const bool own = static_cast<int>(i) == happened;
@@ -257,7 +257,7 @@ bool Integrator::process(double to, Advance& result) {
         x_between_ = x_;
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
-    // An action that throws is due again when the run goes on.
+    // An action that throws is repeated when the run continues.
     AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
     set_sides(event);
     if (event < 0) return true;

@@ -1,4 +1,4 @@
-// What an integrator knows of its past: energies, counters, and how it goes on from a checkpoint.
+// An integrator's past: energies, counters, and continuation from a checkpoint.
 #include "mbs/base/error.hpp"
 #include "solvers/time/detail/stepper.hpp"
 #include "solvers/time/integrate.hpp"
@@ -61,8 +61,8 @@ void Integrator::go_on_from(const Checkpoint& from) {
     if (!repeat_pending_) ++earlier_.restarts;
 }
 
-// If the state at the checkpoint comes out again in all digits, the method is where it was. If not, something is
-// different - forces, options, the processor - and it starts anew.
+// If the state at the checkpoint is reproduced to the last digit, the method is where it was. If not, something is
+// different - forces, options, the processor - and it restarts.
 void Integrator::repeat_steps() {
     repeat_pending_ = false;
     bool same = stepper_->repeat(from_, piece_end_) && stepper_->time() >= state_.time;

@@ -43,7 +43,7 @@ std::vector<HullStation> hull(const CsvQuantities& q) {
     return stations;
 }
 
-// The volume is published and so is the hull: one of them is wrong if they differ by more than their digits.
+// Volume and hull are both published: one of them is wrong if they differ by more than their digits.
 void check_volume(const CsvQuantities& q, const std::vector<HullStation>& stations) {
     const double given = q.number("displaced_volume", "m^3"), of_hull = displaced_volume(stations);
     if (!(std::abs(given - of_hull) <= 1e-4 * of_hull))

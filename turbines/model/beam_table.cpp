@@ -83,7 +83,8 @@ BeamTable sampled(const BeamLine& line, int parts) {
             throw InputError(text(line.name, ", x = ", x, " m"), "coupling", form.coupling, "none (at most 1e-9)");
         table.stations.push_back(x);
         table.sections.push_back(form.section);
-        // A rigid direction comes as rounding of the others: it is one if bending of the whole beam gives 1e12 as much.
+        // A rigid direction shows up as rounding of the others: it counts as rigid if bending of the whole beam gives
+        // 1e12 times as much.
         EngineeringSection& s = table.sections.back();
         const double bending = line.length * line.length / std::max(s.EI_flap, s.EI_edge);
         for (double* stiffness : {&s.EA, &s.GA_y, &s.GA_z})

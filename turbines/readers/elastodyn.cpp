@@ -177,7 +177,7 @@ private:
         keep(blade, name);
     }
 
-    // All blades are alike here: the first one is what counts.
+    // All blades are equal here: the first one is used.
     void note_blade(int k) {
         const std::string cone = numbered(file_, "PreCone", k), pitch = numbered(file_, "BlPitch", k),
                           name = numbered(file_, "BldFile", k);

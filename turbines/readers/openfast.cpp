@@ -44,7 +44,7 @@ Servo read_servodyn(const std::filesystem::path& path) {
     return servo;
 }
 
-// A model may have lost its controller: that is no reason not to read the structure.
+// The controller file may be missing: that is no reason not to read the structure.
 Servo servo_of(OpenFastFile& main) {
     Servo servo;
     if (main.number("CompServo") == 0) return servo;

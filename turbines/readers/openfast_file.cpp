@@ -347,7 +347,7 @@ void OpenFastFile::note_unless(std::string_view keyword, double neutral, std::st
 
 std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& groups) const {
     std::vector<FileNote> out = notes_;
-    // In files of which all the rest has no meaning they have none either.
+    // In files whose other entries are all irrelevant, these are irrelevant too.
     const bool lone_numbers = std::none_of(groups.begin(), groups.end(), [](const KeywordGroup& g) {
         return std::find(g.keywords.begin(), g.keywords.end(), "*") != g.keywords.end();
     });

@@ -10,7 +10,7 @@ namespace {
 
 class Collector : public console_bridge::OutputHandler {
 public:
-    // No exception may leave: the caller is a C-style variadic function that does not expect one.
+    // No exception may escape: the caller is a C-style variadic function that does not expect one.
     void log(const std::string& message, console_bridge::LogLevel level, const char* /*file*/, int /*line*/) override {
         try {
             (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR ? errors : warnings).push_back(message);
@@ -22,7 +22,7 @@ public:
     bool lost = false;
 };
 
-// While it lives, console_bridge tells us and nobody else.
+// While it exists, console_bridge reports only to us.
 class Listening {
 public:
     explicit Listening(Collector& collector)

@@ -86,7 +86,7 @@ Structure structure(const Outline& outline) {
     const std::vector<int> carrier = carriers(outline, links);
     Structure result;
     result.root = the_root(outline, carrier);
-    // A joint whose parent link is not there yet waits until the joints on the way to it have been placed.
+    // A joint whose parent link has not been placed yet waits for the joints on the path to it.
     std::vector<bool> placed(outline.joints.size(), false);
     for (std::size_t j = 0; j < outline.joints.size(); ++j) {
         std::vector<int> way;

@@ -246,7 +246,7 @@ int JournaledFile::fail(int reason) {
     return error_;
 }
 
-// Removed or cut off by somebody else: what would be written is lost, or no file any more.
+// Removed or truncated by somebody else: writes would be lost, or no longer form a file.
 void JournaledFile::check_place() {
     struct stat now {};
     if (::fstat(fd_, &now) != 0)

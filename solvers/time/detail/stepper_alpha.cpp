@@ -142,7 +142,7 @@ double AlphaStepper::first_step(double horizon) {
     return largest > 0 ? std::min(longest, 1 / std::sqrt(largest)) : 1e-3 * longest;
 }
 
-// Ends at the stop exactly, and leaves no crumb before it.
+// Ends exactly at the stop, and leaves no tiny remainder before it.
 double AlphaStepper::trial_step() const {
     const double h = controlled() ? std::min(next_, max_step_) : fixed_step_, left = stop_ - time_;
     if (h >= left * (1 - 1e-10)) return left;
@@ -239,7 +239,7 @@ void AlphaStepper::accept(double h) {
     ++statistics_.steps;
 }
 
-// A step that was cut to end at a break says nothing against the longer one that had been proposed.
+// A step shortened to end at a break does not invalidate the longer one that had been proposed.
 void AlphaStepper::propose(double h, double e) {
     const double longer = h * std::clamp(0.9 / std::cbrt(e + 1e-9), 0.3, 3.0);
     // Little is gained by a step that is a little longer, and the matrix would have to follow.

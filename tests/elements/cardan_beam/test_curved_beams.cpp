@@ -1,5 +1,6 @@
 // Curved beams of cardanic elements: each straight along its chord, fixed kinks between them.
 #include "mbs/base/decompositions.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/elements/cardan_beam/rods.hpp"
 #include "tests/oracles/quadrature.hpp"

@@ -2,6 +2,7 @@
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "elements/cardan_beam/tilted_masses.hpp"
 #include "elements/sections/quadrature.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/refusal.hpp"
 

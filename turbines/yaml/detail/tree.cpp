@@ -17,7 +17,7 @@ namespace {
 
 using Kind = YamlTree::Kind;
 
-/// Hears what the parser finds, piece by piece, so that it ends the parser where a limit is passed.
+/// Receives the parser's events one by one, so that it can stop the parser when a limit is exceeded.
 class Builder : public YAML::EventHandler {
 public:
     Builder(const std::string& file, const YamlLimits& limits) : file_(file), limits_(limits) {}
