@@ -1,10 +1,10 @@
 /// @file
 /// The cardanic joint beam element (Zhao, Maisser and Wu 2007): a chain of rigid bodies on joint springs.
 ///
-///      B1        B2          B3        B4
-///   o------(+)---------||---------(+)------o ---> x        (+) cardan joint at delta L and (1 - delta) L, or where
-///   0      x1                      x2      L                    the partition says
-///                                                          || cylindrical joint (extension and torsion) midway
+///        B1        B2          B3        B4
+///     o------(+)---------||---------(+)------o ---> x        (+) cardan joint at delta L and (1 - delta) L, or where
+///     0      x1                      x2      L                    the partition says
+///                                                            || cylindrical joint (extension and torsion) midway
 ///
 /// Joint order (mirrored): rotation about y, about z | extension u, torsion phi | about z, about y. B4 of an element
 /// and B1 of the next are one body.

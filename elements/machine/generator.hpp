@@ -16,7 +16,9 @@
 namespace cardan {
 
 /// Induction machine on a grid of fixed frequency, in steady state, stator resistance neglected: Kloss' formula
-///   T = 2 T_b / (s / s_b + s_b / s),   s = speed / synchronous speed - 1,
+///
+///     T = 2 T_b / (s / s_b + s_b / s),   s = speed / synchronous speed - 1,
+///
 /// with the slip s counted positive where it generates. Regular at s = 0, where the slope is 2 T_b / (s_b w_s).
 ///                               [M. Kloss, Archiv fuer Elektrotechnik 5 (1916) 59]
 struct InductionMachine {

@@ -15,8 +15,8 @@ namespace cardan {
 /// Torque M (about the rotor axis, positive: drives positive rotation) and thrust T (downwind) of a rotor of radius R
 /// in the wind V at the speed w and the pitch b (positive toward feather):
 ///
-///   M = rho/2 pi R^3 (c_p / l) V [ 2 V c - (w R / l) (c + k s) ] g,   c = cos^2 b, s = sin b,
-///   T = rho/2 pi R^2 (c_t / l) V w R c g.
+///     M = rho/2 pi R^3 (c_p / l) V [ 2 V c - (w R / l) (c + k s) ] g,   c = cos^2 b, s = sin b,
+///     T = rho/2 pi R^2 (c_t / l) V w R c g.
 ///
 /// At zero pitch the power coefficient over the tip speed ratio is the parabola c_p x (2 - x) with x = w R / (V l),
 /// which peaks at the design ratio l; the torque is finite at standstill and falls linearly to the runaway ratio 2 l.

@@ -180,6 +180,7 @@ struct MixedSteadyState {
 
 /// Steady state by Newton's method from the straight beam; loads and spin grow in steps if one step does not converge.
 /// @throws InputError naming the beam: values that are not finite, hinge axis zero, impossible body.
+///
 /// A hinge without a driving moment stays where it is, even in neutral equilibrium.
 /// @throws NumericalError: not converged, with iterations and residual.
 [[nodiscard]] MixedSteadyState mixed_steady_state(const MixedBeam& beam, const MixedSetting& setting);

@@ -11,15 +11,16 @@ namespace cardan {
 ///
 /// Signs follow Misner, Thorne and Wheeler (1973) and agree with do Carmo's sectional curvature (positive on a sphere):
 ///
-///   R^a_bcd = d_c Gamma^a_bd - d_d Gamma^a_bc + Gamma^a_ce Gamma^e_bd - Gamma^a_de Gamma^e_bc,   R_abcd = g_ae R^e_bcd
-///   D^2 xi^a/dt^2 = -R^a_bcd qd^b xi^c qd^d                             for neighbouring geodesics
-///   K(x, y) = R_abcd x^a y^b x^c y^d / (|x|^2 |y|^2 - <x, y>^2)
+///     R^a_bcd = d_c Gamma^a_bd - d_d Gamma^a_bc + Gamma^a_ce Gamma^e_bd - Gamma^a_de Gamma^e_bc
+///     R_abcd = g_ae R^e_bcd
+///     D^2 xi^a/dt^2 = -R^a_bcd qd^b xi^c qd^d                             for neighbouring geodesics
+///     K(x, y) = R_abcd x^a y^b x^c y^d / (|x|^2 |y|^2 - <x, y>^2)
 ///
 /// No derivative of a Christoffel symbol is formed. The configuration space lies in the flat space of the positions of
 /// all mass points (see Embedding); with the normal part of the second derivatives, the second fundamental form
 /// II_ab = r_ab - r_e Gamma^e_ab, Gauss' equation is
 ///
-///   R_abcd = <II_ac, II_bd> - <II_ad, II_bc> .                                       [do Carmo 1992, chapter 6]
+///     R_abcd = <II_ac, II_bd> - <II_ad, II_bc> .                                       [do Carmo 1992, chapter 6]
 ///
 /// Driven coordinates are held fixed: the space is that of the free ones, with the metric g_ff. Entries of driven
 /// coordinates count as zero in arguments and are zero in results.
@@ -27,10 +28,11 @@ namespace cardan {
 /// Nothing allocates after construction. The object is bound to the q of the last update() and serves one thread.
 class Curvature {
 public:
-    /// @param driven  size n; true: held fixed. Default: the roles of the coordinate table.
-    /// @throws InputError if `driven` has another size.
+    /// Driven are the coordinates that have this role in the coordinate table.
     explicit Curvature(const Model& model);
     explicit Curvature(Model&&) = delete;  // the model must live longer
+    /// @param driven  size n; true: held fixed
+    /// @throws InputError if `driven` has another size.
     Curvature(const Model& model, std::vector<bool> driven);
 
     /// Must be called first at a new q. After a failure nothing else may be called. Cost O(n d^2).
@@ -55,7 +57,9 @@ public:
     void deviation(VectorIn qd, VectorIn xi, VectorOut acceleration);
     /// R_ac = R_abcd qd^b qd^d, the matrix of force() in xi: symmetric, R qd = 0. Computed from composite bodies in O(n
     /// d) and one product of n x n matrices:
-    ///   R_ac = <r_ac, II_bd qd^b qd^d> - <d/dt r_a, d/dt r_c> + C_ea g^ef C_fc,      C_ac = Gamma_abc qd^b.
+    ///
+    ///     R_ac = <r_ac, II_bd qd^b qd^d> - <d/dt r_a, d/dt r_c> + C_ea g^ef C_fc,      C_ac = Gamma_abc qd^b.
+    ///
     /// @param R  out, n x n, overwritten
     void matrix(VectorIn qd, MatrixOut R);
 

@@ -14,7 +14,9 @@ class ChristoffelSymbols;
 ///
 /// Gamma_abc is zero unless a, b and c lie on one path from the base. For every body m (the distal one) with the path
 /// of d_m bodies down to the base the table holds the d_m x d_m numbers
-///   K_m(a, b) = Gamma_abm = Gamma_amb   for a, b on the path of m,
+///
+///     K_m(a, b) = Gamma_abm = Gamma_amb   for a, b on the path of m,
+///
 /// and Gamma_mba = Gamma_mab = -K_m(a, b) for b <= a < m. Everything else is zero.
 class Christoffel {
 public:
@@ -61,7 +63,7 @@ private:
 
 /// Fills the table at the q of `kin`. Cost O(n d^2) = the number of symbols; no allocation.
 ///
-///   Gamma_abc = (1 - s_b) sum_k { m_k u_ka . (Omega_kb x u_kc) + (P_k Omega_kb) . (Omega_kc x Omega_ka) },  b <= c,
+///     Gamma_abc = (1 - s_b) sum_k { m_k u_ka . (Omega_kb x u_kc) + (P_k Omega_kb) . (Omega_kc x Omega_ka) },  b <= c,
 ///
 /// collapses over k to the composite body of the more distal of a and c, referred to its centre of mass.
 ///                                                   [Zhao et al. 2007, eq. 9, corrected: see docs/theory.md]
@@ -69,13 +71,16 @@ void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma);
 
 /// X_ab = Gamma_abs for one coordinate s and all a, b, without the table of all symbols.
 /// @param X  out, n x n, overwritten
+///
 /// Cost O(n d) (and n^2 zeros), no allocation. It needs the table of s itself and, from the table of every body m that
 /// s carries, the column K_m(a, s) and the row K_m(s, b).
 template <class S>
 void christoffel_along(const KinematicsT<S>& kin, int s, MatrixOutT<S> X);
 
 /// Gyroscopic matrix of a coordinate that spins steadily, qd = omega e_s (a rotor):
-///   G_ab = omega (Gamma_abs - Gamma_bas) = omega (d_b g_as - d_a g_bs),   skew: it does no work.
+///
+///     G_ab = omega (Gamma_abs - Gamma_bas) = omega (d_b g_as - d_a g_bs),   skew: it does no work.
+///
 /// The inertial forces h = Gamma qd qd have the derivative dh_a/dqd^b = 2 omega Gamma_abs = G_ab + omega d_s g_ab. The
 /// symmetric rest is the rate of the metric: zero among the coordinates that the spinning joint carries, and among
 /// those inboard of it if the rotor as a whole is isotropic, but not between the two groups.

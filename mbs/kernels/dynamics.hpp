@@ -12,6 +12,7 @@ namespace cardan {
 /// Inverse dynamics tau_a = g_ab qdd^b + Gamma_abc qd^b qd^c, armatures included.            [Zhao et al. 2007, eq. 4]
 /// @param qd, qdd  joint rates and accelerations, size n
 /// @param tau      out, size n, N m or N; overwritten; must not alias the inputs
+///
 /// Cost O(n), no allocation. Never singular.
 /// @throws InputError for vectors of the wrong size, as do all functions here
 template <class S>
@@ -19,6 +20,7 @@ void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> q
 
 /// Generalised inertial forces h_a = Gamma_abc qd^b qd^c.             [Zhao et al. 2007, eq. 4 and 9 (corrected)]
 /// @param h  out, size n, N m or N; overwritten; must not alias qd
+///
 /// Cost O(n), no allocation. Never singular.
 template <class S>
 void inertial_forces(const KinematicsT<S>& kin, VectorInT<S> qd, VectorOutT<S> h);
@@ -27,16 +29,18 @@ void inertial_forces(const KinematicsT<S>& kin, VectorInT<S> qd, VectorOutT<S> h
 /// coordinates from their prescribed accelerations. Holds the memory for armatures and the set of driven coordinates.
 class ForwardDynamics {
 public:
-    /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
-    /// @throws InputError if `driven` has another size.
+    /// Driven are the coordinates that have this role in the coordinate table.
     explicit ForwardDynamics(const Model& model);
     explicit ForwardDynamics(Model&&) = delete;  // the model must live longer
+    /// @param driven  size n; true where the acceleration is prescribed
+    /// @throws InputError if `driven` has another size.
     ForwardDynamics(const Model& model, std::vector<bool> driven);
 
     /// @param Q    generalised forces, size n; on driven coordinates, those in addition to the actuator's; must not
     ///             alias the outputs
     /// @param qdd  in: accelerations of driven coordinates; out: of all coordinates
     /// @param actuator  out, size n: force that the drive adds to Q on each driven coordinate, zero on free ones
+    ///
     /// Cost O(n) plus O(n) per armature that spans several coordinates; no allocation.
     /// @throws InputError for kinematics of another model and vectors of the wrong size
     void solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator);

@@ -48,6 +48,7 @@ using Kinematics = KinematicsT<double>;
 
 /// Poses of all bodies.
 /// @param q  coordinates, size n, rad or m
+///
 /// Cost O(n), no allocation.
 /// @throws InputError if q has the wrong size or the workspace belongs to another model
 template <class S>
@@ -57,8 +58,10 @@ inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspac
 }
 
 /// Kinematic basis functions of body k for coordinate a, in components of body k; both zero unless a precedes k.
-///   velocity of the centre of mass  v_k = u_ka qd^a,  angular velocity  omega_k = Omega_ka qd^a.
-///                                                                              [Zhao et al. 2007, eq. 6]
+///
+///     velocity of the centre of mass  v_k = u_ka qd^a,  angular velocity  omega_k = Omega_ka qd^a.
+///                                                                                [Zhao et al. 2007, eq. 6]
+///
 /// @throws InputError for body indices out of range
 template <class S>
 struct BasisFunctions {

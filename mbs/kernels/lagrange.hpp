@@ -16,12 +16,17 @@
 
 namespace cardan::lagrange {
 
-/// g_ab = sum_{k in sub(a) and sub(b)} m_k u_ka . u_kb + Omega_ka . J_k Omega_kb  (+ armatures)          [eq. 8]
+/// Metric.
+///
+///     g_ab = sum_{k in sub(a) and sub(b)} m_k u_ka . u_kb + Omega_ka . J_k Omega_kb  (+ armatures)      [eq. 8]
 template <class S>
 S metric(const KinematicsT<S>& kin, int a, int b);
 
-/// Gamma_abc = (1 - s_b) sum_k m_k u_ka . (Omega_kb x u_kc) + (P_k Omega_kb) . (Omega_kc x Omega_ka)  for b <= c,
-/// symmetric in b and c; P_k is Binet's tensor and is contracted with the proximal index b.      [eq. 9, corrected]
+/// Christoffel symbol of the first kind, symmetric in b and c.
+///
+///     Gamma_abc = (1 - s_b) sum_k m_k u_ka . (Omega_kb x u_kc) + (P_k Omega_kb) . (Omega_kc x Omega_ka)  for b <= c
+///
+/// P_k is Binet's tensor and is contracted with the proximal index b.      [eq. 9, corrected]
 template <class S>
 S christoffel_first_kind(const KinematicsT<S>& kin, int a, int b, int c);
 
@@ -29,7 +34,11 @@ S christoffel_first_kind(const KinematicsT<S>& kin, int a, int b, int c);
 struct BodyLoad {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
-/// Q_a = sum_{k in sub(a)} K_k . u_ka + M_k . Omega_ka                                                   [eq. 7]
+
+/// Generalised force.
+///
+///     Q_a = sum_{k in sub(a)} K_k . u_ka + M_k . Omega_ka      [eq. 7]
+///
 /// @param loads  one per body
 double generalised_force(const Kinematics& kin, std::span<const BodyLoad> loads, int a);
 

@@ -9,9 +9,13 @@
 
 namespace cardan {
 
-/// Metric g_ab = sum_k m_k u_ka . u_kb + Omega_ka . J_k Omega_kb, armatures included.      [Zhao et al. 2007, eq. 8]
+/// Metric, armatures included.
+///
+///     g_ab = sum_k m_k u_ka . u_kb + Omega_ka . J_k Omega_kb      [Zhao et al. 2007, eq. 8]
+///
 /// The sum over k collapses to one composite rigid body per pair, the subtree of the more distal coordinate.
 /// @param g  out, n x n, full and symmetric, kg m^2, kg m or kg; overwritten
+///
 /// Cost O(n d), d the depth of the tree, and n^2 zeros; no allocation.
 /// @throws InputError if g has the wrong size or belongs to another model, as do all functions here
 template <class S>

@@ -35,13 +35,15 @@ struct [[nodiscard]] PivotStatus {
 /// InputError for arguments of the wrong size or model and for indices out of range.
 class MetricFactor {
 public:
-    /// @param driven  size n; true: left out. Default: the roles of the coordinate table.
-    /// @throws InputError if `driven` has another size.
+    /// Driven are the coordinates that have this role in the coordinate table.
     explicit MetricFactor(const Model& model);
     explicit MetricFactor(Model&&) = delete;  // the model must live longer
+    /// @param driven  size n; true: left out
+    /// @throws InputError if `driven` has another size.
     MetricFactor(const Model& model, std::vector<bool> driven);
 
     /// @param g  n x n; only g_ba with b on the path of a is read (b <= a, the upper triangle). Cost O(n d^2).
+    ///
     /// A pivot must exceed the rounding error of its diagonal element, n eps g_aa; after a failure the factor must not
     /// be used.
     PivotStatus factorise(MatrixIn g);

@@ -13,7 +13,7 @@ enum class JointKind : std::uint8_t { revolute, prismatic };
 
 /// Six parameters from a body's frame i to the frame j of a joint that it carries, z_j being the joint axis:
 ///
-///   T_ij = Rz(gamma) Tz(b)  Rx(alpha) Tx(d)  Rz(theta) Tz(r)
+///     T_ij = Rz(gamma) Tz(b)  Rx(alpha) Tx(d)  Rz(theta) Tz(r)
 ///
 ///         z_i            z_j
 ///          |  gamma, b    \   theta, r            theta = theta0 + q   revolute joint

@@ -17,7 +17,7 @@ Vec3T<S> cross(const Vec3T<S>& a, const Vec3T<S>& b) {
     return {a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0)};
 }
 
-/// a . b without conjugation.
+/// Scalar product without conjugation.
 template <class S>
 S dot(const Vec3T<S>& a, const Vec3T<S>& b) {
     return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);

@@ -23,8 +23,8 @@ struct BodySpec {
     CoordinateInfo coordinate = {};  ///< an empty name becomes the body's name
 };
 
-/// A constant kinetic energy J (s . qd)^2 / 2 of something that spins with s . qd relative to its carrier
-/// (generator, gear wheel seen from the slow side): no Christoffel symbols, no reaction on the carrier.
+/// Something that spins relative to its carrier (generator, gear wheel seen from the slow side), at the speed s . qd:
+/// kinetic energy J (s . qd)^2 / 2 with a constant J, no Christoffel symbols, no reaction on the carrier.
 struct Armature {
     std::string name = {};
     double inertia = 0;  ///< J, kg m^2 (rad) or kg (m); negative values are legal as long as the metric stays positive

@@ -11,11 +11,12 @@ namespace cardan {
 /// Derivatives of the accelerations qdd(q, qd, Q) of the free coordinates f and of the drives' forces A on the driven
 /// coordinates d, whose accelerations are prescribed. From tau(q, qd, qdd) = g qdd + Gamma qd qd = Q + A, A_f = 0,
 ///
-///   g_ff dqdd_f/dx = dQ_f/dx - dtau_f/dx|qdd          x = q, qd (of all coordinates)
+///     g_ff dqdd_f/dx = dQ_f/dx - dtau_f/dx|qdd          x = q, qd (of all coordinates)
 ///
-///        dqdd_f/dQ_f = g_ff^-1,        dqdd_f/dqdd_d = -g_ff^-1 g_fd
-///   dA_d/dx = dtau_d/dx|qdd + g_df dqdd_f/dx - dQ_d/dx
-///   dA_d/dQ_f = g_df g_ff^-1,          dA_d/dQ_d = -1,        dA_d/dqdd_d = g_dd + g_df dqdd_f/dqdd_d.
+///     dqdd_f/dQ_f = g_ff^-1,        dqdd_f/dqdd_d = -g_ff^-1 g_fd
+///
+///     dA_d/dx = dtau_d/dx|qdd + g_df dqdd_f/dx - dQ_d/dx
+///     dA_d/dQ_f = g_df g_ff^-1,          dA_d/dQ_d = -1,        dA_d/dqdd_d = g_dd + g_df dqdd_f/dqdd_d.
 ///
 /// The right-hand sides come from the differentiated recursion, g_ff^-1 from the branch-sparse factor.
 ///                          [Jain and Rodriguez 1993; Carpentier and Mansard 2018; Singh, Russell and Wensing 2022]
@@ -23,15 +24,17 @@ namespace cardan {
 /// Cost O(n^2 d): n columns of O(n d) each. Nothing allocates after construction; one object per thread.
 class ForwardDynamicsDerivatives {
 public:
-    /// @param driven  size n; true where the acceleration is prescribed. Default: the roles of the coordinate table.
-    /// @throws InputError if `driven` has another size.
+    /// Driven are the coordinates that have this role in the coordinate table.
     explicit ForwardDynamicsDerivatives(const Model& model);
     explicit ForwardDynamicsDerivatives(Model&&) = delete;  // the model must live longer
+    /// @param driven  size n; true where the acceleration is prescribed
+    /// @throws InputError if `driven` has another size.
     ForwardDynamicsDerivatives(const Model& model, std::vector<bool> driven);
 
     /// @param qd   rates, size n
     /// @param qdd  accelerations of all coordinates at this state, as ForwardDynamics::solve() returns them
     /// @param forces  Forces::derivatives() at the state, if Q depends on q and qd; nullptr: Q is held fixed
+    ///
     /// After a failure (metric of the free coordinates not positive definite) the results are undefined.
     PivotStatus compute(const Kinematics& kin, VectorIn qd, VectorIn qdd, const ForceDerivatives* forces = nullptr);
 

@@ -19,7 +19,7 @@
 
 namespace cardan {
 
-/// A URDF <mimic>: coordinate = multiplier * other coordinate + offset. Never applied: coordinates are independent.
+/// A URDF `<mimic>`: coordinate = multiplier * other coordinate + offset. Never applied: coordinates are independent.
 struct UrdfMimic {
     std::string joint = {};  ///< name of the other joint
     double multiplier = 1;

@@ -20,6 +20,7 @@ public:
     /// @param factors  F_1, F_2, ... F_p, square, all of one size
     /// @returns false if the iteration does not converge
     /// @throws InputError if there is no factor, if sizes differ or a factor is not finite
+    ///
     /// Cost about 30 p n^3.
     [[nodiscard]] bool compute(const std::vector<Matrix>& factors);
 

@@ -24,7 +24,8 @@ struct RadauIIA {
 
 /// Linear algebra of one step h of M q'' + C q' + K q = f, with the matrices given at the stages. The unknowns are the
 /// accelerations a_i at the stages; positions and rates there are
-///   q_i = q + c_i h v + h^2 sum_j (A^2)_ij a_j,   v_i = v + h sum_j A_ij a_j.
+///
+///     q_i = q + c_i h v + h^2 sum_j (A^2)_ij a_j,   v_i = v + h sum_j A_ij a_j.
 class RadauStage {
 public:
     RadauStage(const RadauIIA& method, Eigen::Index coordinates);

@@ -9,7 +9,9 @@ namespace cardan::solvers {
 /// A row per mode of one point, a column per mode of another; 0 ... 1.
 struct PeriodicMac {
     /// Complex energy MAC of all harmonics, |xy|^2 / (xx yy) with the energy product
-    ///   xy = sum_j x_j^H K_e y_(j+s) + conj(lambda_xj) lambda_y(j+s) x_j^H M y_(j+s),
+    ///
+    ///     xy = sum_j x_j^H K_e y_(j+s) + conj(lambda_xj) lambda_y(j+s) x_j^H M y_(j+s),
+    ///
     /// for the shift s = -2 ... 2 that makes it largest: the principal harmonic may change from one point to the next.
     /// At low frequencies y's complex conjugate is tried as well. A rigid motion, which has no energy, is compared only
     /// with motions without elastic energy, and by shape: sum_j x_j^H M y_(j+s).

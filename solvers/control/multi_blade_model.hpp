@@ -19,8 +19,10 @@ struct MultiBladeModel : ConstantModel {
 
 /// Multi-blade (Coleman) transformation of states, and of the inputs and outputs that all blades have (names "blade 1
 /// ..." to "blade B ..." that differ in nothing but the number):
-///   x_k = x_0 + sum_n (x_cn cos n psi_k + x_sn sin n psi_k) [+ x_d (-1)^(k-1) for even B],  psi_k = psi + 2 pi
-///   (k-1)/B,
+///
+///     x_k = x_0 + sum_n (x_cn cos n psi_k + x_sn sin n psi_k) [+ x_d (-1)^(k-1) for even B],
+///     psi_k = psi + 2 pi (k-1)/B,
+///
 /// so that the collective value is the mean. Rates are transformed as rates of these: z' = ..., with the terms of
 /// the turning frame in A. Rotating pairs (shaft bending) are turned into the fixed frame. The three inputs of a
 /// prescribed pitch motion are transformed separately: cosine and sine components of the rates are not the derivatives

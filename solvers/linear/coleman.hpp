@@ -23,7 +23,9 @@ struct MultiBladeRow {
 std::string multi_blade_name(const MultiBladeRow& row);
 
 /// x = T(psi) z over a set of coordinates: blade coordinate i of blade k at azimuth psi_k = psi + 2 pi (k - 1) / B is
-///   x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
+///
+///     x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
+///
 /// T is orthogonal, so symmetric matrices stay symmetric and energies keep their meaning. Rotating pairs (shaft
 /// bending) are turned into the fixed frame. z rows replace the blades' coordinates one to one: the collective row
 /// takes the place of blade 1, cosine and sine those of blades 2 and 3, and so on.
@@ -41,7 +43,9 @@ public:
     /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
     /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G
     /// constant and of 2 x 2 blocks [0 n; -n 0],
-    ///   M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
+    ///
+    ///     M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
+    ///
     /// T couples only the B blades' rows of one coordinate, and T(psi) is T(0) with its cosine-sine pairs of columns
     /// rotated by n psi.  Cost O(n^2 B).
     /// @param system  overwritten by its transform; nothing is allocated

@@ -13,7 +13,9 @@ struct HillOptions {
 };
 
 /// x = exp(lambda t) sum_j c_j exp(i j omega t), |j| <= H, in E x' = A x with the Fourier coefficients E_j, A_j:
-///   sum_l [(lambda + i l omega) E_{j-l} - A_{j-l}] c_l = 0   for |j| <= H,
+///
+///     sum_l [(lambda + i l omega) E_{j-l} - A_{j-l}] c_l = 0   for |j| <= H,
+///
 /// an eigenvalue problem of (2 H + 1) times the states. Every exponent occurs 2 H + 1 times, shifted by multiples of i
 /// omega; the copy whose energy-weighted centre of harmonics is closest to zero is kept, since truncation affects it
 /// least.

@@ -39,7 +39,9 @@ struct Powers {
 /// driven by a motion or, if only their role says "driven", at their constant initial rate.
 ///
 /// Two forms of the same equations: accelerations for first-order methods, and the residual
-///   r_f = g qdd + Gamma qd qd - Q
+///
+///     r_f = g qdd + Gamma qd qd - Q
+///
 /// for second-order methods. Nothing allocates after construction except user forces and motions. Keeps a reference to
 /// the system; one object per thread.
 class EquationsOfMotion {

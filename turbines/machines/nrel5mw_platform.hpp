@@ -4,8 +4,8 @@
 /// Frames. Ground axes of the library: x downwind, z up. The axes of the reference solution
 /// (docs/nrel5mw_platform.md) are X0 = z (up), Z0 = x (downwind), Y0 = Z0 x X0 = -y. The platform's coordinates:
 ///
-///   surge  along Z0   sway   along Y0   heave  along X0
-///   roll   about Z0   pitch  about Y0   yaw    about X0      turned in the order roll, pitch, yaw
+///     surge  along Z0   sway   along Y0   heave  along X0
+///     roll   about Z0   pitch  about Y0   yaw    about X0      turned in the order roll, pitch, yaw
 ///
 /// A positive pitch th moves the top of the tower UPWIND: I1 = cos th X0 - sin th Z0. OpenFAST's platform pitch and
 /// sway have opposite signs, its surge, heave, roll and yaw the same signs.

@@ -21,7 +21,7 @@ namespace cardan::turbines {
 ///
 /// The generalised forces
 ///
-///   Q = -A x'' - (C + K) x - B x'
+///     Q = -A x'' - (C + K) x - B x'
 ///
 /// act on the coordinates, together with dead loads (constant in ground axes): the buoyancy at its centre and the pull
 /// of the mooring lines at the reference point. Weights act through the bodies, including those of the machine. All

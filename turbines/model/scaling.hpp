@@ -8,12 +8,12 @@ namespace cardan::turbines {
 
 /// The machine with all lengths multiplied by s. Speeds and stresses under aerodynamic loads stay the same, so that
 ///
-///   length, time                          s      mass                                s^3
-///   mass per length, EA, GA               s^2    inertia per length                  s^4
-///   EI, GJ                                s^4    moment of inertia                   s^5
-///   spring, damper of a rotation          s^3, s^4    of a translation               s, s^2
-///   rotor speed, natural frequencies      1/s    power, thrust                       s^2
-///   angles, twist, damping ratios, gear ratio    unchanged
+///     length, time                          s      mass                                s^3
+///     mass per length, EA, GA               s^2    inertia per length                  s^4
+///     EI, GJ                                s^4    moment of inertia                   s^5
+///     spring, damper of a rotation          s^3, s^4    of a translation               s, s^2
+///     rotor speed, natural frequencies      1/s    power, thrust                       s^2
+///     angles, twist, damping ratios, gear ratio    unchanged
 ///
 /// By dimensional analysis the ratios of frequencies to rotor speed stay exactly the same as long as gravity is
 /// neglected: it does not scale, and stresses due to self-weight grow with s. From 5 MW to 15 MW: s = sqrt(3).
