@@ -7,9 +7,9 @@ usage() {
 usage: ./test.sh [--full] [--help]
 
   (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
-  --full     the same, then clang-tidy, clang's build and all tests under its address and undefined-behaviour
-             sanitizers, two sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and
-             the slow tests
+  --full     the same, then the reference, clang-tidy, clang's build and all tests under its address and
+             undefined-behaviour sanitizers, two sweeps at once under the thread sanitizer, one minute of fuzzing for
+             each reader, and the slow tests
 
 Everything is written to build/. Missing Debian packages are installed (root or passwordless sudo); otherwise the
 command that installs them is printed. Environment: CARDAN_JOBS, number of parallel jobs (default: all processors);
@@ -96,7 +96,7 @@ check_tidy() {
 
 heading "Packages"
 packages=("${cardan_build_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
-if ((full)); then packages+=("${cardan_check_packages[@]}"); fi
+if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_packages[@]}"); fi
 require_packages "${packages[@]}"
 
 heading "Format"
@@ -109,6 +109,9 @@ heading "Installed package"
 check_package
 
 if ((full)); then
+    heading "Reference"
+    cmake --build --preset release --target reference
+
     heading "clang-tidy"
     check_tidy
 
