@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Builds and tests everything; the first failure stops it with a non-zero exit.
-set -Eeuo pipefail
+# Builds and tests everything; the exit is non-zero if anything failed.
+set -euo pipefail
 
 usage() {
     cat <<'TEXT'
-usage: ./test.sh [--full] [--help]
+usage: ./test.sh [--full] [--keep-going] [--help]
 
   (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
   --full     the same, then the reference, clang-tidy, clang's build and all tests under its address and
              undefined-behaviour sanitizers, two sweeps at once under the thread sanitizer, one minute of fuzzing for
              each reader, and the slow tests
+  --keep-going
+             a step that fails does not end the run; the failed ones are named at its end
 
 Everything is written to build/. Missing Debian packages are installed (root or passwordless sudo); otherwise the
 command that installs them is printed. Environment: CARDAN_JOBS, number of parallel jobs (default: all processors);
@@ -18,9 +20,11 @@ TEXT
 }
 
 full=0
+keep_going=0
 for argument in "$@"; do
     case "$argument" in
         --full) full=1 ;;
+        --keep-going) keep_going=1 ;;
         -h | --help) usage && exit 0 ;;
         *) usage >&2 && exit 2 ;;
     esac
@@ -31,18 +35,20 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/packages.sh
 
 jobs="${CARDAN_JOBS:-$(nproc)}"
-step=""
-step_start=0
-finish_step() {
-    if [[ -n "$step" ]]; then printf -- '-- %s: %d s, %d s in all\n' "$step" $((SECONDS - step_start)) "$SECONDS"; fi
+failed=()
+
+# step <name> <command>...: commands are functions of &&-lists, because errexit does not hold within a condition.
+step() {
+    local name="$1" start=$SECONDS
+    shift
+    printf '\n== %s\n' "$name"
+    if ! "$@"; then
+        echo "test.sh: FAILED in step: $name" >&2
+        if ((!keep_going)); then exit 1; fi
+        failed+=("$name")
+    fi
+    printf -- '-- %s: %d s, %d s in all\n' "$name" $((SECONDS - start)) "$SECONDS"
 }
-heading() {
-    finish_step
-    step="$*"
-    step_start=$SECONDS
-    printf '\n== %s\n' "$step"
-}
-trap 'echo "test.sh: FAILED in step: $step" >&2' ERR
 
 # The C++ files that git tracks; in a copy without git, all outside build/ and out/.
 sources() {
@@ -63,76 +69,56 @@ check_format() {
         echo "no C++ files found" >&2
         return 1
     fi
-    clang-format --dry-run --Werror "${files[@]}"
-    echo "${#files[@]} files are formatted"
+    clang-format --dry-run --Werror "${files[@]}" && echo "${#files[@]} files are formatted"
 }
 
 build() { # <preset>
-    cmake --preset "$1"
-    cmake --build --preset "$1" --parallel "$jobs"
+    cmake --preset "$1" && cmake --build --preset "$1" --parallel "$jobs"
 }
 
 # A project of its own, with find_package(cardan) and the compiler's default flags, against an installed copy.
 check_package() {
     local prefix="$PWD/build/packaging/prefix" consumer="$PWD/build/packaging/consumer"
-    rm -rf build/packaging
-    cmake --install build/release --prefix "$prefix" >/dev/null
-    cmake -S tests/packaging -B "$consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
-    cmake --build "$consumer" --parallel "$jobs"
-    (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
-        ./consumer_sanitized)
-    "$prefix/bin/wt600_campbell" --help >/dev/null
+    rm -rf build/packaging &&
+        cmake --install build/release --prefix "$prefix" >/dev/null &&
+        cmake -S tests/packaging -B "$consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" &&
+        cmake --build "$consumer" --parallel "$jobs" &&
+        (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
+            ./consumer_sanitized) &&
+        "$prefix/bin/wt600_campbell" --help >/dev/null
 }
 
 check_tidy() {
     # The library and the programs, as joined sources: their headers are read once for twelve sources. Hence the check of
     # included .cpp files makes no sense, and those are "headers" to report.
     local ours='(mbs|elements|turbines|solvers|examples)/[a-z0-9_/]+\.[ch]pp$'
-    cmake --preset tidy >/dev/null
-    run-clang-tidy -quiet -j "$jobs" -p build/tidy -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" \
+    cmake --preset tidy >/dev/null && run-clang-tidy -quiet -j "$jobs" -p build/tidy -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" \
         "^$PWD/(build/tidy/)?(mbs|elements|turbines|solvers|examples)/.*\.c(pp|xx)\$" 2>&1 |
         { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 
-heading "Packages"
+check_threads() { build thread && build/thread/tests/two_sweeps; }
+check_readers() { build fuzz && tests/fuzz/run.sh 60; }
+
 packages=("${cardan_build_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
 if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_packages[@]}"); fi
-require_packages "${packages[@]}"
 
-heading "Format"
-check_format
-
-heading "Build with GCC, release"
-build release
-
-heading "Installed package"
-check_package
-
+step "Packages" require_packages "${packages[@]}"
+step "Format" check_format
+step "Build with GCC, release" build release
+step "Installed package" check_package
+step "Tests, GCC release" ctest --preset release --parallel "$jobs"
 if ((full)); then
-    heading "Reference"
-    cmake --build --preset release --target reference
-
-    heading "clang-tidy"
-    check_tidy
-
-    heading "Build with clang and sanitizers"
-    build sanitize
-
-    heading "Tests, sanitizers"
-    ctest --preset sanitize --parallel "$jobs"
-
-    heading "Thread sanitizer"
-    build thread
-    build/thread/tests/two_sweeps
-
-    heading "Fuzzing"
-    build fuzz
-    tests/fuzz/run.sh 60
-
-    heading "Slow tests"
-    ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$'
+    step "Reference" cmake --build --preset release --target reference
+    step "clang-tidy" check_tidy
+    step "Build with clang and sanitizers" build sanitize
+    step "Tests, sanitizers" ctest --preset sanitize --parallel "$jobs"
+    step "Thread sanitizer" check_threads
+    step "Fuzzing" check_readers
+    step "Slow tests" ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$'
 fi
 
-heading "Tests, GCC release"
-ctest --preset release --parallel "$jobs"
-finish_step
+if ((${#failed[@]} > 0)); then
+    printf '\ntest.sh: FAILED: %s\n' "${failed[@]}" >&2
+    exit 1
+fi

@@ -2,7 +2,7 @@
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/algebra/fourier_series.hpp"
+#include "solvers/algebra/azimuth_series.hpp"
 
 #include <cmath>
 

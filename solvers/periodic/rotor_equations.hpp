@@ -2,7 +2,7 @@
 /// Equations of motion of a system whose spin coordinate turns at constant speed, at one azimuth after another.
 #pragma once
 
-#include "solvers/algebra/fourier_series.hpp"
+#include "solvers/algebra/azimuth_series.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "solvers/periodic/steady_state.hpp"
 

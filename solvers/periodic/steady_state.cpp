@@ -1,7 +1,7 @@
 #include "solvers/periodic/steady_state.hpp"
 
 #include "mbs/base/error.hpp"
-#include "solvers/algebra/fourier_series.hpp"
+#include "solvers/algebra/azimuth_series.hpp"
 
 #include <algorithm>
 #include <utility>

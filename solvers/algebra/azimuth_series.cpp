@@ -1,4 +1,4 @@
-#include "solvers/algebra/fourier_series.hpp"
+#include "solvers/algebra/azimuth_series.hpp"
 
 #include <cmath>
 
