@@ -85,7 +85,7 @@ check_package() {
         cmake --build "$consumer" --parallel "$jobs" &&
         (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
             ./consumer_sanitized) &&
-        "$prefix/bin/wt600_campbell" --help >/dev/null
+        "$prefix/bin/cardan-wt600-campbell" --help >/dev/null
 }
 
 check_tidy() {

@@ -1,4 +1,4 @@
-# Libraries, headers, data, programs and the CMake package `cardan`.
+# Libraries, headers, data, documents, programs and the CMake package `cardan`.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cardan)
@@ -6,11 +6,14 @@ get_property(libraries GLOBAL PROPERTY CARDAN_LIBRARIES)
 list(TRANSFORM libraries REPLACE "^cardan_" "" OUTPUT_VARIABLE CARDAN_COMPONENTS)
 
 install(TARGETS ${libraries} EXPORT cardanTargets)
-get_property(programs GLOBAL PROPERTY CARDAN_PROGRAMS)
-if(programs)
-    install(TARGETS ${programs})
-endif()
 install(EXPORT cardanTargets NAMESPACE cardan:: DESTINATION ${package_dir})
+
+# Others may have a program `history`: installed, it is `cardan-history`, and `wt600_campbell` is `cardan-wt600-campbell`.
+get_property(programs GLOBAL PROPERTY CARDAN_PROGRAMS)
+foreach(program IN LISTS programs)
+    string(REPLACE "_" "-" name cardan-${program})
+    install(PROGRAMS $<TARGET_FILE:${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${name})
+endforeach()
 
 # All headers but those in detail/, which are the inside of the libraries.
 install(DIRECTORY mbs elements turbines solvers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan
@@ -19,6 +22,10 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/base/version.hpp DESTINATION $
 
 file(GLOB data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/turbines/data/*.csv)
 install(FILES ${data} DESTINATION ${CMAKE_INSTALL_DATADIR}/cardan/data)
+
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright) # as Debian calls it
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cardanConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/cardanConfig.cmake INSTALL_DESTINATION ${package_dir})

@@ -11,6 +11,7 @@ cardan_peer_packages=(libsimbody-dev libmujoco-dev python3-xarray python3-netcdf
 cardan_format_packages=(clang-format)
 cardan_reference_packages=(doxygen graphviz libjs-mathjax python3)
 cardan_check_packages=(clang clang-tidy libclang-rt-14-dev)
+cardan_debian_packages=(debootstrap dpkg-dev)
 
 # require_packages <package>...: installs what is missing and says which. Without apt, or without root and sudo, prints
 # the command to run and returns non-zero. CARDAN_SKIP_PACKAGES=1: trusts that everything is there.
