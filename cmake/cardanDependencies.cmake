@@ -14,17 +14,17 @@ set(CARDAN_SUNDIALS_COMPONENTS kinsol cvode arkode nvecserial sunmatrixdense sun
 # Its targets exist by then, so the targets are what is asked for here, not SUNDIALS_FOUND.
 macro(cardan_find_sundials)
     find_package(SUNDIALS QUIET CONFIG COMPONENTS ${CARDAN_SUNDIALS_COMPONENTS})
-    foreach(_cardan_component IN LISTS CARDAN_SUNDIALS_COMPONENTS)
-        if(NOT TARGET SUNDIALS::${_cardan_component})
+    foreach(_cardan_part IN LISTS CARDAN_SUNDIALS_COMPONENTS)
+        if(NOT TARGET SUNDIALS::${_cardan_part})
             message(FATAL_ERROR "cardan needs SUNDIALS 6 or newer with ${CARDAN_SUNDIALS_COMPONENTS}; "
-                                "SUNDIALS::${_cardan_component} was not found (Debian: libsundials-dev; elsewhere "
+                                "SUNDIALS::${_cardan_part} was not found (Debian: libsundials-dev; elsewhere "
                                 "set SUNDIALS_DIR).")
         endif()
     endforeach()
     if(SUNDIALS_VERSION AND SUNDIALS_VERSION VERSION_LESS 6)
         message(FATAL_ERROR "cardan needs SUNDIALS 6 or newer (SUNContext); found ${SUNDIALS_VERSION}.")
     endif()
-    unset(_cardan_component)
+    unset(_cardan_part)
 endmacro()
 
 # FindHDF5 compiles a C program to look for the C library.
