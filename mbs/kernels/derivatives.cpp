@@ -1,3 +1,4 @@
+// Plain twin: tests/mbs/kernels/plain_dynamics.hpp
 #include "mbs/kernels/derivatives.hpp"
 
 #include "mbs/kernels/composites.hpp"

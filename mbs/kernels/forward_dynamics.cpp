@@ -1,3 +1,4 @@
+// Plain twin: tests/mbs/kernels/plain_dynamics.hpp
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 

@@ -1,3 +1,4 @@
+// Plain twin: tests/mbs/kernels/plain_dynamics.hpp
 #include "mbs/system/forward_derivatives.hpp"
 
 namespace cardan {
