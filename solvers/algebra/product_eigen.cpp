@@ -17,6 +17,15 @@ std::size_t at(Index k) {
     return static_cast<std::size_t>(k);
 }
 
+// A power of two taken out of x, so that products of many factors neither vanish nor overflow.
+template <class Numbers>
+int take_exponent(Numbers& x, double size) {
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    x *= std::ldexp(1.0, -exponent);
+    return exponent;
+}
+
 // x_{k+1} = (a_k x_k + b_k) / g_k around the circle, or run backward where that grows.
 struct Circle {
     const ComplexVector& a;
@@ -131,27 +140,32 @@ Index ProductEigen::active_from(Index last, double negligible) {
     return 0;
 }
 
-// Of the last 2 x 2 block of the product, the eigenvalue next to its last entry.
-Complex ProductEigen::shift(Index last) const {
-    const Index from = std::max<Index>(last - 2, 0), width = last - from + 1;
-    ComplexMatrix W = ComplexMatrix::Identity(width, width);
-    for (Index k = 0; k + 1 < factors(); ++k) W = T_[at(k)].block(from, from, width, width) * W;
-    const ComplexMatrix B = H().block(last - 1, from, 2, width) * W.rightCols(2);
+// Of the last 2 x 2 block of the product, the eigenvalue next to its last entry; over the first diagonal entries of the
+// triangular factors, since both may be far outside the range of numbers.
+Complex ProductEigen::shift(Index first, Index last) const {
+    const Index from = std::max(first, last - 2), width = last - from + 1;
+    ComplexMatrix W = ComplexMatrix::Identity(width, width).rightCols(2);
+    Complex t = 1;
+    int exponent = 0;
+    for (Index k = 0; k + 1 < factors(); ++k) {
+        W = T_[at(k)].block(from, from, width, width) * W;
+        t *= T_[at(k)](first, first);
+        exponent += take_exponent(W, W.cwiseAbs().maxCoeff()) - take_exponent(t, std::abs(t));
+    }
+    ComplexMatrix B = H().block(last - 1, from, 2, width) * W;
+    exponent += take_exponent(B, B.cwiseAbs().maxCoeff());
     const Complex half = (B(0, 0) - B(1, 1)) / 2.0, root = std::sqrt(half * half + B(0, 1) * B(1, 0));
     const Complex plus = half + root, minus = half - root;
-    return B(1, 1) + (std::abs(plus) < std::abs(minus) ? plus : minus);
+    const Complex sigma = (B(1, 1) + (std::abs(plus) < std::abs(minus) ? plus : minus)) / t;
+    return {std::ldexp(sigma.real(), exponent), std::ldexp(sigma.imag(), exponent)};
 }
 
 void ProductEigen::sweep(Index first, Index last, Complex sigma) {
-    Complex t = 1;
-    for (Index k = 0; k + 1 < factors(); ++k) t *= T_[at(k)](first, first);
     const Complex own = H()(first, first), below = H()(first + 1, first);
     Rotation G;
-    // No shift if it would swamp the other terms.
-    if (std::abs(sigma) * 1e-10 > std::abs(t) * (std::abs(own) + std::abs(below)) || t == 0.0)
-        G.makeGivens(own, below);
-    else
-        G.makeGivens(own * t - sigma, below * t);
+    // No shift if it would swamp the other terms or is no number.
+    const bool shifted = std::abs(sigma) * 1e-10 <= std::abs(own) + std::abs(below);
+    G.makeGivens(shifted ? own - sigma : own, below);
     for (Index i = first; i < last; ++i) {
         if (i > first) G.makeGivens(H()(i, i - 1), H()(i + 1, i - 1));
         rotate(0, i, G, false);
@@ -173,7 +187,7 @@ bool ProductEigen::iterate() {
             continue;
         }
         if (++iterations > 90) return false;
-        const Complex sigma = iterations % 10 == 0 ? Complex(0) : shift(last);
+        const Complex sigma = iterations % 10 == 0 ? Complex(0) : shift(first, last);
         sweep(first, last, sigma);
     }
     return true;
@@ -192,13 +206,14 @@ ComplexVector ProductEigen::diagonal(Index j) const {
 }
 
 Complex ProductEigen::logarithm(Index i) const {
-    double size = 0, angle = 0;
+    Complex mantissa = 1;
+    int exponent = 0;
     for (Index k = 0; k < factors(); ++k) {
-        size += std::log(std::abs(T_[at(k)](i, i))) + std::log(norms_[at(k)]);
-        angle += std::arg(T_[at(k)](i, i));
+        mantissa *= T_[at(k)](i, i) * norms_[at(k)];
+        exponent += take_exponent(mantissa, std::abs(mantissa));
     }
-    angle = std::remainder(angle, 2 * pi);
-    return {size, angle <= -pi ? pi : angle};
+    const double angle = std::arg(mantissa);
+    return {std::log(std::abs(mantissa)) + exponent * std::log(2.0), angle <= -pi ? pi : angle};
 }
 
 double ProductEigen::mean_level(Index i) const {

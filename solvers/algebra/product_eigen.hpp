@@ -52,7 +52,7 @@ private:
     void chase(Eigen::Index i, bool whole);
     bool iterate();
     Eigen::Index active_from(Eigen::Index last, double negligible);
-    Complex shift(Eigen::Index last) const;
+    Complex shift(Eigen::Index first, Eigen::Index last) const;
     void sweep(Eigen::Index first, Eigen::Index last, Complex sigma);
     ComplexMatrix right_coefficients(Eigen::Index j) const;
     ComplexMatrix left_coefficients(Eigen::Index j) const;

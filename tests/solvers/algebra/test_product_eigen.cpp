@@ -3,6 +3,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "solvers/algebra/product_eigen.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <algorithm>
@@ -141,6 +142,38 @@ TEST_CASE("product eigenvalues: of 1e-90 beside others of 1 to all digits, where
     }
     const std::vector<Complex> lost = values_of(product_of(factors));
     CHECK(std::log(std::abs(lost.back())) > expected(n - 1) + 50);
+}
+
+TEST_CASE("product eigenvalues: complex pairs are found where their product is far below the range of numbers",
+          "[analytic]") {
+    Numbers numbers(6);
+    const Index pairs = 4, n = 2 * pairs;
+    const int count = 64;
+    // Blocks that turn and shrink: pairs of 1, 1e-128, 1e-256, 1e-384.
+    std::vector<Matrix> bases, factors;
+    for (int k = 0; k < count; ++k) bases.push_back(numbers.orthogonal(n));
+    for (int k = 0; k < count; ++k) {
+        Matrix D = Matrix::Zero(n, n);
+        for (Index i = 0; i < pairs; ++i) {
+            const double level = std::pow(1e-2, i), angle = (1.0 + static_cast<double>(i)) / count;
+            D.block<2, 2>(2 * i, 2 * i) << level * std::cos(angle), -level * std::sin(angle), level * std::sin(angle),
+                level * std::cos(angle);
+        }
+        const auto next = static_cast<std::size_t>((k + 1) % count);
+        factors.emplace_back(bases[next] * D * bases[static_cast<std::size_t>(k)].transpose());
+    }
+    ProductEigen eigen;
+    REQUIRE(eigen.compute(factors));
+    for (Index i = 0; i < pairs; ++i)
+        for (const double sign : {-1.0, 1.0}) {
+            const Complex expected(count * std::log(std::pow(1e-2, i)),
+                                   std::remainder(sign * (1.0 + static_cast<double>(i)), 2 * pi));
+            double nearest = infinite;
+            for (Index j = 0; j < n; ++j) nearest = std::min(nearest, std::abs(eigen.logarithm(j) - expected));
+            // Rounding beside the norm of every factor, over its own entry.
+            CAPTURE(i, sign);
+            CHECK(nearest < 1e-14 * count / std::pow(1e-2, i));
+        }
 }
 
 TEST_CASE("product eigenvalues: singular factors leave zeros that are told from the rest", "[property]") {
