@@ -64,12 +64,12 @@ struct Circle {
 
 }  // namespace
 
-void ProductEigen::start(const std::vector<Matrix>& factors) {
+// The factors over their norms.
+std::vector<Matrix> ProductEigen::start(const std::vector<Matrix>& factors) {
     if (factors.empty()) throw InputError("eigenvalues of a product", "number of factors", 0, ">= 1");
     const Index n = factors.front().rows();
-    T_.clear();
-    Q_.assign(factors.size(), ComplexMatrix::Identity(n, n));
     norms_.clear();
+    std::vector<Matrix> scaled;
     for (const Matrix& F : factors) {
         if (F.rows() != n || F.cols() != n || n == 0)
             throw InputError("eigenvalues of a product", "size of a factor", text(F.rows(), " x ", F.cols()),
@@ -77,17 +77,17 @@ void ProductEigen::start(const std::vector<Matrix>& factors) {
         if (!F.allFinite()) throw InputError("eigenvalues of a product", "a factor", "not finite", "finite numbers");
         const double norm = F.norm();
         norms_.push_back(norm > 0 ? norm : 1);
-        T_.emplace_back((F / norms_.back()).cast<Complex>());
+        scaled.emplace_back(F / norms_.back());
     }
+    return scaled;
 }
 
 // Q_k's columns i, i + 1 by G: what comes out of factor k and what goes into factor k + 1.
-// `whole`: the last factor is not a Hessenberg matrix yet.
-void ProductEigen::rotate(Index space, Index i, const Rotation& G, bool whole) {
+void ProductEigen::rotate(Index space, Index i, const Rotation& G) {
     const Index p = factors(), n = size();
     ComplexMatrix& after = T_[at(space)];
     ComplexMatrix& before = T_[at((space + p - 1) % p)];
-    const Index from = whole ? 0 : std::max<Index>(i - 1, 0), rows = whole ? n : std::min(n, i + 3);
+    const Index from = std::max<Index>(i - 1, 0), rows = std::min(n, i + 3);
     before.rightCols(n - from).applyOnTheLeft(i, i + 1, G.adjoint());
     after.topRows(rows).applyOnTheRight(i, i + 1, G);
     Q_[at(space)].applyOnTheRight(i, i + 1, G);
@@ -95,36 +95,43 @@ void ProductEigen::rotate(Index space, Index i, const Rotation& G, bool whole) {
 
 // After a rotation of space 0 the triangular factors are made triangular again, one after the other. Zeros on their
 // diagonals would stop what is chased: rounding takes their place.
-void ProductEigen::chase(Index i, bool whole) {
+void ProductEigen::chase(Index i) {
     Rotation G;
     for (Index k = 0; k + 1 < factors(); ++k) {
         ComplexMatrix& T = T_[at(k)];
         G.makeGivens(T(i, i), T(i + 1, i));
-        rotate(k + 1, i, G, whole);
+        rotate(k + 1, i, G);
         T(i + 1, i) = 0;
         for (Index j : {i, i + 1})
             if (std::abs(T(j, j)) < 0.1 * machine_epsilon) T(j, j) = 0.1 * machine_epsilon;
     }
 }
 
-// All factors but the last triangular, the last one a Hessenberg matrix.
-void ProductEigen::reduce() {
-    const Index p = factors(), n = size();
-    for (Index k = 0; k + 1 < p; ++k) {
-        const Eigen::HouseholderQR<ComplexMatrix> qr(T_[at(k)]);
-        Q_[at(k + 1)] = qr.householderQ();
-        T_[at(k)] = qr.matrixQR().triangularView<Eigen::Upper>();
-        T_[at(k + 1)] = T_[at(k + 1)] * Q_[at(k + 1)];
-    }
-    Rotation G;
-    for (Index j = 0; j + 2 < n; ++j)
-        for (Index i = n - 2; i > j; --i) {
-            if (H()(i + 1, j) == 0.0) continue;
-            G.makeGivens(H()(i, j), H()(i + 1, j));
-            rotate(0, i, G, true);
-            H()(i + 1, j) = 0;
-            chase(i, true);
+// All factors but the last triangular, the last one a Hessenberg matrix: reflections of real numbers, column by column
+// through all factors.                                                          [Bojanczyk, Golub and Van Dooren 1992]
+void ProductEigen::reduce(std::vector<Matrix> F) {
+    const Index p = static_cast<Index>(F.size()), n = F.front().rows();
+    std::vector<Matrix> Q(F.size(), Matrix::Identity(n, n));
+    Vector work(n);
+    for (Index j = 0; j + 1 < n; ++j)
+        for (Index k = 0; k < p; ++k) {
+            const Index size = k + 1 < p ? n - j : n - j - 1;
+            if (size < 2) continue;
+            Matrix &own = F[at(k)], &next = F[at((k + 1) % p)];
+            Vector essential(size - 1);
+            double tau = 0, beta = 0;
+            own.col(j).tail(size).makeHouseholder(essential, tau, beta);
+            own.bottomRightCorner(size, n - j).applyHouseholderOnTheLeft(essential, tau, work.data());
+            own.col(j).tail(size - 1).setZero();
+            for (Matrix* x : {&next, &Q[at((k + 1) % p)]})
+                x->rightCols(size).applyHouseholderOnTheRight(essential, tau, work.data());
         }
+    T_.clear();
+    Q_.clear();
+    for (Index k = 0; k < p; ++k) {
+        T_.emplace_back(F[at(k)].cast<Complex>());
+        Q_.emplace_back(Q[at(k)].cast<Complex>());
+    }
 }
 
 // Row from which the block that ends at `last` is unreduced.
@@ -168,9 +175,9 @@ void ProductEigen::sweep(Index first, Index last, Complex sigma) {
     G.makeGivens(shifted ? own - sigma : own, below);
     for (Index i = first; i < last; ++i) {
         if (i > first) G.makeGivens(H()(i, i - 1), H()(i + 1, i - 1));
-        rotate(0, i, G, false);
+        rotate(0, i, G);
         if (i > first) H()(i + 1, i - 1) = 0;
-        chase(i, false);
+        chase(i);
     }
 }
 
@@ -194,8 +201,7 @@ bool ProductEigen::iterate() {
 }
 
 bool ProductEigen::compute(const std::vector<Matrix>& factors) {
-    start(factors);
-    reduce();
+    reduce(start(factors));
     return iterate();
 }
 

@@ -21,7 +21,7 @@ public:
     /// @returns false if the iteration does not converge
     /// @throws InputError if there is no factor, if sizes differ or a factor is not finite
     ///
-    /// Cost about 30 p n^3.
+    /// Cost O(p n^3); allocates.
     [[nodiscard]] bool compute(const std::vector<Matrix>& factors);
 
     Eigen::Index size() const { return Q_.front().rows(); }
@@ -46,10 +46,10 @@ public:
 private:
     using Rotation = Eigen::JacobiRotation<Complex>;
 
-    void start(const std::vector<Matrix>& factors);
-    void reduce();
-    void rotate(Eigen::Index space, Eigen::Index i, const Rotation& G, bool whole);
-    void chase(Eigen::Index i, bool whole);
+    std::vector<Matrix> start(const std::vector<Matrix>& factors);
+    void reduce(std::vector<Matrix> F);
+    void rotate(Eigen::Index space, Eigen::Index i, const Rotation& G);
+    void chase(Eigen::Index i);
     bool iterate();
     Eigen::Index active_from(Eigen::Index last, double negligible);
     Complex shift(Eigen::Index first, Eigen::Index last) const;
