@@ -71,7 +71,7 @@ TEST_CASE("docs/wt600.md: as many channels are recorded as it says", "[property]
 }
 
 TEST_CASE("docs/conventions.md: what it calls members of a workspace are some", "[property]") {
-    const std::string header = test::bytes_of(text(CARDAN_SOURCE_DIR, "/mbs/workspace.hpp"));
+    const std::string header = test::bytes_of(text(CARDAN_SOURCE_DIR, "/mbs/kernels/workspace.hpp"));
     const std::string page = document("conventions.md");
     const std::regex mention("`ws\\.(\\w+)(\\[\\w\\]\\.(\\w+))?`");
     int found = 0;
