@@ -3,10 +3,29 @@
 #include "elements/machine/coordinate_force.hpp"
 #include "mbs/base/error.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cardan {
+
+namespace {
+
+MonotoneCubic checked(std::vector<double> speeds, std::vector<double> torques) {
+    constexpr const char* place = "torque table";
+    const std::size_t n = speeds.size();
+    if (n < 2) throw InputError(place, "number of speeds", n, ">= 2");
+    if (torques.size() != n) throw InputError(place, "number of torques", torques.size(), text(n, ", one per speed"));
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!std::isfinite(speeds[i])) throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds[i], "finite");
+        if (!std::isfinite(torques[i])) throw InputError(place, text("torque ", i + 1, " [N m]"), torques[i], "finite");
+        if (i > 0 && !(speeds[i] > speeds[i - 1]))
+            throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds[i],
+                             text("> ", speeds[i - 1], ", the one before"));
+    }
+    return {std::move(speeds), std::move(torques), MonotoneCubic::Ends::level};
+}
+
+}  // namespace
 
 double InductionMachine::slope(double speed) const {
     const double r = (speed / synchronous_speed - 1) / breakdown_slip, d = 1 + r * r;
@@ -20,36 +39,7 @@ void InductionMachine::check(std::string_view where) const {
 }
 
 TorqueTable::TorqueTable(std::vector<double> speeds, std::vector<double> torques)
-    : speeds_(std::move(speeds)), torques_(std::move(torques)), slopes_(speeds_.size(), 0.0) {
-    constexpr const char* place = "torque table";
-    const std::size_t n = speeds_.size();
-    if (n < 2) throw InputError(place, "number of speeds", n, ">= 2");
-    if (torques_.size() != n) throw InputError(place, "number of torques", torques_.size(), text(n, ", one per speed"));
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!std::isfinite(speeds_[i]))
-            throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds_[i], "finite");
-        if (!std::isfinite(torques_[i]))
-            throw InputError(place, text("torque ", i + 1, " [N m]"), torques_[i], "finite");
-        if (i > 0 && !(speeds_[i] > speeds_[i - 1]))
-            throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds_[i],
-                             text("> ", speeds_[i - 1], ", the one before"));
-    }
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        const double h = speeds_[i] - speeds_[i - 1], k = speeds_[i + 1] - speeds_[i];
-        const double s = (torques_[i] - torques_[i - 1]) / h, r = (torques_[i + 1] - torques_[i]) / k;
-        if (s * r > 0) slopes_[i] = 3 * (h + k) / ((2 * k + h) / s + (k + 2 * h) / r);
-    }
-}
-
-TorqueTable::Value TorqueTable::at(double speed) const {
-    if (speed <= speeds_.front()) return {torques_.front(), 0};
-    if (speed >= speeds_.back()) return {torques_.back(), 0};
-    const auto i = static_cast<std::size_t>(std::upper_bound(speeds_.begin(), speeds_.end(), speed) - speeds_.begin());
-    const double h = speeds_[i] - speeds_[i - 1], u = speed - speeds_[i - 1];
-    const double s = (torques_[i] - torques_[i - 1]) / h, a = slopes_[i - 1], b = slopes_[i];
-    const double c2 = (3 * s - 2 * a - b) / h, c3 = (a + b - 2 * s) / (h * h);
-    return {torques_[i - 1] + u * (a + u * (c2 + u * c3)), a + u * (2 * c2 + 3 * u * c3)};
-}
+    : curve_(checked(std::move(speeds), std::move(torques))) {}
 
 double Generator::torque(double rate) const {
     if (grid && !grid->is_on()) return 0;

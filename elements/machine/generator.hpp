@@ -6,6 +6,7 @@
 #pragma once
 
 #include "elements/machine/switch.hpp"
+#include "mbs/base/monotone_cubic.hpp"
 #include "mbs/system/channel.hpp"
 
 #include <memory>
@@ -39,7 +40,7 @@ struct InductionMachine {
 };
 
 /// Torque-speed curve of a generator with a converter: cubics through points, monotone where the points are, with zero
-/// slope at the ends and constant beyond them; slope continuous.                             [Fritsch and Butland 1984]
+/// slope at the ends and constant beyond them; slope continuous. See MonotoneCubic.
 class TorqueTable {
 public:
     /// @param speeds   rad/s, at least two, ascending
@@ -47,16 +48,11 @@ public:
     /// @throws InputError naming the point
     TorqueTable(std::vector<double> speeds, std::vector<double> torques);
 
-    double torque(double speed) const { return at(speed).torque; }
-    double slope(double speed) const { return at(speed).slope; }
+    double torque(double speed) const { return curve_.at(speed).value; }
+    double slope(double speed) const { return curve_.at(speed).slope; }
 
 private:
-    struct Value {
-        double torque, slope;
-    };
-    Value at(double speed) const;
-
-    std::vector<double> speeds_, torques_, slopes_;
+    MonotoneCubic curve_;
 };
 
 /// A generator on a shaft.

@@ -1,6 +1,7 @@
 #include "solvers/time/motion.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/monotone_cubic.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -36,52 +37,6 @@ Quintic quintic(double x) {
     const double x2 = x * x, x3 = x2 * x;
     return {x3 * x * (2.5 - 3 * x + x2), x3 * (10 - 15 * x + 6 * x2), 30 * x2 * (1 - 2 * x + x2),
             60 * x * (1 - 3 * x + 2 * x2)};
-}
-
-// Hermite cubics on the intervals between the points.
-struct Table {
-    std::vector<double> t, y, slope;
-
-    std::size_t intervals() const { return t.size() - 1; }
-    double width(std::size_t i) const { return t[i + 1] - t[i]; }
-    double secant(std::size_t i) const { return (y[i + 1] - y[i]) / width(i); }
-    void set_slopes();
-    double end_slope(std::size_t near, std::size_t far) const;
-    MotionState at(double time, double inside) const;
-};
-
-// Parabola through the last three points, cut back where it would spoil the shape.
-double Table::end_slope(std::size_t near, std::size_t far) const {
-    const double h = width(near), k = width(far), s = secant(near), r = secant(far);
-    const double d = ((2 * h + k) * s - h * r) / (h + k);
-    if (d * s <= 0) return 0;
-    if (s * r <= 0 && std::abs(d) > 3 * std::abs(s)) return 3 * s;
-    return d;
-}
-
-void Table::set_slopes() {
-    const std::size_t last = intervals();
-    slope.assign(t.size(), 0.0);
-    if (last == 1) {
-        slope.assign(2, secant(0));
-        return;
-    }
-    for (std::size_t i = 1; i < last; ++i) {
-        const double s = secant(i - 1), r = secant(i), h = width(i - 1), k = width(i);
-        if (s * r > 0) slope[i] = 3 * (h + k) / ((2 * k + h) / s + (k + 2 * h) / r);
-    }
-    slope[0] = end_slope(0, 1);
-    slope[last] = end_slope(last - 1, last - 2);
-}
-
-MotionState Table::at(double time, double inside) const {
-    const std::size_t last = intervals();
-    if (inside < t[0]) return {y[0] + slope[0] * (time - t[0]), slope[0], 0};
-    if (inside >= t[last]) return {y[last] + slope[last] * (time - t[last]), slope[last], 0};
-    const auto i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), inside) - t.begin()) - 1;
-    const double h = width(i), u = time - t[i], s = secant(i);
-    const double c2 = (3 * s - 2 * slope[i] - slope[i + 1]) / h, c3 = (slope[i] + slope[i + 1] - 2 * s) / (h * h);
-    return {y[i] + u * (slope[i] + u * (c2 + u * c3)), slope[i] + u * (2 * c2 + 3 * u * c3), 2 * c2 + 6 * u * c3};
 }
 
 }  // namespace
@@ -156,9 +111,11 @@ Motion Motion::table(std::vector<double> times, std::vector<double> values) {
     require_rising("table of a motion", times);
     for (std::size_t i = 0; i < values.size(); ++i)
         require_finite("table of a motion", text("value ", i + 1), values[i]);
-    Table table{times, std::move(values), {}};
-    table.set_slopes();
-    const auto law = [table = std::move(table)](double t, double inside) { return table.at(t, inside); };
+    const auto law = [curve = MonotoneCubic(times, std::move(values), MonotoneCubic::Ends::parabola)](double t,
+                                                                                                      double inside) {
+        const MonotoneCubic::Value at = curve.at(t, inside);
+        return MotionState{at.value, at.slope, at.second};
+    };
     return {"table", law, std::move(times)};
 }
 

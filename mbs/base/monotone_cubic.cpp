@@ -1,0 +1,58 @@
+#include "mbs/base/monotone_cubic.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cardan {
+
+namespace {
+
+void check(const std::vector<double>& x, const std::vector<double>& y) {
+    constexpr auto where = "cubics through points";
+    if (x.size() < 2) throw InputError(where, "number of points", x.size(), ">= 2");
+    if (y.size() != x.size()) throw InputError(where, "number of values", y.size(), text(x.size(), ", one per point"));
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!std::isfinite(x[i])) throw InputError(where, text("point ", i + 1), x[i], "finite");
+        if (!std::isfinite(y[i])) throw InputError(where, text("value ", i + 1), y[i], "finite");
+        if (i > 0 && !(x[i] > x[i - 1]))
+            throw InputError(where, text("point ", i + 1), x[i], text("> ", x[i - 1], ", the one before"));
+    }
+}
+
+}  // namespace
+
+MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y, Ends ends)
+    : x_(std::move(x)), y_(std::move(y)), slope_(x_.size(), 0.0) {
+    check(x_, y_);
+    const std::size_t last = intervals();
+    for (std::size_t i = 1; i < last; ++i) {
+        const double s = secant(i - 1), r = secant(i), h = width(i - 1), k = width(i);
+        if (s * r > 0) slope_[i] = 3 * (h + k) / ((2 * k + h) / s + (k + 2 * h) / r);
+    }
+    if (ends == Ends::level) return;
+    slope_[0] = last == 1 ? secant(0) : end_slope(0, 1);
+    slope_[last] = last == 1 ? secant(0) : end_slope(last - 1, last - 2);
+}
+
+double MonotoneCubic::end_slope(std::size_t near, std::size_t far) const {
+    const double h = width(near), k = width(far), s = secant(near), r = secant(far);
+    const double d = ((2 * h + k) * s - h * r) / (h + k);
+    if (d * s <= 0) return 0;
+    if (s * r <= 0 && std::abs(d) > 3 * std::abs(s)) return 3 * s;
+    return d;
+}
+
+MonotoneCubic::Value MonotoneCubic::at(double x, double inside) const {
+    const std::size_t last = intervals();
+    if (inside < x_[0]) return {y_[0] + slope_[0] * (x - x_[0]), slope_[0], 0};
+    if (inside >= x_[last]) return {y_[last] + slope_[last] * (x - x_[last]), slope_[last], 0};
+    const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), inside) - x_.begin()) - 1;
+    const double h = width(i), u = x - x_[i], s = secant(i), a = slope_[i], b = slope_[i + 1];
+    const double c2 = (3 * s - 2 * a - b) / h, c3 = (a + b - 2 * s) / (h * h);
+    return {y_[i] + u * (a + u * (c2 + u * c3)), a + u * (2 * c2 + 3 * u * c3), 2 * c2 + 6 * u * c3};
+}
+
+}  // namespace cardan
