@@ -1,6 +1,6 @@
 // A steel cantilever of cardanic joint beam elements: natural frequencies beside Euler and Bernoulli's.
-#include "elements/cardan_beam/cardan_beam.hpp"
-#include "solvers/linear/modes.hpp"
+#include "elements/cardan_beam/single_beam.hpp"
+#include "solvers/equilibrium/natural_modes.hpp"
 
 #include <array>
 #include <cstdio>
@@ -13,17 +13,8 @@ int main() {
     constexpr double second = (0.1 * 0.1 * 0.1 * 0.1 - 0.09 * 0.09 * 0.09 * 0.09) / 12;  // m^4
     const BeamLine line = uniform_beam(length, {.mass = density * area, .EI_flap = E * second, .EI_edge = E * second});
 
-    Tree tree;
-    ForceSet forces;
-    add_cardan_beam(tree, forces, Tree::base(), line, "beam", {"beam"},
-                    {.elements = 16, .torsion = false, .held_z = true});
-    const System system(tree, forces);
-
-    // Small vibrations about the straight beam at rest.
-    const Vector zero = Vector::Zero(system.model.size());
-    const solvers::Linearisation linear = solvers::linearise(system, {zero, zero, zero});
-    const std::vector<solvers::Mode> modes =
-        solvers::modes(solvers::restrict_to(linear, system.model.coordinates().free()));
+    const SingleBeam beam = clamped_beam(line, {.elements = 16, .torsion = false, .held_z = true});
+    const std::vector<solvers::Mode> modes = solvers::natural_modes(beam.system).modes;
 
     std::printf("mode   computed   closed form   (Hz)   difference\n");
     const std::array roots{1.8751040687, 4.6940911330, 7.8547574382};  // of cosh x cos x = -1
