@@ -38,7 +38,7 @@ endfunction()
 #
 # Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms. Without any it is a
 # name for several libraries. Headers are included as "<folder>/<room>/<file>.hpp": from the root of the source tree, or
-# from include/cardan installed.
+# from include/cardan installed; there also as <cardan/<folder>/<room>/<file>.hpp>.
 function(cardan_add_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;SOURCES;PUBLIC;PRIVATE")
     set(target cardan_${name})
@@ -62,7 +62,7 @@ function(cardan_add_library name)
     target_compile_features(${target} ${public} cxx_std_20)
     target_include_directories(
         ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
-        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cardan>)
+        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cardan> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_libraries(${target} ${public} ${arg_PUBLIC})
     set_property(GLOBAL APPEND PROPERTY CARDAN_LIBRARIES ${target})
 endfunction()

@@ -1,6 +1,5 @@
 // A program that needs the kernel only: a pendulum's generalised force.
-#include "mbs/system/system.hpp"
-
+#include <cardan/mbs/system/system.hpp>
 #include <cmath>
 #include <iostream>
 
