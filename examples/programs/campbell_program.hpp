@@ -2,6 +2,7 @@
 /// What the programs that compute Campbell diagrams have in common.
 #pragma once
 
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/pictures/campbell.hpp"
@@ -104,7 +105,7 @@ inline void draw_modes(const solvers::Campbell& diagram, const std::filesystem::
     for (const solvers::Branch& branch : diagram.branches)
         for (std::size_t point : points) {
             if (branch.mode[point] < 0) continue;
-            const auto rpm = std::lround(diagram.points[point].rotor_speed * 30 / pi);
+            const auto rpm = std::lround(diagram.points[point].rotor_speed * units::to_rpm);
             for (const char* kind : {".svg", ".png"})
                 solvers::plot_mode(diagram, branch, point,
                                    folder / text(file_name(branch.name), "_", rpm, "rpm", kind));

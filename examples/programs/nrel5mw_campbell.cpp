@@ -9,6 +9,7 @@
 // (docs/nrel5mw.md): the same machine is --yaw locked with --variant fast or beamdyn. Found: the differences are those
 // of ElastoDyn's shapes and sums, and of BeamDyn's one element of order 5.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/model/scaling.hpp"
 
@@ -179,7 +180,7 @@ std::vector<nrel5mw_campbell::UnderGravity> beside_references(const Arguments& a
     std::vector<nrel5mw_campbell::UnderGravity> all;
     for (const nrel5mw_campbell::OpenFast& reference : nrel5mw_campbell::openfast)
         if (const auto point = nrel5mw_campbell::point_at(light, reference.rpm))
-            all.push_back(nrel5mw_campbell::under_gravity(heavy, light, *point, limited, a.azimuth * pi / 180));
+            all.push_back(nrel5mw_campbell::under_gravity(heavy, light, *point, limited, a.azimuth * units::degree));
     return all;
 }
 

@@ -95,7 +95,7 @@ std::vector<double> rotor_speeds(const std::string& given, double rated) {
     if (!given.empty()) return program::rotor_speeds(given);
     if (!(rated > 0))
         throw InputError("--rpm", "value", "none, and the model names no rotor speed", program::rpm_format);
-    const double last = 1.2 * rated * 30 / pi;
+    const double last = 1.2 * rated * units::to_rpm;
     return solvers::rpm_range(0, last, last / 12);
 }
 
@@ -133,7 +133,7 @@ std::string freedoms_in_words(const turbines::TurbineFile& model) {
 
 turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::TurbineFile& model) {
     turbines::AssemblyOptions o;
-    o.pitch = a.pitch ? *a.pitch * pi / 180 : model.pitch;
+    o.pitch = a.pitch ? *a.pitch * units::degree : model.pitch;
     if (a.gravity) o.gravity = {0, 0, -units::standard_gravity};
     if (a.undamped) o.structural_damping = o.joint_damping = false;
     o.blade_beam = beam_options(model.description.blade.line, a.blade_elements, true);
@@ -161,9 +161,9 @@ void save(const Arguments& a, const turbines::TurbineFile& model) {
     turbines::write_description(model.description, a.save);
     const turbines::FileFreedoms& f = model.freedoms;
     if (model.pitch != 0 || model.rotor_speed != 0 || !f.generator)
-        std::cout << "note: " << a.save << " holds the machine, not how it runs: --pitch " << model.pitch * 180 / pi
-                  << ", " << model.rotor_speed * 30 / pi << " rpm" << (f.generator ? "" : ", --generator locked")
-                  << "\n";
+        std::cout << "note: " << a.save << " holds the machine, not how it runs: --pitch "
+                  << model.pitch * units::to_degrees << ", " << model.rotor_speed * units::to_rpm << " rpm"
+                  << (f.generator ? "" : ", --generator locked") << "\n";
     if (!f.tower_fore_aft || !f.tower_side_side || !f.blades)
         std::cout << "note: " << a.save
                   << " holds tower and blades with their stiffness, not that they are rigid here\n";

@@ -97,7 +97,7 @@ std::string compare(const turbines::Turbine& turbine, const solvers::Campbell& d
 int run(const Arguments& a) {
     const std::vector<double> speeds = program::rotor_speeds(a.rpm);
     if (a.gravity && !a.floquet && speeds.back() > 0)
-        throw InputError("--gravity", "rotor speed [rev/min]", speeds.back() * 30 / pi,
+        throw InputError("--gravity", "rotor speed [rev/min]", speeds.back() * units::to_rpm,
                          "0, or --floquet: in rotation there is a periodic steady state only");
     std::string files = text(a.out, ".h5, .csv, .svg, .png");
     const turbines::TurbineDescription description =

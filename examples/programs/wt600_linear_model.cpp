@@ -86,7 +86,7 @@ const std::vector<std::string> outputs{"GenSpeed",  "RotSpeed",  "RotTorq",   "T
 solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments& a) {
     // Before the equilibrium, which would take long for nothing.
     solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
-    const double rotor_speed = a.rotor_rpm * pi / 30;
+    const double rotor_speed = a.rotor_rpm * units::rpm;
     solvers::StateSpaceOptions options;
     options.azimuths = a.azimuths;
     options.outputs = outputs;

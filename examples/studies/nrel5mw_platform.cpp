@@ -120,7 +120,7 @@ const platform::ReferenceCase* reference(const Arguments& a, const Motions& moti
 std::vector<solvers::Drive> drives(const Arguments& a, const turbines::Nrel5mwPlatform& machine,
                                    const Motions& motions) {
     const Model& model = machine.system->model;
-    std::vector<solvers::Drive> all{{model.index(machine.spin), solvers::Motion::constant_rate(0, a.rpm * pi / 30)}};
+    std::vector<solvers::Drive> all{{model.index(machine.spin), solvers::Motion::constant_rate(0, a.rpm * units::rpm)}};
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!motions.at(i)) continue;
         const BodyId body = i < platform_coordinates ? machine.platform.coordinates.at(i) : machine.yaw;

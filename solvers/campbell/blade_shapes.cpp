@@ -75,9 +75,10 @@ void write_csv(std::span<const BladeShapes> shapes, const std::filesystem::path&
             for (std::size_t i = 0; i < mode.radius.size(); ++i) {
                 const Vec3T<Complex>& u = mode.displacement[i];
                 const Complex twist = mode.rotation[i].x() * units::to_degrees;
-                out << at.rotor_speed * 30 / pi << ',' << mode.name << ',' << mode.natural_hz << ',' << mode.radius[i]
-                    << ',' << u.z().real() << ',' << u.y().real() << ',' << u.x().real() << ',' << twist.real() << ','
-                    << u.z().imag() << ',' << u.y().imag() << ',' << u.x().imag() << ',' << twist.imag() << '\n';
+                out << at.rotor_speed * units::to_rpm << ',' << mode.name << ',' << mode.natural_hz << ','
+                    << mode.radius[i] << ',' << u.z().real() << ',' << u.y().real() << ',' << u.x().real() << ','
+                    << twist.real() << ',' << u.z().imag() << ',' << u.y().imag() << ',' << u.x().imag() << ','
+                    << twist.imag() << '\n';
             }
     out.close();
     if (!out) throw FileError(path.string(), "the table could not be written completely (is the disk full?)");

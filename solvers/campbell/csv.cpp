@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
 
 #include <fstream>
@@ -41,7 +42,7 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
         for (const Branch& branch : diagram.branches) {
             const CampbellMode* mode = diagram.mode(branch, i);
             if (!mode) continue;
-            out << diagram.points[i].rotor_speed * 30 / pi << ',' << csv_field(branch.name) << ','
+            out << diagram.points[i].rotor_speed * units::to_rpm << ',' << csv_field(branch.name) << ','
                 << diagram.natural_hz(branch, i) << ',' << diagram.damped_hz(branch, i) << ','
                 << diagram.damping_ratio(branch, i) << ',' << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0)
                 << ',' << csv_field(branch.mostly[i]) << ',' << mode->kind_name() << ',' << mode->mode.eigenvalue.real()

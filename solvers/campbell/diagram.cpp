@@ -1,6 +1,7 @@
 #include "solvers/campbell/diagram.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/floquet_mac.hpp"
 #include "solvers/campbell/point.hpp"
 #include "solvers/campbell/tracking.hpp"
@@ -167,7 +168,7 @@ void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (fastest.real() == 0) return;
     std::ostringstream out;
     out.precision(4);
-    out << "unstable at " << point.rotor_speed * 30 / pi << " rpm: a motion at " << fastest.imag() / (2 * pi)
+    out << "unstable at " << point.rotor_speed * units::to_rpm << " rpm: a motion at " << fastest.imag() / (2 * pi)
         << " Hz grows with " << fastest.real() << " 1/s";
     warning = out.str();
 }
@@ -337,7 +338,7 @@ std::vector<double> rpm_range(double first, double last, double step) {
     if (!(intervals < 1e5))
         throw InputError("rotor speeds", "number of speeds in FIRST:LAST:STEP", intervals + 1, "at most 100000");
     const auto count = static_cast<std::size_t>(intervals);
-    for (std::size_t i = 0; i <= count; ++i) speeds.push_back((first + static_cast<double>(i) * step) * pi / 30);
+    for (std::size_t i = 0; i <= count; ++i) speeds.push_back((first + static_cast<double>(i) * step) * units::rpm);
     return speeds;
 }
 

@@ -1,6 +1,7 @@
 #include "solvers/campbell/difference.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,7 @@ std::string difference_table(const Campbell& diagram, const Campbell& reference)
         << ":\ndamped frequency, Hz (difference, mHz; of the damping ratio, 1e-3 %)\n\n"
         << std::left << std::setw(34) << "mode" << std::right << std::fixed;
     for (const std::size_t i : shown)
-        out << std::setw(24) << std::setprecision(1) << diagram.points[i].rotor_speed * 30 / pi << " rpm  ";
+        out << std::setw(24) << std::setprecision(1) << diagram.points[i].rotor_speed * units::to_rpm << " rpm  ";
     out << "\n";
     for (const BranchDifference& one : list) {
         out << std::left << std::setw(34) << one.name << std::right;

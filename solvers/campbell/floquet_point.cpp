@@ -1,6 +1,7 @@
 #include "solvers/campbell/floquet_point.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 
 #include <algorithm>
 #include <array>
@@ -140,10 +141,10 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
         found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
     }
     if (!found.converged)
-        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * 30 / pi, " rpm: ", found.message));
-    if (!found.note.empty()) warn(text("at ", rotor_speed * 30 / pi, " rpm ", found.note));
+        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm: ", found.message));
+    if (!found.note.empty()) warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
     if (found.remainder > small_remainder)
-        warn(text("at ", rotor_speed * 30 / pi, " rpm ", found.harmonics(),
+        warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.harmonics(),
                   " harmonics leave a residual over stiffness of ", found.remainder,
                   " in the periodic steady state: take more"));
     state_ = std::move(found);
@@ -182,7 +183,7 @@ BladeSymmetry PeriodicPointSolver::symmetry(const PeriodicSystem& periodic) cons
 void PeriodicPointSolver::warn_of_differing_blades(const PeriodicSystem& periodic) {
     const double difference = asymmetry(periodic, renumbering());
     if (difference > small_difference)
-        warn(text("at ", state_->rotor_speed * 30 / pi,
+        warn(text("at ", state_->rotor_speed * units::to_rpm,
                   " rpm the rotor is not the same when its blades are renumbered (", difference,
                   " of the diagonals): blades or hub differ, and the mean over the azimuth may have "
                   "frequencies that no motion of the machine has. Take CampbellMethod::floquet"));
@@ -195,7 +196,8 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
     options.per_period =
         own.per_period > 0 ? own.per_period : options_.max_frequency_hz * 2 * pi / std::abs(state_->rotor_speed);
     if (options.per_period > 1e4)
-        throw InputError(rotor_.machine, text("frequency per revolution at ", state_->rotor_speed * 30 / pi, " rpm"),
+        throw InputError(rotor_.machine,
+                         text("frequency per revolution at ", state_->rotor_speed * units::to_rpm, " rpm"),
                          options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
     options.most_steps =
@@ -205,7 +207,7 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
 
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
     Floquet result = floquet(periodic, floquet_options(periodic));
-    if (!result.message.empty()) warn(text("at ", state_->rotor_speed * 30 / pi, " rpm ", result.message));
+    if (!result.message.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.message));
     for (FloquetMode& mode : result.modes) {
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;

@@ -1,6 +1,7 @@
 #include "solvers/campbell/point.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/linear/problem_size.hpp"
 
 #include <algorithm>
@@ -68,7 +69,7 @@ void PointSolver::find_steady_state(double rotor_speed) {
     steady_options_.rotor_speed = rotor_speed;
     steady_solver_.solve(steady_options_, steady_);
     if (!steady_.converged)
-        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * 30 / pi, " rpm: ", steady_.message));
+        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm: ", steady_.message));
     steady_options_.initial = steady_.at.q;
 }
 

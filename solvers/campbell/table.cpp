@@ -1,4 +1,5 @@
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 
 #include <algorithm>
@@ -128,7 +129,7 @@ std::string table(const Campbell& diagram) {
         << std::setw(width) << "mode" << std::right << std::fixed;
     for (std::size_t i : shown) {
         if (diagram.parameters.empty())
-            out << std::setw(15) << std::setprecision(1) << diagram.points[i].rotor_speed * 30 / pi << " rpm  ";
+            out << std::setw(15) << std::setprecision(1) << diagram.points[i].rotor_speed * units::to_rpm << " rpm  ";
         else
             out << std::setw(19) << text(diagram.parameters[i]) << "  ";
     }
@@ -144,7 +145,7 @@ std::string table(const Campbell& diagram) {
         out << "\ncrossings with multiples of the rotor speed\n";
         for (const Crossing& crossing : diagram.crossings)
             out << "  " << std::setw(2) << crossing.multiple << "P at " << std::setw(6) << std::setprecision(2)
-                << crossing.rotor_speed * 30 / pi << " rpm, " << std::setw(7) << std::setprecision(4)
+                << crossing.rotor_speed * units::to_rpm << " rpm, " << std::setw(7) << std::setprecision(4)
                 << crossing.frequency_hz << " Hz: " << diagram.branches[static_cast<std::size_t>(crossing.branch)].name
                 << "\n";
     }

@@ -123,7 +123,7 @@ void plot(const BladeShapes& shapes, const std::filesystem::path& path) {
     const double height = 380 * static_cast<double>(rows) + 90;
     script += text("set multiplot layout ", rows, ",", per_row, " margins 0.06,0.94,", 95 / height, ",",
                    1 - 75 / height, " spacing 0.065,", 75 / height, " title ",
-                   gnuplot_text(text(shapes.machine, ": mode shapes at ", shapes.rotor_speed * 30 / pi, " rpm")),
+                   gnuplot_text(text(shapes.machine, ": mode shapes at ", shapes.rotor_speed * units::to_rpm, " rpm")),
                    " font ',15'\nset yrange [-1.1:1.1]\nset ytics nomirror 0.5\nset xtics 10\nunset key\n");
     for (std::size_t i = 0; i < count; ++i)
         script += panel(shapes.modes[i], i, i % per_row == 0, i % per_row == per_row - 1 || i + 1 == count,

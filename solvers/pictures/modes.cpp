@@ -1,4 +1,5 @@
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/pictures/campbell.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ Largest largest_displacement(const std::vector<FrameMotion>& motion) {
     Largest largest;
     for (const FrameMotion& frame : motion)
         for (int step = 0; step < 180; ++step) {
-            const double phase = step * pi / 180;
+            const double phase = step * units::degree;
             const double size = (frame.motion.tail<3>() * std::polar(1.0, phase)).real().norm();
             if (size > largest.size) largest = {size, phase};
         }

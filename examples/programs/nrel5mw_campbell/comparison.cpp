@@ -1,5 +1,7 @@
 #include "examples/programs/nrel5mw_campbell/comparison.hpp"
 
+#include "mbs/base/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -27,7 +29,7 @@ const std::array<OpenFast, 3> openfast{
 
 std::optional<std::size_t> point_at(const solvers::Campbell& diagram, double rpm) {
     for (std::size_t i = 0; i < diagram.points.size(); ++i)
-        if (std::abs(diagram.points[i].rotor_speed * 30 / pi - rpm) < 1e-6) return i;
+        if (std::abs(diagram.points[i].rotor_speed * units::to_rpm - rpm) < 1e-6) return i;
     return {};
 }
 

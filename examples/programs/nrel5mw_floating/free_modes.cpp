@@ -1,5 +1,6 @@
 #include "examples/programs/nrel5mw_floating/free_modes.hpp"
 
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/campbell/mode_names.hpp"
 #include "solvers/hdf5/campbell.hpp"
@@ -45,7 +46,7 @@ void print_equilibrium(const turbines::Turbine& turbine, const Campbell& d) {
         std::printf(" %13s", text(coordinate_names.at(i), ", ", unit_name(i)).c_str());
     std::printf("\n");
     for (const solvers::CampbellPoint& point : d.points) {
-        std::printf("%8.2f", point.rotor_speed * 30 / pi);
+        std::printf("%8.2f", point.rotor_speed * units::to_rpm);
         for (std::size_t i = 0; i < coordinate_names.size(); ++i) {
             const int at = turbine.system().model.index(turbine.layout().platform->coordinates.at(i));
             std::printf(" %13.5f", point.at.q(at) / unit(i));
@@ -56,7 +57,7 @@ void print_equilibrium(const turbines::Turbine& turbine, const Campbell& d) {
 
 void print_platform_modes(const Campbell& d, const std::vector<std::string>& names) {
     std::printf("\nplatform modes: damped frequency, Hz (period, s; damping ratio, %%)\n%-18s", "");
-    for (const auto& point : d.points) std::printf(" %25.2f rpm", point.rotor_speed * 30 / pi);
+    for (const auto& point : d.points) std::printf(" %25.2f rpm", point.rotor_speed * units::to_rpm);
     std::printf("\n");
     for (std::size_t b = 0; b < d.branches.size(); ++b) {
         if (!d.branches[b].family.starts_with("platform")) continue;
@@ -72,7 +73,7 @@ void print_platform_modes(const Campbell& d, const std::vector<std::string>& nam
         for (std::size_t p = 0; p < d.points.size(); ++p)
             if (d.branches[b].family.starts_with("platform") && d.branches[b].doubtful[p])
                 std::printf("? %s at %.2f rpm: by its energy mostly %s\n", names[b].c_str(),
-                            d.points[p].rotor_speed * 30 / pi, d.branches[b].mostly[p].c_str());
+                            d.points[p].rotor_speed * units::to_rpm, d.branches[b].mostly[p].c_str());
 }
 
 // "0.7068? +0.8 %", the mark where the pair is doubtful.
@@ -91,7 +92,7 @@ void print_comparison(const Campbell& free, const Campbell& held, const Campbell
         std::printf(
             "\nnatural frequency, Hz, at %.2f rpm: free spar, spar held (same tower), land-based (its own tower); the "
             "modes of the others\nthat are nearest in shape (complex MAC)\n%-34s %9s  %9s %12s %9s %12s\n",
-            free.points[p].rotor_speed * 30 / pi, "", "free", "held", "difference", "on land", "difference");
+            free.points[p].rotor_speed * units::to_rpm, "", "free", "held", "difference", "on land", "difference");
         for (std::size_t b = 0; b < free.branches.size(); ++b) {
             const solvers::Branch& branch = free.branches[b];
             const double hz = free.natural_hz(branch, p);

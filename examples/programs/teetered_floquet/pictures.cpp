@@ -1,6 +1,7 @@
 #include "examples/programs/teetered_floquet/pictures.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/pictures/gnuplot.hpp"
 
 #include <algorithm>
@@ -75,8 +76,8 @@ struct Largest {
     template <class Vectors>
     void look_at(const Vectors& x) {
         for (int step = 0; step < 180; ++step) {
-            const double size_now = (x * std::polar(1.0, step * pi / 180)).real().norm();
-            if (size_now > size) size = size_now, phase = step * pi / 180;
+            const double size_now = (x * std::polar(1.0, step * units::degree)).real().norm();
+            if (size_now > size) size = size_now, phase = step * units::degree;
         }
     }
 };

@@ -1,6 +1,7 @@
 #include "examples/studies/nrel5mw_assumed_modes/platform_case.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "turbines/machines/nrel5mw_platform.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace cardan::paper2018 {
 
 namespace {
 
-constexpr double rated_speed = 12.1 * pi / 30;
+constexpr double rated_speed = 12.1 * units::rpm;
 constexpr int samples = 720;
 
 HubMotion root_motion(const PlatformCase& of, double time) {

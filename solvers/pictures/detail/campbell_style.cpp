@@ -1,5 +1,7 @@
 #include "solvers/pictures/detail/campbell_style.hpp"
 
+#include "mbs/base/units.hpp"
+
 namespace cardan::solvers {
 
 int dash(RotorPattern pattern) {
@@ -19,7 +21,7 @@ int dash(RotorPattern pattern) {
 std::vector<double> abscissae(const Campbell& diagram) {
     if (!diagram.parameters.empty()) return diagram.parameters;
     std::vector<double> rpm;
-    for (const CampbellPoint& p : diagram.points) rpm.push_back(p.rotor_speed * 30 / pi);
+    for (const CampbellPoint& p : diagram.points) rpm.push_back(p.rotor_speed * units::to_rpm);
     return rpm;
 }
 
