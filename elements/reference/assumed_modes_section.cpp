@@ -3,6 +3,7 @@
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 #include "mbs/model/spatial.hpp"
 
 #include <algorithm>
@@ -169,8 +170,7 @@ BeamLine stretched(const BeamLine& line, const HubMotion& motion) {
     out.length = after.back();
     out.breaks = after;
     out.section = [line, before, after, factor](double x) {
-        const auto above = std::upper_bound(after.begin() + 1, after.end() - 1, x);
-        const auto i = static_cast<std::size_t>(above - after.begin()) - 1;
+        const std::size_t i = place_among(after, x).left;
         BeamSection s = line.section(std::min(before[i] + (x - after[i]) / factor[i], before[i + 1]));
         s.mass /= factor[i];
         s.J /= factor[i];

@@ -3,6 +3,7 @@
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 
 #include <array>
 #include <boost/math/interpolators/cubic_hermite.hpp>
@@ -156,9 +157,7 @@ ReferenceLine ReferenceLine::through(const std::vector<Vec3>& points, LineShape 
         line.divide(knots, 16);
         return line;
     }
-    const auto piece = [knots](double t) {
-        return static_cast<std::size_t>(std::upper_bound(knots.begin() + 1, knots.end() - 1, t) - knots.begin());
-    };
+    const auto piece = [knots](double t) { return place_among(knots, t).right; };
     line.position_ = [points, knots, piece](double t) {
         const std::size_t j = piece(t);
         return Vec3(points[j - 1] + (points[j] - points[j - 1]) * (t - knots[j - 1]) / (knots[j] - knots[j - 1]));

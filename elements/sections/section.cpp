@@ -2,6 +2,7 @@
 
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 #include "mbs/model/spatial.hpp"
 
 #include <array>
@@ -110,10 +111,9 @@ void SectionTable::check_rigid_directions() const {
 }
 
 EngineeringSection SectionTable::at(double x) const {
-    const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
-    const std::size_t j = static_cast<std::size_t>(above - x_.begin());
-    const EngineeringSection &a = sections_[j - 1], &b = sections_[j];
-    const double t = (x - x_[j - 1]) / (x_[j] - x_[j - 1]);
+    const StationPlace place = place_among(x_, x);
+    const EngineeringSection &a = sections_[place.left], &b = sections_[place.right];
+    const double t = place.t;
     const auto linear = [t](double u, double v) { return std::isinf(u) ? u : (1 - t) * u + t * v; };
     const auto stiffness = [&](double u, double v) {
         if (interpolation_ == Interpolation::linear || std::isinf(u)) return linear(u, v);

@@ -2,6 +2,7 @@
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 #include "mbs/model/spatial.hpp"
 
 namespace cardan {
@@ -210,10 +211,8 @@ BeamLine matrix_line(const std::string& name, std::vector<double> stations, std:
     line.length = stations.back() - stations.front();
     for (double x : stations) line.breaks.push_back(x - stations.front());
     line.section = [name, x = line.breaks, sections](double at) {
-        const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, at);
-        const auto j = static_cast<std::size_t>(above - x.begin());
-        const double t = (at - x[j - 1]) / (x[j] - x[j - 1]);
-        const SectionMatrices &a = sections[j - 1], &b = sections[j];
+        const auto [left, right, t] = place_among(x, at);
+        const SectionMatrices &a = sections[left], &b = sections[right];
         return beam_section({(1 - t) * a.stiffness + t * b.stiffness, (1 - t) * a.mass + t * b.mass},
                             text(name, ", x = ", at, " m"));
     };

@@ -1,6 +1,7 @@
 #include "turbines/model/beam_table.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -21,11 +22,9 @@ std::string station(const BeamTable& table, std::size_t i) {
 }
 
 BeamSection section_at(const BeamTable& table, double x) {
-    const std::vector<double>& s = table.stations;
-    const auto j = static_cast<std::size_t>(std::upper_bound(s.begin() + 1, s.end() - 1, x) - s.begin());
-    const double t = (x - s[j - 1]) / (s[j] - s[j - 1]);
-    const SectionMatrices &a = table.matrices[j - 1], &b = table.matrices[j];
-    const double beta = (1 - t) * table.beta[j - 1] + t * table.beta[j];
+    const StationPlace place = place_among(table.stations, x);
+    const SectionMatrices &a = table.matrices[place.left], &b = table.matrices[place.right];
+    const double t = place.t, beta = place.of(table.beta);
     const SectionMatrices own{(1 - t) * a.stiffness + t * b.stiffness, (1 - t) * a.mass + t * b.mass};
     BeamSection section = beam_section(rotated(own, rot_x(beta)), text(table.name, ", x = ", x, " m"));
     section.beta = beta;

@@ -1,6 +1,7 @@
 #include "turbines/readers/matrix_blade.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -8,17 +9,6 @@
 namespace cardan::turbines {
 
 namespace {
-
-// Between which of the places: x[j - 1] and x[j], and how far.
-struct Cell {
-    std::size_t j;
-    double t;
-};
-
-Cell cell(const std::vector<double>& x, double at) {
-    const auto j = static_cast<std::size_t>(std::upper_bound(x.begin() + 1, x.end() - 1, at) - x.begin());
-    return {j, (at - x[j - 1]) / (x[j] - x[j - 1])};
-}
 
 // Angle about the tangent from the carried axes to BeamDyn's axes without twist; z is the latter's first axis.
 double turn(const std::optional<ReferenceLine>& line, double s) {
@@ -52,8 +42,7 @@ void check(const std::string& name, const MatrixBlade& blade, std::size_t twists
 }  // namespace
 
 double interpolated(const std::vector<double>& places, const std::vector<double>& values, double at) {
-    const Cell c = cell(places, std::clamp(at, places.front(), places.back()));
-    return (1 - c.t) * values[c.j - 1] + c.t * values[c.j];
+    return place_among(places, std::clamp(at, places.front(), places.back())).of(values);
 }
 
 BeamTable matrix_blade_table(const std::string& name, const MatrixBlade& blade) {
@@ -82,8 +71,8 @@ BeamTable matrix_blade_table(const std::string& name, const MatrixBlade& blade) 
         for (double place : s) twist_at.push_back(place / length);
     check_stations(name + ", twist", twist_at, blade.twist.size());
     for (double at : merged(eta, twist_at)) {
-        const Cell c = cell(eta, at);
-        const SectionMatrices &a = blade.matrices[c.j - 1], &b = blade.matrices[c.j];
+        const StationPlace c = place_among(eta, at);
+        const SectionMatrices &a = blade.matrices[c.left], &b = blade.matrices[c.right];
         const SectionMatrices here{(1 - c.t) * a.stiffness + c.t * b.stiffness, (1 - c.t) * a.mass + c.t * b.mass};
         table.stations.push_back(at * length);
         table.matrices.push_back(rotated(here, beamdyn_axes()));

@@ -1,6 +1,7 @@
 #include "turbines/yaml/detail/windio_beams.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 #include "turbines/readers/matrix_blade.hpp"
 
 #include <algorithm>
@@ -47,10 +48,9 @@ struct MatrixCurve {
     std::vector<double> grid;
     std::vector<Mat6> values;
     Mat6 at(double place) const {
-        const auto j =
-            static_cast<std::size_t>(std::upper_bound(grid.begin() + 1, grid.end() - 1, place) - grid.begin());
-        const double t = std::clamp((place - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0, 1.0);
-        return (1 - t) * values[j - 1] + t * values[j];
+        StationPlace at = place_among(grid, place);
+        at.t = std::clamp(at.t, 0.0, 1.0);
+        return at.of(values);
     }
 };
 
