@@ -1,7 +1,7 @@
 // Decay test of a damped beam: displaced in its first mode and let go, logarithmic decrement from peak to peak.
-#include "elements/cardan_beam/cardan_beam.hpp"
+#include "elements/cardan_beam/single_beam.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/linear/modes.hpp"
+#include "solvers/equilibrium/natural_modes.hpp"
 #include "solvers/time/integrate.hpp"
 
 #include <cstdio>
@@ -12,26 +12,22 @@ using namespace cardan;
 int main() try {
     constexpr double length = 30, mass = 300, EI = 1e9, ratio = 0.01;  // m, kg/m, N m^2, of critical damping
     const double hz = 3.5160153 / (2 * pi * length * length) * std::sqrt(EI / mass);
-    Tree tree;
-    ForceSet forces;
-    add_cardan_beam(tree, forces, Tree::base(), uniform_beam(length, {.mass = mass, .EI_flap = EI, .EI_edge = EI}),
-                    "beam", {"beam"},
-                    {.elements = 6, .torsion = false, .held_z = true, .damping = BeamDamping::ratio_at(ratio, hz)});
-    const System system(tree, forces);
-    const Vector zero = Vector::Zero(system.model.size());
-    const solvers::SecondOrderSystem linear =
-        solvers::restrict_to(solvers::linearise(system, {zero, zero, zero}), system.model.coordinates().free());
-    const solvers::Mode mode = solvers::modes(linear).front();
+    const SingleBeam beam =
+        clamped_beam(uniform_beam(length, {.mass = mass, .EI_flap = EI, .EI_edge = EI}),
+                     {.elements = 6, .torsion = false, .held_z = true, .damping = BeamDamping::ratio_at(ratio, hz)});
+    const solvers::NaturalModes natural = solvers::natural_modes(beam.system);
+    const solvers::Mode& mode = natural.modes.front();
 
     // One hundredth of a radian at the root, everything else as in the mode.
+    const Vector zero = Vector::Zero(beam.system.model.size());
     Vector q = zero;
-    for (std::size_t i = 0; i < linear.coordinates.size(); ++i)
-        q(linear.coordinates[i]) = 0.01 * (mode.shape(static_cast<Eigen::Index>(i)) / mode.shape(0)).real();
-    const int root = linear.coordinates.front();
+    for (std::size_t i = 0; i < natural.unknowns.size(); ++i)
+        q(natural.unknowns[i]) = 0.01 * (mode.shape(static_cast<Eigen::Index>(i)) / mode.shape(0)).real();
+    const int root = natural.unknowns.front();
     solvers::IntegrationOptions options;
     options.events = {
         {.name = "peak", .function = [root](const ForceInput& at) { return at.qd(root); }, .direction = -1}};
-    solvers::Integrator integrator(system, {}, 0, q, zero, options);
+    solvers::Integrator integrator(beam.system, {}, 0, q, zero, options);
 
     std::printf("peak     time, s   angle, rad   decrement\n");
     std::vector<double> times, angles;
