@@ -1,6 +1,7 @@
 // Coordinates without inertia of their own, found in O(n): the pivots of the articulated-body recursion are those of
 // the metric eliminated from the tips to the base.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/model/spatial.hpp"
 

@@ -2,7 +2,7 @@
 /// The memory of the kernels: allocated once per model and thread.
 #pragma once
 
-#include "mbs/model/model.hpp"
+#include "mbs/model/link.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,7 @@
 #include "mbs/model/model.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/model/link.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +18,12 @@ std::atomic<std::uint64_t> models = 0;
 Model::Model(const Tree& tree) : serial_(++models) {
     with_memory([&] { return text("a model of ", tree.bodies().size(), " bodies"); }, [&] { make(tree); });
 }
+
+Model::Model(const Model& other) = default;
+Model::Model(Model&& other) noexcept = default;
+Model& Model::operator=(const Model& other) = default;
+Model& Model::operator=(Model&& other) noexcept = default;
+Model::~Model() = default;
 
 void Model::make(const Tree& tree) {
     sort(tree);

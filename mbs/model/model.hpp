@@ -2,7 +2,7 @@
 /// The immutable tree: sorted, welded, checked once. Shareable between threads.
 #pragma once
 
-#include "mbs/base/packed.hpp"
+#include "mbs/base/sizes.hpp"
 #include "mbs/model/tree.hpp"
 
 namespace cardan {
@@ -22,24 +22,8 @@ public:
         RigidInertia inertia;
         Mat3 J;  ///< inertia tensor about the centre of mass, body axes
     };
-    /// The numbers of a body that the kernels read, close together.
-    struct Link {
-        int parent, depth, subtree_end;
-        int run;  ///< first of the consecutive indices run, run + 1, ... that lead to this body, each the parent of the
-                  ///< next
-        bool revolute;
-        bool coincident;  ///< joint origin and parent's joint origin are one point, whatever q
-        bool massless;
-        double mass;
-        double subtree_mass;  ///< kg
-        /// When the subtree is merged with the parent and the children after it: its share of the mass, and the reduced
-        /// mass M1 M2 / (M1 + M2) of the two, kg.
-        double share, reduced;
-        Packed33<double> R;   ///< joint frame at q = 0 in the parent body's frame
-        Packed3<double> p;    ///< its origin
-        Packed3<double> com;  ///< centre of mass, body axes
-        Packed33<double> J;   ///< inertia tensor about it
-    };
+    /// The numbers of a body that the kernels read: mbs/model/link.hpp.
+    struct Link;
     struct Frame {
         std::string name;
         int body;  ///< -1: base
@@ -57,6 +41,11 @@ public:
     /// scale; see ForwardDynamics::singular_pivot()): the coordinate is named.
     /// @throws MemoryError
     explicit Model(const Tree& tree);
+    Model(const Model& other);
+    Model(Model&& other) noexcept;
+    Model& operator=(const Model& other);
+    Model& operator=(Model&& other) noexcept;
+    ~Model();
 
     int size() const { return static_cast<int>(bodies_.size()); }
     /// @throws InputError for an index out of range
