@@ -93,10 +93,10 @@ Load of_segment(const Cut& cut, const Placement& axes, const BodyMotion& motion,
                  end = element.start + ends[cut.segment + 1] * element.arc;
     if (!(end > start)) return Load::Zero();
     const double share = (to - from) / (end - start);
-    const Load load = share * of_body(element.inertia[cut.segment], axes, motion, gravity);
-    if (share == 1) return load;
-    return load + of_line(cut, axes, motion, gravity, from, to) -
-           share * of_line(cut, axes, motion, gravity, start, end);
+    Load load = share * of_body(element.inertia[cut.segment], axes, motion, gravity);
+    if (share != 1)
+        load += of_line(cut, axes, motion, gravity, from, to) - share * of_line(cut, axes, motion, gravity, start, end);
+    return load;
 }
 
 // True if a frame belongs to a rigid segment. False if it was placed on a node, which may carry anything.
