@@ -115,7 +115,8 @@ if ((full)); then
     step "Tests, sanitizers" ctest --preset sanitize --parallel "$jobs"
     step "Thread sanitizer" check_threads
     step "Fuzzing" check_readers
-    step "Slow tests" ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$'
+    step "Slow tests" ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$' \
+        --parallel "$jobs"
 fi
 
 if ((${#failed[@]} > 0)); then
