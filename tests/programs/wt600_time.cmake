@@ -51,7 +51,7 @@ add_example_test(example_time_unwritable wt600_time_history 1 "the folder 'no/su
 add_example_test(example_time_resume_help wt600_time_history 0 "bit for bit with dirk, erk and alpha, within the tolerance" --help)
 foreach(tolerance nan inf -1)
     add_example_test(example_time_tolerance_${tolerance} wt600_time_history 1 "relative tolerance = ${tolerance}; allowed: finite and > 0"
-                  --tolerance=${tolerance} --duration 1 --out example_time_tolerance)
+                  --tolerance=${tolerance} --duration 1 --out example_time_tolerance_${tolerance})
 endforeach()
 add_test(NAME example_time_interrupted COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/programs/interrupted_runs.sh
          $<TARGET_FILE:wt600_time_history> $<TARGET_FILE:history> WORKING_DIRECTORY ${test_output_dir})
