@@ -111,7 +111,7 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
 
 // What was asked for in the place of what the files say.
 void set_freedoms(const Arguments& a, turbines::TurbineFile& model) {
-    turbines::Spring& yaw = model.description.yaw.rotation;
+    turbines::Bearing& yaw = model.description.yaw.rotation;
     if (!a.generator.empty()) model.freedoms.generator = a.generator == "free";
     if (a.yaw == "locked") yaw = turbines::rigid_joint;
     if (a.yaw != "free" || !yaw.is_rigid()) return;

@@ -45,7 +45,7 @@ double first_speed(const std::vector<double>& speeds) {
 
 int run(const Arguments& a) {
     const std::vector<double> speeds = program::rotor_speeds(a.rpm);
-    const turbines::TeeteredTurbine turbine = program::machine(a.machine);
+    const turbines::Turbine turbine = program::machine(a.machine);
     program::introduce(turbine, a.machine.summary);
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
     const double max_frequency = a.max_per_rev ? *a.max_per_rev * first_speed(speeds) / (2 * pi) : a.max_frequency;

@@ -53,7 +53,7 @@ int parse(int argc, char** argv, Arguments& a) {
     return app.parse(argc, argv);
 }
 
-solvers::Campbell modes_of(const Arguments& a, const turbines::TeeteredTurbine& machine) {
+solvers::Campbell modes_of(const Arguments& a, const turbines::Turbine& machine) {
     solvers::CampbellOptions options =
         program::campbell_options(a.machine, machine, a.max_per_rev * a.speed / (2 * pi));
     options.progress = {};
@@ -175,7 +175,7 @@ int run(const Arguments& a) {
     if (!(a.max_per_rev > 0)) throw InputError("--max", "frequency per revolution", a.max_per_rev, "> 0");
     program::check_outputs(a.out, {".h5", ".csv", "_harmonics.csv", ".svg", ".png"});
     program::stop_at_once();
-    const turbines::TeeteredTurbine machine = program::machine(a.machine);
+    const turbines::Turbine machine = program::machine(a.machine);
     program::introduce(machine, a.machine.summary);
 
     const solvers::Campbell diagram = modes_of(a, machine);

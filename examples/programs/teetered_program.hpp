@@ -31,28 +31,27 @@ inline void add_options(CommandLine& app, TeeteredArguments& a) {
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
 }
 
-inline turbines::TeeteredTurbine machine(const TeeteredArguments& a) {
-    turbines::TeeteredDescription description = a.data.empty()
-                                                    ? turbines::teetered_description()
-                                                    : turbines::teetered_description(std::filesystem::path(a.data));
+inline turbines::Turbine machine(const TeeteredArguments& a) {
+    turbines::TurbineDescription description = a.data.empty()
+                                                   ? turbines::teetered_description()
+                                                   : turbines::teetered_description(std::filesystem::path(a.data));
     if (a.tower_ratio) description = turbines::with_tower_rigidity(description, *a.tower_ratio);
-    turbines::TeeteredOptions options;
-    options.blade = turbines::TeeteredOptions::beam(a.blade_elements);
-    options.tower = turbines::TeeteredOptions::beam(a.tower_elements);
-    options.blade.torsion_armature = options.tower.torsion_armature = -1. / 12;  // torsion of fourth order
+    if (a.no_teeter) description.hub.teeter->bearing = turbines::rigid_joint;
+    turbines::AssemblyOptions options = turbines::teetered_assembly();
+    options.blade_beam->elements = a.blade_elements;
+    options.tower_beam->elements = a.tower_elements;
+    options.blade_beam->torsion_armature = options.tower_beam->torsion_armature = -1. / 12;  // of fourth order
     options.rigid_tower = a.rigid_tower;
-    options.teeter_locked = a.no_teeter;
     if (a.gravity) options.gravity = {0, 0, -units::standard_gravity};
     return turbines::assemble(description, options);
 }
 
 /// By Floquet's theory, up to a frequency in Hz.
-inline solvers::CampbellOptions campbell_options(const TeeteredArguments& a, const turbines::TeeteredTurbine& machine,
+inline solvers::CampbellOptions campbell_options(const TeeteredArguments& a, const turbines::Turbine& machine,
                                                  double max_frequency_hz) {
     solvers::CampbellOptions options = campbell_options(max_frequency_hz);
     options.method = solvers::CampbellMethod::floquet;
     options.floquet.harmonics = a.harmonics;
-    options.floquet.odd = machine.half_turn_odd();
     if (a.gravity) options.floquet.held = {machine.system().model.index("yaw")};  // nothing holds it
     return options;
 }

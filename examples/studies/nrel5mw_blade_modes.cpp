@@ -140,11 +140,11 @@ CardanBeamOptions beam_options(const Arguments& a) {
     return beam_options(a, a.elements, partition_of(a));
 }
 
-solvers::Campbell diagram_of(const turbines::Nrel5mwIsolatedBlade& blade, const std::vector<double>& speeds) {
+solvers::Campbell diagram_of(const turbines::Turbine& blade, const std::vector<double>& speeds) {
     solvers::CampbellOptions options;
     options.cancelled = program::interrupted;
     options.max_frequency_hz = 15;
-    return solvers::campbell(*blade.system, blade.rotor, speeds, options);
+    return solvers::campbell(blade.system(), blade.rotor(), speeds, options);
 }
 
 // The reference of a mode; none where the blade is another one.
@@ -281,19 +281,20 @@ int run(const Arguments& a) {
 
     const CardanBeamOptions options = beam_options(a);
     program::check_outputs(a.out, {".csv", "_modes.csv", "_modes.svg"});
-    const turbines::Nrel5mwIsolatedBlade isolated = turbines::isolated_blade(blade, options);
-    for (const std::string& warning : isolated.beam.warnings) std::cerr << "warning: " << warning << "\n";
-    const double limit = centrifugal_limit(isolated.beam, blade.root_radius);
+    const turbines::Turbine isolated = turbines::isolated_blade(blade, options);
+    for (const std::string& warning : isolated.layout().blades.front().warnings)
+        std::cerr << "warning: " << warning << "\n";
+    const double limit = centrifugal_limit(isolated.layout().blades.front(), blade.root_radius);
     if (speeds.back() > limit / 2)
         std::cerr << "warning: " << speeds.back() * units::to_rpm << " rpm is above half of the "
                   << limit * units::to_rpm
                   << " rpm at which this discretisation loses its stiffness to the centrifugal force; take more "
                      "elements or another partition\n";
-    std::cout << isolated.rotor.machine << ": " << isolated.beam.elements.size() << " elements, ";
+    std::cout << isolated.rotor().machine << ": " << isolated.layout().blades.front().elements.size() << " elements, ";
     if (!places_hinges(options.partition)) std::cout << "delta " << options.hinge_delta() << ", ";
     std::cout << partition_name(options.partition) << ", extension " << (options.extension ? "free" : "condensed")
               << "\nends, m from the root:";
-    for (const CardanBeam::Element& e : isolated.beam.elements) std::cout << " " << e.start;
+    for (const CardanBeam::Element& e : isolated.layout().blades.front().elements) std::cout << " " << e.start;
     std::cout << " " << blade.line.length << std::fixed << std::setprecision(2) << "\nmass " << blade.mass()
               << " kg (reference " << mass << "), first moment about the root " << std::setprecision(0)
               << blade.first_moment() << " kg m (" << first_moment << ")\n\n";

@@ -117,13 +117,14 @@ const platform::ReferenceCase* reference(const Arguments& a, const Motions& moti
     return &platform::reference_cases().at(pitches ? 1 : 0);
 }
 
-std::vector<solvers::Drive> drives(const Arguments& a, const turbines::Nrel5mwPlatform& machine,
-                                   const Motions& motions) {
-    const Model& model = machine.system->model;
-    std::vector<solvers::Drive> all{{model.index(machine.spin), solvers::Motion::constant_rate(0, a.rpm * units::rpm)}};
+std::vector<solvers::Drive> drives(const Arguments& a, const turbines::Turbine& machine, const Motions& motions) {
+    const Model& model = machine.system().model;
+    std::vector<solvers::Drive> all{
+        {model.index(*machine.layout().generator), solvers::Motion::constant_rate(0, a.rpm * units::rpm)}};
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!motions.at(i)) continue;
-        const BodyId body = i < platform_coordinates ? machine.platform.coordinates.at(i) : machine.yaw;
+        const BodyId body =
+            i < platform_coordinates ? machine.layout().platform->coordinates.at(i) : *machine.layout().yaw;
         all.push_back({model.index(body), motions.at(i)->motion(i < translations ? 1 : units::degree)});
     }
     return all;
@@ -150,14 +151,14 @@ solvers::IntegrationOptions integration(const Arguments& a) {
     return options;
 }
 
-solvers::HistoryAbout about(const Arguments& a, const turbines::Nrel5mwPlatform& machine) {
+solvers::HistoryAbout about(const Arguments& a, const turbines::Turbine& machine) {
     std::string motions;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (!a.motions.at(i).empty()) motions += text(", ", names.at(i), " ", a.motions.at(i));
     return {.title = text("NREL 5 MW blade on a platform, ", a.rpm, " rpm", motions),
             .method = text(a.method, ", relative tolerance ", tolerance(a)),
             .description = text(a.rpm, " rpm", motions, ", blade pitch ", a.blade_pitch, " deg, damping ", a.damping,
-                                " s, gravity ", a.gravity, " m/s^2\n\n", machine.rotor.description),
+                                " s, gravity ", a.gravity, " m/s^2\n\n", machine.rotor().description),
             .program = "nrel5mw_platform"};
 }
 
@@ -184,7 +185,7 @@ void print_run(const platform::Response& response, double period, double settled
                                        : "was still falling; take more --periods\n");
 }
 
-turbines::Nrel5mwPlatform machine_of(const Arguments& a) {
+turbines::Turbine machine_of(const Arguments& a) {
     turbines::Nrel5mwPlatformOptions options;
     options.blades = a.blades;
     options.pitch = a.blade_pitch * units::degree;
@@ -193,7 +194,7 @@ turbines::Nrel5mwPlatform machine_of(const Arguments& a) {
     return turbines::nrel5mw_on_platform(turbines::nrel5mw_platform_blade(), options);
 }
 
-platform::ResponseOptions response_options(const Arguments& a, const turbines::Nrel5mwPlatform& machine,
+platform::ResponseOptions response_options(const Arguments& a, const turbines::Turbine& machine,
                                            const Motions& motions) {
     platform::ResponseOptions options;
     options.period = period_of(a, motions);
@@ -222,15 +223,15 @@ bool print_response(const Arguments& a, const solvers::History& period, const pl
 
 int run(const Arguments& a) {
     const Motions motions = read_motions(a);
-    const turbines::Nrel5mwPlatform machine = machine_of(a);
+    const turbines::Turbine machine = machine_of(a);
     const platform::ResponseOptions settings = response_options(a, machine, motions);
     program::check_outputs(a.out, platform::outputs);
-    std::cout << machine.rotor.machine << ": " << a.blades << " blade(s) of " << a.elements << " elements, " << a.rpm
+    std::cout << machine.rotor().machine << ": " << a.blades << " blade(s) of " << a.elements << " elements, " << a.rpm
               << " rpm, damping " << a.damping << " s\n"
               << std::flush;
 
-    const Vector rest = Vector::Zero(machine.system->model.size());
-    solvers::Integrator integrator(*machine.system, drives(a, machine, motions), 0, rest, rest, integration(a));
+    const Vector rest = Vector::Zero(machine.system().model.size());
+    solvers::Integrator integrator(machine.system(), drives(a, machine, motions), 0, rest, rest, integration(a));
     solvers::Recorder recorder(integrator, platform::recorded_channels(machine), platform::recorder_options());
     program::RowFile file(a.out + ".h5", about(a, machine), integrator, recorder);
     const program::Stopwatch watch;
@@ -258,7 +259,7 @@ int run(const Arguments& a) {
     const bool parked = a.rpm == 0;
     bool good = program::check_energy(integrator.energy(),
                                       parked ? drawn.exchanged_energy : drawn.largest_kinetic_energy, allowed, parked);
-    program::print_effort(integrator, *machine.system, elapsed);
+    program::print_effort(integrator, machine.system(), elapsed);
     good = print_response(a, response.last, reference(a, motions)) && good;
     platform::write_csv(machine, response.last, a.out + ".csv");
     std::cout << files << ", .csv\n";

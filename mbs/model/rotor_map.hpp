@@ -39,6 +39,9 @@ struct RotorMap {
     int spin = -1;                         ///< coordinate that carries the rotor speed; -1: no rotor
     FrameId hub;                           ///< rotating frame: z along the rotor axis, x along blade 1 at azimuth 0
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order
+    /// Coordinates that change sign when a two-bladed rotor turns by half a revolution and its blades exchange places:
+    /// teeter.
+    std::vector<int> odd = {};
     /// Pairs that turn with the rotor are transformed to the fixed frame. A rotor without blades (a disc on a shaft)
     /// whirls in them: the modes of their parts are named backward and forward.
     std::vector<RotatingPair> rotating_pairs = {};

@@ -34,10 +34,6 @@ struct CampbellFloquetOptions {
     /// Harmonics of the revolution in the periodic steady state. Their number is raised by half at a time, to at most 4
     /// times as many, while the neglected harmonics have a residual / stiffness above 1e-5.
     int harmonics = 8;
-    /// Model indices of coordinates that change sign when two blades exchange places (teeter); then only half a
-    /// revolution is integrated. Coordinates that are not unknowns are ignored; if the machine does not have this
-    /// symmetry the whole revolution is integrated.
-    std::vector<int> odd = {};
     std::vector<int> held = {};  ///< as PeriodicOptions::held
     double per_period =
         0;  ///< modes up to this frequency, in multiples of the rotor speed, are accurate; 0: up to `max_frequency_hz`

@@ -165,7 +165,7 @@ void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
 BladeSymmetry PeriodicPointSolver::renumbering() const {
     const ColemanTransform* T = standstill_.coleman();
     if (!T || rotor_.blades.empty()) return {};
-    std::vector<int> odd = options_.floquet.odd;
+    std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd : std::vector<int>();
     std::erase_if(odd, [&](int i) { return std::find(unknowns().begin(), unknowns().end(), i) == unknowns().end(); });
     BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
     found.P = (T->matrix(0).transpose() * found.P * T->matrix(2 * pi / found.parts)).eval();

@@ -129,20 +129,21 @@ TEST_CASE("turbine data in a folder: sections that cannot be are named by statio
 }
 
 TEST_CASE("turbine description: refused with the part named", "[property]") {
-    check_machine_refused([](D& d, O&) { d.blades = 0; }, {"600 kW", "number of blades = 0", ">= 1"});
+    check_machine_refused([](D& d, O&) { d.blades = -1; }, {"600 kW", "number of blades = -1", ">= 0"});
     check_machine_refused([](D& d, O&) { d.nacelle.inertia.mass = -1; }, {"nacelle", "mass", "-1"});
     check_machine_refused([](D& d, O&) { d.hub.inertia.J = Vec3(1, 1, 5).asDiagonal(); }, {"hub", "inertia"});
-    check_machine_refused([](D& d, O&) { d.yaw.rotation.stiffness = -6e7; }, {"'yaw'", "stiffness", "-60000000"});
+    check_machine_refused([](D& d, O&) { d.yaw.rotation.stiffness = -6e7; },
+                          {"yaw.rotation.stiffness [N m/rad] = -60000000", "free_joint"});
     check_machine_refused([](D& d, O& o) { d.yaw.rotation.damping = -5, o.joint_damping = true; },
-                          {"'yaw'", "damping", "-5"});
+                          {"yaw.rotation.damping [N m s/rad] = -5"});
     check_machine_refused([](D& d, O&) { d.drive_train.main_shaft.stiffness = not_a_number; },
-                          {"'main shaft twist'", "stiffness", "nan"});
+                          {"drive_train.main_shaft.stiffness [N m/rad] = not given", "rigid_joint"});
     check_machine_refused([](D& d, O&) { d.tower.line.length = 0; }, {"tower", "length [m] = 0"});
     check_machine_refused([](D& d, O&) { d.blade.line.section = {}; }, {"blade", "section function is missing"});
     check_machine_refused([](D& d, O& o) { d.blade.first_flap_damping = -0.1, o.structural_damping = true; },
-                          {"blade damping ratio", "-0.1"});
-    check_machine_refused([](D& d, O&) { d.nacelle.overhang = not_a_number; }, {"overhang [m]", "nan", "> 0"});
-    check_machine_refused([](D& d, O&) { d.hub.radius = -3; }, {"hub radius [m] = -3", "> 0"});
+                          {"blade.first_flap_damping = -0.1"});
+    check_machine_refused([](D& d, O&) { d.nacelle.overhang = not_a_number; }, {"overhang [m] = nan", "finite"});
+    check_machine_refused([](D& d, O&) { d.hub.radius = -3; }, {"hub radius [m] = -3", ">= 0"});
     check_machine_refused([](D& d, O&) { d.drive_train.gear_ratio = -50; }, {"gear ratio = -50", "> 0"});
     check_machine_refused([](D& d, O&) { d.drive_train.gearbox_inertia = -1; }, {"gearbox inertia", "-1", ">= 0"});
 }

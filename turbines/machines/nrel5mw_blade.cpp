@@ -94,38 +94,19 @@ CardanBeamOptions nrel5mw_blade_refined() {
     return options;
 }
 
-Nrel5mwIsolatedBlade isolated_blade(const Nrel5mwBlade& blade, const CardanBeamOptions& elements) {
-    if (elements.elements > 1000)
-        throw InputError(blade.line.name, "number of elements", elements.elements, "1 ... 1000");
-    if (elements.extension && !(blade.line.section(0).compliance(0, 0) > 0))
-        throw InputError(blade.line.name, "free extension with EA [N]", std::numeric_limits<double>::infinity(),
-                         "finite EA, or extension condensed");
-    Tree tree;
-    ForceSet forces;
-    const JointedFrame hub = add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "spin", {"rotor"});
-    const FrameId root = tree.add_frame(hub.frame, Placement::translation({blade.root_radius, 0, 0}), "blade 1 root");
-
-    Nrel5mwIsolatedBlade isolated;
-    isolated.beam = add_cardan_beam(tree, forces, root, blade.line, "blade 1", {"blade", 1}, elements);
-    isolated.system = std::make_shared<const System>(tree, forces);
-    const Model& model = isolated.system->model;
-
-    RotorMap& rotor = isolated.rotor;
-    rotor.machine = "NREL 5 MW blade, isolated";
-    const std::string delta = places_hinges(elements.partition) ? "" : text("delta ", elements.hinge_delta(), ", ");
-    rotor.description = text(isolated.beam.elements.size(), " elements, ", delta, partition_name(elements.partition),
-                             ", extension ", elements.extension ? "free" : "condensed", ", mass ", isolated.beam.mass,
-                             " kg\n\nread from (before changes made in a program)\n", blade.source);
-    rotor.spin = model.index(hub.body);
-    rotor.hub = hub.frame;
-    rotor.blades.emplace_back();
-    for (const CardanBeam::Element& element : isolated.beam.elements)
-        for (const BodyId body : element.bodies) rotor.blades.back().push_back(model.index(body));
-    rotor.parts = {{"blade", root, {"blade extension", "", ""}, {"blade torsion", "blade flap", "blade edge"}}};
-    std::vector<FrameId> points{hub.frame};
-    points.insert(points.end(), isolated.beam.nodes.begin(), isolated.beam.nodes.end());
-    rotor.lines.push_back({"blade", 1, points});
-    return isolated;
+Turbine isolated_blade(const Nrel5mwBlade& blade, const CardanBeamOptions& elements) {
+    TurbineDescription description;
+    description.name = "NREL 5 MW blade";
+    description.source = blade.source;
+    description.blades = 1;
+    description.hub.radius = blade.root_radius;
+    description.blade.line = blade.line;
+    description.blade.pitch = rigid_joint;
+    description.blade.damping = elements.damping;
+    AssemblyOptions options;
+    options.blade_beam = elements;
+    options.blade_beam->damping = {};
+    return isolated_blade(description, options);
 }
 
 }  // namespace cardan::turbines

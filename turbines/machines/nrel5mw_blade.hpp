@@ -6,13 +6,10 @@
 /// NRELOffshrBsline5MW_Blade.dat (turbines/data/nrel5mw_blade.csv).
 #pragma once
 
-#include "elements/cardan_beam/cardan_beam.hpp"
-#include "mbs/model/rotor_map.hpp"
-#include "mbs/system/system.hpp"
+#include "turbines/model/assembly.hpp"
 
 #include <filesystem>
 #include <limits>
-#include <memory>
 
 namespace cardan::turbines {
 
@@ -56,17 +53,10 @@ CardanBeamOptions nrel5mw_blade_elements(int elements = 16, Partition partition 
 /// 61.5 m from the root.
 CardanBeamOptions nrel5mw_blade_refined();
 
-/// The blade alone, clamped to a rigid hub that spins about the base's z axis (downwind) with the blade along x at
-/// azimuth 0; no precone, tilt, pitch or gravity.
-struct Nrel5mwIsolatedBlade {
-    std::shared_ptr<const System> system;
-    RotorMap rotor;  ///< spin, one blade, families "blade flap", "blade edge", "blade torsion", "blade extension"
-    CardanBeam beam;
-};
-
+/// The blade alone, clamped to a rigid hub that spins about a fixed axis; no precone, tilt, pitch or gravity. Damping
+/// of the elements becomes that of the blade.
 /// @throws InputError for bad elements (see add_cardan_beam), more than 1000 of them, or extension free on an
 /// inextensible blade
-Nrel5mwIsolatedBlade isolated_blade(const Nrel5mwBlade& blade,
-                                    const CardanBeamOptions& elements = nrel5mw_blade_elements());
+Turbine isolated_blade(const Nrel5mwBlade& blade, const CardanBeamOptions& elements = nrel5mw_blade_elements());
 
 }  // namespace cardan::turbines

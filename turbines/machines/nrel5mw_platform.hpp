@@ -11,7 +11,6 @@
 /// sway have opposite signs, its surge, heave, roll and yaw the same signs.
 #pragma once
 
-#include "elements/machine/moving_base.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/system/channel.hpp"
 #include "turbines/machines/nrel5mw_blade.hpp"
@@ -34,33 +33,15 @@ struct Nrel5mwPlatformOptions {
 };
 
 /// Heights, overhang, tilt (5 degrees), cone (2.5 degrees, tips upwind) are those of nrel5mw_turbine.csv. All bodies
-/// except the blades are massless: the drive forces are those required by the blades.
-struct Nrel5mwPlatform {
-    std::shared_ptr<const System> system;
-    RotorMap rotor;
-    MovingBase platform;  ///< ground axes at rest
-    BodyId yaw;           ///< of the nacelle about the platform's vertical axis, after the platform's rotations
-    BodyId spin;          ///< azimuth: blade 1 up at zero, positive about the downwind shaft axis
-    FrameId apex;         ///< rotor centre on the hub: z along the shaft (downwind), x along blade 1 without its cone
-    struct Blade {
-        FrameId axes;  ///< fixed to the hub at the root: x along the pitch axis (e1), z downwind (e3), y = z x x (e2)
-        BodyId pitch;  ///< about e1, leading edge downwind positive
-        CardanBeam beam;
-    };
-    std::vector<Blade> blades;
-};
-
-/// The platform's six coordinates, nacelle yaw, spin and the pitch of each blade are driven; the blades' are free.
+/// except the blades are massless: the drive forces are those required by the blades. The platform's six coordinates,
+/// the yaw of the nacelle, the rotor and the pitch of each blade are driven; the blades' are free.
 /// @throws InputError for bad elements (see isolated_blade()), a number of blades, pitch or gravity out of range
-Nrel5mwPlatform nrel5mw_on_platform(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options = {});
+Turbine nrel5mw_on_platform(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options = {});
 
-/// Channels of every blade, in its hub-fixed axes e1, e2, e3: deflection of the tip from its position on the undeformed
-/// blade, m, "blade 1 tip axial deflection", "... edge ..." (e2, to the leading edge), "... flap ..." (e3, downwind);
-/// and force and moment of the hub on the blade at its root, N and N m, "blade 1 root Fx" ... "blade 1 root Mz".
-ChannelGroup blade_channels(const Nrel5mwPlatform& machine);
-
-/// Channels of every driven coordinate: its position, "platform surge" ..., and the force of its drive, "platform surge
-/// drive" ..., N or N m: the loads of the blades on platform, yaw bearing, shaft and pitch bearings.
-ChannelGroup drive_channels(const Nrel5mwPlatform& machine);
+/// Channels of every blade with a pitch joint, in its hub-fixed axes (MachineLayout::pitch_axes) e1 along the pitch
+/// axis, e2 to the leading edge, e3 downwind: deflection of the tip from its position on the undeformed blade, m,
+/// "blade 1 tip axial deflection", "... edge ..." (e2), "... flap ..." (e3); and force and moment of the hub on the
+/// blade at its root, N and N m, "blade 1 root Fx" ... "blade 1 root Mz".
+ChannelGroup blade_channels(const Turbine& machine);
 
 }  // namespace cardan::turbines

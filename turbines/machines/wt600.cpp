@@ -50,7 +50,7 @@ TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     TurbineDescription d;
     d.name = "600 kW three-blade machine (Zhao, Maisser, Wu 2007)";
     const auto spring = [&](const char* stiffness, const char* damping) {
-        return Spring{q.number(stiffness, "N m/rad"), q.number(damping, "N m s/rad")};
+        return Bearing{q.number(stiffness, "N m/rad"), q.number(damping, "N m s/rad")};
     };
 
     TubeSpec tube_spec;

@@ -51,7 +51,7 @@ RotorLoad rotor_load_of(const Wt600OperationOptions& options, const MachineLayou
     load.hub = layout.hub;
     load.azimuth = layout.azimuth;
     for (BodyId pitch : layout.pitch) load.pitch.emplace_back(pitch, -1.0 / static_cast<double>(layout.pitch.size()));
-    load.pitch_setting = layout.pitch_setting;
+    load.pitch_setting = layout.pitch_settings.front();
     load.curve = wt600_rotor_curve();
     load.curve.tower_shadow = options.tower_shadow;
     load.wind = [V = options.wind](double) { return V; };
@@ -102,7 +102,7 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
     if (!(options.wind >= 0) || std::isinf(options.wind))
         throw InputError("600 kW machine", "wind speed [m/s]", options.wind, "finite and >= 0");
     TurbineDescription description = options.data.empty() ? wt600_description() : wt600_description(options.data);
-    const Spring mechanism = std::exchange(description.blade.pitch, Spring{});
+    const Bearing mechanism = std::exchange(description.blade.pitch, free_joint);
     const Turbine bare = assemble(description, options.assembly);
     const MachineLayout& layout = bare.layout();
 

@@ -26,27 +26,50 @@ double clamped_frequency(const System& system, const std::vector<int>& coordinat
     return std::sqrt(std::max(solver.eigenvalues()(0), 0.0)) / (2 * pi);
 }
 
+BeamDamping sum(BeamDamping given, const BeamDamping& at_first_mode) {
+    for (std::size_t i = 0; i < given.time_constants.size(); ++i)
+        given.time_constants[i] += at_first_mode.time_constants[i];
+    return given;
+}
+
 // Damping ratios are given for the first mode of each part: a first, undamped assembly tells its frequency.
-PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& options) {
-    PartDamping times;
-    if (!options.structural_damping) return times;
-    if (d.tower.first_mode_damping == 0 && d.blade.first_flap_damping == 0) return {d.tower.damping, d.blade.damping};
-    Assembler machine(d, options, times), blade(d, options, times);
+BeamDamping tower_damping(const TurbineDescription& d, const AssemblyOptions& options) {
+    if (d.tower.first_mode_damping == 0 || options.rigid_tower) return d.tower.damping;
+    const PartDamping none;
+    Assembler machine(d, options, none);
     machine.whole_machine();
-    blade.one_blade();
-    const System whole(machine.tree, machine.forces), single(blade.tree, blade.forces);
-    const auto sum = [](BeamDamping given, const BeamDamping& at_first_mode) {
-        for (std::size_t i = 0; i < given.time_constants.size(); ++i)
-            given.time_constants[i] += at_first_mode.time_constants[i];
-        return given;
-    };
-    times.tower = sum(d.tower.damping,
-                      BeamDamping::ratio_at(d.tower.first_mode_damping,
-                                            clamped_frequency(whole, whole.model.coordinates().of_part("tower"))));
-    times.blade = sum(d.blade.damping,
-                      BeamDamping::ratio_at(d.blade.first_flap_damping,
-                                            clamped_frequency(single, single.model.coordinates().of_part("blade"))));
-    return times;
+    const System whole(machine.tree, machine.forces);
+    const double frequency = clamped_frequency(whole, whole.model.coordinates().of_part("tower"));
+    return sum(d.tower.damping, BeamDamping::ratio_at(d.tower.first_mode_damping, frequency));
+}
+
+BeamDamping blade_damping(const TurbineDescription& d, const AssemblyOptions& options, int number) {
+    const BladeDescription& blade = *d.blade_at(number);
+    if (blade.first_flap_damping == 0) return blade.damping;
+    const PartDamping none;
+    Assembler alone(d, options, none);
+    alone.one_blade(number);
+    const System single(alone.tree, alone.forces);
+    const double frequency = clamped_frequency(single, single.model.coordinates().of_part("blade"));
+    return sum(blade.damping, BeamDamping::ratio_at(blade.first_flap_damping, frequency));
+}
+
+// Blades that share a description share its damping.
+std::map<int, BeamDamping> blade_dampings(const TurbineDescription& d, const AssemblyOptions& options) {
+    std::map<int, BeamDamping> all;
+    std::optional<BeamDamping> common;
+    for (int k = 1; k <= d.blades; ++k) {
+        if (d.blade_at(k) == nullptr) continue;
+        const bool own = d.own_blades.contains(k);
+        if (!own && !common) common = blade_damping(d, options, k);
+        all[k] = own ? blade_damping(d, options, k) : *common;
+    }
+    return all;
+}
+
+PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& options) {
+    if (!options.structural_damping) return {};
+    return {tower_damping(d, options), blade_dampings(d, options)};
 }
 
 }  // namespace
@@ -71,7 +94,8 @@ RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& na
     RotorMap map;
     map.machine = name;
     map.spin = a.spin ? model.index(*a.spin) : -1;
-    map.hub = a.hub_frame;
+    map.hub = a.layout.rotor_centre;
+    for (BodyId body : a.odd) map.odd.push_back(model.index(body));
     for (const std::vector<BodyId>& blade : a.blades) {
         map.blades.emplace_back();
         for (BodyId body : blade) map.blades.back().push_back(model.index(body));
@@ -108,6 +132,7 @@ std::string computed(TurbineDescription description) {
 }  // namespace
 
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
+    description.check();
     const PartDamping damping = part_damping(description, options);
     Assembler assembler(description, options, damping);
     assembler.whole_machine();
@@ -119,10 +144,15 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
     return turbine;
 }
 
-Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options) {
-    const PartDamping damping = part_damping(description, options);
-    Assembler assembler(description, options, damping);
-    assembler.one_blade();
+Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options, int number) {
+    TurbineDescription alone = description;
+    alone.tower.first_mode_damping = 0;
+    alone.yaw.rotation = alone.drive_train.main_shaft = alone.drive_train.high_speed_shaft = rigid_joint;
+    alone.hub.teeter.reset();
+    alone.check();
+    const PartDamping damping = part_damping(alone, options);
+    Assembler assembler(alone, options, damping);
+    assembler.one_blade(number);
     Turbine turbine;
     turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(options));
     turbine.rotor_.description += computed(description);
@@ -152,6 +182,7 @@ RigidInertia tower_top_inertia(const Turbine& machine) {
 }  // namespace
 
 Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options, bool with_top) {
+    description.check();
     const PartDamping damping = part_damping(description, options);
     AssemblyOptions own = options;
     own.platform.reset();

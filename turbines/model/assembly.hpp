@@ -26,10 +26,12 @@ struct AssemblyOptions {
     std::optional<double> delta =
         {};  ///< hinge position in tower and blades; empty: suits the partition; see CardanBeamOptions
     Partition partition = Partition::segment_masses;
-    double pitch = 0;                ///< pitch setting of all blades, leading edge upwind positive, rad
-    Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2
-    bool structural_damping = true;  ///< of tower and blades
-    bool joint_damping = true;       ///< of yaw, tilt, drive train, pitch
+    double pitch = 0;                            ///< pitch setting of all blades, leading edge upwind positive, rad
+    Vec3 gravity = Vec3::Zero();                 ///< ground axes, m/s^2
+    bool structural_damping = true;              ///< of tower and blades
+    bool joint_damping = true;                   ///< of yaw, tilt, drive train, teeter, pitch
+    bool rigid_tower = false;                    ///< no tower coordinates; its mass stays
+    CoordinateRole spin = CoordinateRole::free;  ///< driven: the generator's azimuth is prescribed
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
     /// A moving base under the whole machine, prescribed or free: a floating platform, a shaking table; none: fixed to
     /// the ground.
@@ -43,18 +45,20 @@ struct AssemblyOptions {
 struct MachineLayout {
     /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
     std::optional<MovingBase> platform;
-    std::optional<CardanBeam> tower;
-    FrameId tower_foot, tower_top;         ///< axes of the tower's beam; x downwind, z up at rest
-    FrameId shaft;                         ///< carries the drive train, x along the shaft, downwind
-    FrameId hub;                           ///< see RotorMap
-    std::optional<BodyId> yaw, generator;  ///< the generator's azimuth is the spin coordinate
-    CoordinateSum azimuth;                 ///< of the hub relative to the shaft frame
-    double gear_ratio = 1;                 ///< generator speed over the rate of its coordinate
+    std::optional<CardanBeam> tower;               ///< none: rigid
+    FrameId tower_foot, tower_top;                 ///< axes of the tower's beam; x downwind, z up at rest
+    FrameId shaft;                                 ///< carries the drive train, x along the shaft, downwind
+    FrameId rotor_centre;                          ///< RotorMap::hub: spins with the shaft, does not teeter
+    FrameId hub;                                   ///< carries the blades; the same axes where nothing teeters
+    std::optional<BodyId> yaw, teeter, generator;  ///< the generator's azimuth is the spin coordinate
+    CoordinateSum azimuth;                         ///< of the rotor centre relative to the shaft frame
+    double gear_ratio = 1;                         ///< generator speed over the rate of its coordinate
+    std::vector<int> blade_numbers;                ///< places of the blades below, from 1; some may be missing
     std::vector<CardanBeam> blades;
-    std::vector<FrameId> pitch_axes;   ///< per blade, before the pitch joint: x along the blade, z downwind
-    std::vector<FrameId> blade_roots;  ///< behind pitch joint and pitch setting: the blade's axes
-    std::vector<BodyId> pitch;         ///< pitch joints; their coordinates are positive away from feather
-    double pitch_setting = 0;          ///< rad, positive toward feather
+    std::vector<FrameId> pitch_axes;     ///< per blade, before the pitch joint: x along the blade, z downwind
+    std::vector<FrameId> blade_roots;    ///< behind pitch joint and pitch setting: the blade's axes
+    std::vector<BodyId> pitch;           ///< pitch joints; their coordinates are positive away from feather
+    std::vector<double> pitch_settings;  ///< per blade, rad, positive toward feather
 };
 
 /// A machine ready for the solvers. Immutable and cheap to copy.
@@ -76,7 +80,7 @@ public:
 
 private:
     friend Turbine assemble(const TurbineDescription&, const AssemblyOptions&);
-    friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&);
+    friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&, int);
     friend Turbine isolated_tower(const TurbineDescription&, const AssemblyOptions&, bool);
     Turbine() = default;
     void finish(const class Assembler& assembler, const std::string& name, std::string source,
@@ -92,14 +96,18 @@ private:
 };
 
 /// The whole machine. Coordinates in order: platform if there is one, tower, yaw x, y, rotation, tilt, generator,
-/// gearbox, hub (or shaft beam), then every blade's pitch and elements; rigid joints are left out. The spin coordinate
-/// is the generator's azimuth relative to the nacelle.
+/// gearbox, hub (or shaft beam), teeter, then every blade's pitch and elements; rigid joints are left out. The spin
+/// coordinate is the generator's azimuth relative to the nacelle.
+/// Frames: "tower foot", "tower top", "nacelle", "shaft" (fixed to the nacelle), "rotor centre" (spins), "hub"
+/// (teeters), "blade <k> pitch axis" and, behind the pitch joint, "blade <k> root".
 /// @throws InputError for bad data; the part is named.
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
 
 /// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (with its cone; no pitch
-/// joint, no tilt, no platform).
-Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {});
+/// joint, no teeter, no tilt, no platform). What the rest of the description lacks does not matter.
+/// @param number  which one
+/// @throws InputError also for a blade that is missing
+Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {}, int number = 1);
 
 /// The tower clamped at its foot, alone or with everything above it as one rigid body: blades undeformed, blade 1 up,
 /// at their pitch setting. It has no rotor and can only be analysed at standstill.

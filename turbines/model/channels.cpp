@@ -95,8 +95,8 @@ ChannelGroup rotor_channels(const Shared& source) {
         const MachineLayout& layout = source->layout();
         const Kinematics& kin = in.kinematics;
         const Model& model = kin.model();
-        const Pose<double> hub = pose(kin, layout.hub), shaft = pose(kin, layout.shaft);
-        const int hub_body = model.frame(layout.hub).body, shaft_body = model.frame(layout.shaft).body;
+        const Pose<double> hub = pose(kin, layout.rotor_centre), shaft = pose(kin, layout.shaft);
+        const int hub_body = model.frame(layout.rotor_centre).body, shaft_body = model.frame(layout.shaft).body;
         const auto spin = [&](int body) {
             return body < 0 ? Vec3(Vec3::Zero()) : in.loads.motion[static_cast<std::size_t>(body)].angular_velocity;
         };
@@ -111,6 +111,19 @@ ChannelGroup rotor_channels(const Shared& source) {
         add_moved(load, in.loads.joint[joint], kin.origin(hub_body), hub.p, -1);
         add_external(load, *source, in, hub_body, hub.p);
         values[3] = axis.dot(load.moment);
+    };
+    return group;
+}
+
+ChannelGroup teeter_channels(const Shared& source) {
+    ChannelGroup group;
+    group.channels = {{.name = "teeter angle",
+                       .units = "rad",
+                       .long_name = "teeter of the hub, positive moves blade 1 downwind",
+                       .frame = "teeter axis",
+                       .alias = "RotTeetP"}};
+    group.sample = [source](const ChannelInput& in, double* values) {
+        *values = -in.q(in.kinematics.model().index(*source->layout().teeter));
     };
     return group;
 }
@@ -217,7 +230,8 @@ ChannelGroup tower_load_channels(const Shared& source) {
 }
 
 ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
-    const std::string blade = text("blade ", k + 1), number = k < 3 ? text(k + 1) : "";
+    const int place = source->layout().blade_numbers[k];
+    const std::string blade = text("blade ", place), number = place <= 3 ? text(place) : "";
     const auto alias = [&](const char* stem) { return number.empty() ? "" : stem + number; };
     ChannelGroup group;
     const auto add = [&](const char* name, const char* long_name, const char* axes, const char* stem) {
@@ -251,14 +265,15 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
         *values++ = coned.x();
         *values++ = coned.y();
         write(openfast_axes(root.R).transpose() * d, values);
-        if (pitch) *values = layout.pitch_setting - in.q(kin.model().index(layout.pitch[k]));
+        if (pitch) *values = layout.pitch_settings[k] - in.q(kin.model().index(layout.pitch[k]));
     };
     return group;
 }
 
 ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
-    const std::string blade = text("blade ", k + 1), root = blade + " root";
-    const auto suffix = [&](const char* axes) { return k < 3 ? text(axes, k + 1) : std::string(); };
+    const int place = source->layout().blade_numbers[k];
+    const std::string blade = text("blade ", place), root = blade + " root";
+    const auto suffix = [&](const char* axes) { return place <= 3 ? text(axes, place) : std::string(); };
     ChannelGroup group;
     add_loads(group, root, blade, root, "RootF", "RootM", suffix("b"),
               {"flapwise shear force", "edgewise shear force", "axial force (tension positive)", "edgewise moment",
@@ -295,6 +310,7 @@ std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalW
     }
     const Shared source = std::make_shared<const Source>(Source{turbine, std::move(external)});
     std::vector<ChannelGroup> groups{rotor_channels(source)};
+    if (turbine.layout().teeter) groups.push_back(teeter_channels(source));
     if (turbine.layout().platform) groups.push_back(platform_channels(source));
     if (turbine.layout().tower) {
         groups.push_back(tower_motion_channels(source));
@@ -305,6 +321,31 @@ std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalW
         groups.push_back(blade_load_channels(source, k));
     }
     return groups;
+}
+
+ChannelGroup drive_channels(const Turbine& turbine) {
+    const CoordinateTable& table = turbine.system().model.coordinates();
+    ChannelGroup group;
+    std::vector<int> driven;
+    for (int a = 0; a < table.size(); ++a) {
+        if (table[a].role != CoordinateRole::driven) continue;
+        driven.push_back(a);
+        group.channels.push_back({.name = table[a].name,
+                                  .units = table[a].unit,
+                                  .long_name = text("position of the coordinate '", table[a].name, "'"),
+                                  .frame = "axis of " + table[a].name});
+        group.channels.push_back({.name = table[a].name + " drive",
+                                  .units = table[a].unit == "rad" ? "N m" : "N",
+                                  .long_name = text("force of the drive on the coordinate '", table[a].name, "'"),
+                                  .frame = "axis of " + table[a].name});
+    }
+    group.sample = [driven](const ChannelInput& at, double* values) {
+        for (int a : driven) {
+            *values++ = at.q(a);
+            *values++ = at.actuator(a);
+        }
+    };
+    return group;
 }
 
 }  // namespace cardan::turbines

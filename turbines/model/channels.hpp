@@ -31,4 +31,8 @@ struct ExternalWrench {
 /// @throws InputError for an external wrench without a function or on the base
 std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalWrench> external = {});
 
+/// Channels of every driven coordinate: its position, "platform surge" ..., and the force of its drive, "platform surge
+/// drive" ..., N or N m.
+ChannelGroup drive_channels(const Turbine& turbine);
+
 }  // namespace cardan::turbines

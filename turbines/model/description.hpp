@@ -1,23 +1,34 @@
 /// @file
-/// Plain description of a horizontal-axis turbine on an elastic tower: what a user edits.
+/// Plain description of a horizontal-axis turbine: what a user edits.
 ///
 /// Ground axes: x downwind, z up, y = z x x. SI units, radians.
 #pragma once
 
 #include "elements/cardan_beam/cardan_beam.hpp"
 
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <optional>
 
 namespace cardan::turbines {
 
-struct Spring {
-    double stiffness = 0;  ///< N m/rad or N/m; infinite: rigid, the machine has no such joint
-    double damping = 0;    ///< N m s/rad or N s/m
+/// What holds a joint of a machine: bearings, drives, shafts. One that was not given is refused by name on assembly.
+struct Bearing {
+    enum class Hold : std::uint8_t {
+        spring,  ///< spring and damper
+        free,    ///< nothing but the damper
+        rigid,   ///< the machine has no such joint and no coordinate for it
+        driven   ///< the coordinate is prescribed: zero, or as a Motion says
+    };
+    double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< > 0, N m/rad or N/m; only of a spring
+    double damping = 0;                                           ///< N m s/rad or N s/m; of a spring or a free joint
+    Hold hold = Hold::spring;
 
-    bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
+    bool is_rigid() const { return hold == Hold::rigid; }
 };
-/// Stands for a joint that a machine does not have.
-inline constexpr Spring rigid_joint{std::numeric_limits<double>::infinity(), 0};
+inline constexpr Bearing free_joint{0, 0, Bearing::Hold::free}, rigid_joint{0, 0, Bearing::Hold::rigid},
+    driven_joint{0, 0, Bearing::Hold::driven};
 
 struct TowerDescription {
     BeamLine line;                  ///< from the ground up
@@ -26,31 +37,46 @@ struct TowerDescription {
 };
 
 struct YawDescription {
-    Spring rotation;     ///< about the tower axis
-    Spring translation;  ///< along ground x and y each
+    Bearing rotation;                   ///< about the tower axis
+    Bearing translation = rigid_joint;  ///< along ground x and y each
 };
 
 struct NacelleDescription {
-    RigidInertia inertia;     ///< ground axes, origin at the tower top
-    double shaft_height = 0;  ///< shaft axis above the tower top where it meets the tower axis, m
-    double tilt = 0;          ///< upwind end of the shaft up, rad
-    double overhang = 0;      ///< from the tower axis to the rotor plane along the shaft, upwind, m
-    Spring tilt_bearing;      ///< elastic main frame: rotation about the lateral axis at the shaft height
+    RigidInertia inertia;                ///< ground axes, origin at the tower top
+    double shaft_height = 0;             ///< shaft axis above the tower top where it meets the tower axis, m
+    double tilt = 0;                     ///< upwind end of the shaft up, rad
+    double overhang = 0;                 ///< from the tower axis to the rotor centre along the shaft, m; upwind
+                                         ///< positive, a downwind rotor has a negative one
+    Bearing tilt_bearing = rigid_joint;  ///< elastic main frame: rotation about the lateral axis at the shaft height
 };
 
 /// Serial drive train generator - gearbox - hub; inertias spin relative to the nacelle and count on the slow side
 /// (fast side times the gear ratio squared).
 struct DriveTrainDescription {
     double gear_ratio = 1;
-    double generator_inertia = 0;  ///< fast side, kg m^2
-    double gearbox_inertia = 0;    ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
-    Spring high_speed_shaft;       ///< fast side, generator - gearbox
-    Spring main_shaft;             ///< slow side, gearbox - hub
+    double generator_inertia = 0;            ///< fast side, kg m^2; not zero if one of the shafts is elastic
+    double gearbox_inertia = 0;              ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
+    Bearing high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
+    Bearing main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
+    /// What else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0, origin on the
+    /// tower axis.
+    RigidInertia shaft;
+};
+
+/// A hub that rocks on a pin across the shaft.
+struct TeeterDescription {
+    Bearing bearing;
+    double undersling = 0;  ///< the point where the blade axes meet lies this far upwind of the teeter axis, m
+    double delta3 = 0;      ///< rotation of the teeter axis in the rotor plane, rad; positive: a blade that teeters
+                            ///< downwind pitches its leading edge upwind by tan(delta3) times the teeter angle
 };
 
 struct HubDescription {
-    RigidInertia inertia;  ///< about the hub centre; z along the shaft (downwind), x along blade 1
-    double radius = 0;     ///< blade roots, m
+    /// About the rotor centre, where the shaft axis meets the rotor plane, or the teeter axis if there is one; z along
+    /// the shaft (downwind), x along blade 1. It teeters with the blades.
+    RigidInertia inertia;
+    double radius = 0;  ///< blade roots along the blade axis, m
+    std::optional<TeeterDescription> teeter;
 };
 
 /// Rotation from hub axes, z along the shaft (downwind) and x along blade 1, to those of the shaft, x downwind along it
@@ -60,9 +86,10 @@ inline Mat3 hub_axes() {
 }
 
 struct BladeDescription {
-    BeamLine line;    ///< from the root out; x radial, y to the leading edge, z downwind
-    Spring pitch;     ///< pitch mechanism
-    double cone = 0;  ///< blade axis out of the rotor plane, tips downwind positive, rad
+    BeamLine line;             ///< from the root out; x radial, y to the leading edge, z downwind
+    Bearing pitch;             ///< pitch bearing or drive
+    double cone = 0;           ///< blade axis out of the rotor plane, tips downwind positive, rad
+    double pitch_setting = 0;  ///< beside that of the assembly, leading edge upwind positive, rad
     double first_flap_damping =
         0;                     ///< damping ratio of the first flap mode of the clamped blade, stiffness-proportional
     BeamDamping damping = {};  ///< in its place or beside it
@@ -70,14 +97,27 @@ struct BladeDescription {
 
 struct TurbineDescription {
     std::string name;
-    std::string source;  ///< the text it was read from; kept with every result
-    int blades = 3;
+    std::string source;      ///< the text it was read from; kept with every result
+    double rotor_speed = 0;  ///< nominal, rad/s; 0: not given
+    int blades = 3;          ///< places for blades, evenly spaced; 0: a hub alone
     TowerDescription tower;
     YawDescription yaw;
     NacelleDescription nacelle;
     DriveTrainDescription drive_train;
     HubDescription hub;
-    BladeDescription blade;
+    BladeDescription blade;  ///< all of them, but for those in `own_blades`
+    /// Blades that differ from the others, by their number 1 ... `blades`; empty: that blade is missing.
+    std::map<int, std::optional<BladeDescription>> own_blades = {};
+
+    /// Angles and ratios outside the ranges of machines are meant so, not degrees or per cent.
+    bool unusual = false;
+
+    /// The blade at a place, 1 ... `blades`; null: it is missing.
+    const BladeDescription* blade_at(int number) const;
+    /// Refuses what cannot be and, unless `unusual`, what machines do not have: |tilt| > 0.35, |cone| > 0.5, |delta-3|
+    /// > 1.3, |pitch setting| > 3.2 rad, damping ratios > 0.3.
+    /// @throws InputError naming machine, field, value and what is allowed
+    void check() const;
 };
 
 }  // namespace cardan::turbines

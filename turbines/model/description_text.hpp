@@ -9,7 +9,7 @@
 namespace cardan::turbines {
 
 /// Version of the format, the value of the key `cardan_turbine`.
-inline constexpr int description_yaml_version = 1;
+inline constexpr int description_yaml_version = 2;
 
 /// The description as YAML text. Numbers have enough digits to be read back exactly: parse_description(to_yaml(d))
 /// equals d bit for bit.

@@ -18,12 +18,12 @@ RigidInertia scaled(const RigidInertia& body, double s) {
     return out;
 }
 
-Spring rotational(const Spring& spring, double s) {
-    return {spring.stiffness * power(s, 3), spring.damping * power(s, 4)};
+Bearing rotational(const Bearing& bearing, double s) {
+    return {bearing.stiffness * power(s, 3), bearing.damping * power(s, 4), bearing.hold};
 }
 
-Spring translational(const Spring& spring, double s) {
-    return {spring.stiffness * s, spring.damping * power(s, 2)};
+Bearing translational(const Bearing& bearing, double s) {
+    return {bearing.stiffness * s, bearing.damping * power(s, 2), bearing.hold};
 }
 
 BeamDamping scaled(const BeamDamping& damping, double s) {
@@ -65,10 +65,21 @@ BeamLine scaled(const BeamLine& line, double s) {
     return out;
 }
 
+namespace {
+
+void scale(BladeDescription& blade, double s) {
+    blade.line = scaled(blade.line, s);
+    blade.damping = scaled(blade.damping, s);
+    blade.pitch = rotational(blade.pitch, s);
+}
+
+}  // namespace
+
 TurbineDescription scaled(const TurbineDescription& description, double s) {
     require_positive(description.name, "factor of lengths", s);
     TurbineDescription d = description;
     d.name = text(description.name, ", lengths times ", s);
+    d.rotor_speed /= s;
     d.tower.line = scaled(d.tower.line, s);
     d.tower.damping = scaled(d.tower.damping, s);
     d.yaw = {rotational(d.yaw.rotation, s), translational(d.yaw.translation, s)};
@@ -80,11 +91,16 @@ TurbineDescription scaled(const TurbineDescription& description, double s) {
     d.drive_train.gearbox_inertia *= power(s, 5);
     d.drive_train.high_speed_shaft = rotational(d.drive_train.high_speed_shaft, s);
     d.drive_train.main_shaft = rotational(d.drive_train.main_shaft, s);
+    d.drive_train.shaft = scaled(d.drive_train.shaft, s);
     d.hub.inertia = scaled(d.hub.inertia, s);
     d.hub.radius *= s;
-    d.blade.line = scaled(d.blade.line, s);
-    d.blade.damping = scaled(d.blade.damping, s);
-    d.blade.pitch = rotational(d.blade.pitch, s);
+    if (d.hub.teeter) {
+        d.hub.teeter->bearing = rotational(d.hub.teeter->bearing, s);
+        d.hub.teeter->undersling *= s;
+    }
+    scale(d.blade, s);
+    for (auto& [number, blade] : d.own_blades)
+        if (blade) scale(*blade, s);
     return d;
 }
 

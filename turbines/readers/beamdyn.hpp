@@ -11,7 +11,7 @@ namespace cardan::turbines {
 
 struct BeamDynBlade {
     ElastoDynBeam beam;
-    Spring pitch = rigid_joint;  ///< pitch drive, where UsePitchAct is True
+    Bearing pitch = rigid_joint;  ///< pitch drive, where UsePitchAct is True
 };
 
 /// The main file and the blade file it names. The reference line is the spline through the key points (straight pieces

@@ -15,11 +15,11 @@ const std::vector<KeywordGroup>& ignored_by_elastodyn() {
          "output and numerical settings: without meaning for the machine"},
         {{"ShftGagL", "NcIMU*", "AzimB1Up"}, "places of sensors: without effect on the motion"},
         {{"FurlFile", "Furling"}, "furling is off"},
-        {{"Teet*", "Delta3"}, "teetering: this machine has none"},
+        {{"Teet*", "Delta3", "UndSling"}, "teetering: this machine has none"},
         {{"YawFrct*", "M_CSmax", "M_FCSmax", "M_MCSmax", "M_CD", "M_FCD", "M_MCD", "sig_v", "sig_v2", "OmgCut"},
          "friction of the yaw bearing: not part of the model"},
         {{"Azimuth", "OoPDefl", "IPDefl", "TTDsp*"}, "initial conditions: those of a simulation are given to it here"},
-        {{"PreCone*", "TipMass*", "BldFile*", "BlPitch*", "PBrIner*", "BlPIner*", "PitchDOF", "PtfmYDOF", "UndSling"},
+        {{"PreCone*", "TipMass*", "BldFile*", "BlPitch*", "PBrIner*", "BlPIner*", "PitchDOF", "PtfmYDOF"},
          "of blades or joints that the machine does not have"}};
     return all;
 }
@@ -44,7 +44,8 @@ public:
         read_nacelle();
         read_drive_train();
         read_hub();
-        read_blade();
+        read_teeter();
+        read_blades();
         read_freedoms();
         note_states();
         for (FileNote& note : file_.notes(ignored_by_elastodyn())) out_.notes.push_back(std::move(note));
@@ -115,9 +116,7 @@ private:
         }
         n.shaft_height = file_.number("Twr2Shft");
         n.tilt = -angle("ShftTilt", 45);
-        n.overhang = -file_.number("OverHang");
-        if (d_.blades == 2) n.overhang += file_.number("UndSling");  // given to the teeter pin, the apex upwind of it
-        if (!(n.overhang > 0)) file_.note("OverHang", "a downwind rotor: assemble() takes upwind ones only");
+        n.overhang = -file_.number("OverHang");  // to the apex, of two-bladed rotors to the teeter pin
         n.tilt_bearing = rigid_joint;
     }
 
@@ -138,16 +137,52 @@ private:
         RigidInertia& hub = d_.hub.inertia;
         hub.mass = not_negative("HubMass");
         hub.com = {0, 0, file_.number("HubCM")};
-        const double inertia = not_negative("HubIner");
         hub.reduced = true;
-        const bool about_teeter_axis = d_.blades == 2 && !file_.has("HubIner_Teeter");
-        hub.J(about_teeter_axis ? 1 : 2, about_teeter_axis ? 1 : 2) = inertia;
-        if (about_teeter_axis) file_.note("HubIner", "about the teeter axis; none about the shaft");
-        if (d_.blades == 2 && file_.has("HubIner_Teeter")) hub.J(1, 1) = not_negative("HubIner_Teeter");
-        if (d_.blades != 2) file_.note_unless("HubIner_Teeter", 0, "the rotor does not teeter");
+        if (d_.blades == 2) return read_hub_of_two_blades();
+        hub.J(2, 2) = not_negative("HubIner");
+        file_.note_unless("HubIner_Teeter", 0, "the rotor does not teeter");
     }
 
-    void read_blade() {
+    // The origin is the teeter pin, the apex lies upwind of it. Inertias about the teeter axis are kept about the mass
+    // centre; where there is no other, it counts about the shaft as well (ElastoDyn: a cylinder across the shaft).
+    void read_hub_of_two_blades() {
+        RigidInertia& hub = d_.hub.inertia;
+        const bool has_both = file_.has("HubIner_Teeter");
+        const char* const about_teeter = has_both ? "HubIner_Teeter" : "HubIner";
+        hub.com.z() -= file_.number("UndSling");
+        const double steiner = hub.mass * hub.com.z() * hub.com.z(), given = not_negative(about_teeter);
+        if (given < steiner)
+            file_.fail(about_teeter, text(about_teeter, " = ", given, "; allowed: at least ", steiner,
+                                          ", mass of the hub times its distance from the teeter axis squared"));
+        hub.J(1, 1) = (given - steiner) / std::pow(std::cos(angle("Delta3", 80)), 2);
+        hub.J(2, 2) = has_both ? not_negative("HubIner") : hub.J(1, 1);
+    }
+
+    // Springs and dampers that act from rest on are linear; what acts beyond an angle is not part of the description.
+    void read_teeter() {
+        if (d_.blades != 2) return;
+        TeeterDescription& teeter = d_.hub.teeter.emplace();
+        teeter.undersling = file_.number("UndSling");
+        teeter.delta3 = angle("Delta3", 80);
+        teeter.bearing = rigid_joint;
+        if (!file_.flag_or("TeetDOF", false)) return;
+        teeter.bearing = free_joint;
+        if (file_.integer("TeetMod", 0, 2) == 2) file_.note("TeetMod", "a user's routine: no spring, no damper here");
+        if (file_.integer("TeetMod", 0, 2) != 1) return;
+        if (file_.number_or("TeetDmpP", 0) == 0)
+            teeter.bearing.damping = not_negative("TeetDmp");
+        else
+            file_.note("TeetDmpP", "a damper that acts beyond an angle: not part of the description");
+        const double spring = not_negative("TeetSSSp");
+        if (file_.number("TeetSStP") != 0)
+            file_.note("TeetSStP", "a stop: its spring is not part of the description");
+        else if (spring > 0)
+            teeter.bearing = {spring, teeter.bearing.damping};
+        file_.note_unless("TeetCDmp", 0, "friction of the teeter bearing: not part of the model");
+        file_.note_unless("TeetHSSp", 0, "a stop: its spring is not part of the description");
+    }
+
+    void read_blades() {
         const double tip = positive("TipRad");
         if (!(tip > d_.hub.radius))
             file_.fail("TipRad", text("TipRad = ", tip, "; allowed: above HubRad = ", d_.hub.radius));
@@ -163,32 +198,39 @@ private:
             if (std::abs(blade.line.length - given) > 1e-3 * given)
                 file_.note("TipRad", text("TipRad - HubRad = ", given, " m; the blade of BeamDyn is ",
                                           blade.line.length, " m along its reference line"));
-            set_blade(blade, "BeamDyn");
-            return;
+            set_blade(d_.blade, blade, "BeamDyn");
+        } else {
+            read_blade_file(d_.blade, blade_file, tip - d_.hub.radius);
         }
-        const std::filesystem::path path = file_.path(blade_file);
-        ElastoDynBeam blade = file_.follow(blade_file, [&] { return elastodyn_blade(path, tip - d_.hub.radius); });
-        set_blade(blade, path.string());
+        for (int k = 2; k <= d_.blades; ++k) read_other_blade(k, tip - d_.hub.radius);
     }
 
-    void set_blade(ElastoDynBeam& blade, const std::string& name) {
-        d_.blade.line = blade.line;
-        d_.blade.damping = blade.damping;
-        keep(blade, name);
+    void read_blade_file(BladeDescription& blade, const std::string& keyword, double length) {
+        const std::filesystem::path path = file_.path(keyword);
+        ElastoDynBeam beam = file_.follow(keyword, [&] { return elastodyn_blade(path, length); });
+        set_blade(blade, beam, path.string());
     }
 
-    // All blades are equal here: the first one is used.
-    void note_blade(int k) {
+    void set_blade(BladeDescription& blade, ElastoDynBeam& beam, const std::string& name) {
+        blade.line = beam.line;
+        blade.damping = beam.damping;
+        keep(beam, name);
+    }
+
+    // A blade of its own where it differs from the first.
+    void read_other_blade(int k, double length) {
         const std::string cone = numbered(file_, "PreCone", k), pitch = numbered(file_, "BlPitch", k),
-                          name = numbered(file_, "BldFile", k);
-        if (k > 1) {
-            if (file_.has(cone) && angle(cone) != d_.blade.cone)
-                file_.note(cone, "all blades have the cone of the first");
-            if (file_.has(pitch) && angle(pitch) != out_.pitch)
-                file_.note(pitch, "all blades have the pitch of the first");
-            if (file_.has(name) && file_.word(name) != file_.word(numbered(file_, "BldFile", 1)))
-                file_.note(name, "all blades are the first one");
-        }
+                          file = numbered(file_, "BldFile", k), first = numbered(file_, "BldFile", 1);
+        BladeDescription own = d_.blade;
+        if (file_.has(cone)) own.cone = angle(cone);
+        if (file_.has(pitch)) own.pitch_setting = angle(pitch) - out_.pitch;
+        const bool other_file =
+            !context_.blade && file_.has(file) && file_.has(first) && file_.word(file) != file_.word(first);
+        if (other_file) read_blade_file(own, file, length);
+        if (other_file || own.cone != d_.blade.cone || own.pitch_setting != 0) d_.own_blades[k] = own;
+    }
+
+    void note_blade(int k) {
         file_.note_unless(numbered(file_, "TipMass", k), 0, "tip masses are not part of the model");
         file_.note_unless(numbered(file_, "PBrIner", k), 0, "inertia of the pitch bearing: not part of the model");
         file_.note_unless(numbered(file_, "BlPIner", k), 0, "inertia of the pitch drive: not part of the model");
@@ -216,8 +258,6 @@ private:
         f.tower_fore_aft = bends({"TwFADOF1", "TwFADOF2"}, "the tower is a beam and bends with all its fore-aft modes");
         f.tower_side_side =
             bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
-        if (file_.flag_or("TeetDOF", false) && d_.blades == 2)
-            file_.note("TeetDOF", "the hub is rigid: no teetering here");
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
             if (file_.flag_or(keyword, false))
                 file_.note(keyword, "the tower stands on the ground; see AssemblyOptions::platform");
@@ -228,7 +268,7 @@ private:
     void note_states() {
         const double speed = file_.number("RotSpeed");
         if (speed < 0) file_.fail("RotSpeed", text("RotSpeed = ", speed, "; allowed: >= 0"));
-        out_.rotor_speed = speed * units::rpm;
+        out_.rotor_speed = d_.rotor_speed = speed * units::rpm;
         file_.note_unless("NacYaw", 0, "the nacelle points into the wind here");
         for (const char* keyword : {"OoPDefl", "IPDefl", "TTDspFA", "TTDspSS", "PtfmSurge", "PtfmSway", "PtfmHeave",
                                     "PtfmRoll", "PtfmPitch", "PtfmYaw", "Azimuth", "TeetDefl"})
@@ -236,9 +276,6 @@ private:
         for (const char* keyword : {"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
                                     "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefzt"})
             file_.note_unless(keyword, 0, "the platform is no part of the description; see AssemblyOptions::platform");
-        if (d_.blades == 2)
-            for (const char* keyword : {"Delta3", "TeetMod"})
-                file_.note_unless(keyword, 0, "the hub is rigid: no teetering here");
     }
 
     OpenFastFile file_;

@@ -33,8 +33,8 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length);
 /// Data from other files of a model that replace ElastoDyn's.
 struct ElastoDynContext {
     std::optional<ElastoDynBeam> blade = std::nullopt;  ///< from BeamDyn; BldFile is not read then
-    Spring yaw = rigid_joint;                           ///< of the yaw drive (ServoDyn), where YawDOF is True
-    Spring pitch = rigid_joint;                         ///< of the pitch drive (BeamDyn)
+    Bearing yaw = rigid_joint;                          ///< of the yaw drive (ServoDyn), where YawDOF is True
+    Bearing pitch = rigid_joint;                        ///< of the pitch drive (BeamDyn)
 };
 
 /// The main file, with the blade and tower files it names.

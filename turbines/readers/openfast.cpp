@@ -18,7 +18,7 @@ std::string bare_or_first(const OpenFastFile& file, const char* keyword) {
 
 // What ServoDyn knows of the structure.
 struct Servo {
-    Spring yaw = rigid_joint;
+    Bearing yaw = rigid_joint;
     double rated_generator_speed = 0;  // rad/s; 0: not given
     std::vector<FileNote> notes;
     std::string source;
@@ -29,10 +29,8 @@ Servo read_servodyn(const std::filesystem::path& path) {
     Servo servo;
     servo.yaw = {file.number("YawSpr"), file.number("YawDamp")};
     if (servo.yaw.damping < 0) file.fail("YawDamp", text("YawDamp = ", servo.yaw.damping, "; allowed: >= 0"));
-    if (!(servo.yaw.stiffness > 0)) {
-        file.note("YawSpr", "no spring: the yaw joint is rigid");
-        servo.yaw = rigid_joint;
-    }
+    if (servo.yaw.stiffness < 0) file.fail("YawSpr", text("YawSpr = ", servo.yaw.stiffness, "; allowed: >= 0"));
+    if (servo.yaw.stiffness == 0) servo.yaw = {0, servo.yaw.damping, Bearing::Hold::free};
     file.note_unless("YawNeut", 0, "the nacelle points into the wind here");
     if (file.number("VSContrl") == 1) servo.rated_generator_speed = file.number("VS_RtGnSp") * units::rpm;
     for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
@@ -91,7 +89,8 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));
     append(out.notes, std::move(servo.notes));
     if (servo.rated_generator_speed > 0)
-        out.rotor_speed = servo.rated_generator_speed / out.description.drive_train.gear_ratio;
+        out.rotor_speed = out.description.rotor_speed =
+            servo.rated_generator_speed / out.description.drive_train.gear_ratio;
     out.description.source = text("# ", path.string(), "\n", main.text(), out.description.source, servo.source);
     return out;
 }

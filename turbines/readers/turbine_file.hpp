@@ -35,7 +35,7 @@ struct TurbineFile {
     FileFreedoms freedoms = {};
     /// Spring of the yaw drive, even if the files lock the yaw bearing and it is rigid in the description; rigid: the
     /// files give no spring.
-    Spring yaw_drive = rigid_joint;
+    Bearing yaw_drive = rigid_joint;
     std::vector<FileNote> notes;
     double rotor_speed = 0;  ///< rated or initial rotor speed, rad/s; 0: not given in the files
     double pitch = 0;        ///< pitch setting of the blades, leading edge upwind, rad

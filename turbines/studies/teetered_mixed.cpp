@@ -11,9 +11,26 @@ namespace {
 
 using Eigen::Index;
 
-MixedBeam mixed(const PrismaticBeam& beam, const char* name, int elements) {
-    if (elements > 1000) throw InputError(name, "number of elements", elements, "1 ... 1000");
-    return {uniform_beam(beam.length, beam.section, name), elements};
+MixedBeam mixed(const BeamLine& line, int elements) {
+    if (elements > 1000) throw InputError(line.name, "number of elements", elements, "1 ... 1000");
+    return {line, elements};
+}
+
+// What this model has not: elastic drive train and main frame, pitch joints, blades that differ, damping of beams.
+void check(const TurbineDescription& d) {
+    d.check();
+    const auto require = [&d](const char* what, bool as_here, const char* allowed) {
+        if (!as_here) throw InputError(d.name, what, "otherwise", allowed);
+    };
+    require("number of blades", d.blades == 2 && d.own_blades.empty(), "2, equal ones");
+    const auto turns = [](const Bearing& bearing) {
+        return bearing.hold == Bearing::Hold::free || bearing.hold == Bearing::Hold::spring;
+    };
+    require("hub", d.hub.teeter && turns(d.hub.teeter->bearing), "with a teeter bearing, free or with a spring");
+    require("yaw bearing", turns(d.yaw.rotation), "free or with a spring");
+    require("drive train", d.drive_train.main_shaft.is_rigid() && d.drive_train.high_speed_shaft.is_rigid(), "rigid");
+    require("pitch joints", d.blade.pitch.is_rigid() && d.blade.pitch_setting == 0, "none, pitch 0");
+    require("nacelle", d.yaw.translation.is_rigid() && d.nacelle.tilt_bearing.is_rigid(), "turning in yaw alone");
 }
 
 // Rotation by an angle about a unit vector.
@@ -62,23 +79,24 @@ struct TeeteredMixed::Rotor {
     Seat<S> on_tower, on_nacelle, on_shaft;
     Vec3T<S> teeter_axis;  // hub axes
 
-    Rotor(const TeeteredDescription& d, S yaw, S teeter, double azimuth)
+    Rotor(const TurbineDescription& d, S yaw, S teeter, double azimuth)
         : on_tower{turn<S>(Vec3T<S>::UnitZ(), yaw), Vec3T<S>::Zero()},
-          on_nacelle(seat<S>({rot_y(d.tilt) * rot_x(azimuth), {0, 0, d.shaft_height}})),
-          on_shaft(seat<S>({hub_axes(), {-d.overhang, 0, 0}})),
-          teeter_axis((rot_z(-d.hub.delta3) * Vec3::UnitY()).cast<S>()) {
+          on_nacelle(seat<S>({rot_y(d.nacelle.tilt) * rot_x(azimuth), {0, 0, d.nacelle.shaft_height}})),
+          on_shaft(seat<S>({hub_axes(), {-d.nacelle.overhang, 0, 0}})),
+          teeter_axis((rot_z(-d.hub.teeter->delta3) * Vec3::UnitY()).cast<S>()) {
         on_shaft.R = (on_shaft.R * turn<S>(teeter_axis, teeter)).eval();
     }
 };
 
-TeeteredMixed::TeeteredMixed(const TeeteredDescription& description, int tower_elements, int blade_elements,
+TeeteredMixed::TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements,
                              bool rigid_tower)
-    : d_(description), blade_(mixed(description.blade, "blade", blade_elements)), tower_size_(0) {
-    TeeteredOptions options = TeeteredOptions::with_elements(1);
+    : d_(description), blade_(mixed(description.blade.line, blade_elements)), tower_size_(0) {
+    check(d_);
+    AssemblyOptions options = teetered_assembly(1);
     options.rigid_tower = rigid_tower;
-    (void)assemble(d_, options);  // checks the description
+    (void)assemble(d_, options);  // checks masses and springs
     if (!rigid_tower) {
-        tower_ = mixed(d_.tower, "tower", tower_elements);
+        tower_ = mixed(d_.tower.line, tower_elements);
         tower_size_ = tower_->unknowns();
     }
     const Placement root = blade_root(1);
@@ -93,9 +111,9 @@ TeeteredMixed::TeeteredMixed(const TeeteredDescription& description, int tower_e
 }
 
 Placement TeeteredMixed::blade_root(int number) const {
-    return Placement::translation({0, 0, -d_.hub.undersling}) *
-           Placement::rotation(rot_z(pi * (number - 1)) * rot_y(-d_.hub.cone)) *
-           Placement::translation({d_.hub.root_arm, 0, 0});
+    return Placement::translation({0, 0, -d_.hub.teeter->undersling}) *
+           Placement::rotation(rot_z(pi * (number - 1)) * rot_y(-d_.blade.cone)) *
+           Placement::translation({d_.hub.radius, 0, 0});
 }
 
 // From the tower top out the velocities, from the tips in the forces: `reaction` is what a body needs from its carrier,
@@ -138,11 +156,11 @@ VectorT<S> TeeteredMixed::residual(const VectorT<S>& x, const VectorT<S>& xdot, 
         reaction -= root.handed_on(six(xb, MixedField::F));
     }
     const Vec3T<S> at_teeter = reaction.template tail<3>();
-    r(teeter()) = dot<S>(rotor.teeter_axis, at_teeter) + d_.hub.teeter.stiffness * x(teeter()) +
-                  d_.hub.teeter.damping * xdot(teeter());
-    reaction = inertia_of(d_.shaft, shaft) + rotor.on_shaft.handed_on(reaction);
-    reaction = inertia_of(d_.nacelle, nacelle) + rotor.on_nacelle.handed_on(reaction);
-    r(yaw()) = reaction(5) + d_.yaw.stiffness * x(yaw()) + d_.yaw.damping * xdot(yaw());
+    r(teeter()) = dot<S>(rotor.teeter_axis, at_teeter) + d_.hub.teeter->bearing.stiffness * x(teeter()) +
+                  d_.hub.teeter->bearing.damping * xdot(teeter());
+    reaction = inertia_of(d_.drive_train.shaft, shaft) + rotor.on_shaft.handed_on(reaction);
+    reaction = inertia_of(d_.nacelle.inertia, nacelle) + rotor.on_nacelle.handed_on(reaction);
+    r(yaw()) = reaction(5) + d_.yaw.rotation.stiffness * x(yaw()) + d_.yaw.rotation.damping * xdot(yaw());
     if (!tower_) return r;
 
     const Index own = tower_->equations();

@@ -16,11 +16,12 @@ namespace cardan::turbines {
 ///
 /// Unknowns x: those of the tower (none if it is rigid), of blade 1 and of blade 2, see MixedBeam; velocity of the
 /// origin and angular velocity of nacelle (origin: tower top), shaft (where it meets the tower axis) and hub (teeter
-/// axis), each in body axes (see TeeteredDescription); yaw and teeter angle.
+/// axis), each in body axes (see TurbineDescription); yaw and teeter angle.
 class TeeteredMixed {
 public:
-    /// @throws InputError for bad data or fewer than one element; NumericalError if the blade has no steady state
-    TeeteredMixed(const TeeteredDescription& description, int tower_elements, int blade_elements,
+    /// @throws InputError for bad data, parts that this model lacks or fewer than one element; NumericalError if the
+    /// blade has no steady state
+    TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements,
                   bool rigid_tower = false);
 
     const std::optional<MixedBeam>& tower() const { return tower_; }
@@ -51,7 +52,7 @@ private:
     Vector equation_scales() const;
     Placement blade_root(int number) const;  // in hub axes
 
-    TeeteredDescription d_;
+    TurbineDescription d_;
     std::optional<MixedBeam> tower_;
     MixedBeam blade_;
     Eigen::Index tower_size_;

@@ -5,6 +5,7 @@
 #include "turbines/model/detail/description_fields.hpp"
 #include "turbines/yaml/detail/node.hpp"
 
+#include <cmath>
 #include <set>
 
 namespace cardan::turbines {
@@ -108,17 +109,30 @@ public:
     void version() {
         const YamlNode node = at()["cardan_turbine"];
         const double given = node.number();
-        if (given != description_yaml_version)
-            node.fail(text("version ", given, "; allowed: ", description_yaml_version));
+        if (given != 1 && given != description_yaml_version)
+            node.fail(text("version ", given, "; allowed: 1, ", description_yaml_version));
+        version_ = static_cast<int>(given);
     }
     void word(const char* key, std::string& value) { value = at()[key].word(); }
-    void integer(const char* key, int& value) { value = at()[key].integer(1, most_counted); }
+    void integer(const char* key, int& value) { value = at()[key].integer(0, most_counted); }
+    void flag(const char* key, bool& value) { value = at()[key].flag(); }
     void number(const char* key, double& value) { value = at()[key].number(); }
-    void spring(const char* key, Spring& s) {
+    void bearing(const char* key, Bearing& b) {
+        using Hold = Bearing::Hold;
+        b = rigid_joint;
+        const YamlNode node = at()[key];
+        if (!node.is_map()) {
+            b.hold = choice(node, {Hold::free, Hold::rigid, Hold::driven});
+            return;
+        }
         group(key, [&] {
-            s.stiffness = at()["stiffness"].number(true);
-            number("damping", s.damping);
+            const auto hold = at().find("hold");
+            b.hold = hold ? choice(*hold, {Hold::free, Hold::spring}) : Hold::spring;
+            if (b.hold == Hold::spring) b.stiffness = at()["stiffness"].number(version_ == 1);
+            number("damping", b.damping);
         });
+        if (version_ == 1 && std::isinf(b.stiffness)) b = rigid_joint;
+        if (version_ == 1 && b.hold == Hold::spring && b.stiffness == 0) b.hold = Hold::free;
     }
     void inertia(const char* key, RigidInertia& i) {
         group(key, [&] {
@@ -154,6 +168,31 @@ public:
         content();
         finish();
     }
+    /// Fields that the format has had since a version.
+    template <class Content>
+    void since(int version, const Content& content) {
+        if (version_ >= version) content();
+    }
+    template <class T, class Content>
+    void optional_group(const char* key, std::optional<T>& value, const Content& content) {
+        if (at().find(key)) group(key, [&] { content(value.emplace()); });
+    }
+    template <class T, class Content>
+    void numbered_groups(const char* key, std::map<int, std::optional<T>>& values, int count, const Content& content) {
+        if (!at().find(key)) return;
+        group(key, [&] {
+            for (int number = 1; number <= count; ++number) {
+                const std::string name = text(number);
+                const auto node = at().find(name.c_str());
+                if (!node) continue;
+                std::optional<T>& value = values[number];
+                if (node->is_map())
+                    group(name.c_str(), [&] { content(value.emplace()); });
+                else if (node->word() != missing)
+                    node->fail(text("'", node->word(), "'; allowed: the keys of a blade, or ", missing));
+            }
+        });
+    }
     void finish() {
         at().finish();
         levels_.pop_back();
@@ -162,6 +201,7 @@ public:
 private:
     Level& at() { return levels_.back(); }
     std::vector<Level> levels_;
+    int version_ = description_yaml_version;
 };
 
 }  // namespace

@@ -135,7 +135,7 @@ public:
         read_drive_train();
         if (const auto speed =  // of versions 1 and 2.0; of 2.1
             file_.find({"control.torque.VS_maxspd", "control.rated_rotor_speed", "control.max_rotor_speed"}))
-            out_.rotor_speed = not_negative(*speed) * file_.rotor_speed();
+            out_.rotor_speed = d_.rotor_speed = not_negative(*speed) * file_.rotor_speed();
         for (FileNote& note : file_.notes) out_.notes.push_back(std::move(note));
         for (FileNote& note : file_.unused()) out_.notes.push_back(std::move(note));
         return std::move(out_);
@@ -215,7 +215,7 @@ private:
         t.high_speed_shaft = t.main_shaft = rigid_joint;
         if (const auto k = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_stiffness",
                                        "components.nacelle.elastic_properties_mb.spring_constant"})) {
-            t.main_shaft.stiffness = positive(*k);
+            t.main_shaft = {positive(*k)};
             if (const auto c = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_damping",
                                            "components.nacelle.elastic_properties_mb.damping_coefficient"}))
                 t.main_shaft.damping = not_negative(*c);

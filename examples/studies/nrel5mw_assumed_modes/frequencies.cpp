@@ -129,7 +129,7 @@ std::vector<Frequencies> chain_frequencies(int elements, const std::vector<doubl
     for (double& speed : speeds) speed *= units::rpm;
     solvers::CampbellOptions options;
     options.max_frequency_hz = 15;
-    const solvers::Campbell diagram = solvers::campbell(*isolated.system, isolated.rotor, speeds, options);
+    const solvers::Campbell diagram = solvers::campbell(isolated.system(), isolated.rotor(), speeds, options);
     constexpr std::array branches{"1st blade flap", "1st blade edge", "2nd blade flap", "2nd blade edge",
                                   "1st blade torsion"};
     std::vector<Frequencies> found(rpm.size());

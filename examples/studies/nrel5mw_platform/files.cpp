@@ -1,6 +1,7 @@
 #include "examples/studies/nrel5mw_platform/files.hpp"
 
 #include "mbs/base/pending_file.hpp"
+#include "turbines/model/channels.hpp"
 
 #include "examples/shared/simulation.hpp"
 #include <iomanip>
@@ -28,17 +29,18 @@ ChannelGroup free_coordinates(const CoordinateTable& table) {
 }
 
 // The blades' channels of one kind, e.g. "root My".
-std::vector<std::string> of_blades(const turbines::Nrel5mwPlatform& machine, const char* what) {
+std::vector<std::string> of_blades(const turbines::Turbine& machine, const char* what) {
     std::vector<std::string> names;
-    for (std::size_t k = 1; k <= machine.blades.size(); ++k) names.push_back(text("blade ", k, " ", what));
+    for (std::size_t k = 1; k <= machine.layout().blades.size(); ++k) names.push_back(text("blade ", k, " ", what));
     return names;
 }
 
 // Platform and nacelle, as far as they move.
-std::vector<std::string> motions(const turbines::Nrel5mwPlatform& machine, const solvers::History& history) {
-    const Model& model = machine.system->model;
-    std::vector<BodyId> bodies(machine.platform.coordinates.begin(), machine.platform.coordinates.end());
-    bodies.push_back(machine.yaw);
+std::vector<std::string> motions(const turbines::Turbine& machine, const solvers::History& history) {
+    const Model& model = machine.system().model;
+    std::vector<BodyId> bodies(machine.layout().platform->coordinates.begin(),
+                               machine.layout().platform->coordinates.end());
+    bodies.push_back(*machine.layout().yaw);
     std::vector<std::string> moving;
     for (const BodyId body : bodies) {
         const std::string& name = model.coordinates()[model.index(body)].name;
@@ -55,15 +57,14 @@ std::vector<std::string> names_of(const ChannelGroup& group) {
 }
 
 // Everything but the free coordinates and the counters of the integration.
-std::vector<std::string> table_channels(const turbines::Nrel5mwPlatform& machine) {
+std::vector<std::string> table_channels(const turbines::Turbine& machine) {
     std::vector<std::string> names = energies;
     for (const ChannelGroup& group : {turbines::blade_channels(machine), turbines::drive_channels(machine)})
         for (const std::string& name : names_of(group)) names.push_back(name);
     return names;
 }
 
-void draw_last_periods(const turbines::Nrel5mwPlatform& machine, const solvers::History& history,
-                       const std::string& prefix) {
+void draw_last_periods(const turbines::Turbine& machine, const solvers::History& history, const std::string& prefix) {
     std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(motions(machine, history));
     for (const char* what : {"tip flap deflection", "tip edge deflection", "root My", "root Mz"})
         panels.push_back({of_blades(machine, what)});
@@ -72,23 +73,23 @@ void draw_last_periods(const turbines::Nrel5mwPlatform& machine, const solvers::
 
 }  // namespace
 
-std::vector<ChannelGroup> recorded_channels(const turbines::Nrel5mwPlatform& machine) {
+std::vector<ChannelGroup> recorded_channels(const turbines::Turbine& machine) {
     return {turbines::blade_channels(machine), turbines::drive_channels(machine),
-            free_coordinates(machine.system->model.coordinates())};
+            free_coordinates(machine.system().model.coordinates())};
 }
 
 solvers::RecorderOptions recorder_options() {
     return {.coordinates = false, .rates = false, .accelerations = false, .actuators = false};
 }
 
-std::vector<std::string> tip_deflections(const turbines::Nrel5mwPlatform& machine) {
+std::vector<std::string> tip_deflections(const turbines::Turbine& machine) {
     std::vector<std::string> names;
     for (const Channel& channel : turbines::blade_channels(machine).channels)
         if (channel.units == "m") names.push_back(channel.name);
     return names;
 }
 
-void write_csv(const turbines::Nrel5mwPlatform& machine, const solvers::History& period, const std::string& path) {
+void write_csv(const turbines::Turbine& machine, const solvers::History& period, const std::string& path) {
     const solvers::History table = program::part_of(period, table_channels(machine));
     std::ostringstream out;
     out.imbue(std::locale::classic());
@@ -102,8 +103,7 @@ void write_csv(const turbines::Nrel5mwPlatform& machine, const solvers::History&
     write_file(path, out.str());
 }
 
-Drawn draw_pictures(const turbines::Nrel5mwPlatform& machine, const std::string& prefix,
-                    const PictureOptions& options) {
+Drawn draw_pictures(const turbines::Turbine& machine, const std::string& prefix, const PictureOptions& options) {
     const std::string file = prefix + ".h5";
     const solvers::History balance = solvers::read_history(file, {.channels = energies});
     if (balance.time.size() < 2) return {};
@@ -123,7 +123,7 @@ Drawn draw_pictures(const turbines::Nrel5mwPlatform& machine, const std::string&
     if (program::plot_spectra(periodic, spectra, prefix + "_spectrum.png",
                               {.rotor_speed = options.rotor_speed,
                                .tell_speed = false,
-                               .blades = static_cast<int>(machine.blades.size()),
+                               .blades = static_cast<int>(machine.layout().blades.size()),
                                .max_frequency_hz = std::max(1.5, 6 / options.period)}))
         drawn.files += ", _spectrum.png";
     return drawn;

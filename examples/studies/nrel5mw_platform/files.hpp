@@ -13,17 +13,17 @@ namespace cardan::platform {
 
 /// Tip deflections and root loads of the blades, positions of all coordinates, forces of the drives. With the energies
 /// and the counters of the integration this is what is recorded; rates are left out, which would double the file.
-std::vector<ChannelGroup> recorded_channels(const turbines::Nrel5mwPlatform& machine);
+std::vector<ChannelGroup> recorded_channels(const turbines::Turbine& machine);
 solvers::RecorderOptions recorder_options();
 /// Of all blades, m.
-std::vector<std::string> tip_deflections(const turbines::Nrel5mwPlatform& machine);
+std::vector<std::string> tip_deflections(const turbines::Turbine& machine);
 
 /// Endings of the files.
 inline const std::initializer_list<const char*> outputs{".h5", ".csv", ".svg", ".png", "_energy.png", "_spectrum.png"};
 
 /// Energies, blade loads and deflections, positions and forces of driven coordinates: name and unit of every channel in
 /// the first line, SI.
-void write_csv(const turbines::Nrel5mwPlatform& machine, const solvers::History& period, const std::string& path);
+void write_csv(const turbines::Turbine& machine, const solvers::History& period, const std::string& path);
 
 /// What the pictures show.
 struct PictureOptions {
@@ -39,6 +39,6 @@ struct Drawn {
 };
 /// From PREFIX.h5: PREFIX.svg and .png with motions, deflections and root moments in the last three periods,
 /// PREFIX_energy.png of the whole run, PREFIX_spectrum.png of up to ten periods until `periodic_to`.
-Drawn draw_pictures(const turbines::Nrel5mwPlatform& machine, const std::string& prefix, const PictureOptions& options);
+Drawn draw_pictures(const turbines::Turbine& machine, const std::string& prefix, const PictureOptions& options);
 
 }  // namespace cardan::platform

@@ -138,7 +138,7 @@ TEST_CASE("NREL 5 MW blade: errors of the four partitions with 1, 2, 3, 4 and 8 
     for (const Row& row : nrel5mw_blade) {
         const auto blade = turbines::isolated_blade(turbines::nrel5mw_blade(),
                                                     turbines::nrel5mw_blade_elements(row.elements, row.partition));
-        check(row, both_speeds(*blade.system, blade.rotor, 12.1 * rpm), rest, rated);
+        check(row, both_speeds(blade.system(), blade.rotor(), 12.1 * rpm), rest, rated);
     }
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("NREL 5 MW blade: torsion converges from above and faster with the pol
     const auto error = [](Partition partition, int elements) {
         const auto blade =
             turbines::isolated_blade(turbines::nrel5mw_blade(), turbines::nrel5mw_blade_elements(elements, partition));
-        const solvers::Campbell d = both_speeds(*blade.system, blade.rotor, 1);
+        const solvers::Campbell d = both_speeds(blade.system(), blade.rotor(), 1);
         return 100 * (d.natural_hz(d.branch("1st blade torsion"), 0) / 5.4709 - 1);
     };
     for (const auto& [elements, half, centre] : std::vector<std::tuple<int, double, double>>{
@@ -231,13 +231,14 @@ TEST_CASE(
     for (const auto& [elements, expected] :
          std::vector<std::pair<int, double>>{{2, 2.615}, {3, 4.027}, {4, 5.647}, {8, 12.651}}) {
         const auto built = isolated(mean, elements);
-        const double limit = centrifugal_limit(built.beam, blade.root_radius),
-                     exact = divergence(*built.system, built.rotor, 1.3 * limit);
+        const double limit = centrifugal_limit(built.layout().blades.front(), blade.root_radius),
+                     exact = divergence(built.system(), built.rotor(), 1.3 * limit);
         CAPTURE(elements, limit / exact);
         CHECK(limit == Approx(exact).epsilon(0.035));
         CHECK(exact / (12.1 * rpm) == Approx(expected).margin(6e-4));
         for (const Partition partition : {gauss, segment})
-            CHECK(std::isinf(centrifugal_limit(isolated(partition, elements).beam, blade.root_radius)));
+            CHECK(std::isinf(
+                centrifugal_limit(isolated(partition, elements).layout().blades.front(), blade.root_radius)));
     }
 }
 

@@ -9,18 +9,19 @@
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 #include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/model/channels.hpp"
 
 namespace cardan::testing::driven_platform {
 
 using oracles::Jet;
 using Frames = oracles::PlatformFrames<Jet<1>>;
-using turbines::Nrel5mwPlatform;
 using turbines::Nrel5mwPlatformOptions;
+using turbines::Turbine;
 
 namespace {
 
-Nrel5mwPlatform machine(int elements, int blades = 1,
-                        const turbines::Nrel5mwBlade& blade = turbines::nrel5mw_platform_blade()) {
+Turbine machine(int elements, int blades = 1,
+                const turbines::Nrel5mwBlade& blade = turbines::nrel5mw_platform_blade()) {
     Nrel5mwPlatformOptions options;
     options.blades = blades;
     options.elements = turbines::nrel5mw_platform_elements(elements);
@@ -59,14 +60,16 @@ struct Motion {
 
 // The library's machine at a state, blades undeformed unless changed.
 struct State {
-    const Nrel5mwPlatform& machine;
-    const Model& model = machine.system->model;
+    const Turbine& machine;
+    const Model& model = machine.system().model;
     Vector q = Vector::Zero(model.size()), qd = q, qdd = q, actuator = q;
     Workspace workspace{model};
 
-    State(const Nrel5mwPlatform& m, const Motion& motion) : machine(m) {
+    State(const Turbine& m, const Motion& motion) : machine(m) {
         for (std::size_t i = 0; i < 8; ++i) {
-            const BodyId body = i < 6 ? m.platform.coordinates.at(i) : i == 6 ? m.yaw : m.spin;
+            const BodyId body = i < 6    ? m.layout().platform->coordinates.at(i)
+                                : i == 6 ? *m.layout().yaw
+                                         : *m.layout().generator;
             const int a = model.index(body);
             q(a) = motion.at[i].value;
             qd(a) = motion.at[i].gradient(0);
@@ -88,12 +91,12 @@ struct State {
         forces.generalised_forces(at, 0, q, qd, Q);
         ForwardDynamics(model).solve(at, qd, Q, qdd, actuator);
     }
-    void solve() { solve(machine.system->forces); }
+    void solve() { solve(machine.system().forces); }
     std::vector<double> sample(const ChannelGroup& group) {
         const Kinematics at = kin();
-        const JointLoads loads = joint_loads(at, machine.system->forces, qd, qdd);
+        const JointLoads loads = joint_loads(at, machine.system().forces, qd, qdd);
         std::vector<double> values(group.channels.size());
-        group.sample({0, q, qd, qdd, actuator, at, machine.system->forces, loads}, values.data());
+        group.sample({0, q, qd, qdd, actuator, at, machine.system().forces, loads}, values.data());
         return values;
     }
 };
@@ -118,40 +121,40 @@ Vec6 rigid_blade_loads(const turbines::Nrel5mwBlade& blade, const Frames& f, con
 }  // namespace
 
 TEST_CASE("platform: blade roots move as the frames written out say, with velocity and acceleration", "[analytic]") {
-    const Nrel5mwPlatform m = machine(1, 3);
+    const Turbine m = machine(1, 3);
     for (unsigned seed = 1; seed <= 10; ++seed) {
         const Motion motion(seed);
         State s(m, motion);
         const Kinematics kin = s.kin();
-        const JointLoads loads = joint_loads(kin, m.system->forces, s.qd, s.qdd);
+        const JointLoads loads = joint_loads(kin, m.system().forces, s.qd, s.qdd);
         for (std::size_t k = 0; k < 3; ++k) {
             const Frames exact = motion.frames(2 * pi / 3 * static_cast<double>(k));
-            const Nrel5mwPlatform::Blade& blade = m.blades[k];
-            const Pose<double> axes = pose(kin, blade.axes), root = pose(kin, blade.beam.nodes.front());
+            const turbines::MachineLayout& layout = m.layout();
+            const Pose<double> axes = pose(kin, layout.pitch_axes[k]), root = pose(kin, layout.blades[k].nodes.front());
             CHECK((axes.R - columns(value(exact.e1), value(exact.e2), value(exact.e3))).norm() < 1e-14);
             CHECK((root.R - axes.R).norm() < 1e-14);
             CHECK((root.p - value(exact.root)).norm() < 1e-13 * 100);
             Matrix J(6, s.model.size());
-            frame_jacobian<double>(kin, blade.beam.nodes.front(), J);
+            frame_jacobian<double>(kin, layout.blades[k].nodes.front(), J);
             const Vec3 velocity = (J * s.qd).tail<3>();
             CHECK((velocity - rate(exact.root)).norm() < 1e-12 * 100);
-            const BodyMotion& moved = loads.motion[static_cast<std::size_t>(s.model.index(blade.pitch))];
+            const BodyMotion& moved = loads.motion[static_cast<std::size_t>(s.model.index(layout.pitch[k]))];
             CHECK((moved.acceleration - acceleration(exact.root)).norm() < 1e-12 * 300);
         }
-        const Pose<double> apex = pose(kin, m.apex);
+        const Pose<double> apex = pose(kin, m.layout().rotor_centre);
         CHECK((apex.p - value(motion.frames().apex)).norm() < 1e-11);
         CHECK((apex.R.col(2) - value(motion.frames().axis)).norm() < 1e-14);
     }
 }
 
 TEST_CASE("platform: signs of the six motions in words", "[analytic]") {
-    const Nrel5mwPlatform m = machine(1);
-    Workspace workspace(m.system->model);
+    const Turbine m = machine(1);
+    Workspace workspace(m.system().model);
     const auto apex = [&](BaseCoordinate which) {
-        Vector q = Vector::Zero(m.system->model.size());
-        const Vec3 before = pose(kinematics(m.system->model, q, workspace), m.apex).p;
-        q(m.system->model.index(m.platform.coordinate(which))) = 1e-3;
-        return Vec3(pose(kinematics(m.system->model, q, workspace), m.apex).p - before);
+        Vector q = Vector::Zero(m.system().model.size());
+        const Vec3 before = pose(kinematics(m.system().model, q, workspace), m.layout().rotor_centre).p;
+        q(m.system().model.index(m.layout().platform->coordinate(which))) = 1e-3;
+        return Vec3(pose(kinematics(m.system().model, q, workspace), m.layout().rotor_centre).p - before);
     };
     CHECK((apex(BaseCoordinate::surge) - Vec3(1e-3, 0, 0)).norm() < 1e-12);  // downwind
     CHECK((apex(BaseCoordinate::sway) - Vec3(0, -1e-3, 0)).norm() < 1e-12);  // to the right, seen along the wind
@@ -165,16 +168,17 @@ TEST_CASE("platform: blade pitch setting turns the leading edge upwind, the coor
     Nrel5mwPlatformOptions options;
     options.elements = turbines::nrel5mw_platform_elements(1);
     options.pitch = 0.2;
-    const Nrel5mwPlatform set = turbines::nrel5mw_on_platform(turbines::nrel5mw_platform_blade(), options);
-    const Nrel5mwPlatform turned = machine(1);
-    Workspace first(set.system->model), second(turned.system->model);
-    Vector q = Vector::Zero(set.system->model.size());
-    const Kinematics at_set = kinematics(set.system->model, q, first);
-    q(turned.system->model.index(turned.blades[0].pitch)) = -0.2;
-    const Kinematics at_turned = kinematics(turned.system->model, q, second);
-    const Mat3 R = pose(at_set, set.blades[0].beam.nodes.front()).R;
-    CHECK((R - pose(at_turned, turned.blades[0].beam.nodes.front()).R).norm() < 1e-14);
-    CHECK((R.transpose() * pose(at_set, set.blades[0].axes).R.col(2))(1) == Approx(-std::sin(0.2)).epsilon(1e-12));
+    const Turbine set = turbines::nrel5mw_on_platform(turbines::nrel5mw_platform_blade(), options);
+    const Turbine turned = machine(1);
+    Workspace first(set.system().model), second(turned.system().model);
+    Vector q = Vector::Zero(set.system().model.size());
+    const Kinematics at_set = kinematics(set.system().model, q, first);
+    q(turned.system().model.index(turned.layout().pitch[0])) = -0.2;
+    const Kinematics at_turned = kinematics(turned.system().model, q, second);
+    const Mat3 R = pose(at_set, set.layout().blades[0].nodes.front()).R;
+    CHECK((R - pose(at_turned, turned.layout().blades[0].nodes.front()).R).norm() < 1e-14);
+    CHECK((R.transpose() * pose(at_set, set.layout().pitch_axes[0]).R.col(2))(1) ==
+          Approx(-std::sin(0.2)).epsilon(1e-12));
 }
 
 TEST_CASE("platform: root loads of the undeformed blade are weight and inertia of the line, whatever moves",
@@ -186,7 +190,7 @@ TEST_CASE("platform: root loads of the undeformed blade are weight and inertia o
     for (const auto& [blade, error] :
          {std::pair(turbines::nrel5mw_blade(shear_rigid), 1e-11), std::pair(turbines::nrel5mw_platform_blade(), 2e-6)})
         for (int elements : {1, 5}) {
-            const Nrel5mwPlatform m = machine(elements, 1, blade);
+            const Turbine m = machine(elements, 1, blade);
             for (unsigned seed = 1; seed <= 5; ++seed) {
                 const Motion motion(seed);
                 State s(m, motion);
@@ -204,7 +208,7 @@ TEST_CASE("platform: root loads of the undeformed blade are weight and inertia o
 
 TEST_CASE("platform: drives carry the root loads of the deformed blade; section loads at the root are their reaction",
           "[property]") {
-    const Nrel5mwPlatform m = machine(4);
+    const Turbine m = machine(4);
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const Motion motion(seed);
         State s(m, motion);
@@ -220,13 +224,13 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
             return Vec3(moment + cross<double>(Vec3(value(f.root) - point), force));
         };
         const double scale = 1e-11 * moment.norm(), arm = 100;
-        CHECK(std::abs(drive(m.platform.coordinate(BaseCoordinate::surge)) - force.x()) < scale);
-        CHECK(std::abs(drive(m.platform.coordinate(BaseCoordinate::sway)) + force.y()) < scale);
-        CHECK(std::abs(drive(m.platform.coordinate(BaseCoordinate::heave)) - force.z()) < scale);
+        CHECK(std::abs(drive(m.layout().platform->coordinate(BaseCoordinate::surge)) - force.x()) < scale);
+        CHECK(std::abs(drive(m.layout().platform->coordinate(BaseCoordinate::sway)) + force.y()) < scale);
+        CHECK(std::abs(drive(m.layout().platform->coordinate(BaseCoordinate::heave)) - force.z()) < scale);
         const Vec3 origin(motion.at[0].value, -motion.at[1].value, motion.at[2].value);
-        CHECK(std::abs(drive(m.platform.coordinate(BaseCoordinate::roll)) - about(origin).x()) < scale * arm);
-        CHECK(std::abs(drive(m.spin) - dot<double>(value(f.axis), about(value(f.apex)))) < scale * arm);
-        CHECK(std::abs(drive(m.blades[0].pitch) - values[6]) < scale);
+        CHECK(std::abs(drive(m.layout().platform->coordinate(BaseCoordinate::roll)) - about(origin).x()) < scale * arm);
+        CHECK(std::abs(drive(*m.layout().generator) - dot<double>(value(f.axis), about(value(f.apex)))) < scale * arm);
+        CHECK(std::abs(drive(m.layout().pitch[0]) - values[6]) < scale);
 
         const std::vector<double> drives = s.sample(turbines::drive_channels(m));
         const ChannelGroup group = turbines::drive_channels(m);
@@ -239,8 +243,8 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
         }
 
         const Kinematics kin = s.kin();
-        const JointLoads loads = joint_loads(kin, m.system->forces, s.qd, s.qdd);
-        const SectionLoads section = equilibrium_loads(m.blades[0].beam, kin, m.system->forces, loads, 0);
+        const JointLoads loads = joint_loads(kin, m.system().forces, s.qd, s.qdd);
+        const SectionLoads section = equilibrium_loads(m.layout().blades[0], kin, m.system().forces, loads, 0);
         for (int i = 0; i < 6; ++i)
             CHECK(std::abs(section.values(i) + values[static_cast<std::size_t>(3 + i)]) < scale * arm);
     }
@@ -249,7 +253,7 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
 TEST_CASE(
     "platform: a steady velocity of the base changes no acceleration and no load, an acceleration acts as gravity",
     "[property]") {
-    const Nrel5mwPlatform m = machine(4);
+    const Turbine m = machine(4);
     const Motion motion(7);
     State still(m, motion);
     still.deform(7);
@@ -261,7 +265,7 @@ TEST_CASE(
         State moving = State(m, motion);
         moving.q = still.q;
         moving.qd = still.qd;
-        const int a = moving.model.index(m.platform.coordinate(directions.at(i)));
+        const int a = moving.model.index(m.layout().platform->coordinate(directions.at(i)));
         moving.qd(a) += 20;
         moving.q(a) += 1000;
         moving.solve();
@@ -277,7 +281,7 @@ TEST_CASE(
         State heavier = State(m, motion);
         heavier.q = still.q;
         heavier.qd = still.qd;
-        heavier.solve(m.system->forces.with_gravity(Vec3(0, 0, -9.80665) - 3 * along.at(i)));
+        heavier.solve(m.system().forces.with_gravity(Vec3(0, 0, -9.80665) - 3 * along.at(i)));
         accelerated.qdd(a) = heavier.qdd(a) = 0;
         CHECK((accelerated.qdd - heavier.qdd).norm() < 1e-9 * size);
         CHECK((accelerated.actuator - heavier.actuator).norm() < 1e-9 * forces);
@@ -285,16 +289,16 @@ TEST_CASE(
 }
 
 TEST_CASE("platform: driven are the platform, yaw, spin and pitch, free are the blades", "[property]") {
-    const Nrel5mwPlatform m = machine(2, 3);
-    const Model& model = m.system->model;
+    const Turbine m = machine(2, 3);
+    const Model& model = m.system().model;
     CHECK(model.size() == 6 + 2 + 3 * (1 + 12));
     CHECK(model.coordinates().free().size() == 36);
     CHECK(model.mass() == Approx(3 * 17608.83).epsilon(1e-6));
-    REQUIRE(m.rotor.blades.size() == 3);
+    REQUIRE(m.rotor().blades.size() == 3);
     for (int a : model.coordinates().free()) CHECK(model.coordinates()[a].part == "blade");
     for (std::size_t k = 0; k < 3; ++k)
-        for (int a : m.rotor.blades[k]) CHECK(model.coordinates()[a].blade == static_cast<int>(k) + 1);
-    CHECK(m.rotor.spin == model.index("spin"));
+        for (int a : m.rotor().blades[k]) CHECK(model.coordinates()[a].blade == static_cast<int>(k) + 1);
+    CHECK(m.rotor().spin == model.index("generator azimuth"));
     // Damping ratio at the first flap frequency at rest, 0.6772 Hz: 0.477465 %.
     CHECK(pi * 0.6772 * turbines::nrel5mw_platform_damping == Approx(0.00477465).epsilon(1e-4));
 }

@@ -11,14 +11,14 @@
 namespace cardan::testing::platform_response {
 
 using namespace solvers;
-using turbines::Nrel5mwPlatform;
+using turbines::Turbine;
 
 namespace {
 
 using units::degree;
 constexpr double rotor_speed = 12.1 * pi / 30, revolution = 60 / 12.1;
 
-Nrel5mwPlatform machine(int elements, double gravity = 9.80665) {
+Turbine machine(int elements, double gravity = 9.80665) {
     turbines::Nrel5mwPlatformOptions options;
     options.gravity = Vec3(0, 0, -gravity);
     options.elements = turbines::nrel5mw_platform_elements(elements);
@@ -57,13 +57,13 @@ const std::vector<Signal> pitching{
 
 // Motion from the undeformed blade; the rotor turns, and more coordinates may be driven.
 struct Run {
-    Nrel5mwPlatform machine;
+    Turbine machine;
     Integrator integrator;
     Recorder recorder;
-    Run(Nrel5mwPlatform on, const std::vector<std::pair<BaseCoordinate, Motion>>& motions, double tolerance)
+    Run(Turbine on, const std::vector<std::pair<BaseCoordinate, Motion>>& motions, double tolerance)
         : machine(std::move(on)),
-          integrator(*machine.system, drives(motions), 0, Vector::Zero(machine.system->model.size()),
-                     Vector::Zero(machine.system->model.size()), options(tolerance)),
+          integrator(machine.system(), drives(motions), 0, Vector::Zero(machine.system().model.size()),
+                     Vector::Zero(machine.system().model.size()), options(tolerance)),
           recorder(integrator, {turbines::blade_channels(machine)}, channels_only()) {}
 
     History record(double from, double to, int samples) {
@@ -75,10 +75,10 @@ struct Run {
 
 private:
     std::vector<Drive> drives(const std::vector<std::pair<BaseCoordinate, Motion>>& motions) const {
-        const Model& model = machine.system->model;
-        std::vector<Drive> all{{model.index(machine.spin), Motion::constant_rate(0, rotor_speed)}};
+        const Model& model = machine.system().model;
+        std::vector<Drive> all{{model.index(*machine.layout().generator), Motion::constant_rate(0, rotor_speed)}};
         for (const auto& [which, motion] : motions)
-            all.push_back({model.index(machine.platform.coordinate(which)), motion});
+            all.push_back({model.index(machine.layout().platform->coordinate(which)), motion});
         return all;
     }
     // BDF of second order: higher ones keep weakly damped modes ringing.

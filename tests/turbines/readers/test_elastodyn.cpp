@@ -100,8 +100,8 @@ TEST_CASE("elastodyn: figures of the main file in the frames and units of the li
     CHECK(d.drive_train.generator_inertia == 4);
     CHECK(d.drive_train.main_shaft.stiffness == 5e6);
     CHECK(d.drive_train.main_shaft.damping == 1e4);
-    for (const Spring* rigid : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing, &d.blade.pitch,
-                                &d.drive_train.high_speed_shaft})
+    for (const Bearing* rigid : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing, &d.blade.pitch,
+                                 &d.drive_train.high_speed_shaft})
         CHECK(rigid->is_rigid());
 }
 
@@ -155,7 +155,8 @@ TEST_CASE("elastodyn: everything that is not in the description is noted, with f
     const auto noted = [&](const char* keyword, const char* why) { return test::has_note(file.notes, keyword, why); };
     CHECK(noted("NacYaw", "into the wind"));
     CHECK(noted("TipMass(2)", "not part of the model"));
-    CHECK(noted("PreCone(3)", "cone of the first"));
+    CHECK(file.description.own_blades.at(3)->cone == Approx(-2.5 * degree).epsilon(1e-15));
+    CHECK_FALSE(file.description.own_blades.contains(2));
     CHECK(noted("PtfmMass", "platform"));
     CHECK(noted("GBoxEff", "losses"));
     CHECK(noted("TwSSDOF2", "one mode cannot be switched off"));

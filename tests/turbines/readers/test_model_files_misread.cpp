@@ -199,10 +199,10 @@ TEST_CASE("own yaml: what cannot be read again is not written", "[property]") {
     CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("radius: number = inf; allowed: finite"));
     d.hub.radius = 1;
     d.yaw.rotation.stiffness = -std::numeric_limits<double>::infinity();
-    CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("= -inf; allowed: finite, or infinite"));
+    CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("rotation: number = -inf; allowed: finite"));
     d.yaw.rotation.stiffness = 1;
     d.blades = 1001;
-    CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("blades: number = 1001; allowed: 1 ... 1000"));
+    CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("blades: number = 1001; allowed: 0 ... 1000"));
     d.blades = 3;
     const std::string plain = to_yaml(d);
     CHECK(is_description(plain));

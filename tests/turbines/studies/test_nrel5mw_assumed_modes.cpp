@@ -318,18 +318,19 @@ TEST_CASE("NREL 5 MW assumed modes: from rest under all motions of the platform 
 
     Nrel5mwPlatformOptions options;
     options.elements = nrel5mw_platform_elements(16);
-    const Nrel5mwPlatform machine = nrel5mw_on_platform(nrel5mw_platform_blade(), options);
-    const Model& model = machine.system->model;
-    std::vector<solvers::Drive> drives{{model.index(machine.spin), solvers::Motion::constant_rate(0, rated)},
-                                       {model.index(machine.yaw), solvers::Motion::harmonic(0, m.nacelle, m.period)}};
+    const Turbine machine = nrel5mw_on_platform(nrel5mw_platform_blade(), options);
+    const Model& model = machine.system().model;
+    std::vector<solvers::Drive> drives{
+        {model.index(*machine.layout().generator), solvers::Motion::constant_rate(0, rated)},
+        {model.index(*machine.layout().yaw), solvers::Motion::harmonic(0, m.nacelle, m.period)}};
     const std::array<double, 6> amplitudes{m.surge, m.sway, m.heave, m.roll, m.pitch, m.yaw};
     for (std::size_t i = 0; i < 6; ++i)
-        drives.push_back({model.index(machine.platform.coordinates.at(i)),
+        drives.push_back({model.index(machine.layout().platform->coordinates.at(i)),
                           solvers::Motion::harmonic(0, amplitudes.at(i), m.period)});
     const Vector rest = Vector::Zero(model.size());
     solvers::IntegrationOptions integration;
     integration.tolerances = {1e-6, 1e-8, 1e-8, 1e-7, 1e-7};
-    solvers::Integrator integrator(*machine.system, drives, 0, rest, rest, integration);
+    solvers::Integrator integrator(machine.system(), drives, 0, rest, rest, integration);
     solvers::Recorder recorder(integrator, {blade_channels(machine)});
     solvers::History chain;
     constexpr int rows = 100;

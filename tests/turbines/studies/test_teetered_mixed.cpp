@@ -22,7 +22,7 @@ Hill hill(const TeeteredMixed& machine, int harmonics) {
 }
 
 // Named after the largest elastic energy of a direction in a harmonic, which must be the principal one.
-std::string family(const TeeteredMixed& machine, const turbines::TeeteredDescription& d, const Hill::Mode& mode) {
+std::string family(const TeeteredMixed& machine, const turbines::TurbineDescription& d, const Hill::Mode& mode) {
     const ComplexMatrix x = machine.unknown_scales().asDiagonal() * mode.shape;
     const auto moment = MixedField::M;  // torsion, about y, about z
     std::vector<std::tuple<double, std::string, Eigen::Index>> candidates;
@@ -31,7 +31,7 @@ std::string family(const TeeteredMixed& machine, const turbines::TeeteredDescrip
         if (machine.tower()) {
             const MixedBeam& tower = *machine.tower();
             const double length = tower.length() / tower.elements();
-            const EngineeringSection& s = d.tower.section;
+            const EngineeringSection s = section_of(d.tower.line);
             const Vec3 flexibility(1 / s.GJ, 1 / s.EI_flap, 1 / s.EI_edge);
             for (const auto& [i, name] : {std::pair{0, "tower torsion"}, {1, "tower lateral"}, {2, "tower fore-aft"}}) {
                 double energy = 0;
@@ -40,11 +40,11 @@ std::string family(const TeeteredMixed& machine, const turbines::TeeteredDescrip
                 add(energy, name);
             }
         }
-        add(d.yaw.stiffness * std::norm(x(machine.yaw(), h)), "yaw");
-        add(d.hub.teeter.stiffness * std::norm(x(machine.teeter(), h)), "teeter");
+        add(d.yaw.rotation.stiffness * std::norm(x(machine.yaw(), h)), "yaw");
+        add(d.hub.teeter->bearing.stiffness * std::norm(x(machine.teeter(), h)), "teeter");
         const MixedBeam& blade = machine.blade();
         const double length = blade.length() / blade.elements();
-        const EngineeringSection& s = d.blade.section;
+        const EngineeringSection s = section_of(d.blade.line);
         const Vec3 flexibility(1 / s.GJ, 1 / s.EI_flap, 1 / s.EI_edge);
         for (const auto& [i, name] : {std::pair{0, "torsion"}, {1, "flap"}, {2, "lag"}}) {
             double sum = 0, difference = 0;
@@ -70,7 +70,7 @@ struct Named {
 
 // The mode of that family nearest to every guess. The guess is the converged value; with few elements modes lie higher,
 // by about 0.3/n^2 (n: elements) for the first ones of tower and blades.
-std::vector<Complex> exponents(const TeeteredMixed& machine, const turbines::TeeteredDescription& d,
+std::vector<Complex> exponents(const TeeteredMixed& machine, const turbines::TurbineDescription& d,
                                const std::vector<Named>& guesses, int harmonics) {
     const Hill by_hill = hill(machine, harmonics);
     std::vector<Complex> found;
@@ -89,7 +89,7 @@ std::vector<Complex> exponents(const TeeteredMixed& machine, const turbines::Tee
 
 TEST_CASE("teetered machine, mixed elements: the steady state solves the exact equations at every azimuth",
           "[property]") {
-    const auto largest = [](const turbines::TeeteredDescription& d, bool rigid_tower) {
+    const auto largest = [](const turbines::TurbineDescription& d, bool rigid_tower) {
         const TeeteredMixed machine(d, 2, 3, rigid_tower);
         const Vector rest = Vector::Zero(machine.unknowns());
         double residual = 0;
@@ -98,7 +98,7 @@ TEST_CASE("teetered machine, mixed elements: the steady state solves the exact e
                 std::max(residual, machine.residual<double>(machine.steady_state(), rest, psi).cwiseAbs().maxCoeff());
         return residual;
     };
-    turbines::TeeteredDescription coned = teetered_description();
+    turbines::TurbineDescription coned = teetered_description();
     coned.hub.cone = 0.06;
     coned.hub.undersling = 0.2;
     coned.tilt = 0.1;
@@ -145,7 +145,7 @@ TEST_CASE("teetered machine, mixed elements: frequencies per rev of two, three a
     };
     for (const Row& table : {row(2, 0.7348, 0.7264, 3.789, 3.305, 3.705), row(3, 0.7215, 0.7129, 3.665, 3.189, 3.566),
                              row(4, 0.7169, 0.7084, 3.618, 3.147, 3.514)}) {
-        const turbines::TeeteredDescription d = teetered_description();
+        const turbines::TurbineDescription d = teetered_description();
         const auto found = exponents(TeeteredMixed(d, table.elements, table.elements), d, table.modes, 5);
         for (std::size_t i = 0; i < found.size(); ++i) {
             CAPTURE(table.elements, table.modes[i].family);
@@ -157,7 +157,7 @@ TEST_CASE("teetered machine, mixed elements: frequencies per rev of two, three a
 
 TEST_CASE("teetered machine, mixed elements: on the rigid tower the symmetric modes are those of the blade alone",
           "[crosscheck]") {
-    const turbines::TeeteredDescription d = teetered_description();
+    const turbines::TurbineDescription d = teetered_description();
     const TeeteredMixed machine(d, 1, 4, true);
     MixedSetting setting;
     setting.omega = {0, 0, teetered_speed};
@@ -178,7 +178,7 @@ TEST_CASE("teetered machine: joint chain and mixed elements tend to the same fre
                                    {"symmetric flap", {0, 3.557}},  {"antisymmetric flap", {0, 10.167}},
                                    {"tower fore-aft", {0, 12.856}}, {"tower lateral", {0, 13.092}},
                                    {"symmetric lag", {0, 19.771}},  {"antisymmetric lag", {0, 20.118}}};
-    const turbines::TeeteredDescription d = teetered_description();
+    const turbines::TurbineDescription d = teetered_description();
     const auto n8 = exponents(TeeteredMixed(d, 8, 8), d, chain, 3),
                n16 = exponents(TeeteredMixed(d, 16, 16), d, chain, 3);
     for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -191,8 +191,8 @@ TEST_CASE("teetered machine: joint chain and mixed elements tend to the same fre
 TEST_CASE("teetered machine: joint chain and mixed elements tend to the same frequencies on soft and stiff towers",
           "[crosscheck][slow]") {
     for (const double ratio : {10.0, 1000.0}) {
-        const turbines::TeeteredDescription d = turbines::with_tower_rigidity(teetered_description(), ratio);
-        const auto machine = turbines::assemble(d, turbines::TeeteredOptions::with_elements(8));
+        const turbines::TurbineDescription d = turbines::with_tower_rigidity(teetered_description(), ratio);
+        const auto machine = turbines::assemble(d, turbines::teetered_assembly(8));
         std::vector<Named> chain;
         const HalfTurnFloquet floquet_modes = floquet(machine, teetered_speed, 100);
         for (const PeriodicMode& mode : floquet_modes.modes)
@@ -211,8 +211,8 @@ TEST_CASE("teetered machine: joint chain and mixed elements tend to the same fre
 
 TEST_CASE("teetered machine: with cone, undersling, delta-3, tilt, springs and dampers both models agree",
           "[crosscheck][slow]") {
-    const turbines::TeeteredDescription d = general_description();
-    const auto machine = turbines::assemble(d, turbines::TeeteredOptions::with_elements(10));
+    const turbines::TurbineDescription d = general_description();
+    const auto machine = turbines::assemble(d, turbines::teetered_assembly(10));
     solvers::SteadyOptions at;
     at.rotor_speed = teetered_speed;
     const auto steady = solvers::steady_state(machine.system(), machine.rotor().spin, at);
@@ -234,7 +234,7 @@ TEST_CASE("teetered machine: with cone, undersling, delta-3, tilt, springs and d
 TEST_CASE("teetered machine, mixed elements: bad input is refused", "[property]") {
     check_refused([] { TeeteredMixed(teetered_description(), 0, 1); }, {"tower", "number of elements = 0"});
     check_refused([] { TeeteredMixed(teetered_description(), 1, 2000); }, {"blade", "number of elements = 2000"});
-    turbines::TeeteredDescription d = teetered_description();
-    d.hub.cone = 3;
+    turbines::TurbineDescription d = teetered_description();
+    d.blade.cone = 3;
     check_refused([&] { TeeteredMixed(d, 1, 1); }, {"cone [rad] = 3"});
 }

@@ -1,5 +1,6 @@
 #include "turbines/model/detail/assembler.hpp"
 
+#include "elements/sections/quadrature.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan::turbines {
@@ -17,6 +18,26 @@ CardanBeamOptions beam_options(const AssemblyOptions& options, int elements,
     return beam;
 }
 
+// Of an undeformed beam, about its root: int [x; 1] [x; 1]^T dm and the sections' own tensors.
+RigidInertia rigid_inertia(const BeamLine& line) {
+    const Eigen::Matrix4d moments =
+        integrate(0, line.length, line.breaks, Eigen::Matrix4d(Eigen::Matrix4d::Zero()), [&](double x) {
+            const BeamSection section = line.section(x);
+            const Placement at = line.pose(x);
+            Eigen::Vector4d centre;
+            centre << at.p + at.R * section.centre, 1;
+            Eigen::Matrix4d per_length = section.mass * centre * centre.transpose();
+            per_length.topLeftCorner<3, 3>() += at.R * binet_tensor<double>(section.J) * at.R.transpose();
+            return per_length;
+        });
+    RigidInertia beam;
+    beam.mass = moments(3, 3);
+    if (beam.mass == 0) return beam;
+    beam.com = moments.topRightCorner<3, 1>() / beam.mass;
+    beam.J = ordinary_tensor<double>(moments.topLeftCorner<3, 3>() - beam.mass * beam.com * beam.com.transpose());
+    return beam;
+}
+
 bool is_empty(const BeamDamping& damping) {
     return !damping.needs_modes() && damping.time_constants == BeamDamping().time_constants;
 }
@@ -25,21 +46,12 @@ bool is_empty(const BeamDamping& damping) {
 
 Assembler::Assembler(const TurbineDescription& description, const AssemblyOptions& options, const PartDamping& damping)
     : d_(description), options_(options), damping_(damping) {
-    if (d_.blades < 1) throw InputError(d_.name, "number of blades", d_.blades, ">= 1");
     if (!(std::isfinite(options.pitch))) throw InputError(d_.name, "pitch [rad]", options.pitch, "finite");
-    require_positive(d_.name, "hub radius [m]", d_.hub.radius);
-    require_positive(d_.name, "overhang [m]", d_.nacelle.overhang);
-    require_positive(d_.name, "gear ratio", d_.drive_train.gear_ratio);
-    require_positive(d_.name, "generator inertia [kg m^2]", d_.drive_train.generator_inertia);
-    require_not_negative(d_.name, "gearbox inertia [kg m^2]", d_.drive_train.gearbox_inertia);
-    require_not_negative(d_.name, "tower damping ratio", d_.tower.first_mode_damping);
-    require_not_negative(d_.name, "blade damping ratio", d_.blade.first_flap_damping);
     for (int elements : {options.tower_elements, options.blade_elements})
         if (elements > 1000) throw InputError(d_.name, "number of elements", elements, "1 ... 1000");
     check("tower", options.tower_beam);
     check("blade", options.blade_beam);
     forces.set_gravity(options.gravity);
-    layout.pitch_setting = options.pitch;
 }
 
 void Assembler::tower_alone(const RigidInertia& head) {
@@ -53,21 +65,23 @@ void Assembler::whole_machine() {
     const FrameId top = add_tower();
     const FrameId nacelle = add_yaw_and_nacelle(top);
     const FrameId shaft = add_tilt(nacelle);
-    const FrameId hub = options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft);
+    const FrameId hub = add_hub(options_.shaft_beam ? add_drive_train_with_beam(shaft) : add_drive_train(shaft));
+    lines.push_back({"shaft", 0, {top, shaft, hub}});
     tree.weld(hub, d_.hub.inertia, "hub");
-    for (int k = 1; k <= d_.blades; ++k) add_blade(hub, k, !d_.blade.pitch.is_rigid());
+    add_blades(hub);
     if (layout.platform) add_water_forces(forces, tree, *layout.platform, *options_.platform, warnings);
-    add_tower_axes();
+    if (!options_.rigid_tower) add_tower_axes();
 }
 
-void Assembler::one_blade() {
-    const FrameId shaft = Tree::base();
-    const JointedFrame spinner = add_joint(tree, shaft, JointKind::revolute, Axis::x, "spin", {"rotor"});
+void Assembler::one_blade(int number) {
+    const BladeDescription* blade = number < 1 || number > d_.blades ? nullptr : d_.blade_at(number);
+    if (blade == nullptr) throw InputError(d_.name, "number of the blade", number, "that of a blade of the machine");
+    layout.shaft = Tree::base();
+    const JointedFrame spinner =
+        add_joint(tree, layout.shaft, JointKind::revolute, Axis::x, "spin", {"rotor"}, Vec3::Zero(), options_.spin);
     spin = spinner.body;
     layout.azimuth = {{spinner.body, 1.0}};
-    layout.shaft = shaft;
-    layout.hub = hub_frame = tree.add_frame(spinner.frame, Placement::rotation(hub_axes()), "hub");
-    add_blade(hub_frame, 1, false);
+    add_blade(add_hub(add_rotor_centre(spinner.frame, {})), number, *blade, false);
 }
 
 void Assembler::check(const char* part, const std::optional<CardanBeamOptions>& beam) const {
@@ -79,15 +93,16 @@ void Assembler::check(const char* part, const std::optional<CardanBeamOptions>& 
 }
 
 FrameId Assembler::past_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
-                              const PartLabel& label, const Spring& law) {
-    return law.is_rigid() ? carrier : sprung_joint(carrier, kind, axis, name, label, law).frame;
+                              const PartLabel& label, const Bearing& bearing) {
+    return bearing.is_rigid() ? carrier : jointed(carrier, kind, axis, name, label, bearing).frame;
 }
 
-JointedFrame Assembler::sprung_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
-                                     const PartLabel& label, const Spring& law, const Vec3& offset) {
-    const JointedFrame joint = add_joint(tree, carrier, kind, axis, name, label, offset);
-    const Spring s = spring(law);
-    forces.add_spring(name, joint.body, s.stiffness, s.damping);
+JointedFrame Assembler::jointed(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
+                                const PartLabel& label, const Bearing& bearing, const Vec3& offset) {
+    const bool driven = bearing.hold == Bearing::Hold::driven;
+    const JointedFrame joint = add_joint(tree, carrier, kind, axis, name, label, offset,
+                                         driven ? CoordinateRole::driven : CoordinateRole::free);
+    if (!driven) forces.add_spring(name, joint.body, bearing.stiffness, options_.joint_damping ? bearing.damping : 0.0);
     return joint;
 }
 
@@ -105,15 +120,28 @@ void Assembler::add_platform() {
 
 FrameId Assembler::add_tower() {
     const Mat3 upward = axis_rotation(Axis::y);  // x -> z, y -> x, z -> y
-    const FrameId foot = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
-    const CardanBeam beam =
+    layout.tower_foot = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
+    const FrameId tip =
+        options_.rigid_tower ? add_rigid_tower(layout.tower_foot) : add_flexible_tower(layout.tower_foot);
+    return layout.tower_top = tree.add_frame(tip, Placement::rotation(upward.transpose()), "tower top");
+}
+
+FrameId Assembler::add_flexible_tower(FrameId foot) {
+    layout.tower =
         add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
                         beam_options(options_, options_.tower_elements, options_.tower_beam, damping_.tower));
-    keep(beam);
-    lines.push_back({"tower", 0, beam.nodes});
-    layout.tower = beam;
-    layout.tower_foot = foot;
-    return layout.tower_top = tree.add_frame(beam.tip(), Placement::rotation(upward.transpose()), "tower top");
+    keep(*layout.tower);
+    lines.push_back({"tower", 0, layout.tower->nodes});
+    return layout.tower->tip();
+}
+
+FrameId Assembler::add_rigid_tower(FrameId foot) {
+    const BeamLine& line = d_.tower.line;
+    require_positive("tower", "length [m]", line.length);
+    if (line.section) tree.weld(foot, rigid_inertia(line), "tower");
+    const FrameId tip = tree.add_frame(foot, line.pose(line.length), "tower tip");
+    lines.push_back({"tower", 0, {foot, tip}});
+    return tip;
 }
 
 void Assembler::add_tower_axes() {
@@ -128,7 +156,7 @@ FrameId Assembler::add_yaw_and_nacelle(FrameId top) {
     at = past_joint(at, JointKind::prismatic, Axis::x, "yaw bearing x", label, d_.yaw.translation);
     at = past_joint(at, JointKind::prismatic, Axis::y, "yaw bearing y", label, d_.yaw.translation);
     if (!d_.yaw.rotation.is_rigid()) {
-        const JointedFrame yaw = sprung_joint(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation);
+        const JointedFrame yaw = jointed(at, JointKind::revolute, Axis::z, "yaw", label, d_.yaw.rotation);
         at = yaw.frame;
         layout.yaw = yaw.body;
     }
@@ -143,7 +171,7 @@ FrameId Assembler::add_tilt(FrameId nacelle) {
         return tree.add_frame(nacelle, Placement::translation(centre) * Placement::rotation(rot_y(d_.nacelle.tilt)),
                               "shaft");
     const JointedFrame tilt =
-        sprung_joint(nacelle, JointKind::revolute, Axis::y, "tilt", {"tilt"}, d_.nacelle.tilt_bearing, centre);
+        jointed(nacelle, JointKind::revolute, Axis::y, "tilt", {"tilt"}, d_.nacelle.tilt_bearing, centre);
     parts.push_back({"tilt", foundation_, {}, {"", "rotor tilt", ""}});
     return tree.add_frame(tilt.frame, Placement::rotation(rot_y(d_.nacelle.tilt)), "shaft");
 }
@@ -153,43 +181,44 @@ FrameId Assembler::add_generator_and_gearbox(FrameId shaft) {
     const DriveTrainDescription& t = d_.drive_train;
     const double squared = t.gear_ratio * t.gear_ratio;
     const PartLabel label{"drive train"};
-    const JointedFrame generator = add_joint(tree, shaft, JointKind::revolute, Axis::x, "generator azimuth", label);
+    const JointedFrame generator =
+        add_joint(tree, shaft, JointKind::revolute, Axis::x, "generator azimuth", label, Vec3::Zero(), options_.spin);
     spin = generator.body;
     layout.generator = generator.body;
     layout.gear_ratio = t.gear_ratio;
     layout.shaft = shaft;
     layout.azimuth = {{generator.body, 1.0}};
+    if (!t.shaft.is_massless()) tree.weld(generator.frame, t.shaft, "shaft");
     FrameId at = generator.frame;
     if (!t.high_speed_shaft.is_rigid()) {
         const JointedFrame gearbox =
-            sprung_joint(at, JointKind::revolute, Axis::x, "high-speed shaft twist", label,
-                         {t.high_speed_shaft.stiffness * squared, t.high_speed_shaft.damping * squared});
+            jointed(at, JointKind::revolute, Axis::x, "high-speed shaft twist", label,
+                    {t.high_speed_shaft.stiffness * squared, t.high_speed_shaft.damping * squared});
         layout.azimuth.emplace_back(gearbox.body, 1.0);
         at = gearbox.frame;
     }
-    tree.add_armature({"generator", t.generator_inertia * squared, {{generator.body, 1.0}}});
+    if (t.generator_inertia > 0)
+        tree.add_armature({"generator", t.generator_inertia * squared, {{generator.body, 1.0}}});
     if (t.gearbox_inertia > 0) tree.add_armature({"gearbox", t.gearbox_inertia, layout.azimuth});
     parts.push_back({"drive train", shaft, {}, {"drive-train torsion", "", ""}});
     return at;
 }
 
 FrameId Assembler::add_drive_train(FrameId shaft) {
-    const FrameId gearbox = add_generator_and_gearbox(shaft);
-    const Placement rotor_centre = Placement::translation({-d_.nacelle.overhang, 0, 0});
-    FrameId at = gearbox;
+    FrameId at = add_generator_and_gearbox(shaft);
     if (!d_.drive_train.main_shaft.is_rigid()) {
-        const JointedFrame hub = sprung_joint(gearbox, JointKind::revolute, Axis::x, "main shaft twist",
-                                              {"drive train"}, d_.drive_train.main_shaft);
+        const JointedFrame hub =
+            jointed(at, JointKind::revolute, Axis::x, "main shaft twist", {"drive train"}, d_.drive_train.main_shaft);
         layout.azimuth.emplace_back(hub.body, 1.0);
         at = hub.frame;
     }
-    return add_hub_frame(shaft, tree.add_frame(at, rotor_centre, "rotor centre"));
+    return add_rotor_centre(at, Placement::translation({-d_.nacelle.overhang, 0, 0}));
 }
 
 FrameId Assembler::add_drive_train_with_beam(FrameId shaft) {
     if (d_.drive_train.main_shaft.is_rigid())
-        throw InputError(d_.name, "torsional stiffness of the main shaft as a beam [N m/rad]",
-                         d_.drive_train.main_shaft.stiffness, "finite");
+        throw InputError(d_.name, "torsional stiffness of the main shaft as a beam [N m/rad]", "rigid", "a spring");
+    require_positive(d_.name, "overhang of a main shaft as a beam [m]", d_.nacelle.overhang);
     const FrameId gearbox = add_generator_and_gearbox(shaft);
     EngineeringSection section;
     section.mass = options_.shaft_beam->mass;
@@ -207,46 +236,77 @@ FrameId Assembler::add_drive_train_with_beam(FrameId shaft) {
     rotating_pairs.push_back({e.bodies[0], e.bodies[1]});  // (ay1, az1)
     rotating_pairs.push_back({e.bodies[4], e.bodies[3]});  // (ay2, az2)
     parts.back().rotation = {"drive-train torsion", "shaft bending", "shaft bending"};
-    return add_hub_frame(shaft, tree.add_frame(beam.tip(), Placement::rotation(rot_z(pi)), "rotor centre"));
+    return add_rotor_centre(beam.tip(), Placement::rotation(rot_z(pi)));
 }
 
-FrameId Assembler::add_hub_frame(FrameId shaft, FrameId rotor_centre) {
-    layout.hub = hub_frame = tree.add_frame(rotor_centre, Placement::rotation(hub_axes()), "hub");
-    lines.push_back({"shaft", 0, {tree.frame("tower top"), shaft, hub_frame}});
-    return hub_frame;
+// Hub axes on what spins; `place` has shaft axes.
+FrameId Assembler::add_rotor_centre(FrameId carrier, const Placement& place) {
+    layout.rotor_centre = tree.add_frame(carrier, place * Placement::rotation(hub_axes()), "rotor centre");
+    return layout.rotor_centre;
 }
 
-void Assembler::add_blade(FrameId hub, int number, bool with_pitch_joint) {
+FrameId Assembler::add_hub(FrameId rotor_centre) {
+    const bool teeters = d_.hub.teeter && !d_.hub.teeter->bearing.is_rigid();
+    layout.hub = teeters ? add_teeter(rotor_centre, *d_.hub.teeter) : tree.add_frame(rotor_centre, {}, "hub");
+    return layout.hub;
+}
+
+FrameId Assembler::add_teeter(FrameId rotor_centre, const TeeterDescription& teeter) {
+    const FrameId axis = tree.add_frame(rotor_centre, Placement::rotation(rot_z(-teeter.delta3)), "teeter axis");
+    const JointedFrame turned = jointed(axis, JointKind::revolute, Axis::y, "teeter", {"teeter"}, teeter.bearing);
+    layout.teeter = turned.body;
+    if (teeter.bearing.hold != Bearing::Hold::driven) odd.push_back(turned.body);
+    parts.push_back({"teeter", rotor_centre, {}, {"", "teeter", ""}});
+    return tree.add_frame(turned.frame, Placement::rotation(rot_z(teeter.delta3)), "hub");
+}
+
+void Assembler::add_blades(FrameId hub) {
+    for (int k = 1; k <= d_.blades; ++k)
+        if (const BladeDescription* blade = d_.blade_at(k)) add_blade(hub, k, *blade, !blade->pitch.is_rigid());
+}
+
+FrameId Assembler::add_pitch_axis(FrameId hub, int number, const BladeDescription& blade) {
+    const double undersling = d_.hub.teeter ? d_.hub.teeter->undersling : 0;
+    const Mat3 azimuth = rot_z(2 * pi * (number - 1) / d_.blades), cone = rot_y(-blade.cone);
+    const Placement root = Placement::translation({0, 0, -undersling}) * Placement::rotation(azimuth * cone) *
+                           Placement::translation({d_.hub.radius, 0, 0});
+    return tree.add_frame(hub, root, text("blade ", number, " pitch axis"));
+}
+
+void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade, bool with_pitch_joint) {
     const std::string name = text("blade ", number);
-    const Mat3 azimuth = rot_z(2 * pi * (number - 1) / d_.blades), cone = rot_y(-d_.blade.cone);
-    const Placement root_pose = Placement::rotation(azimuth * cone) * Placement::translation({d_.hub.radius, 0, 0});
-    FrameId root = tree.add_frame(hub, root_pose, name + " pitch axis");
-    layout.pitch_axes.push_back(root);
+    const FrameId pitch_axis = add_pitch_axis(hub, number, blade);
+    FrameId root = pitch_axis;
     std::vector<BodyId> coordinates;
     if (with_pitch_joint) {
         const JointedFrame pitch =
-            sprung_joint(root, JointKind::revolute, Axis::x, name + " pitch", {"pitch", number}, d_.blade.pitch);
+            jointed(root, JointKind::revolute, Axis::x, name + " pitch", {"pitch", number}, blade.pitch);
         coordinates.push_back(pitch.body);
         layout.pitch.push_back(pitch.body);
         root = pitch.frame;
     }
-    const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-options_.pitch)), name + " root");
+    const double setting = options_.pitch + blade.pitch_setting;
+    const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-setting)), name + " root");
+    const auto damping = damping_.blades.find(number);
     const CardanBeam beam =
-        add_cardan_beam(tree, forces, axes, d_.blade.line, name, {"blade", number},
-                        beam_options(options_, options_.blade_elements, options_.blade_beam, damping_.blade));
+        add_cardan_beam(tree, forces, axes, blade.line, name, {"blade", number},
+                        beam_options(options_, options_.blade_elements, options_.blade_beam,
+                                     damping == damping_.blades.end() ? BeamDamping() : damping->second));
     for (const CardanBeam::Element& element : beam.elements)
         coordinates.insert(coordinates.end(), element.bodies.begin(), element.bodies.end());
     blades.push_back(coordinates);
+    layout.blade_numbers.push_back(number);
     layout.blades.push_back(beam);
+    layout.pitch_axes.push_back(pitch_axis);
     layout.blade_roots.push_back(axes);
+    layout.pitch_settings.push_back(setting);
     keep(beam);
     std::vector<FrameId> points{hub};
     points.insert(points.end(), beam.nodes.begin(), beam.nodes.end());
     lines.push_back({"blade", number, points});
-    if (number > 1) return;
-    const FrameId in_plane = tree.frame(name + " pitch axis");
-    if (with_pitch_joint) parts.push_back({"pitch", in_plane, {}, {"blade pitch", "", ""}});
-    parts.push_back({"blade", in_plane, {"blade extension", "", ""}, {"blade torsion", "blade flap", "blade edge"}});
+    if (blades.size() > 1) return;
+    if (with_pitch_joint) parts.push_back({"pitch", pitch_axis, {}, {"blade pitch", "", ""}});
+    parts.push_back({"blade", pitch_axis, {"blade extension", "", ""}, {"blade torsion", "blade flap", "blade edge"}});
 }
 
 }  // namespace cardan::turbines

@@ -10,6 +10,7 @@
 namespace cardan::turbines {
 
 inline constexpr int most_counted = 1000;
+inline constexpr auto missing = "missing";  // in place of a blade
 
 inline const char* name_of(Interpolation interpolation) {
     return interpolation == Interpolation::linear ? "linear" : "log_linear_stiffness";
@@ -18,11 +19,39 @@ inline const char* name_of(LineShape shape) {
     return shape == LineShape::spline ? "spline" : "polyline";
 }
 
+inline const char* name_of(Bearing::Hold hold) {
+    switch (hold) {
+        case Bearing::Hold::spring:
+            return "spring";
+        case Bearing::Hold::free:
+            return "free";
+        case Bearing::Hold::rigid:
+            return "rigid";
+        case Bearing::Hold::driven:
+            return "driven";
+    }
+    return "";
+}
+
+template <class Archive, class Blade>
+void blade_fields(Archive& archive, Blade& blade) {
+    archive.line("line", blade.line);
+    archive.bearing("pitch", blade.pitch);
+    archive.number("cone", blade.cone);
+    archive.since(2, [&] { archive.number("pitch_setting", blade.pitch_setting); });
+    archive.number("first_flap_damping", blade.first_flap_damping);
+    archive.damping("damping", blade.damping);
+}
+
 /// Goes through the fields: `archive` writes them, or fills them.
 template <class Archive, class Description>
 void description_fields(Archive& archive, Description& d) {
     archive.word("name", d.name);
     archive.word("source", d.source);
+    archive.since(2, [&] {
+        archive.number("rotor_speed", d.rotor_speed);
+        archive.flag("unusual", d.unusual);
+    });
     archive.integer("blades", d.blades);
     archive.group("tower", [&] {
         archive.line("line", d.tower.line);
@@ -30,34 +59,35 @@ void description_fields(Archive& archive, Description& d) {
         archive.damping("damping", d.tower.damping);
     });
     archive.group("yaw", [&] {
-        archive.spring("rotation", d.yaw.rotation);
-        archive.spring("translation", d.yaw.translation);
+        archive.bearing("rotation", d.yaw.rotation);
+        archive.bearing("translation", d.yaw.translation);
     });
     archive.group("nacelle", [&] {
         archive.inertia("inertia", d.nacelle.inertia);
         archive.number("shaft_height", d.nacelle.shaft_height);
         archive.number("tilt", d.nacelle.tilt);
         archive.number("overhang", d.nacelle.overhang);
-        archive.spring("tilt_bearing", d.nacelle.tilt_bearing);
+        archive.bearing("tilt_bearing", d.nacelle.tilt_bearing);
     });
     archive.group("drive_train", [&] {
         archive.number("gear_ratio", d.drive_train.gear_ratio);
         archive.number("generator_inertia", d.drive_train.generator_inertia);
         archive.number("gearbox_inertia", d.drive_train.gearbox_inertia);
-        archive.spring("high_speed_shaft", d.drive_train.high_speed_shaft);
-        archive.spring("main_shaft", d.drive_train.main_shaft);
+        archive.bearing("high_speed_shaft", d.drive_train.high_speed_shaft);
+        archive.bearing("main_shaft", d.drive_train.main_shaft);
+        archive.since(2, [&] { archive.inertia("shaft", d.drive_train.shaft); });
     });
     archive.group("hub", [&] {
         archive.inertia("inertia", d.hub.inertia);
         archive.number("radius", d.hub.radius);
+        archive.optional_group("teeter", d.hub.teeter, [&](auto& teeter) {
+            archive.bearing("bearing", teeter.bearing);
+            archive.number("undersling", teeter.undersling);
+            archive.number("delta3", teeter.delta3);
+        });
     });
-    archive.group("blade", [&] {
-        archive.line("line", d.blade.line);
-        archive.spring("pitch", d.blade.pitch);
-        archive.number("cone", d.blade.cone);
-        archive.number("first_flap_damping", d.blade.first_flap_damping);
-        archive.damping("damping", d.blade.damping);
-    });
+    archive.group("blade", [&] { blade_fields(archive, d.blade); });
+    archive.numbered_groups("own_blades", d.own_blades, d.blades, [&](auto& blade) { blade_fields(archive, blade); });
 }
 
 /// A column of the sections of a beam.

@@ -45,28 +45,26 @@ public:
     explicit Writer(BeamLines lines) : lines_(lines) {}
     void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
     void integer(const char* key, int value) {
-        if (value < 1 || value > most_counted) throw InputError(key, "number", value, text("1 ... ", most_counted));
+        if (value < 0 || value > most_counted) throw InputError(key, "number", value, text("0 ... ", most_counted));
         entry(key, text(value));
     }
     void number(const char* key, double value) { entry(key, digits(value, key)); }
-    void spring(const char* key, const Spring& s) {
-        entry(key, text("{stiffness: ", digits(s.stiffness, key, true), ", damping: ", digits(s.damping, key), "}"));
+    void flag(const char* key, bool value) { entry(key, value ? "true" : "false"); }
+    void bearing(const char* key, const Bearing& b) {
+        const std::string damping = text("damping: ", digits(b.damping, key), "}");
+        if (b.hold == Bearing::Hold::spring)
+            entry(key, text("{stiffness: ", digits(b.stiffness, key), ", ", damping));
+        else if (b.damping != 0)
+            entry(key, text("{hold: ", name_of(b.hold), ", ", damping));
+        else
+            entry(key, name_of(b.hold));
     }
     void inertia(const char* key, const RigidInertia& i) {
         group(key, [&] {
             number("mass", i.mass);
             entry("com", list(i.com));
             entry("J", rows(i.J));
-            entry("reduced", i.reduced ? "true" : "false");
-        });
-    }
-    void prismatic_beam(const char* key, double length, EngineeringSection section) {
-        group(key, [&] {
-            number("length", length);
-            group("section", [&] {
-                for (const SectionColumn& column : section_columns())
-                    entry(column.name, digits(column.of(section), column.name, column.may_be_infinite));
-            });
+            flag("reduced", i.reduced);
         });
     }
     void damping(const char* key, const BeamDamping& d) {
@@ -95,6 +93,29 @@ public:
         ++depth_;
         content();
         --depth_;
+    }
+    /// Fields that the format has had since a version; this writes the last one.
+    template <class Content>
+    void since(int /*version*/, const Content& content) {
+        content();
+    }
+    template <class T, class Content>
+    void optional_group(const char* key, const std::optional<T>& value, const Content& content) {
+        if (value) group(key, [&] { content(*value); });
+    }
+    template <class T, class Content>
+    void numbered_groups(const char* key, const std::map<int, std::optional<T>>& values, int /*count*/,
+                         const Content& content) {
+        if (values.empty()) return;
+        group(key, [&] {
+            for (const auto& [number, value] : values) {
+                const std::string name = text(number);
+                if (value)
+                    group(name.c_str(), [&own = *value, &content] { content(own); });
+                else
+                    entry(name.c_str(), missing);
+            }
+        });
     }
     std::string out;
 

@@ -48,7 +48,8 @@ TEST_CASE("NREL 5 MW blade: mass 17608.83 kg, first moment 361352 kg m, 1.5 m to
     for (const CardanBeamOptions& elements :
          {nrel5mw_blade_elements(1), nrel5mw_blade_elements(16), nrel5mw_blade_refined(),
           nrel5mw_blade_elements(16, Partition::static_moment)})
-        CHECK(turbines::isolated_blade(blade, elements).beam.mass == Approx(blade.mass()).epsilon(1e-12));
+        CHECK(turbines::isolated_blade(blade, elements).layout().blades.front().mass ==
+              Approx(blade.mass()).epsilon(1e-12));
 }
 
 TEST_CASE("NREL 5 MW blade: without the factor 16844.75 kg, which is the trapezoidal sum of the table", "[analytic]") {
@@ -186,8 +187,8 @@ TEST_CASE("NREL 5 MW blade: static moments refuse equal elements, whose last one
     check_refused([&] { (void)turbines::isolated_blade(nrel5mw_blade(), equal); }, {"inertia", "allowed: >= 0"});
     const auto isolated =
         turbines::isolated_blade(nrel5mw_blade(), nrel5mw_blade_elements(16, Partition::static_moment));
-    REQUIRE(isolated.beam.warnings.size() == 1);  // the last metre is still steep for this partition
-    CHECK(isolated.beam.warnings.front().find("element at 60.5 m") != std::string::npos);
+    REQUIRE(isolated.layout().blades.front().warnings.size() == 1);  // the last metre is still steep for this partition
+    CHECK(isolated.layout().blades.front().warnings.front().find("element at 60.5 m") != std::string::npos);
 }
 
 TEST_CASE("NREL 5 MW blade at 12.1 rpm: condensed extension gives flap 1 0.7290 and edge 1 1.0943 Hz", "[analytic]") {

@@ -21,10 +21,10 @@ inline const std::array<std::string, 6> blade_mode_names{"1st blade flap", "1st 
 
 inline solvers::Campbell diagram(const CardanBeamOptions& elements, std::span<const double> at = blade_speeds,
                                  const turbines::Nrel5mwBlade& blade = turbines::nrel5mw_blade()) {
-    const turbines::Nrel5mwIsolatedBlade isolated = turbines::isolated_blade(blade, elements);
+    const turbines::Turbine isolated = turbines::isolated_blade(blade, elements);
     solvers::CampbellOptions options;
     options.max_frequency_hz = 15;
-    return solvers::campbell(*isolated.system, isolated.rotor, at, options);
+    return solvers::campbell(isolated.system(), isolated.rotor(), at, options);
 }
 
 inline double hz(const solvers::Campbell& d, std::size_t mode, std::size_t point) {

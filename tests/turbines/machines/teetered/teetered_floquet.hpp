@@ -9,28 +9,27 @@
 namespace cardan::testing {
 
 /// The machine of Table I with nothing zero that can be other than zero, rotor upwind.
-inline turbines::TeeteredDescription general_description() {
-    turbines::TeeteredDescription d = turbines::teetered_description();
-    d.tilt = 0.08;
-    d.shaft_height = 0.7;
-    d.overhang = 2.1;
-    d.shaft.mass = 300;
-    d.shaft.com = {0.4, 0, 0};
-    d.shaft.J = Vec3(20, 30, 30).asDiagonal();
+inline turbines::TurbineDescription general_description() {
+    turbines::TurbineDescription d = turbines::teetered_description();
+    d.nacelle.tilt = 0.08;
+    d.nacelle.shaft_height = 0.7;
+    d.nacelle.overhang = 2.1;
+    d.drive_train.shaft.mass = 300;
+    d.drive_train.shaft.com = {0.4, 0, 0};
+    d.drive_train.shaft.J = Vec3(20, 30, 30).asDiagonal();
     d.hub.inertia.mass = 500;
     d.hub.inertia.com = {0, 0, -0.1};
-    d.hub.undersling = 0.3;
-    d.hub.delta3 = 0.5;
-    d.hub.cone = -0.1;
-    d.hub.teeter = {3e4, 200};
-    d.yaw = {5e6, 7e3};
+    d.hub.teeter->undersling = 0.3;
+    d.hub.teeter->delta3 = 0.5;
+    d.blade.cone = -0.1;
+    d.hub.teeter->bearing = {3e4, 200};
+    d.yaw.rotation = {5e6, 7e3};
     return d;
 }
 
 /// "tower lateral", "symmetric flap", "antisymmetric torsion", "yaw", "teeter" ...; rows of z: what does not belong to
 /// the blades, sums, differences.
-inline HalfTurnCoordinates half_turn_coordinates(const turbines::TeeteredTurbine& machine,
-                                                 const std::vector<int>& unknowns) {
+inline HalfTurnCoordinates half_turn_coordinates(const turbines::Turbine& machine, const std::vector<int>& unknowns) {
     const CoordinateTable& table = machine.system().model.coordinates();
     const auto n = static_cast<Eigen::Index>(unknowns.size());
     const auto column = [&](int coordinate) {
@@ -42,7 +41,7 @@ inline HalfTurnCoordinates half_turn_coordinates(const turbines::TeeteredTurbine
         const CoordinateInfo& info = table[i];
         if (info.blade > 0) continue;
         z.T(row++, column(i)) = 1;
-        const auto& odd = machine.half_turn_odd();
+        const auto& odd = machine.rotor().odd;
         z.odd.push_back(std::find(odd.begin(), odd.end(), i) != odd.end());
         z.family.push_back(info.part != "tower"               ? info.part
                            : contains(info.name, "bending y") ? "tower lateral"
@@ -65,8 +64,8 @@ inline HalfTurnCoordinates half_turn_coordinates(const turbines::TeeteredTurbine
 }
 
 /// Linearised about the undeformed machine, which is its steady state without gravity and cone, or about another.
-inline HalfTurnFloquet floquet(const turbines::TeeteredTurbine& machine, double rotor_speed, int steps,
-                               double weakest = 0.5, const Vector& steady_state = {}) {
+inline HalfTurnFloquet floquet(const turbines::Turbine& machine, double rotor_speed, int steps, double weakest = 0.5,
+                               const Vector& steady_state = {}) {
     const System& system = machine.system();
     const int spin = machine.rotor().spin;
     const auto n = system.model.size();

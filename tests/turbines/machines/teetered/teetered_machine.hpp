@@ -3,17 +3,29 @@
 #pragma once
 
 #include "turbines/machines/teetered.hpp"
+#include "turbines/model/beam_table.hpp"
 
 namespace cardan::testing {
+
+/// The section of its uniform tower or blade.
+inline EngineeringSection section_of(const BeamLine& line) {
+    return turbines::table_of(line)->sections.front();
+}
+template <class Change>
+void change_section(BeamLine& line, const Change& change) {
+    turbines::BeamTable table = *turbines::table_of(line);
+    for (EngineeringSection& section : table.sections) change(section);
+    line = turbines::beam_line(table);
+}
 
 inline constexpr double teetered_speed = 6.02;  ///< nominal, rad/s
 
 /// Torsion has the armature that makes it O(h^4).
 /// @param ratio  of the tower's rigidity to the blade's
-inline turbines::TeeteredTurbine teetered_machine(int elements, bool rigid_tower = false, double ratio = 100) {
-    turbines::TeeteredOptions options = turbines::TeeteredOptions::with_elements(elements);
+inline turbines::Turbine teetered_machine(int elements, bool rigid_tower = false, double ratio = 100) {
+    turbines::AssemblyOptions options = turbines::teetered_assembly(elements);
     options.rigid_tower = rigid_tower;
-    options.tower.torsion_armature = options.blade.torsion_armature = -1. / 12;
+    options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
     return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), ratio), options);
 }
 

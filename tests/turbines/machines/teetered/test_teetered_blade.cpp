@@ -9,7 +9,7 @@
 
 using namespace cardan;
 using namespace cardan::testing;
-using turbines::TeeteredOptions;
+using turbines::AssemblyOptions;
 
 namespace {
 
@@ -17,7 +17,7 @@ struct BladeFrequencies {
     std::vector<double> flap, lag, torsion;  // rad/s, rising
 };
 
-BladeFrequencies blade_frequencies(const TeeteredOptions& options, double rotor_speed) {
+BladeFrequencies blade_frequencies(const AssemblyOptions& options, double rotor_speed) {
     const auto blade = turbines::isolated_blade(turbines::teetered_description(), options);
     const Model& model = blade.system().model;
     const auto n = model.size();
@@ -58,8 +58,8 @@ TEST_CASE("teetered machine's blade: torsion is that of the discrete rod, stiffe
     for (int n : {1, 2, 6})
         for (double a : {0.0, -1. / 12})
             for (double rotor_speed : {0.0, teetered_speed}) {
-                TeeteredOptions options = TeeteredOptions::with_elements(n);
-                options.blade.torsion_armature = a;
+                AssemblyOptions options = turbines::teetered_assembly(n);
+                options.blade_beam->torsion_armature = a;
                 const auto torsion = blade_frequencies(options, rotor_speed).torsion;
                 REQUIRE(torsion.size() == static_cast<std::size_t>(n));
                 for (int k = 1; k <= n; ++k) {
@@ -80,7 +80,7 @@ TEST_CASE("teetered machine's blade: flap and lag converge to the exact blade wi
     CHECK(flap[1] / teetered_speed == Approx(20.069).epsilon(0).margin(1e-3));
     CHECK(lag[1] / teetered_speed == Approx(19.712).epsilon(0).margin(1e-3));
     const auto error = [&](int elements, bool of_lag, std::size_t k) {
-        const auto found = blade_frequencies(TeeteredOptions::with_elements(elements), teetered_speed);
+        const auto found = blade_frequencies(turbines::teetered_assembly(elements), teetered_speed);
         return (of_lag ? found.lag[k] / lag[k] : found.flap[k] / flap[k]) - 1;
     };
     for (bool of_lag : {false, true}) {
@@ -110,7 +110,7 @@ TEST_CASE("teetered machine's blade: on the teeter hinge the exact blade, the mi
     setting.pin = MixedPin{{0, 1, 0}, {-1.8, 0, 0}, {}};
     setting.pin->body.J = Vec3(25, 25, 2.5).asDiagonal();
     const auto mixed = [&](int elements) {
-        const MixedBeam beam(uniform_beam(d.blade.length, d.blade.section, "blade"), elements);
+        const MixedBeam beam(d.blade.line, elements);
         double nearest = 0;
         for (const DescriptorMode& mode : mixed_modes(beam, setting, mixed_steady_state(beam, setting).x))
             if (std::abs(mode.eigenvalue.imag() - exact[1]) < std::abs(nearest - exact[1]))
@@ -132,7 +132,7 @@ TEST_CASE("teetered machine's blade: with the paper's element the second torsion
     setting.root_position = {1.8, 0, 0};
     const double c = std::sqrt(1e7 / 5);
     for (int n : {2, 3, 4}) {
-        const MixedBeam beam(uniform_beam(d.blade.length, d.blade.section, "blade"), n);
+        const MixedBeam beam(d.blade.line, n);
         const auto modes = mixed_modes(beam, setting, mixed_steady_state(beam, setting).x);
         double box[2] = {0, 0};
         for (int k : {1, 2}) {

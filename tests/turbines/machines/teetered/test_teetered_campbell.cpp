@@ -11,8 +11,8 @@ using namespace cardan::testing;
 using solvers::Branch;
 using solvers::Campbell;
 using solvers::FloquetKind;
-using turbines::TeeteredOptions;
-using turbines::TeeteredTurbine;
+using turbines::AssemblyOptions;
+using turbines::Turbine;
 
 namespace {
 
@@ -20,10 +20,9 @@ constexpr const char* growing = "teeter (locked at 1 per rev and growing)";
 constexpr const char* decaying = "teeter (locked at 1 per rev and decaying)";
 
 // Modes up to a number per revolution at the nominal speed.
-Campbell diagram_of(const TeeteredTurbine& machine, const std::vector<double>& speeds, double per_rev) {
+Campbell diagram_of(const Turbine& machine, const std::vector<double>& speeds, double per_rev) {
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
-    options.floquet.odd = machine.half_turn_odd();
     options.max_frequency_hz = per_rev * teetered_speed / (2 * pi);
     return solvers::campbell(machine.system(), machine.rotor(), speeds, options);
 }
@@ -116,7 +115,7 @@ TEST_CASE("campbell of the teetered machine: over the rotor speed every branch k
 
 TEST_CASE("campbell of the teetered machine: without the half-turn symmetry the same, over the whole revolution",
           "[crosscheck]") {
-    const TeeteredTurbine machine = teetered_machine(1);
+    const Turbine machine = teetered_machine(1);
     const Campbell half = diagram_of(machine, {teetered_speed}, 11);
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
@@ -135,13 +134,13 @@ TEST_CASE("campbell of the teetered machine: without the half-turn symmetry the 
 
 TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in gravity the state is periodic",
           "[property]") {
-    turbines::TeeteredDescription description = general_description();
-    TeeteredOptions options = TeeteredOptions::with_elements(1);
+    turbines::TurbineDescription description = general_description();
+    AssemblyOptions options = turbines::teetered_assembly(1);
     options.gravity = {0, 0, -9.81};
     for (const bool locked : {false, true}) {
-        options.teeter_locked = locked;
-        const TeeteredTurbine machine = turbines::assemble(description, options);
-        CHECK(machine.half_turn_odd().size() == (locked ? 0U : 1U));
+        if (locked) description.hub.teeter->bearing = turbines::rigid_joint;
+        const Turbine machine = turbines::assemble(description, options);
+        CHECK(machine.rotor().odd.size() == (locked ? 0U : 1U));
         const Campbell d = diagram_of(machine, {5.0, teetered_speed}, 8);
         CHECK(std::count(d.rows.begin(), d.rows.end(), "teeter") == (locked ? 0 : 1));
         for (const solvers::CampbellPoint& point : d.points) {

@@ -13,22 +13,22 @@ using solvers::Branch;
 using solvers::Campbell;
 using solvers::CampbellMode;
 using solvers::FloquetKind;
-using turbines::TeeteredOptions;
-using turbines::TeeteredTurbine;
+using turbines::AssemblyOptions;
+using turbines::Turbine;
 
 namespace {
 
-TeeteredTurbine machine(bool teeter_locked) {
-    TeeteredOptions options = TeeteredOptions::with_elements(1);
-    options.tower.torsion_armature = options.blade.torsion_armature = -1. / 12;
-    options.teeter_locked = teeter_locked;
-    return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
+Turbine machine(bool teeter_locked) {
+    AssemblyOptions options = turbines::teetered_assembly(1);
+    options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
+    turbines::TurbineDescription description = turbines::with_tower_rigidity(turbines::teetered_description(), 100);
+    if (teeter_locked) description.hub.teeter->bearing = turbines::rigid_joint;
+    return turbines::assemble(description, options);
 }
 
-Campbell floquet_diagram(const TeeteredTurbine& machine, double first, double last, double step, double max_frequency) {
+Campbell floquet_diagram(const Turbine& machine, double first, double last, double step, double max_frequency) {
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
-    options.floquet.odd = machine.half_turn_odd();
     options.max_frequency_hz = max_frequency;
     return solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(first, last, step), options);
 }
@@ -64,13 +64,12 @@ TEST_CASE("campbell of the teetered machine: a mode that is locked becomes two m
 
 TEST_CASE("campbell of the teetered machine: the warning speaks of the fastest growing motion", "[property]") {
     // Too few harmonics split the double zero of free yaw into a slow growth beside that of the teeter.
-    TeeteredOptions options = TeeteredOptions::with_elements(1);
+    AssemblyOptions options = turbines::teetered_assembly(1);
     options.gravity = {0, 0, -9.80665};
-    const TeeteredTurbine machine =
+    const Turbine machine =
         turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
     solvers::CampbellOptions how;
     how.method = solvers::CampbellMethod::floquet;
-    how.floquet.odd = machine.half_turn_odd();
     how.floquet.harmonics = 1;
     how.max_frequency_hz = 3;
     const double speed[] = {40 * pi / 30};

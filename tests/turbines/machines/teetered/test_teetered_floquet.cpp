@@ -9,7 +9,7 @@
 
 using namespace cardan;
 using namespace cardan::testing;
-using turbines::TeeteredOptions;
+using turbines::AssemblyOptions;
 
 namespace {
 
@@ -57,9 +57,8 @@ void check_rows(const HalfTurnFloquet& floquet, const std::vector<TeeteredRow>& 
 TEST_CASE("teetered machine: with stiff blades yaw and teeter move as the rigid rotor does, one root growing",
           "[analytic]") {
     auto d = turbines::teetered_description();
-    for (double* stiffness : {&d.blade.section.EI_flap, &d.blade.section.EI_edge, &d.blade.section.GJ})
-        *stiffness *= 1e5;
-    TeeteredOptions options = TeeteredOptions::with_elements(1);
+    change_section(d.blade.line, [](EngineeringSection& s) { s.EI_flap *= 1e5, s.EI_edge *= 1e5, s.GJ *= 1e5; });
+    AssemblyOptions options = turbines::teetered_assembly(1);
     options.rigid_tower = true;
     const HalfTurnFloquet stiff = floquet(turbines::assemble(d, options), teetered_speed, 200);
     const auto exact = rigid_rotor().half_turn_multipliers();

@@ -3,7 +3,7 @@
 #include "solvers/linear/linearise.hpp"
 #include "tests/oracles/teetered_head.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/teetered.hpp"
+#include "tests/turbines/machines/teetered/teetered_machine.hpp"
 
 using namespace cardan;
 using oracles::TeeteredHead;
@@ -11,47 +11,51 @@ using oracles::TeeteredHead;
 namespace {
 
 // Everything off its place that the appendix has a letter for.
-turbines::TeeteredDescription offset_machine() {
-    turbines::TeeteredDescription d = turbines::teetered_description();
-    d.tower.section.mass = 1e-8;  // the appendix has none, the torsion of the tower needs some
-    d.tower.section.j_flap = d.tower.section.j_edge = 1e-7;
-    d.tower.section.EA = 1e10;
-    d.nacelle.com = {-0.4, 0, 0};
-    d.nacelle.J = Vec3(7000, 9000, 16599).asDiagonal();
-    d.shaft.mass = 800;
-    d.shaft.com = {0.6, 0, 0};
-    d.shaft.J = Vec3(120, 300, 300).asDiagonal();
+turbines::TurbineDescription offset_machine() {
+    turbines::TurbineDescription d = turbines::teetered_description();
+    change_section(d.tower.line, [](EngineeringSection& s) {
+        s.mass = 1e-8;  // the appendix has none, the torsion of the tower needs some
+        s.j_flap = s.j_edge = 1e-7;
+        s.EA = 1e10;
+    });
+    d.nacelle.inertia.com = {-0.4, 0, 0};
+    d.nacelle.inertia.J = Vec3(7000, 9000, 16599).asDiagonal();
+    d.drive_train.shaft.mass = 800;
+    d.drive_train.shaft.com = {0.6, 0, 0};
+    d.drive_train.shaft.J = Vec3(120, 300, 300).asDiagonal();
     d.hub.inertia.mass = 700;
     d.hub.inertia.com = {0, 0, 0.35};
-    d.hub.undersling = 0.5;
-    d.yaw = {3e5, 2e3};
-    d.hub.teeter = {4e4, 700};
+    d.hub.teeter->undersling = 0.5;
+    d.yaw.rotation = {3e5, 2e3};
+    d.hub.teeter->bearing = {4e4, 700};
     return d;
 }
 
 // The same for Kane's equations: blades as rigid bodies are part of the hub, so they hand no forces to it.
-TeeteredHead head_of(const turbines::TeeteredDescription& d, double rotor_speed) {
+TeeteredHead head_of(const turbines::TurbineDescription& d, double rotor_speed) {
     TeeteredHead head;
-    head.c_n = -d.nacelle.com.x();
-    head.c_s = -d.shaft.com.x();
-    head.d_n2 = -d.overhang;
-    head.m_y = d.nacelle.mass;
-    head.m_s = d.shaft.mass;
-    head.I_y = {d.nacelle.J(1, 1), d.nacelle.J(0, 0), d.nacelle.J(2, 2)};
-    head.I_s_long = d.shaft.J(0, 0);
-    head.I_s_lat = d.shaft.J(1, 1);
-    head.K_y = d.yaw.stiffness;
-    head.C_y = d.yaw.damping;
-    head.K_h = d.hub.teeter.stiffness;
-    head.C_h = d.hub.teeter.damping;
+    head.c_n = -d.nacelle.inertia.com.x();
+    head.c_s = -d.drive_train.shaft.com.x();
+    head.d_n2 = -d.nacelle.overhang;
+    head.m_y = d.nacelle.inertia.mass;
+    head.m_s = d.drive_train.shaft.mass;
+    head.I_y = {d.nacelle.inertia.J(1, 1), d.nacelle.inertia.J(0, 0), d.nacelle.inertia.J(2, 2)};
+    head.I_s_long = d.drive_train.shaft.J(0, 0);
+    head.I_s_lat = d.drive_train.shaft.J(1, 1);
+    head.K_y = d.yaw.rotation.stiffness;
+    head.C_y = d.yaw.rotation.damping;
+    head.K_h = d.hub.teeter->bearing.stiffness;
+    head.C_h = d.hub.teeter->bearing.damping;
     head.Omega = rotor_speed;
 
-    const EngineeringSection& s = d.blade.section;
-    const double length = 2 * d.blade.length, blades = length * s.mass, a = d.hub.root_arm, b = a + d.blade.length;
+    const EngineeringSection s = section_of(d.blade.line);
+    const double length = 2 * d.blade.line.length, blades = length * s.mass, a = d.hub.radius,
+                 b = a + d.blade.line.length;
     const RigidInertia& hub = d.hub.inertia;
     head.m_h = hub.mass + blades;
-    const double centre = (hub.mass * hub.com.z() - blades * d.hub.undersling) / head.m_h;
-    const double apart = hub.mass * std::pow(hub.com.z() - centre, 2) + blades * std::pow(d.hub.undersling + centre, 2);
+    const double centre = (hub.mass * hub.com.z() - blades * d.hub.teeter->undersling) / head.m_h;
+    const double apart =
+        hub.mass * std::pow(hub.com.z() - centre, 2) + blades * std::pow(d.hub.teeter->undersling + centre, 2);
     const double slender = 2 * s.mass * (b * b * b - a * a * a) / 3;
     head.c_h = -centre;
     head.I_h = {hub.J(1, 1) + slender + length * s.j_flap + apart, hub.J(2, 2) + slender + length * s.j_edge,
@@ -63,10 +67,10 @@ TeeteredHead head_of(const turbines::TeeteredDescription& d, double rotor_speed)
 
 TEST_CASE("teetered machine: yaw, teeter and six motions of the tower top move by Kane's equations", "[analytic]") {
     const double speed = 6.02;
-    const turbines::TeeteredDescription d = offset_machine();
-    turbines::TeeteredOptions assembly = turbines::TeeteredOptions::with_elements(1);
-    assembly.tower.extension = true;
-    const turbines::TeeteredTurbine machine = turbines::assemble(d, assembly);
+    const turbines::TurbineDescription d = offset_machine();
+    turbines::AssemblyOptions assembly = turbines::teetered_assembly(1);
+    assembly.tower_beam->extension = true;
+    const turbines::Turbine machine = turbines::assemble(d, assembly);
     const Model& model = machine.system().model;
     std::vector<int> rigid = model.coordinates().of_part("tower");
     REQUIRE(rigid.size() == 6);

@@ -11,12 +11,12 @@
 
 using namespace cardan;
 using namespace cardan::testing;
-using turbines::TeeteredOptions;
-using turbines::TeeteredTurbine;
+using turbines::AssemblyOptions;
+using turbines::Turbine;
 
 namespace {
 
-std::vector<int> unknowns_of(const TeeteredTurbine& machine) {
+std::vector<int> unknowns_of(const Turbine& machine) {
     std::vector<int> unknowns;
     for (int i = 0; i < machine.system().model.size(); ++i)
         if (i != machine.rotor().spin) unknowns.push_back(i);
@@ -25,11 +25,11 @@ std::vector<int> unknowns_of(const TeeteredTurbine& machine) {
 
 // The machine about its periodic state, and its symmetry.
 struct Periodic {
-    explicit Periodic(const TeeteredTurbine& machine, int harmonics = 8)
+    explicit Periodic(const Turbine& machine, int harmonics = 8)
         : state(solvers::harmonic_balance(machine.system(), machine.rotor().spin, options(harmonics))),
           system(solvers::linearised(machine.system(), state)),
-          half_turn(solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), teetered_speed,
-                                            machine.half_turn_odd())) {}
+          half_turn(
+              solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), teetered_speed, machine.rotor().odd)) {}
 
     static solvers::PeriodicOptions options(int harmonics) {
         solvers::PeriodicOptions options;
@@ -82,7 +82,7 @@ void check_close(const std::vector<solvers::FloquetMode>& a, const std::vector<s
 }
 
 // Exponents per rev of the oscillations by the family that holds most of the elastic energy in the principal harmonic.
-std::map<std::string, std::vector<Complex>> by_family(const TeeteredTurbine& machine, const Periodic& periodic,
+std::map<std::string, std::vector<Complex>> by_family(const Turbine& machine, const Periodic& periodic,
                                                       const solvers::Floquet& result) {
     const HalfTurnCoordinates z = half_turn_coordinates(machine, unknowns_of(machine));
     solvers::SecondOrderSystem at;
@@ -139,7 +139,7 @@ void check_rigid_motions(const solvers::Floquet& result, double growth_per_rev) 
 TEST_CASE(
     "modes of the teetered machine: whole and half revolutions, Hill's method and the independent computation agree",
     "[crosscheck]") {
-    const TeeteredTurbine machine = teetered_machine(1);
+    const Turbine machine = teetered_machine(1);
     const Periodic periodic(machine);
     REQUIRE(periodic.state.converged);
     CHECK(periodic.state.coefficients.isZero(0));
@@ -170,7 +170,7 @@ TEST_CASE(
 }
 
 TEST_CASE("modes of the teetered machine: three elements per part give the first modes within 1 %", "[discrete]") {
-    const TeeteredTurbine machine = teetered_machine(3);
+    const Turbine machine = teetered_machine(3);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(11, true);
     CHECK(half.message.empty());
@@ -185,9 +185,9 @@ TEST_CASE("modes of the teetered machine: three elements per part give the first
 
 TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslung, about a periodic state",
           "[crosscheck]") {
-    TeeteredOptions options = TeeteredOptions::with_elements(1);
+    AssemblyOptions options = turbines::teetered_assembly(1);
     options.gravity = {0, 0, -9.81};
-    const TeeteredTurbine machine = turbines::assemble(general_description(), options);
+    const Turbine machine = turbines::assemble(general_description(), options);
     const Periodic periodic(machine, 16);
     const solvers::PeriodicSteadyState shot =
         solvers::shooting(machine.system(), machine.rotor().spin, Periodic::options(16));
@@ -200,7 +200,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 
     // Teeter changes sign in half a revolution, the blades exchange, tower and yaw repeat.
     const auto& rotor = machine.rotor();
-    const int teeter = machine.half_turn_odd()[0];
+    const int teeter = machine.rotor().odd[0];
     for (int j = 0; j <= 16; ++j) {
         const Eigen::Index from = j == 0 ? 0 : 2 * j - 1, count = j == 0 ? 1 : 2;
         const auto of = [&](int row) { return periodic.state.coefficients.row(row).segment(from, count); };
@@ -221,7 +221,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 
 TEST_CASE("modes of the teetered machine: six elements per part on the rigid tower, all modes of the table",
           "[discrete][slow]") {
-    const TeeteredTurbine machine = teetered_machine(6, true);
+    const Turbine machine = teetered_machine(6, true);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
     CHECK(half.message.empty());
@@ -231,7 +231,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on the rigid tow
 
 TEST_CASE("modes of the teetered machine: six elements per part on a tower of a hundred times the blade's rigidity",
           "[discrete][slow]") {
-    const TeeteredTurbine machine = teetered_machine(6);
+    const Turbine machine = teetered_machine(6);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
     CHECK(half.message.empty());
@@ -245,7 +245,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on a tower of a 
 }
 
 TEST_CASE("modes of the teetered machine: two elements per part, Hill's method", "[crosscheck][slow]") {
-    const TeeteredTurbine machine = teetered_machine(2);
+    const Turbine machine = teetered_machine(2);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(16, true);
     const solvers::Floquet balanced = solvers::hill(periodic.system, {.harmonics = 16});

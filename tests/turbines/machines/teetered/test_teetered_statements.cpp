@@ -61,9 +61,9 @@ private:
 
 struct Modes {
     explicit Modes(bool rigid_tower = false, double per_period = 46) {
-        turbines::TeeteredOptions options = turbines::TeeteredOptions::with_elements(3);
+        turbines::AssemblyOptions options = turbines::teetered_assembly(3);
         options.rigid_tower = rigid_tower;
-        options.tower.torsion_armature = options.blade.torsion_armature = -1. / 12;
+        options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
         const auto machine =
             turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
         for (int i = 0; i < machine.system().model.size(); ++i)
@@ -74,7 +74,7 @@ struct Modes {
         solvers::FloquetOptions wanted;
         wanted.per_period = per_period;
         wanted.tolerance = 1e-7;
-        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.half_turn_odd());
+        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.rotor().odd);
         result = solvers::floquet(solvers::linearised(machine.system(), state), wanted);
         z = half_turn_coordinates(machine, unknowns);
     }

@@ -1,0 +1,128 @@
+#include "turbines/model/description.hpp"
+
+#include "mbs/base/error.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+using Hold = Bearing::Hold;
+
+// The units of a spring: about or along an axis.
+struct SpringUnits {
+    const char *stiffness, *damping;
+};
+constexpr SpringUnits about{" [N m/rad]", " [N m s/rad]"}, along{" [N/m]", " [N s/m]"};
+
+void check_bearing(const std::string& machine, const std::string& field, const Bearing& bearing,
+                   const SpringUnits& units) {
+    const std::string stiffness = text(field, ".stiffness", units.stiffness),
+                      damping = text(field, ".damping", units.damping);
+    const bool spring = bearing.hold == Hold::spring, has_damper = spring || bearing.hold == Hold::free;
+    if (spring && std::isnan(bearing.stiffness))
+        throw InputError(machine, stiffness, "not given", "> 0, or free_joint, rigid_joint, driven_joint");
+    if (spring && !(bearing.stiffness > 0 && std::isfinite(bearing.stiffness)))
+        throw InputError(machine, stiffness, bearing.stiffness,
+                         "finite and > 0; without a spring it is a free_joint, if it does not move a rigid_joint");
+    if (!spring && bearing.stiffness != 0)
+        throw InputError(machine, stiffness, bearing.stiffness, "0: only Bearing::Hold::spring has a spring");
+    if (has_damper) return require_not_negative(machine, damping, bearing.damping);
+    if (bearing.damping != 0) throw InputError(machine, damping, bearing.damping, "0: the joint is rigid or driven");
+}
+
+void check_shaft(const std::string& machine, const std::string& field, const Bearing& shaft) {
+    if (shaft.hold == Hold::free || shaft.hold == Hold::driven)
+        throw InputError(machine, field, shaft.hold == Hold::free ? "free" : "driven",
+                         "a spring, or rigid_joint; the rotor is driven by AssemblyOptions::spin");
+    check_bearing(machine, field, shaft, about);
+}
+
+void require_finite(const std::string& machine, const std::string& quantity, double value) {
+    if (!std::isfinite(value)) throw InputError(machine, quantity, value, "finite");
+}
+
+// Angles given in degrees and ratios in per cent lie outside the ranges that machines have.
+class Ranges {
+public:
+    Ranges(const std::string& machine, bool unusual) : machine_(machine), unusual_(unusual) {}
+
+    void angle(const std::string& quantity, double value, double usual, double possible) const {
+        const double limit = unusual_ ? possible : usual;
+        if (std::abs(value) <= limit) return;
+        throw InputError(machine_, quantity + " [rad]", value,
+                         text(-limit, " ... ", limit, " (given in degrees?)", remedy()));
+    }
+    void ratio(const std::string& quantity, double value) const {
+        require_not_negative(machine_, quantity, value);
+        if (unusual_ || value <= 0.3) return;
+        throw InputError(machine_, quantity, value, text("0 ... 0.3 (given in per cent?)", remedy()));
+    }
+
+private:
+    std::string remedy() const { return unusual_ ? "" : "; if it is meant, set `unusual`"; }
+
+    const std::string& machine_;
+    bool unusual_;
+};
+
+void check_blade(const TurbineDescription& d, const BladeDescription& blade, const std::string& field,
+                 const Ranges& ranges) {
+    check_bearing(d.name, field + ".pitch", blade.pitch, about);
+    ranges.angle(field + ".cone", blade.cone, 0.5, pi / 2);
+    ranges.angle(field + ".pitch_setting", blade.pitch_setting, 3.2, 1e3);
+    ranges.ratio(field + ".first_flap_damping", blade.first_flap_damping);
+    for (const std::vector<double>* ratios : {&blade.damping.modal.all, &blade.damping.modal.bending_y,
+                                              &blade.damping.modal.bending_z, &blade.damping.modal.torsion})
+        for (double ratio : *ratios) ranges.ratio(field + ".damping", ratio);
+}
+
+void check_blades(const TurbineDescription& d, const Ranges& ranges) {
+    if (d.blades < 0) throw InputError(d.name, "number of blades", d.blades, ">= 0");
+    if (d.blades > 0) check_blade(d, d.blade, "blade", ranges);
+    for (const auto& [number, blade] : d.own_blades) {
+        if (number < 1 || number > d.blades)
+            throw InputError(d.name, "number of a blade of its own", number, text("1 ... ", d.blades));
+        if (!blade) continue;
+        const std::string field = text("own_blades[", number, "]");
+        check_blade(d, *blade, field, ranges);
+        if (blade->pitch.is_rigid() != d.blade.pitch.is_rigid())
+            throw InputError(d.name, field + ".pitch", blade->pitch.is_rigid() ? "rigid" : "not rigid",
+                             "as the other blades: they have the same coordinates (driven_joint holds one of them)");
+    }
+}
+
+}  // namespace
+
+const BladeDescription* TurbineDescription::blade_at(int number) const {
+    const auto own = own_blades.find(number);
+    if (own == own_blades.end()) return &blade;
+    return own->second ? &*own->second : nullptr;
+}
+
+void TurbineDescription::check() const {
+    const Ranges ranges(name, unusual);
+    require_not_negative(name, "rotor speed [rad/s]", rotor_speed);
+    require_not_negative(name, "hub radius [m]", hub.radius);
+    require_finite(name, "overhang [m]", nacelle.overhang);
+    require_finite(name, "shaft height [m]", nacelle.shaft_height);
+    require_positive(name, "gear ratio", drive_train.gear_ratio);
+    require_not_negative(name, "generator inertia [kg m^2]", drive_train.generator_inertia);
+    require_not_negative(name, "gearbox inertia [kg m^2]", drive_train.gearbox_inertia);
+    const bool elastic = !drive_train.main_shaft.is_rigid() || !drive_train.high_speed_shaft.is_rigid();
+    if (elastic) require_positive(name, "generator inertia [kg m^2]", drive_train.generator_inertia);
+    ranges.angle("nacelle.tilt", nacelle.tilt, 0.35, pi / 2);
+    ranges.ratio("tower.first_mode_damping", tower.first_mode_damping);
+    check_bearing(name, "yaw.rotation", yaw.rotation, about);
+    check_bearing(name, "yaw.translation", yaw.translation, along);
+    check_bearing(name, "nacelle.tilt_bearing", nacelle.tilt_bearing, about);
+    check_shaft(name, "drive_train.high_speed_shaft", drive_train.high_speed_shaft);
+    check_shaft(name, "drive_train.main_shaft", drive_train.main_shaft);
+    if (hub.teeter) {
+        check_bearing(name, "hub.teeter", hub.teeter->bearing, about);
+        require_finite(name, "hub.teeter.undersling [m]", hub.teeter->undersling);
+        ranges.angle("hub.teeter.delta3", hub.teeter->delta3, 1.3, pi / 2);
+    }
+    check_blades(*this, ranges);
+}
+
+}  // namespace cardan::turbines
