@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/floquet_mac.hpp"
+#include "solvers/campbell/method.hpp"
 #include "solvers/campbell/point.hpp"
 #include "solvers/campbell/tracking.hpp"
 
@@ -181,6 +182,7 @@ std::string method_name(CampbellMethod method, std::size_t blades) {
     const char* rotating = "rotating frame of the blade";
     if (blades == 0 && method == CampbellMethod::coleman) return "fixed frame";
     switch (method) {
+        case CampbellMethod::automatic:  // chosen before
         case CampbellMethod::coleman:
             return blades == 1 ? rotating : "Coleman (fixed frame)";
         case CampbellMethod::frozen_azimuth:
@@ -201,8 +203,8 @@ std::string method_name(CampbellMethod method, std::size_t blades) {
 // The diagram of one machine or of several like it, point by point.
 class Sweep {
 public:
-    Sweep(const CampbellOptions& options, std::size_t points, const std::string& parameter = {})
-        : options_(options), points_(points) {
+    Sweep(const CampbellOptions& options, std::string why, std::size_t points, const std::string& parameter = {})
+        : options_(options), why_(std::move(why)), points_(points) {
         diagram_.parameter = parameter;
         if (!(options.max_frequency_hz > 0))
             throw InputError("Campbell diagram", "largest frequency [Hz]", options.max_frequency_hz, "> 0");
@@ -220,6 +222,7 @@ private:
     void set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
 
     const CampbellOptions& options_;
+    std::string why_;  // this method was chosen
     std::size_t points_;
     Campbell diagram_;
     std::vector<FrameId> frames_;
@@ -238,6 +241,7 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     diagram_.spin = spin_is_unknown ? RotorSpin::free : RotorSpin::prescribed;
     diagram_.blades = static_cast<int>(rotor.blades.size());
     diagram_.method = rotor.spin < 0 ? "at rest" : method_name(options_.method, rotor.blades.size());
+    if (!why_.empty()) diagram_.method += text("; chosen: ", why_);
     diagram_.coordinates = system.model.coordinates();
     diagram_.unknowns = solver.unknowns();
     diagram_.rows = solver.row_names();
@@ -345,8 +349,11 @@ std::vector<double> rpm_range(double first, double last, double step) {
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options) {
     check_speeds(rotor_speed);
-    Sweep sweep(options, rotor_speed.size());
-    const std::unique_ptr<PointMethod> solver = point_method(system, rotor, options);
+    const MethodChoice choice = choose_method(system, rotor, rotor_speed, options);
+    CampbellOptions own = options;
+    own.method = choice.method;
+    Sweep sweep(own, choice.reason, rotor_speed.size());
+    const std::unique_ptr<PointMethod> solver = point_method(system, rotor, own);
     sweep.set_machine(system, rotor, *solver);
     for (const double speed : rotor_speed)
         if (!sweep.add(system, *solver, speed)) break;
@@ -360,12 +367,15 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
     if (options.neighbour)
         throw InputError("Campbell diagram", text("neighbour of a diagram over ", parameter), "given",
                          "none: modes are followed from one machine to the next");
-    Sweep sweep(options, cases.size(), parameter);
+    const MethodChoice choice = choose_method(cases, options);
+    CampbellOptions own = options;
+    own.method = choice.method;
+    Sweep sweep(own, choice.reason, cases.size(), parameter);
     std::vector<std::unique_ptr<PointMethod>> solvers;
     std::vector<const PointMethod*> used;
     std::vector<double> parameters;
     for (const CampbellCase& one : cases) {
-        solvers.push_back(point_method(*one.system, *one.rotor, options));
+        solvers.push_back(point_method(*one.system, *one.rotor, own));
         if (parameters.empty()) sweep.set_machine(*one.system, *one.rotor, *solvers.back());
         if (solvers.back()->row_names() != solvers.front()->row_names())
             throw InputError(one.rotor->machine, text("rows at ", parameter, " ", one.parameter),

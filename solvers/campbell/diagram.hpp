@@ -20,6 +20,8 @@ std::vector<double> rpm_range(double first, double last, double step);
 
 /// How modes are computed, and in which frame.
 enum class CampbellMethod : std::uint8_t {
+    automatic,  ///< `coleman` where the equations are constant in multi-blade coordinates, else `floquet`: two blades,
+                ///< blades that differ, gravity on coned or bent blades; Campbell::method says which and why
     coleman,         ///< fixed frame, by multi-blade transformation; three or more blades
     frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: not true motions of the machine
     floquet,  ///< motions about the periodic steady state by Floquet theory, in multi-blade rows: any number of blades,
@@ -49,7 +51,7 @@ inline constexpr double sure_mac = 0.6;
 
 struct CampbellOptions {
     RotorSpin spin = RotorSpin::free;
-    CampbellMethod method = CampbellMethod::coleman;
+    CampbellMethod method = CampbellMethod::automatic;
     double max_frequency_hz =
         10;                   ///< branches that stay above are left out (all modes take part in tracking and naming)
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
@@ -164,7 +166,8 @@ struct Campbell {
     std::vector<std::vector<std::vector<FrameMotion>>> motions;  ///< [point][mode][frame], empty without shapes
 };
 
-/// Modes at every rotor speed: steady state, linearisation, Coleman transformation, eigenvalues; then identification
+/// Modes at every rotor speed: steady state, linearisation, Coleman transformation (or Floquet theory where that
+/// does not make the equations constant), eigenvalues; then identification
 /// and tracking by optimal assignment on the complex energy MAC. A rotor with one blade, the isolated blade, is taken
 /// in its rotating frame; a rotor without blades, a disc on a shaft, in the fixed frame, where it whirls.
 ///
@@ -173,7 +176,7 @@ struct Campbell {
 /// multiples of the rotor speed. Motions without elastic energy (free yaw, teeter) are branches too. At standstill the
 /// machine is linearised at azimuth 0.
 /// @throws InputError for an empty list of speeds, speeds that are not finite, not increasing or negative, two blades
-/// unless the method is `floquet`, no rotor for `floquet` and `averaged`, a neighbour of another kind or without a
+/// with `coleman` or `averaged`, no rotor for `floquet` and `averaged`, a neighbour of another kind or without a
 /// common speed, and options out of range; NumericalError where no (constant or periodic) steady state exists or is
 /// found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,

@@ -168,14 +168,29 @@ void PointSolver::set_other_azimuth(double psi, double rotor_speed) {
     coleman_->transform_in_place(other_, psi, rotor_speed);
 }
 
+double PointSolver::remainder(double rotor_speed) {
+    const SecondOrderSystem& z = current_;
+    set_other_azimuth(1.0, rotor_speed);
+    return (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
+           (other_.M - z.M).norm() / z.M.norm();
+}
+
+double PointSolver::periodic_remainder(double rotor_speed) {
+    find_steady_state(rotor_speed);
+    lineariser_.linearise(steady_.at, lin_);
+    if (turned_.q.size() == 0) start();
+    restrict_to(lin_, unknowns_, rotor_.spin, current_);
+    if (!coleman_) return 0;
+    coleman_->transform_in_place(current_, 0, rotor_speed);
+    return remainder(rotor_speed);
+}
+
 // The transformed matrices of an isotropic rotor are constant; otherwise their azimuthal average is used, with a
 // warning.
 void PointSolver::average_if_periodic(double rotor_speed) {
     SecondOrderSystem& z = current_;
-    set_other_azimuth(1.0, rotor_speed);
-    const double remainder = (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
-                             (other_.M - z.M).norm() / z.M.norm();
-    if (remainder < 1e-9) return;
+    const double remainder = this->remainder(rotor_speed);
+    if (remainder < negligible_remainder) return;
     const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
     for (int i = 1; i < azimuths; ++i) {
         set_other_azimuth(2 * pi * i / azimuths, rotor_speed);

@@ -35,6 +35,9 @@ public:
     virtual const std::string& warning() const = 0;
 };
 
+/// PointSolver::periodic_remainder() that counts as none: rounding.
+inline constexpr double negligible_remainder = 1e-9;
+
 /// Sets CampbellPoint::stability_margin from the modes, rigid ones excluded. Growth or decay at rounding level counts
 /// as zero: 1e-8 of the eigenvalue, or of the lowest frequency if that is larger. Eigenvalues above max_reliable_ratio
 /// times the lowest are ignored.
@@ -61,6 +64,9 @@ public:
     Matrix rotating_coordinates() const override;
     const std::string& warning() const override { return warning_; }
 
+    /// Largest part of the multi-blade matrices that changes with the azimuth, relative to them; 0 without blades to
+    /// transform. Steady state as in solve().
+    double periodic_remainder(double rotor_speed);
     /// Null without blades to transform.
     const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
     /// Defines the components from this linearisation instead of that of the first point; call before the first point.
@@ -74,6 +80,7 @@ private:
     void set_margin(CampbellPoint& point) const;
     void set_system(double rotor_speed);
     void set_other_azimuth(double psi, double rotor_speed);
+    double remainder(double rotor_speed);
     void average_if_periodic(double rotor_speed);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);
 

@@ -1,0 +1,24 @@
+/// @file
+/// Which method suits a machine: constant equations in multi-blade coordinates, or periodic ones.
+#pragma once
+
+#include "solvers/campbell/diagram.hpp"
+
+#include <span>
+
+namespace cardan::solvers {
+
+/// What CampbellMethod::automatic stands for.
+struct MethodChoice {
+    CampbellMethod method;
+    std::string reason = {};  ///< why it is Floquet's; empty for Coleman's and for a method that was asked for
+};
+
+/// @param rotor_speeds  of the sweep, rad/s; the fastest decides
+/// @throws InputError as PointSolver
+MethodChoice choose_method(const System& system, const RotorMap& rotor, std::span<const double> rotor_speeds,
+                           const CampbellOptions& options);
+/// Likewise for a diagram over another parameter: Coleman's if it suits all machines.
+MethodChoice choose_method(std::span<const CampbellCase> cases, const CampbellOptions& options);
+
+}  // namespace cardan::solvers
