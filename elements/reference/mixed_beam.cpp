@@ -1,6 +1,7 @@
 #include "elements/reference/mixed_beam.hpp"
 
 #include "elements/sections/quadrature.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"
 
@@ -167,7 +168,7 @@ VectorT<S> MixedBeam::residual(const VectorT<S>& x, const VectorT<S>& xdot, cons
     r.template head<12>() -= x.template head<12>();
     r.template segment<12>(node_rows(elements())) += x.template segment<12>(tip());
     for (int i = 0; i < elements(); ++i) {
-        const Element& section = elements_[static_cast<std::size_t>(i)];
+        const Element& section = entry(elements_, i);
         const Index first = station(i + 1);
         const Station<S> a(x, first);
         const Vec6T<S> strain = section.compliance.cast<S>() * x.template segment<6>(first + Field::F);
@@ -201,7 +202,7 @@ MixedJacobian MixedBeam::jacobian(const Vector& x, const MixedRootMotion& motion
     A.topLeftCorner<12, 12>().diagonal().setConstant(-1);
     A.block<12, 12>(node_rows(elements()), tip()).diagonal().setOnes();
     for (int i = 0; i < elements(); ++i) {
-        const Element& section = elements_[static_cast<std::size_t>(i)];
+        const Element& section = entry(elements_, i);
         const Index first = station(i + 1);
         const Station<double> a(x, first);
         const Vec6 strain = section.compliance * x.segment<6>(first + Field::F);
