@@ -1,6 +1,7 @@
 #include "solvers/algebra/shifted_schur.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -91,10 +92,10 @@ Matrix ShiftedSchur::subspace(std::vector<bool> chosen) const {
     ComplexMatrix T = T_, U = U_;
     for (Index target = 0; target < count; ++target) {
         Index at = target;
-        while (!chosen[static_cast<std::size_t>(at)]) ++at;
+        while (!entry(chosen, at)) ++at;
         for (; at > target; --at) {
             exchange(T, U, at - 1);
-            std::vector<bool>::swap(chosen[static_cast<std::size_t>(at)], chosen[static_cast<std::size_t>(at - 1)]);
+            std::vector<bool>::swap(entry(chosen, at), entry(chosen, at - 1));
         }
     }
     // The span is closed under conjugation: real and imaginary parts of its basis span it over the real numbers.

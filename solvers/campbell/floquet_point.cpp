@@ -1,5 +1,6 @@
 #include "solvers/campbell/floquet_point.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 
@@ -271,7 +272,7 @@ void PeriodicPointSolver::leave_out_free_spin(double scale, CampbellPoint& point
     std::erase_if(point.modes, [&](const CampbellMode& m) {
         if (std::abs(m.mode.eigenvalue) >= free_spin_limit * scale) return false;
         const int row = largest(kinetic_by_row(mean_, m.mode.shape, m.mode.eigenvalue));
-        return unknowns()[static_cast<std::size_t>(row)] == rotor_.spin;
+        return entry(unknowns(), row) == rotor_.spin;
     });
     set_stability_margin(point);
 }

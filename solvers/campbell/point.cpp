@@ -1,5 +1,6 @@
 #include "solvers/campbell/point.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/problem_size.hpp"
@@ -60,7 +61,7 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       plain_rows_(unknowns_.size()),
       steady_solver_(system, rotor.spin),
       lineariser_(system),
-      mode_solver_(static_cast<Eigen::Index>(unknowns_.size())) {
+      mode_solver_(std::ssize(unknowns_)) {
     const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
     if (disc || rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
 }
@@ -90,7 +91,7 @@ void PointSolver::note_rigid_springs() {
         if (w > 0) lowest = std::min(lowest, w);
     std::string names;
     for (Eigen::Index i = 0; i < omega.size(); ++i)
-        if (const int k = unknowns_[static_cast<std::size_t>(i)]; omega(i) > rigid_ratio * lowest)
+        if (const int k = entry(unknowns_, i); omega(i) > rigid_ratio * lowest)
             names += text(names.empty() ? "'" : ", '", system_.forces.stiffest_law(k), "' (", other_.K_elastic(i, i),
                           " on the coordinate '", system_.model.coordinates()[k].name, "')");
     if (!names.empty())
@@ -138,7 +139,7 @@ void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count)
     const std::size_t most = 2 * unknowns_.size();
     modes.reserve(most);
     spare_.reserve(most);
-    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    const auto n = std::ssize(unknowns_);
     const std::size_t components = energy_shares_->components().size();
     const auto higher = static_cast<std::size_t>(energy_shares_->harmonics() - 1);
     while (modes.size() + spare_.size() < most) {
@@ -193,7 +194,7 @@ std::vector<std::string> PointSolver::row_names() const {
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
         const MultiBladeRow& row = rows()[i];
         const bool blade = row.blade_coordinate >= 0;
-        const int coordinate = blade ? rotor_.blades[0][static_cast<std::size_t>(row.blade_coordinate)] : unknowns_[i];
+        const int coordinate = blade ? entry(rotor_.blades[0], row.blade_coordinate) : unknowns_[i];
         const std::string& name = system_.model.coordinates()[coordinate].name;
         names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);
     }
@@ -201,7 +202,7 @@ std::vector<std::string> PointSolver::row_names() const {
 }
 
 Matrix PointSolver::rotating_coordinates() const {
-    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    const auto n = std::ssize(unknowns_);
     return coleman_ ? coleman_->matrix(0) : Matrix(Matrix::Identity(n, n));
 }
 

@@ -1,6 +1,7 @@
 #include "solvers/equilibrium/buckling.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/linear/modes.hpp"
@@ -33,7 +34,7 @@ Matrix term_sizes(const System& system, const Vector& q, bool gravity) {
     if (!gravity || !system.forces.has_gravity()) return sizes;
     composites(kin);
     for (int a = 0; a < model.size(); ++a) {
-        const auto& subtree = workspace.composite[static_cast<std::size_t>(a)];
+        const auto& subtree = entry(workspace.composite, a);
         const Vec3 C = subtree.C.vector();
         const double size = subtree.M * system.forces.gravity().norm() * (twist_at(kin, a, C).v.norm() + C.norm());
         for (int b = a; b >= 0; b = model.body(b).parent) sizes(a, b) = sizes(b, a) = sizes(b, a) + size;

@@ -96,7 +96,7 @@ void put(Hdf5File& file, const std::string& name, const Vector& values, const De
 
 Vector vector_of(const Hdf5File& file, const std::string& name) {
     const std::vector<double> values = file.read_doubles(name);
-    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+    return Eigen::Map<const Vector>(values.data(), std::ssize(values));
 }
 
 IntegrationStatistics statistics_of(const Hdf5File& file) {

@@ -1,5 +1,6 @@
 #include "solvers/periodic/floquet.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
@@ -190,9 +191,8 @@ double Analysis::error(const ProductEigen::Vectors& v) const {
     Complex change = 0;
     const Index p = v.growth.size();
     for (Index k = 0; k < p; ++k)
-        change += (v.left.col((k + 1) % p).transpose() * (difference_[static_cast<std::size_t>(k)] * v.right.col(k)))
-                      .value() /
-                  v.growth(k);
+        change +=
+            (v.left.col((k + 1) % p).transpose() * (entry(difference_, k) * v.right.col(k))).value() / v.growth(k);
     const int stages = options_.transition.method == TransitionMethod::radau ? options_.transition.stages : 1;
     return std::abs(change) / angle_ / std::pow(2.0, stages) + rounding(v.condition);
 }
@@ -208,7 +208,7 @@ ComplexMatrix Analysis::periodic_vector(const ProductEigen::Vectors& v, Complex 
         if (s % each == 0) x = v.right.col(s / each);
         const Complex factor = std::exp(grown - exponent * (angle_ * s / S));
         p.col(s) = factor * normalised_.unit.cwiseProduct(x);
-        x = fine_[static_cast<std::size_t>(s)] * x;
+        x = entry(fine_, s) * x;
         if ((s + 1) % each == 0) grown += std::log(v.growth(s / each));
     }
     for (int s = S; s < Q * S; ++s) p.col(s) = raw_permutation_.transpose() * p.col(s - S);

@@ -109,7 +109,7 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
         PeriodicSteadyState about;
         std::vector<int> unknowns;
     };
-    const auto n = static_cast<Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const auto memory =
         std::make_shared<Memory>(Memory{Lineariser(system), Linearisation{}, about, std::move(unknowns)});
     return PeriodicSystem::second_order(
@@ -153,8 +153,7 @@ namespace {
 class Permutation {
 public:
     explicit Permutation(const std::vector<int>& coordinates)
-        : P(Matrix::Identity(static_cast<Index>(coordinates.size()), static_cast<Index>(coordinates.size()))),
-          coordinates_(coordinates) {}
+        : P(Matrix::Identity(std::ssize(coordinates), std::ssize(coordinates))), coordinates_(coordinates) {}
 
     void renumber(const std::vector<std::vector<int>>& blades, std::size_t coordinate, bool backward);
     void turn(const RotatingPair& pair, double angle);

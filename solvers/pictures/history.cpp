@@ -170,7 +170,7 @@ void plot_spectra(const History& history, const std::vector<HistoryPanel>& panel
                 options.max_frequency_hz > 0
                     ? std::upper_bound(s.frequency.begin(), s.frequency.end(), options.max_frequency_hz) -
                           s.frequency.begin()
-                    : static_cast<std::ptrdiff_t>(s.frequency.size()));
+                    : std::ssize(s.frequency));
             const auto y = std::span(options.density ? s.density : s.amplitude).first(shown);
             curves.channels.push_back(&history.channels[history.index(channel)]);
             curves.curves.push_back(min_max_envelope(std::span(s.frequency).first(shown), y, columns(options.width)));

@@ -1,5 +1,6 @@
 #include "solvers/pictures/stack.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/pictures/gnuplot.hpp"
 
@@ -48,7 +49,7 @@ Range finite_range(const StackPanel& panel) {
 std::string superscript(int number) {
     constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string shown = number < 0 ? "⁻" : "";
-    for (const char c : text(std::abs(number))) shown += digits[static_cast<std::size_t>(c - '0')];
+    for (const char c : text(std::abs(number))) shown += entry(digits, c - '0');
     return shown;
 }
 

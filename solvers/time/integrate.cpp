@@ -1,5 +1,6 @@
 #include "solvers/time/integrate.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/time/detail/stepper.hpp"
 
@@ -66,8 +67,8 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     x_.resize(2 * m);
     x_between_.resize(2 * m);
     for (Eigen::Index i = 0; i < m; ++i) {
-        x_(i) = q(equations_.unknowns()[static_cast<std::size_t>(i)]);
-        x_(m + i) = qd(equations_.unknowns()[static_cast<std::size_t>(i)]);
+        x_(i) = q(entry(equations_.unknowns(), i));
+        x_(m + i) = qd(entry(equations_.unknowns(), i));
     }
     stepper_ = make_stepper(equations_, options_);
     values_.resize(options_.events.size());
@@ -233,7 +234,7 @@ void Integrator::complete(Advance& result) {
 }
 
 AfterEvent Integrator::act(int event) {
-    const Event& happened = options_.events[static_cast<std::size_t>(event)];
+    const Event& happened = entry(options_.events, event);
     if (!equations_.complete(state_.time, x_.data(), state_))
         throw NumericalError(
             text(in_integration, ": no state at the event '", happened.name, "': ", equations_.problem()));
@@ -265,7 +266,7 @@ bool Integrator::process(double to, Advance& result) {
     if (after != AfterEvent::go_on) begin_piece();
     if (after != AfterEvent::stop) return true;
     result.end = Advance::End::event;
-    result.message = options_.events[static_cast<std::size_t>(event)].name;
+    result.message = entry(options_.events, event).name;
     return false;
 }
 
@@ -282,7 +283,7 @@ bool Integrator::accelerations_changed() {
     if (start_pending_) return false;
     if (!equations_.accelerations(state_.time, x_.data(), now_.data())) return true;
     for (Eigen::Index i = 0; i < now_.size(); ++i)
-        if (now_(i) != state_.qdd(equations_.unknowns()[static_cast<std::size_t>(i)])) return true;
+        if (now_(i) != state_.qdd(entry(equations_.unknowns(), i))) return true;
     if (seen_at_ != stepper_->time() || seen_at_ <= state_.time) return false;
     stepper_->state_at(seen_at_, x_between_.data());
     return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
