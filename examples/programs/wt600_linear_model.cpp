@@ -5,6 +5,7 @@
 // speeds, accelerations and loads as outputs; the multi-blade transformation makes the matrices constant; balanced
 // truncation leaves a small model to design with.
 // Reference: the modes of A are those of the Campbell diagram at this rotor speed (docs/wt600.md).
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
@@ -149,7 +150,7 @@ void print_modes(const turbines::Turbine& turbine, const solvers::ConstantModel&
 Vector output_sizes(const solvers::ConstantModel& model) {
     Vector size(model.C.rows());
     for (Eigen::Index i = 0; i < size.size(); ++i) {
-        const std::string& units = model.outputs[static_cast<std::size_t>(i)].units;
+        const std::string& units = entry(model.outputs, i).units;
         size(i) = units == "N m" || units == "N" ? 1e4 : 0.01;
     }
     return size;
@@ -171,8 +172,7 @@ solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Argum
     options.max_frequency_hz = a.max_frequency;
     options.static_gain = solvers::StaticGain::kept;
     options.input_size.resize(fixed.B.cols());
-    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i)
-        options.input_size(i) = input_size(fixed.inputs[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i) options.input_size(i) = input_size(entry(fixed.inputs, i));
     options.output_size = output_sizes(fixed);
     return solvers::balanced_truncation(fixed, options);
 }
@@ -180,8 +180,8 @@ solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Argum
 // Which inputs and outputs a small model serves is seen here.
 void print_errors(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency) {
     const auto print = [](const std::vector<solvers::Signal>& signals, const Vector& error) {
-        for (std::size_t i = 0; i < signals.size(); ++i)
-            std::printf("  %-34s %8.2f %%\n", signals[i].name.c_str(), 100 * error(static_cast<Eigen::Index>(i)));
+        for (Eigen::Index i = 0; i < error.size(); ++i)
+            std::printf("  %-34s %8.2f %%\n", entry(signals, i).name.c_str(), 100 * error(i));
     };
     std::printf("largest error up to %g Hz, of the largest response to the same input (each output by its own size)\n",
                 max_frequency);

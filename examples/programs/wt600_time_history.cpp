@@ -7,6 +7,7 @@
 // aerodynamics, see elements/machine/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
 // Checks: the energy balance, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 
@@ -161,7 +162,7 @@ void print_resonances(const solvers::History& history, double tower_hz) {
         if (at == speed.end())
             std::printf("%5dP %8.2f %8s\n", p, meets / units::rpm, "-");
         else
-            print_swing(history, text(p, "P"), meets, history.time[static_cast<std::size_t>(at - speed.begin())]);
+            print_swing(history, text(p, "P"), meets, entry(history.time, at - speed.begin()));
     }
     if (history.time.back() > 6) print_swing(history, "end", speed.back(), history.time.back() - 6);
 }

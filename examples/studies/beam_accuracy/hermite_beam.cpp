@@ -38,7 +38,7 @@ public:
         K.setFromTriplets(k.begin(), k.end());
         M.setFromTriplets(m.begin(), m.end());
     }
-    Eigen::Index size() const { return static_cast<Eigen::Index>(ends_.size() - 1) * per_node(); }
+    Eigen::Index size() const { return (std::ssize(ends_) - 1) * per_node(); }
     Eigen::Index per_node() const { return beam_.plane == Plane::both ? 4 : 2; }
 
 private:
