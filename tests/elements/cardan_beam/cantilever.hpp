@@ -2,6 +2,7 @@
 #pragma once
 
 #include "elements/cardan_beam/cardan_beam.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/linear/modes.hpp"
 
 #include <cmath>
@@ -59,7 +60,7 @@ inline std::vector<double> clamped_frequencies(const BeamLine& line, const Carda
 
 /// Bending frequency number `mode` (from 1) of a beam whose two planes are alike: each comes twice.
 inline double bending(const std::vector<double>& omega, int mode) {
-    return omega[static_cast<std::size_t>(2 * (mode - 1))];
+    return entry(omega, 2 * (mode - 1));
 }
 
 }  // namespace cardan::testing

@@ -2,6 +2,7 @@
 /// A rotating uniform cantilever through the whole chain: tree, steady state, linearisation, modes.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/catch.hpp"
 
@@ -45,9 +46,9 @@ inline FlapLag rotating(double eta, const CardanBeamOptions& options, double hub
     std::vector<double> flap, lag;
     for (const auto& mode : solvers::modes(blade)) {
         double about_y = 0, about_z = 0;
-        for (std::size_t i = 0; i < blade.coordinates.size(); ++i) {
-            const bool y = coordinates[blade.coordinates[i]].name.find("bending y") != std::string::npos;
-            (y ? about_y : about_z) += std::norm(mode.shape(static_cast<Eigen::Index>(i)));
+        for (Eigen::Index i = 0; i < mode.shape.size(); ++i) {
+            const bool y = coordinates[entry(blade.coordinates, i)].name.find("bending y") != std::string::npos;
+            (y ? about_y : about_z) += std::norm(mode.shape(i));
         }
         (about_y > about_z ? flap : lag).push_back(std::abs(mode.eigenvalue));
     }

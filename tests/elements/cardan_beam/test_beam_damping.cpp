@@ -2,6 +2,7 @@
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "elements/sections/section_matrices.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/numbers.hpp"
@@ -275,7 +276,7 @@ TEST_CASE("beam damping: shear coefficients damp by the share of shear in the en
         double last = 0;
         for (const double tau : {1e-5, 2e-5, 4e-5, 1e-4, 3e-4}) {
             std::array<double, 6> constants{};
-            constants[static_cast<std::size_t>(shear)] = tau;
+            entry(constants, shear) = tau;
             const Clamped beam = clamp(uniform_beam(10, s), damped(4, by_direction(constants)));
             const auto [omega, ratio] = beam.family(direction, 0);
             CHECK(ratio > last);
@@ -298,7 +299,7 @@ TEST_CASE("beam damping: a rigid direction beside the reference line leaves the 
         s.tension_centre = {offset, -offset / 2}, s.shear_centre = {-offset / 3, offset};
         const Mat6 S = s.section().compliance;
         Mat6 G = Mat6::Zero();
-        for (const int i : {3, 4, 5}) G += tau[static_cast<std::size_t>(i)] * S.col(i) * S.row(i) / S(i, i);
+        for (const int i : {3, 4, 5}) G += entry(tau, i) * S.col(i) * S.row(i) / S(i, i);
         CHECK((dissipation(s.section(), tau) - G).norm() < 1e-12 * G.norm());
         if (offset > 0.1) continue;
         const Clamped beam = clamp(uniform_beam(10, s), damped(3, by_direction(tau), false));

@@ -1,6 +1,7 @@
 // The laws of the hinges at large angles: exact derivatives, the same at rest, what they gain.
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
@@ -65,7 +66,7 @@ struct Beam {
     double& at(Vector& q, ElementCoordinate kind) const {
         const CardanBeam::Element& element = beam.elements[0];
         const auto i = std::find(element.kinds.begin(), element.kinds.end(), kind) - element.kinds.begin();
-        return q(system.model.index(element.bodies[static_cast<std::size_t>(i)]));
+        return q(system.model.index(entry(element.bodies, i)));
     }
 };
 

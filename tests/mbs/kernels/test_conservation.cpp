@@ -1,4 +1,5 @@
 // Conservation laws and symmetries of space and time: energy, momentum, moving bases, gravity as acceleration.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
@@ -183,7 +184,7 @@ struct OnMovingBase {
         for (int k = 0; k < 8; ++k) {
             const double stiffness = uniform(random, 1, 5);
             at_rest.add_spring(text("spring ", k), BodyId{k}, stiffness, 0.3);
-            on_base.add_spring(text("spring ", k), bodies[static_cast<std::size_t>(k)], stiffness, 0.3);
+            on_base.add_spring(text("spring ", k), entry(bodies, k), stiffness, 0.3);
         }
         q = random_state(random, 8), qd = random_state(random, 8);
     }
@@ -200,9 +201,7 @@ struct OnMovingBase {
         Vector q_all(n), qd_all(n);
         for (int axis = 0; axis < 3; ++axis) q_all(axis) = position(axis), qd_all(axis) = velocity(axis);
         std::vector<int> to(8);
-        for (int k = 0; k < 8; ++k)
-            to[static_cast<std::size_t>(model.index(BodyId{k}))] =
-                system.model.index(bodies[static_cast<std::size_t>(k)]);
+        for (int k = 0; k < 8; ++k) entry(to, model.index(BodyId{k})) = system.model.index(entry(bodies, k));
         q_all(to) = q, qd_all(to) = qd;
         Simulation motion(system, q_all, qd_all, [&](double, int axis) { return acceleration(axis); });
         const Simulation::Response response = motion.response();
@@ -239,10 +238,9 @@ TEST_CASE("galilei: the motion of a tree on a steadily moving base is the motion
         const Vec3 velocity(7, -5, 3);
         qd << velocity, 0.3 * s.qd;
         std::vector<int> to(11);
-        for (int k = 0; k < 3; ++k) to[static_cast<std::size_t>(k)] = k;
+        for (int k = 0; k < 3; ++k) entry(to, k) = k;
         for (int k = 0; k < 8; ++k)
-            to[static_cast<std::size_t>(3 + at_rest.model.index(BodyId{k}))] =
-                on_base.model.index(s.bodies[static_cast<std::size_t>(k)]);
+            entry(to, 3 + at_rest.model.index(BodyId{k})) = on_base.model.index(entry(s.bodies, k));
         Vector q_all(11), qd_all(11);
         q_all(to) = q, qd_all(to) = qd;
         Simulation b(on_base, q_all, qd_all);

@@ -1,5 +1,6 @@
 // Campbell diagrams by Floquet's theory on small rotors: against Coleman's, closed forms, floquet() in blade
 // coordinates, the multi-blade linear model; input that is refused.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/control/multi_blade_model.hpp"
@@ -202,9 +203,9 @@ TEST_CASE("campbell by Floquet: the tips move as the sum of all harmonics says",
             return std::find(d.rows.begin(), d.rows.end(), name) - d.rows.begin();
         };
         const auto frame = std::find(d.frames.begin(), d.frames.end(), "lag 1") - d.frames.begin();
-        REQUIRE(frame < static_cast<std::ptrdiff_t>(d.frames.size()));
+        REQUIRE(frame < std::ssize(d.frames));
         const Complex lag = (shape(row("lag 1 (collective)")) + shape(row("lag 1 (differential)"))) / std::sqrt(2.0);
-        const Complex turned = motion[static_cast<std::size_t>(frame)].motion(2);
+        const Complex turned = entry(motion, frame).motion(2);
         CAPTURE(branch.name, l);
         CHECK(std::abs(turned - (lag + shape(row("spin")))) < 1e-9 * shape.norm());
     }

@@ -1,4 +1,5 @@
 // Floquet's theory on small systems whose multipliers or exponents are known in closed form.
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/hill.hpp"
 #include "tests/oracles/mathieu.hpp"
@@ -224,12 +225,12 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
                 floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .most_steps = 3000});
             REQUIRE(result.modes.size() == 3);
             CAPTURE(stages, tolerance, result.steps);
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto k = static_cast<Index>(i);
+            for (Index k = 0; k < 3; ++k) {
+                const FloquetMode& mode = entry(result.modes, k);
                 const Complex expected(-zeta(k) * omega(k), omega(k) * std::sqrt(1 - zeta(k) * zeta(k)));
-                const double error = std::abs(result.modes[i].exponent - expected);
-                CHECK(error <= result.modes[i].error + 1e-14 * omega(k));
-                if (result.message.empty()) CHECK(result.modes[i].error <= tolerance);
+                const double error = std::abs(mode.exponent - expected);
+                CHECK(error <= mode.error + 1e-14 * omega(k));
+                if (result.message.empty()) CHECK(mode.error <= tolerance);
             }
         }
     const Floquet rough = floquet(system, {.transition = {.stages = 2}, .most_steps = 200});
@@ -260,12 +261,13 @@ TEST_CASE("Floquet: the scheme of eq. 19 maps the frequency f to (N / pi) atan(p
         const Floquet result = floquet(oscillators(f, Vector::Zero(4)), options);
         REQUIRE(result.modes.size() == 4);
         CHECK(result.steps == N);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const double own = f(static_cast<Index>(i)), mapped = N / pi * std::atan(pi * own / N);
+        for (Index i = 0; i < 4; ++i) {
+            const FloquetMode& mode = entry(result.modes, i);
+            const double own = f(i), mapped = N / pi * std::atan(pi * own / N);
             CAPTURE(N, own);
-            CHECK(result.modes[i].per_period() == Approx(mapped).epsilon(1e-11));
-            CHECK(std::abs(result.modes[i].growth()) < 1e-12 * own);
-            CHECK(std::isnan(result.modes[i].error));
+            CHECK(mode.per_period() == Approx(mapped).epsilon(1e-11));
+            CHECK(std::abs(mode.growth()) < 1e-12 * own);
+            CHECK(std::isnan(mode.error));
         }
     }
     // With damping: mu = ((1 + lambda h / 2) / (1 - lambda h / 2))^N.

@@ -46,7 +46,7 @@ TEST_CASE("OC3-Hywind: the pitch frequency of the whole is the published one", "
     std::erase(rows, turbine.rotor().spin);
     const auto modes = solvers::modes(solvers::restrict_to(solvers::linearise(turbine.system(), steady.at), rows));
     const int pitch = turbine.system().model.index(turbine.layout().platform->coordinate(BaseCoordinate::pitch));
-    const auto row = static_cast<Eigen::Index>(std::find(rows.begin(), rows.end(), pitch) - rows.begin());
+    const auto row = std::find(rows.begin(), rows.end(), pitch) - rows.begin();
     const auto mode = std::max_element(modes.begin(), modes.begin() + 6, [&](const auto& a, const auto& b) {
         return std::abs(a.eigenvalue * a.shape(row)) < std::abs(b.eigenvalue * b.shape(row));
     });

@@ -1,5 +1,6 @@
 // The 600 kW machine on a moving platform: invariances (Galilei, equivalence of acceleration and gravity), loads at the
 // foot against the rate of change of momentum and against the forces of the drives, a free platform.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/support/catch.hpp"
@@ -64,8 +65,7 @@ struct Moving {
         accelerate();
     }
     int platform(int coordinate) const {
-        return turbine.system().model.index(
-            turbine.layout().platform->coordinates.at(static_cast<std::size_t>(coordinate)));
+        return turbine.system().model.index(entry(turbine.layout().platform->coordinates, coordinate));
     }
 
 private:

@@ -1,5 +1,6 @@
 // The NREL 5 MW blade by assumed modes: the tables of the paper of 2018 by its own functions,
 // converged frequencies, response to gravity and platform motion, and the joint chain beside it.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/modes.hpp"
@@ -74,7 +75,7 @@ struct Motions {
 AssumedModesBlade in_natural_modes(const AssumedModesBlade& blade, Eigen::Index count) {
     const auto modes = natural_modes(blade.at(nrel5mw_spinning_hub(rated)));
     Matrix shapes(blade.size(), count);
-    for (Eigen::Index k = 0; k < count; ++k) shapes.col(k) = modes[static_cast<std::size_t>(k)].shape;
+    for (Eigen::Index k = 0; k < count; ++k) shapes.col(k) = entry(modes, k).shape;
     return blade.reduced(shapes);
 }
 
@@ -222,7 +223,7 @@ Vector gyroscopic(const AssumedModesBlade& full, double speed, Eigen::Index coun
     const AssumedModesMatrices m = in_natural_modes(full, 60).at(motion);
     const auto modes = solvers::modes({m.M, m.G, m.K, m.K_elastic, {}, -1});
     Vector hz(count);
-    for (Eigen::Index k = 0; k < count; ++k) hz(k) = modes[static_cast<std::size_t>(k)].natural_hz();
+    for (Eigen::Index k = 0; k < count; ++k) hz(k) = entry(modes, k).natural_hz();
     return hz;
 }
 

@@ -1,6 +1,7 @@
 // The whole NREL 5 MW machine: masses and places, what is in it and what is not, hand computations.
 #include "tests/turbines/machines/nrel5mw/test_nrel5mw_machine.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -90,7 +91,7 @@ ElastodynBlade elastodyn_blade(int elements) {
         Eigen::Matrix<double, 2, 3> curvature;  // out of and in the plane of rotation
         Vec3 own;                               // across the chord, across it, along it
         for (int s = 0; s < 3; ++s) {
-            const auto& p = turbines::elastodyn_blade_polynomials.at(static_cast<std::size_t>(s));
+            const auto& p = entry(turbines::elastodyn_blade_polynomials, s);
             own(s) = 0;
             for (std::size_t j = 0; j < p.size(); ++j) {
                 const auto n = static_cast<double>(j + 2);

@@ -32,7 +32,7 @@ inline turbines::TeeteredDescription general_description() {
 inline HalfTurnCoordinates half_turn_coordinates(const turbines::TeeteredTurbine& machine,
                                                  const std::vector<int>& unknowns) {
     const CoordinateTable& table = machine.system().model.coordinates();
-    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const auto column = [&](int coordinate) {
         return std::find(unknowns.begin(), unknowns.end(), coordinate) - unknowns.begin();
     };

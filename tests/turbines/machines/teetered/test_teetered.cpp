@@ -1,5 +1,6 @@
 // The two-bladed teetered machine of Lee, Hodges and Patil (2002), Table I: masses, frames, joint axes, symmetry, what
 // its assembly may be asked for.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/model/summary.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -255,8 +256,7 @@ TEST_CASE("teetered machine: a rigid tower has no coordinates, its mass stays in
     const TeeteredTurbine machine = assemble(teetered_description(), options);
     CHECK(machine.system().model.size() == 3 + 2 * 30);
     CHECK(machine.system().model.coordinates().of_part("tower").empty());
-    const Vec3 top =
-        machine.tree().frames().at(static_cast<std::size_t>(machine.tree().frame("tower top").index)).in_body.p;
+    const Vec3 top = entry(machine.tree().frames(), machine.tree().frame("tower top").index).in_body.p;
     CHECK(top == Vec3(0, 0, 27));
     const auto parts = masses_by_part(machine.tree());
     CHECK(parts.front().part == "tower");

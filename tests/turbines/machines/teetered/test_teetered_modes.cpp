@@ -1,6 +1,7 @@
 // The two-bladed teetered machine by the library's own solvers: periodic steady state, Floquet's theory over whole and
 // half revolutions, Hill's method. Against each other, against the independent computation of test_teetered_floquet.cpp
 // and against converged frequencies.
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/hill.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
@@ -94,7 +95,7 @@ std::map<std::string, std::vector<Complex>> by_family(const TeeteredTurbine& mac
         const ComplexVector force = z.T * (at.K_elastic * c), motion = z.T * c;
         std::map<std::string, double> energy;
         for (Eigen::Index i = 0; i < motion.size(); ++i)
-            energy[z.family[static_cast<std::size_t>(i)]] += (std::conj(motion(i)) * force(i)).real();
+            energy[entry(z.family, i)] += (std::conj(motion(i)) * force(i)).real();
         const auto most = std::max_element(energy.begin(), energy.end(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
         found[most->first].push_back(mode.exponent / teetered_speed);

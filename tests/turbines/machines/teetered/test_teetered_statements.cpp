@@ -1,6 +1,7 @@
 // What Lee, Hodges and Patil (2002) say in words about the modes of their two-bladed machine (their section "Results"),
 // on the modes that Cardan finds for the data of their Table I: three elements per part, tower of a hundred times the
 // blades' rigidity, 6.02 rad/s, Floquet's theory over half a revolution.
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/periodic_system.hpp"
 #include "tests/oracles/teetered_rotor.hpp"
@@ -24,8 +25,7 @@ public:
         const double largest = rows.cwiseAbs().maxCoeff();
         for (Eigen::Index i = 0; i < rows.rows(); ++i)
             for (Eigen::Index j = 0; j < rows.cols(); ++j) {
-                double& here =
-                    part_[{z.family[static_cast<std::size_t>(i)], static_cast<int>(j) + mode.first_harmonic}];
+                double& here = part_[{entry(z.family, i), static_cast<int>(j) + mode.first_harmonic}];
                 here = std::max(here, std::abs(rows(i, j)) / largest);
             }
     }
