@@ -7,6 +7,7 @@
 // Reference: the modes of A are those of the Campbell diagram at this rotor speed (docs/wt600.md).
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/control/lin_file.hpp"
@@ -100,13 +101,13 @@ solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments
         periodic.rotor_speed = rotor_speed;
         periodic.harmonics = a.harmonics;
         const auto state = solvers::harmonic_balance(turbine.system(), spin, periodic);
-        if (!state.converged) throw NumericalError(state.message);
+        require_result(state);
         return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);
     }
     solvers::SteadyOptions steady;
     steady.rotor_speed = rotor_speed;
     const solvers::SteadyState state = solvers::steady_state(turbine.system(), spin, steady);
-    if (!state.converged) throw NumericalError(state.message);
+    require_result(state);
     return solvers::state_space(turbine.system(), turbine.rotor(), state.at, list, channels, options);
 }
 

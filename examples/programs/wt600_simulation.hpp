@@ -2,6 +2,7 @@
 /// What the programs that simulate the 600 kW machine have in common: options, starts, rows, pictures.
 #pragma once
 
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -83,7 +84,7 @@ inline Vector steady_position(const turbines::Turbine& turbine, const ForceSet& 
     options.azimuth = azimuth;
     options.initial = initial;
     const solvers::SteadyState state = solvers::steady_state(system, turbine.rotor().spin, options);
-    if (!state.converged) throw NumericalError(text("start of the simulation: ", state.message));
+    require_result(state, "start of the simulation");
     return state.at.q;
 }
 
@@ -184,7 +185,7 @@ inline solvers::Advance record(solvers::Integrator& integrator, solvers::Recorde
     times.erase(times.begin(), std::ranges::lower_bound(times, integrator.time()));
     solvers::Advance result = solvers::record(
         integrator, recorder, times, [&](double time, const std::vector<double>& values) { rows(time, values); });
-    if (result.end == solvers::Advance::End::failed) throw NumericalError(result.message);
+    require_result(result);
     return result;
 }
 

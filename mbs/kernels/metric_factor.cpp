@@ -126,7 +126,7 @@ CARDAN_VECTORISED void sweep_tile(InverseLT, const Rows& rows, double* x) {
 }  // namespace
 
 std::string PivotStatus::message() const {
-    if (ok()) return "positive definite";
+    if (ok()) return {};
     return text("the metric is not positive definite: coordinate '", coordinate, "' (index ", index, ") has the pivot ",
                 pivot, ", its diagonal element being ", diagonal,
                 "; give the bodies that it carries inertia about or along its axis, add an armature, or drive it");

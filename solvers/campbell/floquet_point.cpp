@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 
 #include <algorithm>
@@ -141,8 +142,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
         const std::array same_speed{rotor_speed};
         found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
     }
-    if (!found.converged)
-        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm: ", found.message));
+    require_result(found, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     if (!found.note.empty()) warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
     if (found.remainder > small_remainder)
         warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.harmonics(),
@@ -208,7 +208,7 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
 
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
     Floquet result = floquet(periodic, floquet_options(periodic));
-    if (!result.message.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.message));
+    if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
     for (FloquetMode& mode : result.modes) {
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;

@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/problem_size.hpp"
 
@@ -69,8 +70,7 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
 void PointSolver::find_steady_state(double rotor_speed) {
     steady_options_.rotor_speed = rotor_speed;
     steady_solver_.solve(steady_options_, steady_);
-    if (!steady_.converged)
-        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm: ", steady_.message));
+    require_result(steady_, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     steady_options_.initial = steady_.at.q;
 }
 

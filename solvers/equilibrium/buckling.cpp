@@ -201,11 +201,10 @@ LoadStability load_stability(const System& system, const LoadStabilityOptions& o
             result.stable_factor = factor;
             continue;
         }
-        result.complete = true;
         if (i == 0) {
             result.stable_factor = factor;
-            result.message = text("unstable already at the first load factor ", factor);
-            return result;
+            result.note = text("unstable already at the first load factor ", factor);
+            break;
         }
         q = before;
         while (result.factor - result.stable_factor > options.tolerance) {
@@ -226,9 +225,9 @@ LoadStability load_stability(const System& system, const LoadStabilityOptions& o
                 result.kind = refined->kind;
             }
         }
-        return result;
+        break;
     }
-    result.complete = true;
+    result.converged = true;
     return result;
 }
 

@@ -316,8 +316,8 @@ Floquet Analysis::compute() {
     const auto rough = std::count_if(result.modes.begin(), result.modes.end(),
                                      [&](const FloquetMode& mode) { return !accurate(mode); });
     if (refine && rough > 0)
-        result.message = text(rough, " mode(s) are less accurate than wanted with ", result.steps,
-                              " steps per period; see their errors and conditions, or allow more steps");
+        result.note = text(rough, " mode(s) are less accurate than wanted with ", result.steps,
+                           " steps per period; see their errors and conditions, or allow more steps");
     return result;
 }
 

@@ -36,7 +36,7 @@ struct Floquet {
     /// Number of multipliers that are zero or indistinguishable from rounding: algebraic states, and motions that are
     /// damped out (by the integration method if they are too fast for its steps). They are not modes.
     int damped_out = 0;
-    std::string message;  ///< which modes are not as accurate as wanted, empty if all are
+    std::string note;  ///< which modes are not as accurate as wanted; usually empty
 
     /// Largest growth rate of all modes except rigid ones, 1/s; -infinity without any.
     double growth() const;

@@ -1,7 +1,6 @@
 #include "solvers/time/integrate.hpp"
 
 #include "mbs/base/entry.hpp"
-#include "mbs/base/error.hpp"
 #include "solvers/time/detail/stepper.hpp"
 
 #include <algorithm>
@@ -266,7 +265,7 @@ bool Integrator::process(double to, Advance& result) {
     if (after != AfterEvent::go_on) begin_piece();
     if (after != AfterEvent::stop) return true;
     result.end = Advance::End::event;
-    result.message = entry(options_.events, event).name;
+    result.event = entry(options_.events, event).name;
     return false;
 }
 

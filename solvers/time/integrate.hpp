@@ -2,6 +2,7 @@
 /// Time integration of a system: one interface for all methods.
 #pragma once
 
+#include "mbs/base/error.hpp"
 #include "solvers/time/equations_of_motion.hpp"
 
 #include <limits>
@@ -108,10 +109,16 @@ struct [[nodiscard]] Advance {
     enum class End : std::uint8_t { reached, event, cancelled, failed };
     End end = End::reached;
     double time = 0;           ///< s, reached
-    std::string message = {};  ///< name of the event, or why the integration failed and what to do
+    std::string event = {};    ///< name of the event that stopped it, empty without
+    std::string message = {};  ///< why it failed and what to do, empty if it did not
 
     bool reached() const { return end == End::reached; }
 };
+
+/// @throws NumericalError with the message if the integration failed
+inline void require_result(const Advance& advance) {
+    if (advance.end == Advance::End::failed) throw NumericalError(advance.message);
+}
 
 /// Allows a one-step method to repeat exactly the steps it has taken since it started or last dropped its matrices and
 /// estimates.

@@ -171,7 +171,7 @@ MotionOutcome run(const Study& study, const Case& one, const std::string& prefix
             program::progress(text("\r", one.name, ": ", std::round(time), " of ", std::round(study.duration), " s  "));
         });
     program::progress("\r                                  \r");
-    if (end.end == solvers::Advance::End::failed) throw NumericalError(end.message);
+    require_result(end);
     file.close(end.reached());
     out.complete = end.reached();
     std::printf("\n%s\n", out.history.title.c_str());

@@ -5,6 +5,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/kernels/kinematics.hpp"
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_path.hpp"
@@ -142,7 +143,7 @@ Vec3 chain_tip(const Method& method, const BeamLine& line, int elements, const T
     solvers::LoadPathOptions path_options;
     path_options.steps = load.steps;
     const solvers::LoadPath path = solvers::load_path(system, path_options);
-    if (!path.converged) throw NumericalError(path.message);
+    require_result(path);
     Workspace workspace(system.model);
     return pose(kinematics(system.model, path.points.back().at.q, workspace), beam.tip()).p;
 }

@@ -86,7 +86,7 @@ TEST_CASE("Floquet: exponents of Mathieu's equation are those of Hill's determin
                 const Complex expected = oracles::mathieu_exponent(a - c * c / 4, q) - c / 2;
                 const Floquet integrated = floquet(system), balanced = hill(system);
                 CAPTURE(c, q, a, expected);
-                CHECK(integrated.message.empty());
+                CHECK(integrated.note.empty());
                 for (const Floquet* result : {&integrated, &balanced}) {
                     REQUIRE(!result->modes.empty());
                     const FloquetMode* fastest = &result->modes[0];
@@ -230,17 +230,17 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
                 const Complex expected(-zeta(k) * omega(k), omega(k) * std::sqrt(1 - zeta(k) * zeta(k)));
                 const double error = std::abs(mode.exponent - expected);
                 CHECK(error <= mode.error + 1e-14 * omega(k));
-                if (result.message.empty()) CHECK(mode.error <= tolerance);
+                if (result.note.empty()) CHECK(mode.error <= tolerance);
             }
         }
     const Floquet rough = floquet(system, {.transition = {.stages = 2}, .most_steps = 200});
-    CHECK(rough.message.find("less accurate than wanted") != std::string::npos);
+    CHECK(rough.note.find("less accurate than wanted") != std::string::npos);
 }
 
 TEST_CASE("Floquet: motions too fast for the samples are told from the others", "[analytic]") {
     const Vector omega = (Vector(2) << 0.7, 3000.3).finished(), zeta = Vector::Zero(2);
     const Floquet result = floquet(oscillators(omega, zeta));
-    CHECK(result.message.empty());
+    CHECK(result.note.empty());
     REQUIRE(result.modes.size() == 1);
     CHECK(std::abs(result.modes[0].exponent - Complex(0, 0.7)) < 1e-9);
     CHECK(result.damped_out + static_cast<int>(result.unresolved.size()) >= 1);

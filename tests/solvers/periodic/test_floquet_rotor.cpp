@@ -38,8 +38,8 @@ TEST_CASE("Floquet: an isotropic three-bladed rotor has the modes of the multi-b
         CHECK(asymmetry(system, blades) < 1e-12);
         const Floquet whole = floquet(system), third = floquet(system, {.symmetry = blades}),
                       balanced = hill(system, {.harmonics = 5});
-        CHECK(whole.message.empty());
-        CHECK(third.message.empty());
+        CHECK(whole.note.empty());
+        CHECK(third.note.empty());
         for (const Floquet* result : {&whole, &third, &balanced}) {
             CHECK(2 * result->modes.size() == expected.size());
             CHECK(distance(exponents(*result), expected, Omega) < 1e-10);

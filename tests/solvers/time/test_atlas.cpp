@@ -99,7 +99,7 @@ TEST_CASE("atlas: the user's own events and cancellation are heard in every char
     AtlasIntegrator atlas({first, second}, "body", 0, c.q, c.qd);
     Advance advance = atlas.advance(100);
     CHECK(advance.end == Advance::End::event);
-    CHECK(advance.message == "pendulum rises");
+    CHECK(advance.event == "pendulum rises");
     while (advance.end == Advance::End::event) advance = atlas.advance(100);
     CHECK(advance.end == Advance::End::cancelled);
     CHECK(atlas.chart() == 1);

@@ -147,8 +147,8 @@ TEST_CASE(
     CHECK(solvers::asymmetry(periodic.system, periodic.half_turn) < 1e-13);
     const solvers::Floquet whole = periodic.modes(16, false), half = periodic.modes(16, true),
                            balanced = solvers::hill(periodic.system, {.harmonics = 9});
-    CHECK(whole.message.empty());
-    CHECK(half.message.empty());
+    CHECK(whole.note.empty());
+    CHECK(half.note.empty());
     CHECK(up_to(16, half).size() == 12);
     check_close(up_to(16, half), up_to(16, whole), {1e-9, 1e-7});
     check_close(up_to(16, half), up_to(16, balanced), {1e-7, 1e-5});
@@ -174,7 +174,7 @@ TEST_CASE("modes of the teetered machine: three elements per part give the first
     const TeeteredTurbine machine = teetered_machine(3);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(11, true);
-    CHECK(half.message.empty());
+    CHECK(half.note.empty());
     check_rigid_motions(half, 0.04525);
     const auto found = by_family(machine, periodic, half);
     for (const TeeteredRow& row : teetered_ratio_100) {
@@ -225,7 +225,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on the rigid tow
     const TeeteredTurbine machine = teetered_machine(6, true);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
-    CHECK(half.message.empty());
+    CHECK(half.note.empty());
     check_rows(by_family(machine, periodic, half), teetered_rigid, 140);
     check_rigid_motions(half, 0.04525);
 }
@@ -235,7 +235,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on a tower of a 
     const TeeteredTurbine machine = teetered_machine(6);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
-    CHECK(half.message.empty());
+    CHECK(half.note.empty());
     check_rows(by_family(machine, periodic, half), teetered_ratio_100, 140);
     check_rigid_motions(half, 0.04525);
     // Modulus of the growing multiplier over a whole revolution.
