@@ -214,7 +214,7 @@ inline void write_outputs(Rows& rows, const std::string& prefix, bool complete, 
     std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << history.channels.size()
               << " channels)";
     if (history.time.size() > 1) {
-        std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(platform_motions(history));
+        std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(history));
         panels.insert(panels.end(), {{{"RotSpeed"}},
                                      {{"BldPitch1"}},
                                      {{"GenTq", "RotTorq"}},

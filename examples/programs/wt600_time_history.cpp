@@ -112,7 +112,7 @@ std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, doub
     connect.direction = 1;
     connect.function = [=](const ForceInput& in) { return in.qd(spin) - synchronous; };
     connect.action = [grid = machine.grid, &connected_at](solvers::Integrator& integrator) {
-        if (grid->is_on()) return solvers::AfterEvent::go_on;
+        if (grid->is_on()) return solvers::AfterEvent::proceed;
         connected_at = integrator.time();
         integrator.note(connected, connected_at);
         grid->turn(true, integrator.time());

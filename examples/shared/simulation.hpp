@@ -64,7 +64,7 @@ private:
 class RowFile {
 public:
     /// An existing file is replaced.
-    RowFile(const std::string& path, const solvers::HistoryAbout& about, solvers::Integrator& integrator,
+    RowFile(const std::string& path, const solvers::HistoryMetadata& about, solvers::Integrator& integrator,
             const solvers::Recorder& recorder)
         : writer_(solvers::HistoryWriter::create(path, recorder.channels(), about, {.replace = true})) {
         writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });

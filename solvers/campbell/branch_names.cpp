@@ -268,7 +268,7 @@ void Naming::set(Branch& branch, const Label& label) const {
         const CampbellMode* m = mode(branch, i);
         if (!m) continue;
         const Label best = strongest(i, *m, label);
-        branch.doubtful.back() = branch.mac[i] < sure_mac ||
+        branch.doubtful.back() = branch.mac[i] < min_reliable_mac ||
                                  held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
                                  (points_[i].rotor_speed != 0 && own_pattern(*m, label) < sure_pattern);
         branch.mostly.back() = label_name(best, *m);

@@ -90,7 +90,7 @@ PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& r
     if (!(o.per_period >= 0))
         throw InputError(rotor.machine, "frequency per revolution up to which modes are accurate", o.per_period,
                          ">= 0");
-    if (o.most_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.most_steps, ">= 0");
+    if (o.max_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.max_steps, ">= 0");
 }
 
 void PeriodicPointSolver::warn(const std::string& what) {
@@ -200,8 +200,8 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
                          text("frequency per revolution at ", state_->rotor_speed * units::to_rpm, " rpm"),
                          options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
-    options.most_steps =
-        own.most_steps > 0 ? own.most_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
+    options.max_steps =
+        own.max_steps > 0 ? own.max_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
     return options;
 }
 

@@ -64,7 +64,7 @@ void Tracker::add(const Matrix& score, const Matrix& mac, const CampbellPoint& p
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
         const int mode = mode_of_track[t];
         const auto row = static_cast<Eigen::Index>(t);
-        if (mode < 0 || score(row, mode) < least_score) {
+        if (mode < 0 || score(row, mode) < min_score) {
             tracks_[t].mode.push_back(-1);
             tracks_[t].mac.push_back(0);
             continue;

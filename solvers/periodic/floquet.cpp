@@ -93,7 +93,7 @@ void check(const PeriodicSystem& system, const FloquetOptions& options) {
     if (!(options.per_period >= 0) || options.per_period > 1e4)
         throw InputError(in_floquet_theory, "frequency per period up to which modes are wanted", options.per_period,
                          "0 ... 1e4");
-    if (options.most_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.most_steps, ">= 1");
+    if (options.max_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.max_steps, ">= 1");
     const double difference = asymmetry(system, symmetry);
     if (!(difference < 1e-7))
         throw InputError(in_floquet_theory, text("difference of the ", symmetry.parts, " parts"), difference,
@@ -311,7 +311,7 @@ Floquet Analysis::compute() {
         result.steps = steps * grid_.samples * parts;
         const bool enough = std::none_of(result.modes.begin(), result.modes.end(),
                                          [&](const FloquetMode& mode) { return improvable(mode); });
-        if (!refine || enough || 2 * result.steps > options_.most_steps) break;
+        if (!refine || enough || 2 * result.steps > options_.max_steps) break;
     }
     const auto rough = std::count_if(result.modes.begin(), result.modes.end(),
                                      [&](const FloquetMode& mode) { return !accurate(mode); });

@@ -178,7 +178,7 @@ TEST_CASE("bad input: a checkpoint with a number that is none", "[property][solv
     refused("flap 2", [](Checkpoint& c) { c.q(2) = not_a_number; });
     refused("flap 3", [](Checkpoint& c) { c.qd(3) = not_a_number; });
     refused("kinetic energy", [](Checkpoint& c) { c.kinetic_at_start = not_a_number; });
-    refused("dissipated energy", [](Checkpoint& c) { c.works.dissipation = not_a_number; });
+    refused("dissipated energy", [](Checkpoint& c) { c.work.dissipation = not_a_number; });
     refused("'brake'", [](Checkpoint& c) { c.notes["brake"] = not_a_number; });
     CHECK(refusal([&] { Integrator(rotor.system, {}, good); }) == "(accepted)");
 }

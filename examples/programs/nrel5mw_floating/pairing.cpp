@@ -93,7 +93,7 @@ Campbell paired(const Campbell& diagram, const Campbell& other, const turbines::
             branch.mode[p] = static_cast<int>(theirs.place[static_cast<std::size_t>(partner[i])]);
             branch.mac[p] = found;
             branch.doubtful[p] =
-                found < std::max({solvers::sure_mac, mac.row(row).maxCoeff(), mac.col(partner[i]).maxCoeff()});
+                found < std::max({solvers::min_reliable_mac, mac.row(row).maxCoeff(), mac.col(partner[i]).maxCoeff()});
         }
     }
     return result;

@@ -124,7 +124,7 @@ Handle creation_list(const Hdf5File::Impl& impl) {
     return list;
 }
 
-void write_about(Hdf5File& file, const HistoryAbout& about) {
+void write_about(Hdf5File& file, const HistoryMetadata& about) {
     const std::pair<const char*, std::string> texts[] = {
         {"title", about.title},     {"Conventions", "CF-1.8"},           {"format", history_format},
         {"program", about.program}, {"version", std::string(version())}, {"method", about.method}};

@@ -47,7 +47,7 @@ struct Manoeuvre {
         IntegrationOptions options;
         options.method = method;
         options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
-        options.works = false;
+        options.integrate_work = false;
         const Vector rest = Vector::Zero(system.model.size());
         return {system, drives, 0, rest, rest, options};
     }

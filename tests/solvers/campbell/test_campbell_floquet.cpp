@@ -223,7 +223,7 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     options.floquet.per_period = -1;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"per revolution", "-1", ">= 0"});
     options = by(CampbellMethod::floquet);
-    options.floquet.most_steps = -2;
+    options.floquet.max_steps = -2;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"limit of steps", "-2"});
     options = by(CampbellMethod::floquet);
     options.floquet.harmonics = -1;
@@ -238,7 +238,7 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
 
 TEST_CASE("campbell by Floquet: few steps are said to be too few", "[property]") {
     CampbellOptions options = by(CampbellMethod::floquet);
-    options.floquet.most_steps = 1;
+    options.floquet.max_steps = 1;
     options.floquet.tolerance = 1e-14;
     const Campbell d = diagram_of(whirling(2), {0.5}, options);
     CHECK_THAT(d.warning, Catch::Contains("rpm") && Catch::Contains("less accurate than wanted"));

@@ -221,7 +221,7 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
     for (const int stages : {2, 3, 5})
         for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
             const Floquet result =
-                floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .most_steps = 3000});
+                floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .max_steps = 3000});
             REQUIRE(result.modes.size() == 3);
             CAPTURE(stages, tolerance, result.steps);
             for (std::size_t i = 0; i < 3; ++i) {
@@ -232,7 +232,7 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
                 if (result.message.empty()) CHECK(result.modes[i].error <= tolerance);
             }
         }
-    const Floquet rough = floquet(system, {.transition = {.stages = 2}, .most_steps = 200});
+    const Floquet rough = floquet(system, {.transition = {.stages = 2}, .max_steps = 200});
     CHECK(rough.message.find("less accurate than wanted") != std::string::npos);
 }
 
@@ -331,7 +331,7 @@ TEST_CASE("Floquet: bad options are refused with the value and the limit", "[pro
     check_refused([&] { (void)floquet(system, {.steps = -1}); }, {"steps per period", "-1"});
     check_refused([&] { (void)floquet(system, {.per_period = -1}); }, {"frequency per period", "-1"});
     check_refused([&] { (void)floquet(system, {.tolerance = 0}); }, {"tolerance", "0"});
-    check_refused([&] { (void)floquet(system, {.most_steps = 0}); }, {"limit of steps", "0"});
+    check_refused([&] { (void)floquet(system, {.max_steps = 0}); }, {"limit of steps", "0"});
     check_refused([&] { (void)floquet(system, {.factors = 0}); }, {"number of factors", "0"});
     const auto refused = [](const PeriodicSystem& of, const BladeSymmetry& symmetry, const Matrix& weight,
                             std::initializer_list<std::string> parts) {

@@ -170,7 +170,7 @@ TEST_CASE("Floquet: the monodromy matrix about a periodic state is the derivativ
     IntegrationOptions integration;
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};
-    integration.works = false;
+    integration.integrate_work = false;
     const auto after_a_turn = [&](Index column, double step) {
         Vector q = start.q, qd = start.qd;
         (column < n ? q : qd)(unknowns[static_cast<std::size_t>(column % n)]) += step;

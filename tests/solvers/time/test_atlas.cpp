@@ -113,7 +113,7 @@ TEST_CASE("atlas: bad input is refused", "[solvers][atlas]") {
     };
     check_refused([&] { make({c.chart(c.xyz)}, "body"); }, {"atlas of charts", "number of charts", "1", ">= 2"});
     check_refused([&] { make({c.chart(c.xyz), {}}, "body"); }, {"system of chart 1", "none"});
-    check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "body", 1); }, {"least quality", "1"});
+    check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "body", 1); }, {"minimum quality", "1"});
     check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "nobody"); }, {"nobody"});
     check_refused([&] { make({c.chart(c.xyz), c.chart(c.xyz)}, "body"); }, {"number of coordinates", "0"});
     check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "base"); }, {"'base'", "one that moves it"});

@@ -31,7 +31,7 @@ TEST_CASE("integrate: events are found where they happen, in their direction", "
         int passed = 0;
         options.events = {{.name = "bottom", .function = angle, .action = [&](Integrator&) {
                                ++passed;
-                               return AfterEvent::go_on;
+                               return AfterEvent::proceed;
                            }}};
         Integrator both(system, {}, 0, vector({1.2}), vector({0}), options);
         CHECK(both.advance(8.5 * quarter).reached());

@@ -80,7 +80,7 @@ TEST_CASE("integrate: an action that changes a force and says that nothing has c
                            .action =
                                [f = pushed.force](Integrator&) {
                                    *f = 40;
-                                   return AfterEvent::go_on;
+                                   return AfterEvent::proceed;
                                }}};
         Integrator integrator(pushed.system, {}, 0, vector({0.3}), vector({0}), options);
         REQUIRE(integrator.advance(3).reached());
@@ -107,7 +107,7 @@ TEST_CASE("integrate: to look for changed forces costs two evaluations per outpu
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
         IntegrationOptions options = with(method, 1e-6, 1e-8);
-        options.works = false;
+        options.integrate_work = false;
         Integrator integrator(pushed.system, {}, 0, vector({0.3}), vector({0}), options);
         REQUIRE(integrator.advance(0.5).reached());
         const long before = *pushed.asked;
@@ -150,7 +150,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
                            .action =
                                [&](Integrator&) {
                                    call(4);
-                                   return AfterEvent::go_on;
+                                   return AfterEvent::proceed;
                                }}};
         for (int here = 0; here < 5; ++here) {
             CAPTURE(here);
@@ -250,9 +250,9 @@ TEST_CASE("integrate: a method of one step goes on from any checkpoint bit for b
                     CAPTURE(k, checkpoints[k].time, checkpoints[k].method.steps);
                     CHECK(now.q == end.q);
                     CHECK(now.qd == end.qd);
-                    CHECK(now.works.forces == end.works.forces);
-                    CHECK(now.works.dissipation == end.works.dissipation);
-                    CHECK(now.works.drives == end.works.drives);
+                    CHECK(now.work.forces == end.work.forces);
+                    CHECK(now.work.dissipation == end.work.dissipation);
+                    CHECK(now.work.drives == end.work.drives);
                     CHECK(now.statistics.steps == end.statistics.steps);
                     CHECK(now.statistics.evaluations == end.statistics.evaluations);
                     CHECK(now.statistics.factorisations == end.statistics.factorisations);

@@ -18,7 +18,7 @@ namespace {
 
 IntegrationOptions without_works(Method method, double tolerance) {
     IntegrationOptions options = equal_tolerances(method, tolerance);
-    options.works = false;
+    options.integrate_work = false;
     return options;
 }
 

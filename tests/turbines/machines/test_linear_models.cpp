@@ -115,7 +115,7 @@ private:
 IntegrationOptions accurate() {
     IntegrationOptions options;
     options.tolerances = {1e-9, 1e-12, 1e-12, 1e-11, 1e-11};
-    options.works = false;
+    options.integrate_work = false;
     return options;
 }
 

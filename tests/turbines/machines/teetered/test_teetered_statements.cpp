@@ -74,7 +74,7 @@ struct Modes {
         solvers::FloquetOptions wanted;
         wanted.per_period = per_period;
         wanted.tolerance = 1e-7;
-        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.half_turn_odd());
+        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.odd_coordinates());
         result = solvers::floquet(solvers::linearised(machine.system(), state), wanted);
         z = half_turn_coordinates(machine, unknowns);
     }
