@@ -52,7 +52,7 @@ TEST_CASE("NREL 5 MW machine: masses are those of the report", "[published]") {
     CHECK(moment / machine.layout().tower->mass == Approx(38.234).epsilon(0.002));
 }
 
-TEST_CASE("NREL 5 MW machine: inertia and mass of the rotor as OpenFAST's ElastoDyn sums them up", "[published]") {
+TEST_CASE("NREL 5 MW machine: inertia and mass of the rotor are those of OpenFAST's ElastoDyn", "[discrete]") {
     // 38677040.613 kg m^2, 109389.842 kg with its 17 stations per blade: summary file of 5MW_Land_DLL_WTurb, r-test.
     const turbines::Turbine machine = turbines::nrel5mw(Nrel5mwVariant::fast);
     const int twist = machine.system().model.index("main shaft twist");
@@ -140,7 +140,7 @@ Vec3 limited_blade(int elements) {
 
 TEST_CASE(
     "NREL 5 MW machine: ElastoDyn's sums over 17 elements make its blades softer than integrals of the same shapes",
-    "[published]") {
+    "[discrete]") {
     const ElastodynBlade sums = elastodyn_blade(17);
     // 109389.842 kg and 38677040.613 kg m^2 in its summary file, hub included, cone 2.5 deg: these are its elements.
     CHECK(56780 + 3 * sums.mass == Approx(109389.842).margin(1e-3));
@@ -160,6 +160,7 @@ TEST_CASE(
 }
 
 TEST_CASE("NREL 5 MW machine: hub 90 m above ground and 5 m upwind, tips upwind of the rotor plane", "[published]") {
+    // NREL/TP-500-38060, table 1-1.
     const turbines::Turbine machine = turbines::nrel5mw();
     const Model& model = machine.system().model;
     Workspace workspace(model);

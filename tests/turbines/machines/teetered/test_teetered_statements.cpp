@@ -152,7 +152,7 @@ TEST_CASE("teetered machine, statements: symmetric lag is not purely one of the 
 }
 
 TEST_CASE("teetered machine: yaw and teeter grow by 0.04525 per revolution, whether blades and tower are rigid or not",
-          "[analytic]") {
+          "[analytic][discrete]") {
     const double slender = 2 * 67.5772 * (std::pow(10.22, 3) - std::pow(1.8, 3)) / 3, both = 2 * 8.42;
     const oracles::RigidTeeteredRotor rigid{.spanwise = 50 + both * 5,
                                             .teeter = 50 + slender + both * 1e-4,
