@@ -1,4 +1,4 @@
-// The laws of the hinges at large angles: exact derivatives, the same at rest, what they gain.
+// The laws of the hinges at large angles: exact derivatives, agreement at rest, gain in accuracy.
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "solvers/equilibrium/steady_state.hpp"

@@ -51,7 +51,8 @@ TEST_CASE("drive: a new command starts from where the last one has come to, with
 TEST_CASE("drive: a command repeated at any sampling rate acts as one command", "[analytic]") {
     constexpr double degree = pi / 180, target = 20 * degree, rate = 8 * degree, acceleration = 15 * degree;
     const TravelLimits pitch{rate, acceleration};
-    // Up and down to the largest rate take 3/2 rate / acceleration each, and half the way of that at the full rate.
+    // Up and down to the largest rate take 3/2 rate / acceleration each, and half the distance of that at the full
+    // rate.
     const double arrival = target / rate + 1.5 * rate / acceleration;
     for (double period : {0.05, 0.02, 0.001}) {
         DriveCommand repeated(0, pitch), single(0, pitch);
@@ -89,7 +90,7 @@ TEST_CASE("drive: commands that change with every sample are followed without ov
             if (t > 2) worst = std::max(worst, command - now.position);
             last = now;
         }
-        // Never farther behind than it needs to stop, and what a sample brings.
+        // Never farther behind than its stopping distance and one sample.
         const double stopping = slope / 2 * 2 * std::sqrt(slope / default_jerk(limits));
         CHECK(worst < stopping + 2 * slope * period);
         CHECK(drive.at(12).position == Approx(top).epsilon(1e-9));

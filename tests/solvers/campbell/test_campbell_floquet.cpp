@@ -64,7 +64,7 @@ TEST_CASE("campbell by Floquet: an isotropic rotor without gravity has the diagr
                     CHECK(std::abs(a.mode.eigenvalue - b.mode.eigenvalue) < 1e-9);
                     if (!single) continue;
                     CHECK((a.row_shares - b.row_shares).cwiseAbs().maxCoeff() < 1e-7);
-                    // The same shape but for a phase.
+                    // Equal shapes but for a phase.
                     const Complex product = a.mode.shape.dot(b.mode.shape);
                     CHECK((a.mode.shape * (product / std::abs(product)) - b.mode.shape).norm() <
                           1e-7 * a.mode.shape.norm());
@@ -236,7 +236,7 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"mean is held = 99"});
 }
 
-TEST_CASE("campbell by Floquet: few steps are said to be too few", "[property]") {
+TEST_CASE("campbell by Floquet: too few steps give a warning", "[property]") {
     CampbellOptions options = by(CampbellMethod::floquet);
     options.floquet.max_steps = 1;
     options.floquet.tolerance = 1e-14;

@@ -236,7 +236,7 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
     CHECK(rough.message.find("less accurate than wanted") != std::string::npos);
 }
 
-TEST_CASE("Floquet: motions too fast for the samples are told from the others", "[analytic]") {
+TEST_CASE("Floquet: motions too fast for the samples are distinguished from the others", "[analytic]") {
     const Vector omega = (Vector(2) << 0.7, 3000.3).finished(), zeta = Vector::Zero(2);
     const Floquet result = floquet(oscillators(omega, zeta));
     CHECK(result.message.empty());

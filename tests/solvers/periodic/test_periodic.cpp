@@ -279,7 +279,7 @@ TEST_CASE("periodic state: a mean that nothing holds stays where it started, and
     CHECK(held.note.empty());
 }
 
-TEST_CASE("periodic state: resonance without damping has none, and the reason is told", "[property]") {
+TEST_CASE("periodic state: resonance without damping has none, and the reason is given", "[property]") {
     Slider undamped;
     undamped.k = 9;
     undamped.c = 0;

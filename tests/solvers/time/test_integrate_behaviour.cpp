@@ -154,7 +154,7 @@ TEST_CASE("integrate: an output may follow a break at any distance", "[solvers][
     }
 }
 
-TEST_CASE("integrate: from a checkpoint it goes on as if it had not stopped", "[solvers][integrate][property]") {
+TEST_CASE("integrate: from a checkpoint it continues as if it had not stopped", "[solvers][integrate][property]") {
     const System system = chain(0.4, CoordinateRole::driven);
     const std::vector<Drive> drives{{0, Motion::harmonic(0, 0.3, 1.5)}};
     const Vector q = vector({0, 0.5, -0.4}), qd = vector({0.3, 0, 0});

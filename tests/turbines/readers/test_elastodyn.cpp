@@ -268,7 +268,7 @@ TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring ho
                Contains("CompElast = 15; allowed: 1 ... 2"));
 }
 
-TEST_CASE("elastodyn: figures that make no machine are refused with the line", "[property]") {
+TEST_CASE("elastodyn: numbers that do not describe a machine are refused with the line", "[property]") {
     const auto message = [](const char* file, const char* old_text, const char* new_text) {
         const test::ModelFolder model("openfast");
         model.replace(file, old_text, new_text);

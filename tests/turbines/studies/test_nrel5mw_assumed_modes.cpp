@@ -94,7 +94,7 @@ solvers::ForcedResponse response(const Motions& motions) {
         system, [&](double time) { return blade.at(motions.at(time)).f; }, 7);
 }
 
-// Of the tip, m: amplitude and phase (of the cosine, deg) of harmonic k.
+// Deflection of the tip, m: amplitude and phase (of the cosine, deg) of harmonic k.
 struct Harmonic {
     double amplitude, phase;
 };
@@ -336,7 +336,7 @@ TEST_CASE("NREL 5 MW assumed modes: from rest under all motions of the platform 
     REQUIRE(solvers::record(integrator, recorder, solvers::sample_times(0, revolution, revolution / rows), chain)
                 .reached());
 
-    // The same by Runge and Kutta's method of order 4 for the assumed modes. M is the unit matrix in natural modes.
+    // Runge and Kutta's method of order 4 for the assumed modes. M is the unit matrix in natural modes.
     const AssumedModesBlade& blade = on_platform();
     const Eigen::Index n = blade.size();
     const auto f = [&](double time, const Vector& y) {

@@ -117,7 +117,7 @@ solvers::SecondOrderSystem linearised_at_rest(const System& system) {
     return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
 }
 
-// The same three shapes on Cardan's elements.
+// Those three shapes on Cardan's elements.
 Vec3 limited_blade(int elements) {
     const turbines::TurbineDescription d =
         turbines::nrel5mw_description(turbines::nrel5mw_options(Nrel5mwVariant::fast));
@@ -179,7 +179,7 @@ TEST_CASE("NREL 5 MW machine: hub 90 m above ground and 5 m upwind, tips upwind 
     }
 }
 
-TEST_CASE("NREL 5 MW machine: what it does not have is left out", "[property]") {
+TEST_CASE("NREL 5 MW machine: coordinates that it does not have are left out", "[property]") {
     const turbines::Turbine report = turbines::nrel5mw(Nrel5mwVariant::report, 8, 6);
     // Tower 6 x 5, yaw, generator, shaft, blades 3 x 8 x 6.
     CHECK(report.system().model.size() == 30 + 3 + 144);

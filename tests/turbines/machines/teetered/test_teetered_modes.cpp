@@ -154,7 +154,7 @@ TEST_CASE(
     check_rigid_motions(half, 0.04525);
     check_rigid_motions(balanced, 0.04525);
 
-    // Of fifth order, with steps of a quarter of a degree.
+    // A method of fifth order, with steps of a quarter of a degree.
     const HalfTurnFloquet independent = floquet(machine, teetered_speed, 700);
     const auto families = by_family(machine, periodic, half);
     int compared = 0;

@@ -15,7 +15,7 @@ using namespace cardan::testing;
 
 namespace {
 
-// Of one mode: the largest row of every family (sums and differences of the blades, tower, yaw, teeter) in every
+// For one mode: the largest row of every family (sums and differences of the blades, tower, yaw, teeter) in every
 // harmonic, over the largest of all rows in all harmonics. Angles and lengths have the same weight.
 class Rows {
 public:
@@ -142,7 +142,7 @@ TEST_CASE("teetered machine, statements: antisymmetric lag has yaw most at one p
     CHECK(first.of("yaw", 1) == Approx(0.25).margin(0.01));
 }
 
-TEST_CASE("teetered machine, statements: symmetric lag is not purely one of the blades, against the paper's words",
+TEST_CASE("teetered machine, statements: symmetric lag is not a mode of the blades alone, contrary to the paper",
           "[property]") {
     // The torques about the shaft add up, and with the rotor speed prescribed they bend the elastic tower sideways.
     const Rows rows = modes().at(3.09);
