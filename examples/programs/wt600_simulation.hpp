@@ -139,7 +139,7 @@ inline Start rotating_start(const turbines::Wt600Operation& machine, const turbi
     return start;
 }
 
-/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and tells a terminal how far
+/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and shows on a terminal how far
 /// things are.
 class Rows {
 public:

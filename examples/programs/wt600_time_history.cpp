@@ -21,7 +21,7 @@ namespace {
 constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 constexpr std::array<const char*, names.size()> directions{
     "of a platform under the tower, downwind, m",
-    "likewise, to the left for who looks downwind, m",
+    "likewise, to the left, looking downwind, m",
     "up, m",
     "about the downwind axis, deg",
     "about the sway axis, deg: positive moves the top of the tower downwind",

@@ -65,7 +65,7 @@ public:
         for (int b : unknowns)
             for (int a : unknowns) *J++ = by_q_(a, b);
     }
-    // Of the springs alone, at the place of the last call of jacobian().
+    // Stiffness of the springs alone, at the state of the last call of jacobian().
     double elastic_diagonal(std::size_t i) const { return forces_.elastic(unknowns[i], unknowns[i]); }
 
     std::vector<int> unknowns;

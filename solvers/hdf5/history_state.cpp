@@ -111,7 +111,7 @@ IntegrationStatistics statistics_of(const Hdf5File& file) {
     return statistics;
 }
 
-// Of files that have it: written by versions that could go on from within a step.
+// For files that have it: written by versions that could continue from within a step.
 MethodState method_of(const Hdf5File& file) {
     const std::string group = checkpoint_group;
     MethodState method;
