@@ -52,7 +52,7 @@ inline solvers::CampbellOptions campbell_options(const TeeteredArguments& a, con
     solvers::CampbellOptions options = campbell_options(max_frequency_hz);
     options.method = solvers::CampbellMethod::floquet;
     options.floquet.harmonics = a.harmonics;
-    options.floquet.odd = machine.half_turn_odd();
+    options.floquet.odd = machine.odd_coordinates();
     if (a.gravity) options.floquet.held = {machine.system().model.index("yaw")};  // nothing holds it
     return options;
 }

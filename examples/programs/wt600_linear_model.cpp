@@ -86,7 +86,7 @@ const std::vector<std::string> outputs{"GenSpeed",  "RotSpeed",  "RotTorq",   "T
                                        "RootMyb2",  "RootMyb3",  "BldPitch1", "BldPitch2", "BldPitch3"};
 
 solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments& a) {
-    // Before the equilibrium, which would take long for nothing.
+    // Before the equilibrium is sought, which takes long.
     solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
     const double rotor_speed = a.rotor_rpm * units::rpm;
     solvers::StateSpaceOptions options;
@@ -157,7 +157,7 @@ Vector output_sizes(const solvers::ConstantModel& model) {
     return size;
 }
 
-// Of inputs a tenth of what the machine has.
+// Inputs: a tenth of what the machine has.
 double input_size(const solvers::Signal& input) {
     for (const auto& [name, size] :
          {std::pair{"generator torque", 400.0}, std::pair{"yaw moment", 2e4}, std::pair{"thrust", 1e4},

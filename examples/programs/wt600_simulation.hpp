@@ -140,7 +140,7 @@ inline Start rotating_start(const turbines::Wt600Operation& machine, const turbi
     return start;
 }
 
-/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and tells a terminal how far
+/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and shows on a terminal how far
 /// things are.
 class Rows {
 public:
@@ -215,7 +215,7 @@ inline void write_outputs(Rows& rows, const std::string& prefix, bool complete, 
     std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << history.channels.size()
               << " channels)";
     if (history.time.size() > 1) {
-        std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(platform_motions(history));
+        std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(history));
         panels.insert(panels.end(), {{{"RotSpeed"}},
                                      {{"BldPitch1"}},
                                      {{"GenTq", "RotTorq"}},

@@ -22,7 +22,7 @@ namespace {
 constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 constexpr std::array<const char*, names.size()> directions{
     "of a platform under the tower, downwind, m",
-    "likewise, to the left for who looks downwind, m",
+    "likewise, to the left, looking downwind, m",
     "up, m",
     "about the downwind axis, deg",
     "about the sway axis, deg: positive moves the top of the tower downwind",
@@ -113,7 +113,7 @@ std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, doub
     connect.direction = 1;
     connect.function = [=](const ForceInput& in) { return in.qd(spin) - synchronous; };
     connect.action = [grid = machine.grid, &connected_at](solvers::Integrator& integrator) {
-        if (grid->is_on()) return solvers::AfterEvent::go_on;
+        if (grid->is_on()) return solvers::AfterEvent::proceed;
         connected_at = integrator.time();
         integrator.note(connected, connected_at);
         grid->turn(true, integrator.time());

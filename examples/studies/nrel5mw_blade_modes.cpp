@@ -1,7 +1,7 @@
 // Natural frequencies and mode shapes of the rotating NREL 5 MW blade.
 //
 // Problem: the blade of NREL/TP-500-38060, clamped at the hub radius of 1.5 m to a rigid hub, spins about the axis
-// perpendicular to the rotor plane; at every rotor speed it is brought to its steady state (drawn out and straightened
+// perpendicular to the rotor plane; at every rotor speed it is brought to its steady state (stretched and straightened
 // by the centrifugal force) and linearised, M x'' + G x' + K x = 0 in the rotating frame.
 // Reference: converged frequencies of the same blade by a method that shares nothing with the joint chain, exact to
 // 1e-4 Hz (docs/nrel5mw_blade.md). Goals on 1st flap, 1st edge and 2nd flap: 0.1 % with 16 equal elements, 0.5 % with 8

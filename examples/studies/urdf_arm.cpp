@@ -30,8 +30,8 @@ struct Arguments {
 int parse(int argc, char** argv, Arguments& a) {
     program::CommandLine app(
         "Natural frequencies of a six-axis arm from URDF with a flexible forearm, beside those of the rigid arm,\n"
-        "and checks against the stiff limit, an exact beam and the way through URDF and back.");
-    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check is off.");
+        "and checks against the stiff limit, an exact beam and the round trip through URDF.");
+    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check fails.");
     app.add_option("--file", a.file,
                    "URDF with the links forearm_tube, forearm_root and forearm_tip, 0.8 m apart along x");
     app.add_option("--elements", a.elements, "beam elements of the forearm, at most 200");
@@ -210,7 +210,7 @@ int run(const Arguments& a) {
         write_urdf(a.write, flexible.tree, {robot.robot_name + "_flexible", robot.joints});
         std::cout << "\nwritten: " << a.write << "\n";
     }
-    std::cout << "\n" << (checks.off == 0 ? "all checks hold" : text("checks that are OFF: ", checks.off)) << "\n";
+    std::cout << "\n" << (checks.off == 0 ? "all checks hold" : text("checks that FAILED: ", checks.off)) << "\n";
     if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
     return checks.off == 0 ? 0 : 3;
 }

@@ -144,8 +144,8 @@ Index ProductEigen::active_from(Index last, double negligible) {
     return 0;
 }
 
-// Of the last 2 x 2 block of the product, the eigenvalue next to its last entry; over the first diagonal entries of the
-// triangular factors, since both may be far outside the range of numbers.
+// The eigenvalue of the last 2 x 2 block of the product that is next to its last entry; over the first diagonal entries
+// of the triangular factors, since both may be far outside the range of numbers.
 Complex ProductEigen::shift(Index first, Index last) const {
     const Index from = std::max(first, last - 2), width = last - from + 1;
     ComplexMatrix W = ComplexMatrix::Identity(width, width).rightCols(2);

@@ -243,7 +243,7 @@ std::string Naming::label_name(const Label& label, const CampbellMode& mode) con
     return motion_name(entry(rows_, label.row), mode.kind_name(), "", "");
 }
 
-// Of the energy of a label's component, the part that has its pattern (at standstill: that of its pair). A motion
+// The part of the energy of a label's component that has its pattern (at standstill: that of its pair). A motion
 // localised in one blade of three has a third of each.
 double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
@@ -269,7 +269,7 @@ void Naming::set(Branch& branch, const Label& label) const {
         const CampbellMode* m = mode(branch, i);
         if (!m) continue;
         const Label best = strongest(i, *m, label);
-        branch.doubtful.back() = branch.mac[i] < sure_mac ||
+        branch.doubtful.back() = branch.mac[i] < min_reliable_mac ||
                                  held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
                                  (points_[i].rotor_speed != 0 && own_pattern(*m, label) < sure_pattern);
         branch.mostly.back() = label_name(best, *m);

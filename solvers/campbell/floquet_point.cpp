@@ -22,7 +22,7 @@ constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
 constexpr double rigid_per_radian = 1e-4;
-// The same limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
+// That limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
 constexpr double free_spin_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
@@ -92,7 +92,7 @@ PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& r
     if (!(o.per_period >= 0))
         throw InputError(rotor.machine, "frequency per revolution up to which modes are accurate", o.per_period,
                          ">= 0");
-    if (o.most_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.most_steps, ">= 0");
+    if (o.max_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.max_steps, ">= 0");
 }
 
 void PeriodicPointSolver::warn(const std::string& what) {
@@ -201,8 +201,8 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
                          text("frequency per revolution at ", state_->rotor_speed * units::to_rpm, " rpm"),
                          options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
-    options.most_steps =
-        own.most_steps > 0 ? own.most_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
+    options.max_steps =
+        own.max_steps > 0 ? own.max_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
     return options;
 }
 

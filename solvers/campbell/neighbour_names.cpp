@@ -77,7 +77,7 @@ void NeighbourNames::pair(const std::vector<Branch>& branches) {
     partner_ = assign(sum);
     for (Eigen::Index b = 0; b < sum.rows(); ++b) {
         int& found = entry(partner_, b);
-        if (found >= 0 && !(sum(b, found) >= least_score * std::max(1.0, count(b)))) found = -1;
+        if (found >= 0 && !(sum(b, found) >= min_score * std::max(1.0, count(b)))) found = -1;
     }
 }
 
@@ -92,7 +92,7 @@ bool NeighbourNames::doubtful(std::size_t branch, std::size_t point, int mode) c
     const Matrix& mac = mac_.at(point);
     if (mac.size() == 0 || mac.row(index).isZero(0)) return false;  // the neighbour has nothing there
     const double own = mac(index, mode);
-    if (own < sure_mac) return true;
+    if (own < min_reliable_mac) return true;
     double rival = 0;
     for (Eigen::Index b = 0; b < mac.rows(); ++b)
         if (b != index) rival = std::max(rival, mac(b, mode));

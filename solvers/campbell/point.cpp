@@ -5,6 +5,7 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/problem_size.hpp"
+#include "solvers/periodic/periodic_system.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -161,28 +162,26 @@ void PointSolver::set_system(double rotor_speed) {
     if (!frozen && rotor_speed != 0 && rotor_.spin >= 0) average_if_periodic(rotor_speed);
 }
 
-void PointSolver::set_other_azimuth(double psi, double rotor_speed) {
+void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out) {
     turned_ = steady_.at;
     turned_.q(rotor_.spin) += psi;
     lineariser_.linearise(turned_, lin_);
-    restrict_to(lin_, unknowns_, rotor_.spin, other_);
-    coleman_->transform_in_place(other_, psi, rotor_speed);
+    restrict_to(lin_, unknowns_, rotor_.spin, out);
+    coleman_->transform_in_place(out, psi, rotor_speed);
 }
 
 // The transformed matrices of an isotropic rotor are constant; otherwise their azimuthal average is used, with a
-// warning.
+// warning. The steady state is the constant one of this solver: only the rotor is turned. PeriodicPointSolver and
+// azimuth_average() take the periodic one.
 void PointSolver::average_if_periodic(double rotor_speed) {
     SecondOrderSystem& z = current_;
-    set_other_azimuth(1.0, rotor_speed);
+    set_at_azimuth(1.0, rotor_speed, other_);
     const double remainder = (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
                              (other_.M - z.M).norm() / z.M.norm();
     if (remainder < 1e-9) return;
     const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
-    for (int i = 1; i < azimuths; ++i) {
-        set_other_azimuth(2 * pi * i / azimuths, rotor_speed);
-        z.M += other_.M, z.C += other_.C, z.K += other_.K, z.K_elastic += other_.K_elastic;
-    }
-    z.M /= azimuths, z.C /= azimuths, z.K /= azimuths, z.K_elastic /= azimuths;
+    const auto at = [&](int i, SecondOrderSystem& out) { set_at_azimuth(2 * pi * i / azimuths, rotor_speed, out); };
+    average(azimuths, at, z, other_);
     if (warning_.find("not isotropic") == std::string::npos)
         warning_ += text(warning_.empty() ? "" : "; ",
                          "the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,

@@ -64,7 +64,7 @@ void Tracker::add(const Matrix& score, const Matrix& mac, const CampbellPoint& p
     for (Eigen::Index t = 0; t < std::ssize(tracks_); ++t) {
         Track& track = entry(tracks_, t);
         const int mode = entry(mode_of_track, t);
-        if (mode < 0 || score(t, mode) < least_score) {
+        if (mode < 0 || score(t, mode) < min_score) {
             track.mode.push_back(-1);
             track.mac.push_back(0);
             continue;

@@ -35,7 +35,7 @@ std::string padded(std::string words, std::size_t width) {
     return words;
 }
 
-// Of a state, its derivative, an input or an output.
+// Row of a state, its derivative, an input or an output.
 struct Row {
     double value;
     bool rotating;
@@ -70,7 +70,7 @@ void add_matrix(std::string& out, const char* name, const Matrix& A) {
     }
 }
 
-// Of these signals the ones that all blades have, in triplets (or more) that differ in the number only.
+// Whether all blades have this signal: names in triplets (or more) that differ in the number only.
 bool in_all_blades(const std::vector<Signal>& signals, const Signal& signal, int blades) {
     if (signal.blade == 0 || blades < 2) return false;
     const std::string own = text("blade ", signal.blade);

@@ -66,7 +66,7 @@ public:
         for (int b : unknowns)
             for (int a : unknowns) *J++ = by_q_(a, b);
     }
-    // Of the springs alone, at the place of the last call of jacobian().
+    // Stiffness of the springs alone, at the state of the last call of jacobian().
     double elastic_diagonal(Eigen::Index i) const { return forces_.elastic(entry(unknowns, i), entry(unknowns, i)); }
 
     std::vector<int> unknowns;

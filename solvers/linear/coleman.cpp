@@ -64,7 +64,7 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
     if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))
         throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
-    if (blades_ > most_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", most_blades));
+    if (blades_ > max_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", max_blades));
     for (const std::vector<int>& blade : rotor.blades)
         if (blade.size() != rotor.blades[0].size())
             throw InputError(rotor.machine, "coordinates of a blade", blade.size(),
@@ -99,7 +99,7 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
 
 // A T: every row alike.
 void ColemanTransform::transform_columns(double psi, Matrix& A) const {
-    std::array<double, most_blades> x{};
+    std::array<double, max_blades> x{};
     for (const std::vector<int>& rows : at_)
         for (Eigen::Index i = 0; i < A.rows(); ++i) {
             for (int k = 0; k < blades_; ++k) entry(x, k) = A(i, entry(rows, k));
@@ -122,7 +122,7 @@ void ColemanTransform::transform_columns(double psi, Matrix& A) const {
 
 // T^T A: every column alike.
 void ColemanTransform::transform_rows(double psi, Matrix& A) const {
-    std::array<double, most_blades> x{};
+    std::array<double, max_blades> x{};
     for (Eigen::Index column = 0; column < A.cols(); ++column) {
         for (const std::vector<int>& rows : at_) {
             for (int k = 0; k < blades_; ++k) entry(x, k) = A(entry(rows, k), column);

@@ -58,7 +58,7 @@ PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
 
 Normalised::Normalised(const PeriodicSystem& raw) : system(normalised(raw, units(raw))), unit(units(raw)) {}
 
-// Of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each.
+// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each.
 struct Grid {
     int samples, factors, steps;
 };
@@ -94,7 +94,7 @@ void check(const PeriodicSystem& system, const FloquetOptions& options) {
     if (!(options.per_period >= 0) || options.per_period > 1e4)
         throw InputError(in_floquet_theory, "frequency per period up to which modes are wanted", options.per_period,
                          "0 ... 1e4");
-    if (options.most_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.most_steps, ">= 1");
+    if (options.max_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.max_steps, ">= 1");
     const double difference = asymmetry(system, symmetry);
     if (!(difference < 1e-7))
         throw InputError(in_floquet_theory, text("difference of the ", symmetry.parts, " parts"), difference,
@@ -147,7 +147,7 @@ private:
     bool wanted(const FloquetMode& mode) const;
     bool accurate(const FloquetMode& mode) const;
     bool improvable(const FloquetMode& mode) const;
-    /// Of an exponent over the frequency.
+    /// Rounding error of an exponent over the frequency.
     double rounding(double condition) const { return 1e-15 * condition / angle_; }
 
     const PeriodicSystem& raw_;
@@ -233,7 +233,7 @@ void Analysis::transform(const ComplexMatrix& samples, FloquetSolution& out) con
     // A rigid displacement has rates of the size of rounding.
     const double at_rest = 1e-12 * raw_.frequency() * raw_.frequency() *
                            out.harmonics.cwiseQuotient(normalised_.unit.head(n).replicate(1, 2 * J + 1)).squaredNorm();
-    // Of an alias they are off by the rate of the samples, two fifths of the energy at least.
+    // With an alias they are off by the rate of the samples, two fifths of the energy at least.
     out.resolved = off <= 0.2 * all + at_rest;
 }
 
@@ -311,7 +311,7 @@ Floquet Analysis::compute() {
         result.steps = steps * grid_.samples * parts;
         const bool enough = std::none_of(result.modes.begin(), result.modes.end(),
                                          [&](const FloquetMode& mode) { return improvable(mode); });
-        if (!refine || enough || 2 * result.steps > options_.most_steps) break;
+        if (!refine || enough || 2 * result.steps > options_.max_steps) break;
     }
     const auto rough = std::count_if(result.modes.begin(), result.modes.end(),
                                      [&](const FloquetMode& mode) { return !accurate(mode); });

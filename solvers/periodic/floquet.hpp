@@ -12,11 +12,11 @@ struct FloquetOptions {
     /// Integrates over T/Q only: Phi(T) = P^-Q (P Phi(T/Q))^Q                        [Peters 1994; Lee et al., eq. 18]
     BladeSymmetry symmetry = {};
     /// Steps per period; 0: doubled until the exponents of all resolved modes with a principal frequency up to
-    /// `per_period` times 2 pi / T have an estimated error below `tolerance` times 2 pi / T, or `most_steps` is
+    /// `per_period` times 2 pi / T have an estimated error below `tolerance` times 2 pi / T, or `max_steps` is
     /// reached.
     int steps = 0;
     double per_period = 10, tolerance = 1e-9;
-    int most_steps = 4096;
+    int max_steps = 4096;
     /// The monodromy matrix is kept as a product of this many factors (per T/Q): strongly damped motions keep their
     /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;

@@ -137,13 +137,10 @@ PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform trans
 
 SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples) {
     if (samples < 1) throw InputError("mean over a period", "number of samples", samples, ">= 1");
-    SecondOrderSystem mean, at;
+    SecondOrderSystem mean, scratch;
     system.at(0, mean);
-    for (int s = 1; s < samples; ++s) {
-        system.at(system.period() * s / samples, at);
-        mean.M += at.M, mean.C += at.C, mean.K += at.K, mean.K_elastic += at.K_elastic;
-    }
-    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
+    const auto at = [&](int i, SecondOrderSystem& out) { system.at(system.period() * i / samples, out); };
+    average(samples, at, mean, scratch);
     return mean;
 }
 

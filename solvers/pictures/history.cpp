@@ -81,7 +81,7 @@ std::size_t columns(int width) {
 
 }  // namespace
 
-std::vector<HistoryPanel> panels_one_each(const std::vector<std::string>& channels) {
+std::vector<HistoryPanel> one_panel_each(const std::vector<std::string>& channels) {
     std::vector<HistoryPanel> panels;
     panels.reserve(channels.size());
     for (const std::string& channel : channels) panels.push_back({{channel}});

@@ -101,7 +101,7 @@ public:
 
     /// What went wrong when a function returned false.
     const std::string& problem() const { return problem_; }
-    void forget_problem() { problem_.clear(); }
+    void clear_problem() { problem_.clear(); }
     /// "position of 'name'" or "rate of 'name'" of an entry of x.
     std::string name_of(int index) const;
 

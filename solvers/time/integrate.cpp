@@ -202,7 +202,7 @@ int Integrator::first_event(double to, double& at) {
 // Gauss' formula, as exact as the interpolation within a step: of order 6 beside the long steps of Runge-Kutta methods,
 // of order 4 beside the short ones of the others.
 bool Integrator::accumulate(double to) {
-    if (!options_.works) return true;
+    if (!options_.integrate_work) return true;
     struct Node {
         double at, weight;  // on -1 ... 1
     };
@@ -211,7 +211,7 @@ bool Integrator::accumulate(double to) {
     static constexpr std::array<Node, 2> two{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
     const bool long_steps = options_.method == Method::dirk || options_.method == Method::erk;
     const double half = (to - state_.time) / 2, middle = state_.time + half;
-    Works sum = works_;  // kept as it was if a user force throws
+    Work sum = work_;  // kept as it was if a user force throws
     for (const Node& node : long_steps ? std::span<const Node>(three) : std::span<const Node>(two)) {
         const double time = middle + node.at * half, weight = node.weight * half;
         stepper_->state_at(time, x_between_.data());
@@ -221,7 +221,7 @@ bool Integrator::accumulate(double to) {
         sum.dissipation += weight * power.dissipation;
         sum.drives += weight * power.drives;
     }
-    works_ = sum;
+    work_ = sum;
     return true;
 }
 
@@ -258,11 +258,11 @@ bool Integrator::process(double to, Advance& result) {
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
     // An action that throws is repeated when the run continues.
-    AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
+    AfterEvent after = event < 0 ? AfterEvent::proceed : act(event);
     set_sides(event);
     if (event < 0) return true;
-    if (after == AfterEvent::go_on && accelerations_changed()) after = AfterEvent::restart;
-    if (after != AfterEvent::go_on) begin_piece();
+    if (after == AfterEvent::proceed && accelerations_changed()) after = AfterEvent::restart;
+    if (after != AfterEvent::proceed) begin_piece();
     if (after != AfterEvent::stop) return true;
     result.end = Advance::End::event;
     result.event = entry(options_.events, event).name;

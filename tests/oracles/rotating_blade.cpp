@@ -190,14 +190,14 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
 }
 
 RotatingBlade::Modes RotatingBlade::modes(double rotor_speed, int count, About about) const {
-    constexpr int most_steps = 30;
+    constexpr int max_steps = 30;
     VectorXd q = VectorXd::Zero(unknowns());
     Assembly a = assemble(q, rotor_speed);
     Modes out{};
     const auto relative = [&] { return a.load > 0.0 ? a.residual.cwiseAbs().maxCoeff() / a.load : 0.0; };
     if (about == About::deflected) {
         while (relative() > 1e-13) {
-            if (++out.newton_steps > most_steps) throw std::runtime_error("RotatingBlade: no steady state found");
+            if (++out.newton_steps > max_steps) throw std::runtime_error("RotatingBlade: no steady state found");
             q -= a.stiffness.ldlt().solve(a.residual);
             a = assemble(q, rotor_speed);
         }

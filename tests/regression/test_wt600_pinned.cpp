@@ -1,5 +1,5 @@
-// Numbers of the 600 kW machine as the library gave them in November 2026. They are no truth: what is known to be right
-// is in tests/turbines and tests/elements. A change here is to be understood and noted in the changelog.
+// Numbers of the 600 kW machine as the library gave them in November 2026. They are not a reference: what is known to
+// be right is in tests/turbines and tests/elements. A change here is to be understood and noted in the changelog.
 #include "mbs/base/entry.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/support/catch.hpp"

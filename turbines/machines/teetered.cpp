@@ -264,10 +264,10 @@ TeeteredTurbine::TeeteredTurbine(const TeeteredAssembler& a, const std::string& 
     }
     rotor_.parts = a.parts;
     rotor_.lines = a.lines;
-    for (BodyId body : a.odd) half_turn_odd_.push_back(model.index(body));
+    for (BodyId body : a.odd) odd_coordinates_.push_back(model.index(body));
     rotor_.description =
         text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_,
-             "\n\nthe machine that was computed\n", as_computed(description));
+             "\n\nthe machine that was computed\n", description_text(description));
 }
 
 std::string TeeteredTurbine::summary() const {

@@ -60,7 +60,7 @@ TeeteredDescription teetered_description();
 TeeteredDescription teetered_description(const std::filesystem::path& folder);
 /// The data as YAML (SI units), without `source`, as stored with histories and diagrams. There is no reader for it.
 /// @throws InputError: a number that is not finite
-std::string as_computed(const TeeteredDescription& description);
+std::string description_text(const TeeteredDescription& description);
 /// Tower stiffnesses as multiples of the blade's: fore-aft EI of flap EI, lateral EI of lag EI, GJ of GJ (Table III:
 /// 10, 100, 1000).
 /// @throws InputError: ratio not finite and positive
@@ -98,7 +98,7 @@ public:
     /// Coordinates that change sign in the half-revolution symmetry: teeter. The equations of motion are invariant if
     /// the azimuth increases by pi, the blades exchange their coordinates and these coordinates change sign. Empty if
     /// teeter is locked.
-    const std::vector<int>& half_turn_odd() const { return half_turn_odd_; }
+    const std::vector<int>& odd_coordinates() const { return odd_coordinates_; }
     /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.
     std::string summary() const;
 
@@ -111,7 +111,7 @@ private:
     std::shared_ptr<const Tree> tree_;
     std::shared_ptr<const System> system_;
     RotorMap rotor_;
-    std::vector<int> half_turn_odd_;
+    std::vector<int> odd_coordinates_;
     std::string source_;
     std::vector<std::string> warnings_;
 };

@@ -4,7 +4,7 @@
 
 namespace cardan::turbines {
 
-std::string as_computed(const TeeteredDescription& d) {
+std::string description_text(const TeeteredDescription& d) {
     Writer writer(BeamLines::near);
     writer.out = "# A two-blade machine with a teetered hub. SI units, radians; axes and signs: docs/teetered.md.\n";
     writer.word("name", d.name);

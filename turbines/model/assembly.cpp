@@ -102,7 +102,7 @@ namespace {
 // Last, so that it can be cut off and read again; what it was read from stands before it.
 std::string computed(TurbineDescription description) {
     description.source.clear();
-    return text("\n\nthe machine that was computed\n", as_computed(description));
+    return text("\n\nthe machine that was computed\n", description_text(description));
 }
 
 }  // namespace

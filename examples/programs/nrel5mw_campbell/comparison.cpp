@@ -80,7 +80,7 @@ void print_row(const solvers::Campbell& diagram, const OpenFast& reference, std:
     if (gravity) {
         const auto at = static_cast<std::size_t>(branch - diagram.branches.begin());
         hz = gravity->hz.at(at);
-        std::cout << std::setw(10) << hz << (gravity->mac.at(at) < solvers::sure_mac ? "?" : " ");
+        std::cout << std::setw(10) << hz << (gravity->mac.at(at) < solvers::min_reliable_mac ? "?" : " ");
     }
     print_difference(hz, reference.elastodyn.at(mode));
     print_difference(hz, reference.beamdyn.at(mode));

@@ -94,7 +94,7 @@ Campbell paired(const Campbell& diagram, const Campbell& other, const turbines::
             branch.mode[p] = static_cast<int>(entry(theirs.place, other_mode));
             branch.mac[p] = found;
             branch.doubtful[p] =
-                found < std::max({solvers::sure_mac, mac.row(i).maxCoeff(), mac.col(other_mode).maxCoeff()});
+                found < std::max({solvers::min_reliable_mac, mac.row(i).maxCoeff(), mac.col(other_mode).maxCoeff()});
         }
     }
     return result;

@@ -75,7 +75,7 @@ private:
         return m;
     }
 
-    // Unknown of plane i (0 flap, 1 edge), node and kind (0 displacement, 1 rotation); -1: clamped or not looked at.
+    // Unknown of plane i (0 flap, 1 edge), node and kind (0 displacement, 1 rotation); -1: clamped or ignored.
     Eigen::Index unknown(std::size_t node, int i, int kind) const {
         const bool active = beam_.plane == Plane::both || (beam_.plane == Plane::edge) == (i == 1);
         if (!active || node == 0) return -1;

@@ -248,7 +248,7 @@ void AlphaStepper::propose(double h, double e) {
 }
 
 bool AlphaStepper::do_step(double horizon) {
-    equations_.forget_problem();
+    equations_.clear_problem();
     from_.x = to_.x;
     from_.qdd = to_.qdd;
     from_.a = to_.a;

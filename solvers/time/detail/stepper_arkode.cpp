@@ -116,7 +116,7 @@ void ArkodeStepper::begin_at(double time, const double* x, double stop, double n
 }
 
 bool ArkodeStepper::do_step(double horizon) {
-    equations_.forget_problem();
+    equations_.clear_problem();
     const double from = time_;
     const int flag = ARKStepEvolve(arkode_.get(), towards(horizon), vector(), &time_, ARK_ONE_STEP);
     rethrow();

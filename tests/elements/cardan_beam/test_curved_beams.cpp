@@ -194,7 +194,7 @@ TEST_CASE("curved beam: with shear flexibility the bend converges to the Cossera
         }
 }
 
-TEST_CASE("curved beam: plain springs converge to a rod whose joints are tilted by the shear", "[analytic]") {
+TEST_CASE("curved beam: plain springs converge to a rod whose joints are tilted by the shear", "[analytic][discrete]") {
     const Bend bend;
     for (const double delta : {sixth, delta_gauss}) {
         const Vec3 limit = exact_tip(limit_of_elements(bend.rod(), delta));

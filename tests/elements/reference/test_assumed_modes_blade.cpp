@@ -105,7 +105,7 @@ TEST_CASE("assumed modes: in a frame that falls freely there is neither load nor
     CHECK(m.K == m.K_elastic);
 }
 
-TEST_CASE("assumed modes: a steady velocity of the rotating frame is not felt, unless dB/dt is left out",
+TEST_CASE("assumed modes: a steady velocity of the rotating frame has no effect, unless dB/dt is left out",
           "[property]") {
     const AssumedModesBlade blade = general_blade();
     const auto at = [&](double heave) {
@@ -161,7 +161,7 @@ TEST_CASE("assumed modes: in its own natural modes a blade is the same", "[prope
     CHECK((a.moment - b.moment).norm() < 1e-11 * a.moment.norm());
 }
 
-TEST_CASE("assumed modes: what the theory does not have is refused", "[property]") {
+TEST_CASE("assumed modes: what the theory does not cover is refused", "[property]") {
     const auto with = [](auto change) {
         EngineeringSection s = slender();
         s.GJ = s.EA = 1, s.j_flap = s.j_edge = 0.1;

@@ -1,4 +1,4 @@
-// The same bodies in other coordinates.
+// Change of chart: one set of bodies in other coordinates.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/geometry/change_of_chart.hpp"
@@ -58,8 +58,7 @@ ChartState random_motion(Random& random, const Model& model) {
 
 }  // namespace
 
-TEST_CASE("change of chart: the bodies stay where they are and move as they did, and there is a way back",
-          "[property]") {
+TEST_CASE("change of chart: the bodies stay where they are and move as they did, and back again", "[property]") {
     Random random(71);
     for (unsigned seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);

@@ -76,7 +76,7 @@ TEST_CASE("energy: kinetic energy grows by the power that all force elements rep
     }
 }
 
-TEST_CASE("energy: what dampers dissipate is missing, integral of qd D qd", "[property]") {
+TEST_CASE("energy: dampers dissipate the integral of qd D qd", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
         Random random(seed);
@@ -149,7 +149,7 @@ TEST_CASE("momentum: a floating tree with springs and dampers inside keeps linea
     }
 }
 
-TEST_CASE("momentum: a floating tree falls like a stone, its angular momentum about its centre is kept", "[property]") {
+TEST_CASE("momentum: a floating tree falls freely, its angular momentum about its centre is kept", "[property]") {
     const Vec3 gravity(0.3, -0.2, -9.81);
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
@@ -193,7 +193,7 @@ struct OnMovingBase {
         const System system(source, at_rest);
         return Simulation(system, q, qd).response().qdd;
     }
-    // The same on the moving base, in the order of the tree at rest; `reaction` is what the base drives must exert.
+    // Likewise on the moving base, in the order of the tree at rest; `reaction` is what the base drives must exert.
     Vector qdd_on_base(const Vec3& position, const Vec3& velocity, const Vec3& acceleration, Vec3* reaction = nullptr) {
         const System system(moving, on_base);
         const Model model(source);
@@ -302,7 +302,7 @@ TEST_CASE("equivalence: Newton-Euler on a base accelerated by -g gives minus the
     }
 }
 
-TEST_CASE("energy: drives of driven coordinates feed what the tree gains", "[property]") {
+TEST_CASE("energy: drives of driven coordinates supply what the tree gains", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
         Random random(seed);

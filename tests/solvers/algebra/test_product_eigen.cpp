@@ -175,7 +175,7 @@ TEST_CASE("product eigenvalues: complex pairs are found where their product is f
         }
 }
 
-TEST_CASE("product eigenvalues: singular factors leave zeros that are told from the rest", "[property]") {
+TEST_CASE("product eigenvalues: singular factors leave zeros that are distinguished from the rest", "[property]") {
     Numbers numbers(4);
     for (const Index rank : {1, 4, 9}) {
         const Index n = 10;
@@ -221,7 +221,7 @@ TEST_CASE("product eigenvalues: a defective pair has a large condition number, t
     CHECK(defective == 2);
 }
 
-TEST_CASE("product eigenvalues: what is no product is refused", "[property]") {
+TEST_CASE("product eigenvalues: bad factors are refused", "[property]") {
     ProductEigen eigen;
     check_refused([&] { (void)eigen.compute({}); }, {"number of factors", "0"});
     check_refused(

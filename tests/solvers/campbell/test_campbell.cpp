@@ -45,7 +45,7 @@ TEST_CASE("rpm_range: counts from first to last in rad/s and keeps the last", "[
     CHECK(rpm_range(5, 6, 100).size() == 1);
 }
 
-TEST_CASE("rpm_range: what is no range is refused with the range as given", "[property]") {
+TEST_CASE("rpm_range: a bad range is refused with the range as given", "[property]") {
     check_refused([] { (void)rpm_range(0, 10, 0); }, {"0:10:0", "STEP > 0"});
     check_refused([] { (void)rpm_range(0, 10, -1); }, {"0:10:-1", "STEP > 0"});
     check_refused([] { (void)rpm_range(10, 0, 1); }, {"10:0:1", "FIRST <= LAST"});

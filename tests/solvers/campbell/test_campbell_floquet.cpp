@@ -65,7 +65,7 @@ TEST_CASE("campbell by Floquet: an isotropic rotor without gravity has the diagr
                     CHECK(std::abs(a.mode.eigenvalue - b.mode.eigenvalue) < 1e-9);
                     if (!single) continue;
                     CHECK((a.row_shares - b.row_shares).cwiseAbs().maxCoeff() < 1e-7);
-                    // The same shape but for a phase.
+                    // Equal shapes but for a phase.
                     const Complex product = a.mode.shape.dot(b.mode.shape);
                     CHECK((a.mode.shape * (product / std::abs(product)) - b.mode.shape).norm() <
                           1e-7 * a.mode.shape.norm());
@@ -224,7 +224,7 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     options.floquet.per_period = -1;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"per revolution", "-1", ">= 0"});
     options = by(CampbellMethod::floquet);
-    options.floquet.most_steps = -2;
+    options.floquet.max_steps = -2;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"limit of steps", "-2"});
     options = by(CampbellMethod::floquet);
     options.floquet.harmonics = -1;
@@ -237,9 +237,9 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"mean is held = 99"});
 }
 
-TEST_CASE("campbell by Floquet: few steps are said to be too few", "[property]") {
+TEST_CASE("campbell by Floquet: too few steps give a warning", "[property]") {
     CampbellOptions options = by(CampbellMethod::floquet);
-    options.floquet.most_steps = 1;
+    options.floquet.max_steps = 1;
     options.floquet.tolerance = 1e-14;
     const Campbell d = diagram_of(whirling(2), {0.5}, options);
     CHECK_THAT(d.warning, Catch::Contains("rpm") && Catch::Contains("less accurate than wanted"));

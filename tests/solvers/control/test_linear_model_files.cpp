@@ -278,7 +278,7 @@ TEST_CASE("linear model files: a model without inputs and outputs can be written
     CHECK(lin.lines[4] == bare.machine);
 }
 
-TEST_CASE("linear model files: what cannot be written is said and leaves nothing", "[property]") {
+TEST_CASE("linear model files: what cannot be written is an error and leaves no file", "[property]") {
     const Example& e = example();
     const Folder folder;
     CHECK_THROWS_AS(write_lin(e.model, folder / "no/m"), FileError);

@@ -222,7 +222,7 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
     for (const int stages : {2, 3, 5})
         for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
             const Floquet result =
-                floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .most_steps = 3000});
+                floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .max_steps = 3000});
             REQUIRE(result.modes.size() == 3);
             CAPTURE(stages, tolerance, result.steps);
             for (Index k = 0; k < 3; ++k) {
@@ -233,11 +233,11 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
                 if (result.note.empty()) CHECK(mode.error <= tolerance);
             }
         }
-    const Floquet rough = floquet(system, {.transition = {.stages = 2}, .most_steps = 200});
+    const Floquet rough = floquet(system, {.transition = {.stages = 2}, .max_steps = 200});
     CHECK(rough.note.find("less accurate than wanted") != std::string::npos);
 }
 
-TEST_CASE("Floquet: motions too fast for the samples are told from the others", "[analytic]") {
+TEST_CASE("Floquet: motions too fast for the samples are distinguished from the others", "[analytic]") {
     const Vector omega = (Vector(2) << 0.7, 3000.3).finished(), zeta = Vector::Zero(2);
     const Floquet result = floquet(oscillators(omega, zeta));
     CHECK(result.note.empty());
@@ -333,7 +333,7 @@ TEST_CASE("Floquet: bad options are refused with the value and the limit", "[pro
     check_refused([&] { (void)floquet(system, {.steps = -1}); }, {"steps per period", "-1"});
     check_refused([&] { (void)floquet(system, {.per_period = -1}); }, {"frequency per period", "-1"});
     check_refused([&] { (void)floquet(system, {.tolerance = 0}); }, {"tolerance", "0"});
-    check_refused([&] { (void)floquet(system, {.most_steps = 0}); }, {"limit of steps", "0"});
+    check_refused([&] { (void)floquet(system, {.max_steps = 0}); }, {"limit of steps", "0"});
     check_refused([&] { (void)floquet(system, {.factors = 0}); }, {"number of factors", "0"});
     const auto refused = [](const PeriodicSystem& of, const BladeSymmetry& symmetry, const Matrix& weight,
                             std::initializer_list<std::string> parts) {

@@ -171,7 +171,7 @@ TEST_CASE("Floquet: the monodromy matrix about a periodic state is the derivativ
     IntegrationOptions integration;
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};
-    integration.works = false;
+    integration.integrate_work = false;
     const auto after_a_turn = [&](Index column, double step) {
         Vector q = start.q, qd = start.qd;
         (column < n ? q : qd)(entry(unknowns, column % n)) += step;

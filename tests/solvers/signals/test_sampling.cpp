@@ -41,7 +41,7 @@ double sine_error(int pairs, double ratio, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("time steps: equal ones are told from others, rounding and printed digits are not held against them") {
+TEST_CASE("time steps: equal ones are recognised despite rounding and printed digits") {
     std::vector<double> time;
     for (int i = 0; i <= 10000; ++i) time.push_back(100 + 0.01 * i);
     TimeSteps steps = time_steps(time);

@@ -167,7 +167,7 @@ TEST_CASE("floating machine: on ever stiffer moorings its modes become those on 
     CHECK(soft / stiff == Approx(100).epsilon(0.05));
 }
 
-TEST_CASE("floating machine: that nothing holds moves as a rigid body without elastic force, and vibrates free-free",
+TEST_CASE("floating machine: unmoored, it moves as a rigid body without elastic force, and vibrates free-free",
           "[analytic]") {
     PlatformDescription raft = some_platform();
     raft.hydrostatic.setZero();
@@ -254,8 +254,8 @@ TEST_CASE("floating machine: a steady drift changes nothing where no mooring and
     CHECK((drifting - at_rest).cwiseAbs().maxCoeff() < 1e-10 * at_rest.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("floating machine: total momentum changes by outer forces alone", "[analytic]") {
-    // Of the bodies, by the accelerations of their mass centres; of the water that moves with them, A x''.
+TEST_CASE("floating machine: total momentum changes by external forces alone", "[analytic]") {
+    // Rate of the momentum of the bodies, by the accelerations of their mass centres; of the water, A x''.
     const PlatformDescription platform = balanced();
     const Turbine turbine = floating(platform);
     const Model& model = turbine.system().model;

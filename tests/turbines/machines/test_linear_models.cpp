@@ -116,7 +116,7 @@ private:
 IntegrationOptions accurate() {
     IntegrationOptions options;
     options.tolerances = {1e-9, 1e-12, 1e-12, 1e-11, 1e-11};
-    options.works = false;
+    options.integrate_work = false;
     return options;
 }
 
@@ -159,7 +159,7 @@ UserForce generator_torque(std::function<double(double time, double speed)> torq
     return force;
 }
 
-// The same model by way of a MATLAB file.
+// The model read back from a MATLAB file.
 ConstantModel exported(const ConstantModel& model, const LinearModel& periodic) {
     const test::Folder folder;
     write_mat(periodic, {{"plant", model}}, folder / "plant.mat");
@@ -246,7 +246,7 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
         for (const LinearInput& input : list) {
             const bool motion = input.kind() == LinearInput::Kind::motion;
             for (int derivative = 0; derivative < (motion ? 3 : 1); ++derivative, ++column) {
-                // Large enough beside the loads that are there, whose rounding is seen otherwise.
+                // Large beside the loads that are there, whose rounding would show otherwise.
                 const double step = !motion ? 1e3 : derivative == 0 ? 1e-4 : derivative == 1 ? 1e-2 : 10;
                 const double rounding = 1e-13 * sample.y.cwiseAbs().maxCoeff() / step;
                 const Vector found = slope(step, [&](double h) {
@@ -315,7 +315,7 @@ TEST_CASE("linear model: transfer functions of the generator torque are the nonl
             INFO(name << " at " << hertz << " Hz: " << std::abs(y(row)) << ", off by " << error);
             CHECK(error < 1e-3 * std::abs(y(row)));
         }
-        // Of the blades the mean is the collective.
+        // The mean of the blades is the collective.
         REQUIRE(fixed.outputs[4].name == "blade root moment x (collective)");
         const double mean = (at_rest(4) + at_rest(5) + at_rest(6)) / 3;
         double error = 0;

@@ -12,7 +12,7 @@ using namespace cardan;
 using namespace cardan::testing;
 using namespace cardan::turbines;
 
-TEST_CASE("OC3-Hywind: hull, masses and lift are those published", "[published]") {
+TEST_CASE("OC3-Hywind: hull, masses and buoyancy are those published", "[published][discrete]") {
     const PlatformDescription spar = oc3_hywind();
     // HydroDyn's input file: displaced volume 8029.21 m^3 of the hull with these diameters; strip theory takes 0.969954
     // times its mass along.

@@ -239,7 +239,7 @@ TEST_CASE("assembly: a positive cone puts the blade tips downwind of the hub", "
     }
 }
 
-TEST_CASE("assembly: a turbine keeps the text of its data and tells its masses by part", "[property]") {
+TEST_CASE("assembly: a turbine keeps the text of its data and gives its masses by part", "[property]") {
     const turbines::Turbine machine = turbines::wt600();
     CHECK_THAT(machine.source(),
                Catch::Matchers::Contains("quantity,unit,value") && Catch::Matchers::Contains("span_fraction[-]"));

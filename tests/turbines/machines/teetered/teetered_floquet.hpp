@@ -42,7 +42,7 @@ inline HalfTurnCoordinates half_turn_coordinates(const turbines::TeeteredTurbine
         const CoordinateInfo& info = table[i];
         if (info.blade > 0) continue;
         z.T(row++, column(i)) = 1;
-        const auto& odd = machine.half_turn_odd();
+        const auto& odd = machine.odd_coordinates();
         z.odd.push_back(std::find(odd.begin(), odd.end(), i) != odd.end());
         z.family.push_back(info.part != "tower"               ? info.part
                            : contains(info.name, "bending y") ? "tower lateral"

@@ -116,7 +116,7 @@ TEST_CASE("teetered machine: coordinates in order, spin prescribed, two blades i
     CHECK(rotor.spin == 31);
     CHECK(table[31].role == CoordinateRole::driven);
     CHECK(table.free().size() == 92);
-    CHECK(machine.half_turn_odd() == std::vector<int>{32});
+    CHECK(machine.odd_coordinates() == std::vector<int>{32});
     REQUIRE(rotor.blades.size() == 2);
     for (std::size_t i = 0; i < 30; ++i) {
         const std::string first = table[rotor.blades[0][i]].name, second = table[rotor.blades[1][i]].name;
@@ -193,7 +193,7 @@ TEST_CASE("teetered machine: half a revolution on, blades exchanged and teeter r
         Vector y = x;
         const auto& blades = machine.rotor().blades;
         for (std::size_t i = 0; i < blades[0].size(); ++i) std::swap(y(blades[0][i]), y(blades[1][i]));
-        for (int odd : machine.half_turn_odd()) y(odd) *= -1;
+        for (int odd : machine.odd_coordinates()) y(odd) *= -1;
         return y;
     };
     const auto left_side = [&](const Vector& q, const Vector& qd, const Vector& qdd) {
@@ -278,7 +278,7 @@ TEST_CASE("teetered machine: elements, extension and torsion of tower and blades
     const auto blade = turbines::isolated_blade(d, options);
     CHECK(blade.system().model.size() == 1 + 18);
     CHECK(blade.rotor().blades.size() == 1);
-    CHECK(blade.half_turn_odd().empty());
+    CHECK(blade.odd_coordinates().empty());
 }
 
 TEST_CASE("teetered machine: straight it is its own steady state; coned, both blades flap alike and it does not teeter",

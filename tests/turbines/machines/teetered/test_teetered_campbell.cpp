@@ -23,7 +23,7 @@ constexpr const char* decaying = "teeter (locked at 1 per rev and decaying)";
 Campbell diagram_of(const TeeteredTurbine& machine, const std::vector<double>& speeds, double per_rev) {
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
-    options.floquet.odd = machine.half_turn_odd();
+    options.floquet.odd = machine.odd_coordinates();
     options.max_frequency_hz = per_rev * teetered_speed / (2 * pi);
     return solvers::campbell(machine.system(), machine.rotor(), speeds, options);
 }
@@ -141,7 +141,7 @@ TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in
     for (const bool locked : {false, true}) {
         options.teeter_locked = locked;
         const TeeteredTurbine machine = turbines::assemble(description, options);
-        CHECK(machine.half_turn_odd().size() == (locked ? 0U : 1U));
+        CHECK(machine.odd_coordinates().size() == (locked ? 0U : 1U));
         const Campbell d = diagram_of(machine, {5.0, teetered_speed}, 8);
         CHECK(std::count(d.rows.begin(), d.rows.end(), "teeter") == (locked ? 0 : 1));
         for (const solvers::CampbellPoint& point : d.points) {

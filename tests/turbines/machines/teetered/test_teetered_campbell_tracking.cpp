@@ -28,7 +28,7 @@ TeeteredTurbine machine(bool teeter_locked) {
 Campbell floquet_diagram(const TeeteredTurbine& machine, double first, double last, double step, double max_frequency) {
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
-    options.floquet.odd = machine.half_turn_odd();
+    options.floquet.odd = machine.odd_coordinates();
     options.max_frequency_hz = max_frequency;
     return solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(first, last, step), options);
 }
@@ -70,7 +70,7 @@ TEST_CASE("campbell of the teetered machine: the warning speaks of the fastest g
         turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
     solvers::CampbellOptions how;
     how.method = solvers::CampbellMethod::floquet;
-    how.floquet.odd = machine.half_turn_odd();
+    how.floquet.odd = machine.odd_coordinates();
     how.floquet.harmonics = 1;
     how.max_frequency_hz = 3;
     const double speed[] = {40 * pi / 30};

@@ -30,7 +30,7 @@ struct Periodic {
         : state(solvers::harmonic_balance(machine.system(), machine.rotor().spin, options(harmonics))),
           system(solvers::linearised(machine.system(), state)),
           half_turn(solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), teetered_speed,
-                                            machine.half_turn_odd())) {}
+                                            machine.odd_coordinates())) {}
 
     static solvers::PeriodicOptions options(int harmonics) {
         solvers::PeriodicOptions options;
@@ -155,7 +155,7 @@ TEST_CASE(
     check_rigid_motions(half, 0.04525);
     check_rigid_motions(balanced, 0.04525);
 
-    // Of fifth order, with steps of a quarter of a degree.
+    // A method of fifth order, with steps of a quarter of a degree.
     const HalfTurnFloquet independent = floquet(machine, teetered_speed, 700);
     const auto families = by_family(machine, periodic, half);
     int compared = 0;
@@ -201,7 +201,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 
     // Teeter changes sign in half a revolution, the blades exchange, tower and yaw repeat.
     const auto& rotor = machine.rotor();
-    const int teeter = machine.half_turn_odd()[0];
+    const int teeter = machine.odd_coordinates()[0];
     for (int j = 0; j <= 16; ++j) {
         const Eigen::Index from = j == 0 ? 0 : 2 * j - 1, count = j == 0 ? 1 : 2;
         const auto of = [&](int row) { return periodic.state.coefficients.row(row).segment(from, count); };

@@ -70,7 +70,7 @@ TEST_CASE("docs/wt600.md: as many channels are recorded as it says", "[property]
     CHECK_THAT(document("wt600.md"), Catch::Matchers::Contains(text("recording ", channels, " channels")));
 }
 
-TEST_CASE("docs/conventions.md: what it calls members of a workspace are some", "[property]") {
+TEST_CASE("docs/conventions.md: the members of a workspace that it names exist", "[property]") {
     const std::string header = test::bytes_of(text(CARDAN_SOURCE_DIR, "/mbs/kernels/workspace.hpp"));
     const std::string page = document("conventions.md");
     const std::regex mention("`ws\\.(\\w+)(\\[\\w\\]\\.(\\w+))?`");
