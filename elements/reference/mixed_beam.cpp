@@ -84,7 +84,7 @@ struct Station {
 
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 
-// Of (u, theta, F, M).
+// Scales of (u, theta, F, M).
 Vec12 end_scales(const MixedBeam::Scales& scales) {
     Vec12 units;
     units << Vec3::Constant(scales.length), Vec3::Ones(), Vec3::Constant(scales.force),
@@ -92,7 +92,7 @@ Vec12 end_scales(const MixedBeam::Scales& scales) {
     return units;
 }
 
-// Of (V, Omega) and of the velocity equations.
+// Scales of (V, Omega) and of the velocity equations.
 Vec6 velocity_scales(const MixedBeam::Scales& scales) {
     Vec6 units;
     units << Vec3::Constant(scales.length / scales.time), Vec3::Constant(1 / scales.time);

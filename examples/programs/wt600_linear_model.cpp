@@ -155,7 +155,7 @@ Vector output_sizes(const solvers::ConstantModel& model) {
     return size;
 }
 
-// Of inputs a tenth of what the machine has.
+// A tenth of what the machine has of each input.
 double input_size(const solvers::Signal& input) {
     for (const auto& [name, size] :
          {std::pair{"generator torque", 400.0}, std::pair{"yaw moment", 2e4}, std::pair{"thrust", 1e4},

@@ -140,9 +140,9 @@ inline bool check(const char* what, double error, double allowed) {
     return holds;
 }
 
-/// Of a machine that does not turn, where there may be no kinetic energy to measure an error by: the most that kinetic
-/// energy, potential energy or the work of the drives range over in a run, J; at least 1 J, for a machine at rest
-/// exchanges nothing.
+/// The scale of energy errors for a machine that does not turn and may have no kinetic energy: the largest range in a
+/// run of kinetic energy, potential energy and the work of the drives, J; at least 1 J, for a machine at rest exchanges
+/// nothing.
 inline double exchanged_energy(const solvers::History& history) {
     double most = 1;
     for (const char* name : {"kinetic energy", "potential energy", "energy from drives"}) {

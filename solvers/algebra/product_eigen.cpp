@@ -93,8 +93,8 @@ void ProductEigen::rotate(Index space, Index i, const Rotation& G) {
     Q_[at(space)].applyOnTheRight(i, i + 1, G);
 }
 
-// After a rotation of space 0 the triangular factors are made triangular again, one after the other. Zeros on their
-// diagonals would stop what is chased: rounding takes their place.
+// After a rotation of space 0 the triangular factors are made triangular again, one after the other. A zero on a
+// diagonal would stop the bulge chase; it is replaced by a number of rounding size.
 void ProductEigen::chase(Index i) {
     Rotation G;
     for (Index k = 0; k + 1 < factors(); ++k) {
@@ -147,8 +147,8 @@ Index ProductEigen::active_from(Index last, double negligible) {
     return 0;
 }
 
-// Of the last 2 x 2 block of the product, the eigenvalue next to its last entry; over the first diagonal entries of the
-// triangular factors, since both may be far outside the range of numbers.
+// The eigenvalue of the product's last 2 x 2 block that is closest to its last entry, divided by the leading diagonal
+// entries of the triangular factors, because both may overflow.
 Complex ProductEigen::shift(Index first, Index last) const {
     const Index from = std::max(first, last - 2), width = last - from + 1;
     ComplexMatrix W = ComplexMatrix::Identity(width, width).rightCols(2);

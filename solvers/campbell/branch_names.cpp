@@ -242,8 +242,8 @@ std::string Naming::label_name(const Label& label, const CampbellMode& mode) con
     return motion_name(rows_[static_cast<std::size_t>(label.row)], mode.kind_name(), "", "");
 }
 
-// Of the energy of a label's component, the part that has its pattern (at standstill: that of its pair). A motion
-// localised in one blade of three has a third of each.
+// The part of the energy in a label's component that has the label's pattern (at standstill: that of its pair). A
+// motion localised in one blade of three has a third of each.
 double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
     const Share& share = mode.shares[static_cast<std::size_t>(label.component)];

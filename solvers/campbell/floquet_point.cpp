@@ -20,7 +20,7 @@ constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
 constexpr double rigid_per_radian = 1e-4;
-// The same limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
+// Likewise for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
 constexpr double free_spin_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;

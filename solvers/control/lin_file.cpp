@@ -34,7 +34,7 @@ std::string padded(std::string words, std::size_t width) {
     return words;
 }
 
-// Of a state, its derivative, an input or an output.
+// One row of a table: a state, its derivative, an input or an output.
 struct Row {
     double value;
     bool rotating;
@@ -69,7 +69,7 @@ void add_matrix(std::string& out, const char* name, const Matrix& A) {
     }
 }
 
-// Of these signals the ones that all blades have, in triplets (or more) that differ in the number only.
+// True if all blades have this signal, under names that differ only in the blade number.
 bool in_all_blades(const std::vector<Signal>& signals, const Signal& signal, int blades) {
     if (signal.blade == 0 || blades < 2) return false;
     const std::string own = text("blade ", signal.blade);

@@ -65,7 +65,7 @@ public:
         for (int b : unknowns)
             for (int a : unknowns) *J++ = by_q_(a, b);
     }
-    // Of the springs alone, at the place of the last call of jacobian().
+    // Diagonal stiffness of the springs alone, at the state last passed to jacobian().
     double elastic_diagonal(std::size_t i) const { return forces_.elastic(unknowns[i], unknowns[i]); }
 
     std::vector<int> unknowns;
@@ -146,7 +146,7 @@ private:
     int spin_, coordinates_;
     Residual residual_;
     Vector scale_, r_;
-    // In this order: KINSOL goes before what it uses, the context last.
+    // The order matters: members are destroyed in reverse, KINSOL first, the context last.
     SundialsContext context_;
     SundialsVector x_, x_scale_, f_scale_;
     SundialsMatrix J_;

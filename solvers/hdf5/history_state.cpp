@@ -109,7 +109,7 @@ IntegrationStatistics statistics_of(const Hdf5File& file) {
     return statistics;
 }
 
-// Of files that have it: written by versions that could go on from within a step.
+// State of the integration method, if the file has it (written by versions that could continue within a step).
 MethodState method_of(const Hdf5File& file) {
     const std::string group = checkpoint_group;
     MethodState method;

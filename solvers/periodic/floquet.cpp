@@ -57,7 +57,8 @@ PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
 
 Normalised::Normalised(const PeriodicSystem& raw) : system(normalised(raw, units(raw))), unit(units(raw)) {}
 
-// Of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each.
+// How one Q-th of the period is divided: samples, factors of the product (equally many samples each), integration steps
+// per sample.
 struct Grid {
     int samples, factors, steps;
 };
@@ -146,7 +147,7 @@ private:
     bool wanted(const FloquetMode& mode) const;
     bool accurate(const FloquetMode& mode) const;
     bool improvable(const FloquetMode& mode) const;
-    /// Of an exponent over the frequency.
+    /// Rounding error of an exponent, relative to the frequency.
     double rounding(double condition) const { return 1e-15 * condition / angle_; }
 
     const PeriodicSystem& raw_;
@@ -233,7 +234,7 @@ void Analysis::transform(const ComplexMatrix& samples, FloquetSolution& out) con
     // A rigid displacement has rates of the size of rounding.
     const double at_rest = 1e-12 * raw_.frequency() * raw_.frequency() *
                            out.harmonics.cwiseQuotient(normalised_.unit.head(n).replicate(1, 2 * J + 1)).squaredNorm();
-    // Of an alias they are off by the rate of the samples, two fifths of the energy at least.
+    // An aliased motion is off by the sampling rate, at least two fifths of the energy.
     out.resolved = off <= 0.2 * all + at_rest;
 }
 

@@ -139,7 +139,7 @@ struct Machine {
     struct Axes {
         V origin, shaft, radial, lateral;
     };
-    // Of a blade at psi + phase, in the head; then turned.
+    // Axes of a blade at psi + phase: in the head, then turned with it.
     Axes rotor(const J* q, double phase) const {
         const V shaft{std::cos(data.tilt), 0, -std::sin(data.tilt)}, up{std::sin(data.tilt), 0, std::cos(data.tilt)},
             side{0, 1, 0};

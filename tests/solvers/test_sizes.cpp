@@ -192,7 +192,7 @@ TEST_CASE("Campbell diagram: a spring meant to be rigid is named, and its roundi
     const std::vector<double> speeds{0, 3};
     const Campbell soft = campbell(rotor.system, rotor.map, speeds);
     CHECK(soft.warning.empty());
-    // The same machine with a rigid yaw spring besides.
+    // Now with a rigid yaw spring in addition.
     spec.rigid_yaw = 1e30;
     rotor = small_rotor(spec);
     const Campbell rigid = campbell(rotor.system, rotor.map, speeds);

@@ -51,7 +51,7 @@ std::array<double, 3> torsion_at_rest(const AssumedModesBasis& basis);
 /// The paper's model at rest without twist and offset of mass centres: flap and edge know nothing of each other.
 Frequencies untwisted_at_rest(const AssumedModesBasis& basis);
 
-/// Of the joint chain.
+/// Frequencies of the joint chain.
 std::vector<Frequencies> chain_frequencies(int elements, const std::vector<double>& rpm);
 
 }  // namespace cardan::paper2018

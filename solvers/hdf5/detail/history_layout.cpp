@@ -23,7 +23,7 @@ constexpr const char* no_frame = "none";
 
 constexpr const char* description_name = "run/input_description";
 
-/// Of a list that file.write() cannot make: without an end, filled with NaN.
+/// Storage of a list that file.write() cannot create: unlimited in length, filled with NaN.
 Handle storage_of_variables(const Hdf5File::Impl& impl, int chunk) {
     Handle list = impl.own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "", "be created");
     const hsize_t length = static_cast<hsize_t>(chunk);

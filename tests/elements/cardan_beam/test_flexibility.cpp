@@ -59,7 +59,7 @@ Mat6 continuum_compliance(const BeamLine& line) {
     });
 }
 
-// The same of the chain of joints: J K^-1 J^T with the Jacobian of the tip.
+// Tip compliance of the chain of joints: J K^-1 J^T with the Jacobian of the tip.
 Mat6 element_compliance(const BeamLine& line, const CardanBeamOptions& options) {
     Tree tree;
     ForceSet forces;

@@ -40,7 +40,7 @@ CardanBeamOptions extensible(int elements, Partition partition) {
     return options;
 }
 
-// The same with four elements and without the load.
+// The column of four elements, without the load.
 struct BareColumn {
     BareColumn(double GA, bool extension) {
         CardanBeamOptions options = extensible(4, Partition::segment_masses);

@@ -29,7 +29,7 @@ MotionState hub_angle(double t) {
             a * (1 - std::cos(k * t))};
 }
 
-// Of the tip in the axes of the hub, less the length: extension and lag.
+// Extension and lag: position of the tip in the axes of the hub, less the length.
 Eigen::Vector2d in_hub_axes(double x, double y, double t) {
     const double psi = hub_angle(t).position, c = std::cos(psi), s = std::sin(psi);
     return {c * x + s * y - length, c * y - s * x};

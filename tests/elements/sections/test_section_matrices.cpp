@@ -26,8 +26,8 @@ Mat6 random_stiffness(Random& random) {
     return d.asDiagonal() * Mat6(A * A.transpose() + 0.2 * Mat6::Identity()) * d.asDiagonal();
 }
 
-// The same changed by factors 0.5 ... 2 along six random directions: the sections in between stay analytic in x over a
-// wide strip, so that Gauss quadrature resolves their compliance to the last digits.
+// A stiffness changed by factors 0.5 ... 2 along six random directions: the sections in between stay analytic in x over
+// a wide strip, so that Gauss quadrature resolves their compliance to the last digits.
 Mat6 tapered(Random& random, const Mat6& stiffness) {
     const Mat6 root = stiffness.llt().matrixL();
     const Mat6 A = Mat6::NullaryExpr([&] { return uniform(random, -1, 1); });

@@ -1,4 +1,4 @@
-// The way of a drive within limits of rate and acceleration: closed forms, limits, turning back.
+// How a drive travels within limits of rate and acceleration: closed forms, limits, turning back.
 #include "mbs/base/travel.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"

@@ -1,4 +1,4 @@
-// The same bodies in other coordinates.
+// Motions that continue in other coordinates.
 #include "mbs/base/error.hpp"
 #include "mbs/geometry/change_of_chart.hpp"
 #include "tests/support/catch.hpp"

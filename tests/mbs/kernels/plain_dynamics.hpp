@@ -235,7 +235,8 @@ Motion<S> forward_dynamics(const Model& model, const std::vector<bool>& driven, 
     return algorithm.third_pass(driven, qdd);
 }
 
-/// The same with any armatures: g_ff qdd_f = Q_f - tau_f, where tau are the forces at qdd_f = 0, by dense elimination.
+/// Forward dynamics with any armatures: g_ff qdd_f = Q_f - tau_f, where tau are the forces at qdd_f = 0, by dense
+/// elimination.
 template <class S>
 Motion<S> forward_dynamics_by_metric(const Model& model, const std::vector<bool>& driven, const VectorT<S>& q,
                                      const VectorT<S>& qd, const VectorT<S>& Q, VectorT<S> qdd) {

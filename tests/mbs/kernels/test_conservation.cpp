@@ -192,7 +192,8 @@ struct OnMovingBase {
         const System system(source, at_rest);
         return Simulation(system, q, qd).response().qdd;
     }
-    // The same on the moving base, in the order of the tree at rest; `reaction` is what the base drives must exert.
+    // Accelerations on the moving base, in the order of the tree at rest; `reaction` is what the base drives must
+    // exert.
     Vector qdd_on_base(const Vec3& position, const Vec3& velocity, const Vec3& acceleration, Vec3* reaction = nullptr) {
         const System system(moving, on_base);
         const Model model(source);

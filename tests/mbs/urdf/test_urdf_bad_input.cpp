@@ -14,7 +14,7 @@ const std::string ground_link = link_tag("ground", "");
 void refused(const std::string& xml, std::initializer_list<std::string> parts) {
     check_refused([&] { (void)parse_urdf(xml, "arm.urdf"); }, parts);
 }
-// Of one moving link with this in it, in line 3; its joint is in line 4.
+// A robot with one moving link that contains `inside`, in line 3; its joint is in line 4.
 void refused_link(const std::string& inside, std::initializer_list<std::string> parts) {
     refused(robot(ground_link + link_tag("arm", inside) + joint_tag("hinge", "continuous", "ground", "arm")), parts);
 }

@@ -64,7 +64,7 @@ TEST_CASE("campbell by Floquet: an isotropic rotor without gravity has the diagr
                     CHECK(std::abs(a.mode.eigenvalue - b.mode.eigenvalue) < 1e-9);
                     if (!single) continue;
                     CHECK((a.row_shares - b.row_shares).cwiseAbs().maxCoeff() < 1e-7);
-                    // The same shape but for a phase.
+                    // Shapes agree but for a phase.
                     const Complex product = a.mode.shape.dot(b.mode.shape);
                     CHECK((a.mode.shape * (product / std::abs(product)) - b.mode.shape).norm() <
                           1e-7 * a.mode.shape.norm());

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double mass = 3, arm = 4, offset = 0.5, inertia = mass * arm * arm;
 
-// The same rotor for several values of a parameter.
+// One rotor for several values of a parameter.
 struct Machines {
     std::vector<SmallRotor> rotors;
     std::vector<double> parameters;

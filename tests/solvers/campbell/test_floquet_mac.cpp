@@ -41,7 +41,7 @@ CampbellMode motion(Random& random, Complex exponent, FloquetKind kind = Floquet
     return mode;
 }
 
-// The same motion with another of its harmonics as the principal one.
+// This motion with another of its harmonics as the principal one.
 CampbellMode seen_from(CampbellMode mode, int harmonic) {
     mode.floquet->exponent += Complex(0, 2 * pi / period * harmonic);
     mode.floquet->first_harmonic -= harmonic;

@@ -184,7 +184,7 @@ TEST_CASE("history pictures: a million samples make a small file in which the pe
         h.values[0].push_back(i == 654321 ? 10 : std::sin(0.37 * i));
     }
     plot(h, {{{"a"}}}, folder.path / "long.svg");
-    // The same range of values with the peak among a few samples only.
+    // A history with this range of values and the peak among a few samples only.
     const History few{"few", {{"a", "m", "a"}}, {0, 300, 654.321, 700, 999.999}, {{-1, 0, 10, 0, -1}}};
     plot(few, {{{"a"}}}, folder.path / "few.svg");
     const std::string all = bytes_of(folder / "long.svg");

@@ -67,7 +67,7 @@ TEST_CASE("atlas: motions of drives, dissipation and the balance of energy go on
     CHECK(std::abs(balance.drives) > 0.01);
     CHECK(std::abs(balance.error) < 1e-7);
     CHECK(std::abs(balance.loads) < 1e-7);
-    // The same wheel, the same pendulum as in one chart alone with short steps past its singularity.
+    // Wheel and pendulum move as in one chart alone, with short steps past its singularity.
     Integrator alone(c.xyz, c.chart(c.xyz).drives, 0, c.q, c.qd, c.chart(c.xyz, 1e-11).options);
     REQUIRE(alone.advance(12).reached());
     for (const char* name : {"wheel", "pendulum"}) {

@@ -21,7 +21,7 @@ Campbell with_yaw_stiffness(double factor, std::span<const double> speeds, const
     return campbell(turbine.system(), turbine.rotor(), speeds, options);
 }
 
-// Of a mode in two variants, by its shape alone, unweighted: not what names are continued by.
+// Correlation of a mode in two variants, by its shape alone, unweighted: names are not continued by this.
 double shape_correlation(const CampbellMode& a, const CampbellMode& b) {
     const ComplexVector &x = a.mode.shape, &y = b.mode.shape;
     return std::norm(x.dot(y)) / (x.squaredNorm() * y.squaredNorm());

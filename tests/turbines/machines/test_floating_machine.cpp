@@ -254,7 +254,8 @@ TEST_CASE("floating machine: a steady drift changes nothing where no mooring and
 }
 
 TEST_CASE("floating machine: total momentum changes by outer forces alone", "[analytic]") {
-    // Of the bodies, by the accelerations of their mass centres; of the water that moves with them, A x''.
+    // Rate of the momentum of the bodies, by the accelerations of their mass centres, and of the water that moves with
+    // them, A x''.
     const PlatformDescription platform = balanced();
     const Turbine turbine = floating(platform);
     const Model& model = turbine.system().model;

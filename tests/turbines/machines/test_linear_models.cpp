@@ -158,7 +158,7 @@ UserForce generator_torque(std::function<double(double time, double speed)> torq
     return force;
 }
 
-// The same model by way of a MATLAB file.
+// The model read back from a MATLAB file.
 ConstantModel exported(const ConstantModel& model, const LinearModel& periodic) {
     const test::Folder folder;
     write_mat(periodic, {{"plant", model}}, folder / "plant.mat");
@@ -315,7 +315,7 @@ TEST_CASE("linear model: transfer functions of the generator torque are the nonl
             INFO(names[i] << " at " << hertz << " Hz: " << std::abs(y(row)) << ", off by " << error);
             CHECK(error < 1e-3 * std::abs(y(row)));
         }
-        // Of the blades the mean is the collective.
+        // The mean over the blades is the collective.
         REQUIRE(fixed.outputs[4].name == "blade root moment x (collective)");
         const double mean = (at_rest(4) + at_rest(5) + at_rest(6)) / 3;
         double error = 0;

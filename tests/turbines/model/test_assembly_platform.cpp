@@ -76,7 +76,7 @@ private:
             state.qdd(platform(i)) = motion.qdd(i);
         }
     }
-    // Of the free coordinates, under the machine's forces; with the forces of the drives.
+    // Accelerations of the free coordinates under the machine's forces, and the forces of the drives.
     void accelerate() {
         const Model& model = turbine.system().model;
         Workspace workspace(model);

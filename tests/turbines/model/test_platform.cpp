@@ -179,8 +179,8 @@ TEST_CASE("platform: blade pitch setting turns the leading edge upwind, the coor
 
 TEST_CASE("platform: root loads of the undeformed blade are weight and inertia of the line, whatever moves",
           "[analytic]") {
-    // Of the blade flexible in shear (GA = 20 EA) the elements keep products of inertia with the axis to order h^2
-    // only.
+    // For the blade flexible in shear (GA = 20 EA) the elements keep products of inertia with the axis only to order
+    // h^2.
     turbines::Nrel5mwBladeOptions shear_rigid;
     shear_rigid.shear_ratio = std::numeric_limits<double>::infinity();
     for (const auto& [blade, error] :

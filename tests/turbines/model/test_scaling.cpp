@@ -50,7 +50,7 @@ TEST_CASE("scaling: the 15 MW machine has the frequencies of the 5 MW machine ov
 }
 
 TEST_CASE("scaling: joints with springs in rotation and translation scale along, on the 600 kW machine", "[analytic]") {
-    // It has all joints, offsets of shear centres, and damping that is told by first modes.
+    // It has all joints, offsets of shear centres, and damping given for first modes.
     const turbines::TurbineDescription d = turbines::wt600_description();
     const turbines::Turbine a = turbines::assemble(d), b = turbines::assemble(turbines::scaled(d, length_ratio));
     for (double speed : {0.0, 27 * rpm}) check_same(a, b, speed, 1e-9);

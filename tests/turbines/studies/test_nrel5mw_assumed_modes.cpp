@@ -94,7 +94,7 @@ solvers::ForcedResponse response(const Motions& motions) {
         system, [&](double time) { return blade.at(motions.at(time)).f; }, 7);
 }
 
-// Of the tip, m: amplitude and phase (of the cosine, deg) of harmonic k.
+// Motion of the tip, m: amplitude and phase (of the cosine, deg) of harmonic k.
 struct Harmonic {
     double amplitude, phase;
 };
@@ -131,7 +131,7 @@ TEST_CASE("paper of 2018: its functions give its Table 2 to 0.052 % if the tensi
             CHECK(found.bending.at(k) == Approx(printed.at(i).at(k)).epsilon(5.2e-4));
         }
     }
-    // Of another program by the same functions: 0.8979 and, with the right tension, 0.7591 Hz.
+    // Another program with these functions: 0.8979 and, with the right tension, 0.7591 Hz.
     CHECK(named(blade, 15 * rpm).bending[0] == Approx(0.8979).margin(6e-5));
     CHECK(named(nrel5mw_blade_of_2018(), 15 * rpm).bending[0] == Approx(0.7591).margin(6e-5));
 }
@@ -336,7 +336,7 @@ TEST_CASE("NREL 5 MW assumed modes: from rest under all motions of the platform 
     REQUIRE(solvers::record(integrator, recorder, solvers::sample_times(0, revolution, revolution / rows), chain)
                 .reached());
 
-    // The same by Runge and Kutta's method of order 4 for the assumed modes. M is the unit matrix in natural modes.
+    // The assumed modes by Runge and Kutta's method of order 4. M is the unit matrix in natural modes.
     const AssumedModesBlade& blade = on_platform();
     const Eigen::Index n = blade.size();
     const auto f = [&](double time, const Vector& y) {

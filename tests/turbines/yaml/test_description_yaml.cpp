@@ -12,7 +12,7 @@ using test::message_of;
 
 namespace {
 
-// The same bits, section by section, at places that are stations and at others.
+// Checks that sections agree bit by bit, at places that are stations and at others.
 void check_same_bits(const BeamLine& a, const BeamLine& b) {
     REQUIRE(a.length == b.length);
     CHECK(a.breaks == b.breaks);

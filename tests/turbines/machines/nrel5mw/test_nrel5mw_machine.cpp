@@ -117,7 +117,7 @@ solvers::SecondOrderSystem linearised_at_rest(const System& system) {
     return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
 }
 
-// The same three shapes on Cardan's elements.
+// ElastoDyn's three shapes on Cardan's elements.
 Vec3 limited_blade(int elements) {
     const turbines::TurbineDescription d =
         turbines::nrel5mw_description(turbines::nrel5mw_options(Nrel5mwVariant::fast));
