@@ -21,11 +21,11 @@ Mat3 vabs_axes();     ///< x along the beam: the same
 Mat3 beamdyn_axes();  ///< x downwind, y to the trailing edge, z along the blade
 Mat3 hawc2_axes();    ///< x to the leading edge, y downwind (from the pressure to the suction side), z along the blade
 
-/// The same section in other axes.
+/// A section's matrices in other axes.
 /// @param R  R_ab, a proper rotation: matrices in axes b -> in axes a
 SectionMatrices rotated(const SectionMatrices& section, const Mat3& R);
 
-/// The same section at another reference point.
+/// A section's matrices about another reference point.
 /// @param to  new reference point seen from the old one, m
 SectionMatrices moved(const SectionMatrices& section, const Vec3& to);
 

@@ -105,7 +105,7 @@ Travel::Travel(double position) : target_(position) {
     require_finite("position", position);
 }
 
-// What is chosen is how long it goes toward the largest rate before it stops: where it stops rises with that.
+// Unknown: how long it accelerates toward the largest rate before stopping. Where it stops increases with that.
 Travel::Travel(double time, const State& from, double to, const TravelLimits& limits) : target_(to), start_(time) {
     require_finite("time [s]", time);
     require_finite("position at the start", from.position);

@@ -186,7 +186,7 @@ struct ForwardDynamics::Arrays {
         }
     }
 
-    // The same sweeps on the path to the coupled coordinates, for several loads side by side.
+    // Both sweeps restricted to the path to the coupled coordinates, for several loads side by side.
     CARDAN_INLINE void backward_on_path(std::ptrdiff_t loads) const {
         using P3 = Packed3<double>;
         for (std::ptrdiff_t i = 0; i < path_length * loads; ++i) on_path[i].force = on_path[i].moment = P3::zero();

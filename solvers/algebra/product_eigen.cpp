@@ -90,8 +90,8 @@ void ProductEigen::rotate(Index space, Index i, const Rotation& G) {
     entry(Q_, space).applyOnTheRight(i, i + 1, G);
 }
 
-// After a rotation of space 0 the triangular factors are made triangular again, one after the other. Zeros on their
-// diagonals would stop what is chased: rounding takes their place.
+// After a rotation of space 0 the triangular factors are made triangular again, one after the other. A zero on a
+// diagonal would stop the bulge chase; it is replaced by a number of rounding size.
 void ProductEigen::chase(Index i) {
     Rotation G;
     for (Index k = 0; k + 1 < factors(); ++k) {

@@ -20,11 +20,11 @@ double default_shift(const Matrix& A) {
     std::sort(sizes.begin(), sizes.end());
     const double largest = sizes.size() > 0 ? sizes(sizes.size() - 1) : 0;
     if (largest == 0) return 1;
-    // Eigenvalues zero come out of the size of rounding times the largest entry.
+    // Zero eigenvalues come out with the size of the largest entry times rounding.
     const auto rises = [&](double size) { return size > std::max(1e-8 * largest, 1e-5); };
     const auto first = std::find_if(sizes.begin(), sizes.end(), rises);
     const auto tenth = sizes.begin() + sizes.size() / 10;
-    // Off the round numbers that unstable real eigenvalues might have.
+    // Not a round number, which an unstable real eigenvalue might be.
     return 1.0371 * (first == sizes.end() ? largest : *std::max(first, tenth));
 }
 

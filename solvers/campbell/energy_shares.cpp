@@ -233,7 +233,7 @@ std::vector<Share> EnergyShares::shares(const Mode& mode) const {
 
 namespace {
 
-// What turns the other way at a negative frequency whirls the other way. The whirl of a sum is the mean by energy.
+// A negative frequency reverses the sense of whirl. The whirl of a sum is the energy-weighted mean.
 WhirlShare sum_of(const WhirlShare& a, WhirlShare b, bool reversed) {
     if (reversed) b.whirl = -b.whirl;
     const double size_a = a.cosine + a.sine, size_b = b.cosine + b.sine, size = size_a + size_b;

@@ -147,7 +147,7 @@ private:
     int spin_, coordinates_;
     Residual residual_;
     Vector scale_, r_;
-    // In this order: KINSOL goes before what it uses, the context last.
+    // The order matters: members are destroyed in reverse, KINSOL first, the context last.
     SundialsContext context_;
     SundialsVector x_, x_scale_, f_scale_;
     SundialsMatrix J_;

@@ -159,8 +159,9 @@ private:
                                  text("1 to ", palette.size()));
     }
 
-    // Labels to the right of the tops of their lines, near the right border to the left. Who overlaps others goes above
-    // them, those to the right first and those to the left last: so no line crosses a label.
+    // Labels stand to the right of the tops of their lines, near the right border to the left. Overlapping labels go
+    // into higher rows: those right of their lines first, from the right on, then those left of them from the left on,
+    // so that no line crosses a label.
     void place_marks() {
         for (const StackMark& mark : stack_.marks)
             if (mark.x >= stack_.x_low && mark.x <= stack_.x_high)

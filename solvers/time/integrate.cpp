@@ -288,7 +288,7 @@ bool Integrator::accelerations_changed() {
     return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
 }
 
-// Nothing but tiny steps, one after the other.
+// A stall: tiny steps in succession.
 bool Integrator::stands_still() {
     if (++steps_ < watched_steps) return false;
     const bool still = stepper_->time() - moved_ < watched_steps * shortest_step(stepper_->time());

@@ -25,7 +25,7 @@ void check(const Checkpoint& from) {
         if (!std::isfinite(value)) throw InputError("checkpoint", "position at the first start", value, "finite");
 }
 
-// What its role drives at a constant rate goes on in the digits of the first start.
+// Coordinates driven at constant rate by their role continue bit for bit from the first start.
 std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from) {
     check(from);
     const int n = system.model.size();
