@@ -7,6 +7,7 @@
 #pragma once
 
 #include "elements/sections/section.hpp"
+#include "mbs/base/stations.hpp"
 
 namespace cardan {
 
@@ -14,6 +15,9 @@ struct SectionMatrices {
     Mat6 stiffness = Mat6::Zero();  ///< forces by strains; N, N m, N m^2
     Mat6 mass = Mat6::Zero();       ///< momenta by velocities, per length; kg/m, kg, kg m
 };
+
+/// Linear interpolation between stations, of the entries.
+SectionMatrices interpolated(const std::vector<SectionMatrices>& matrices, const StationPlace& place);
 
 /// Axes of other programs in beam axes: columns are their x, y, z (R_beam_program). Beam axes of a blade: x outward,
 /// y to the leading edge, z downwind.

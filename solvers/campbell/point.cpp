@@ -23,9 +23,6 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
     const bool spin_is_unknown = options.spin == RotorSpin::free && blades != 1;
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
-    if (unknowns.empty())
-        throw InputError(rotor.machine, "coordinates that can move", 0,
-                         "1 and more: all its parts are rigid, locked or driven");
     check_number_of_unknowns(rotor.machine, unknowns.size());
     return unknowns;
 }

@@ -10,8 +10,6 @@ NaturalModes natural_modes(const System& system, int spin, double rotor_speed) {
     SteadyState state = steady_state(system, spin, {.rotor_speed = rotor_speed});
     require_result(state);
     NaturalModes result{std::move(state.at), system.model.coordinates().free_without(spin), {}};
-    if (result.unknowns.empty())
-        throw InputError("natural modes", "coordinates that can move", 0, "1 and more: all are locked or driven");
     check_number_of_unknowns("natural modes", result.unknowns.size());
     result.modes = modes(restrict_to(linearise(system, result.at), result.unknowns));
     return result;
