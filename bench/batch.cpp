@@ -3,6 +3,7 @@
 #include "mbs/batch/batch.hpp"
 
 #include "bench/trees.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/christoffel.hpp"
 
 #include <benchmark/benchmark.h>
@@ -68,7 +69,7 @@ void christoffel_symbols_of_states(benchmark::State& state) {
     std::vector<Christoffel> gammas(2, Christoffel(model()));
     speed_up(state, [&](Batch& batch) {
         batch.for_each(count, [&](int index, Workspace& workspace) {
-            Christoffel& gamma = gammas[static_cast<std::size_t>(batch.slot(workspace))];
+            Christoffel& gamma = entry(gammas, batch.slot(workspace));
             christoffel_first_kind(kinematics(model(), q.col(index), workspace), gamma);
             gamma.contract(qd.col(index), h.col(index));
         });

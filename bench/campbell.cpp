@@ -72,7 +72,7 @@ struct Stages {
     solvers::SteadySolver steady_solver{system, rotor.spin};
     solvers::Lineariser lineariser{system};
     solvers::ColemanTransform coleman{rotor, unknowns};
-    solvers::ModeSolver mode_solver{static_cast<Eigen::Index>(unknowns.size())};
+    solvers::ModeSolver mode_solver{std::ssize(unknowns)};
     solvers::SteadyOptions options{.rotor_speed = speed};
     solvers::SteadyState steady;
     solvers::Linearisation lin;

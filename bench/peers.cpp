@@ -1,5 +1,5 @@
 // The kernels beside Simbody on the same trees. Both are timed in turn, so that the ratios hold when the machine's
-// speed drifts; the ratio is that of the shortest times. A table at the end puts the ratios beside the aims.
+// speed drifts; the ratio is that of the shortest times. A table at the end puts the ratios beside the targets.
 #include "bench/trees.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
@@ -24,8 +24,8 @@ namespace {
 // What is measured. Simbody has neither the derivatives nor the symbols: they are set against its inverse dynamics.
 struct Quantity {
     const char* name;
-    double aim;
-    bool at_least;  // Simbody / Cardan not below the aim; else Cardan / Simbody's inverse dynamics not above it
+    double target;
+    bool at_least;  // Simbody / Cardan not below the target; else Cardan / Simbody's inverse dynamics not above it
 };
 constexpr std::array<Quantity, 5> quantities{{{"inverse dynamics", 13, true},
                                               {"forward dynamics", 7, true},
@@ -200,9 +200,9 @@ void print_tables() {
     std::cout << "\n";
     for (const std::string& name : order)
         if (table.contains(name)) line(text(name, ", n = ", table[name].n), table[name].ratio);
-    std::cout << std::left << std::setw(30) << "aim" << std::right;
+    std::cout << std::left << std::setw(30) << "target" << std::right;
     for (const Quantity& quantity : quantities)
-        std::cout << std::setw(13) << text(quantity.at_least ? ">= " : "<= ", quantity.aim);
+        std::cout << std::setw(13) << text(quantity.at_least ? ">= " : "<= ", quantity.target);
     std::cout << "\n\nCardan, ns per coordinate at depth 31; metric and derivatives stored by branches\n";
     for (const auto& [n, times] : growth) line(text("n = ", n), times);
 }

@@ -2,6 +2,7 @@
 /// Trees for benchmarks. Joint axes point every way and no number is special, so that no engine is favoured.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "turbines/machines/wt600.hpp"
 
@@ -52,14 +53,14 @@ inline Tree wt600_tree(int elements) {
     const turbines::Turbine turbine = turbines::wt600({.tower_elements = elements, .blade_elements = elements});
     std::vector<RigidInertia> spinning(turbine.tree().bodies().size());
     for (const Armature& armature : turbine.tree().armatures()) {
-        RigidInertia& at = spinning[static_cast<std::size_t>(armature.spin.back().first.index)];
+        RigidInertia& at = entry(spinning, armature.spin.back().first.index);
         at = at + RigidInertia{1, Vec3::Zero(), armature.inertia * Vec3(0.5, 0.5, 1).asDiagonal().toDenseMatrix()};
     }
     Tree tree;
     std::vector<BodyId> added;
     for (const Tree::Body& body : turbine.tree().bodies()) {
         BodySpec spec = body.spec;
-        spec.inboard = body.parent < 0 ? Tree::base() : tree.frame_of(added[static_cast<std::size_t>(body.parent)]);
+        spec.inboard = body.parent < 0 ? Tree::base() : tree.frame_of(entry(added, body.parent));
         spec.placement = body.in_parent;
         spec.inertia = spec.inertia + spinning[added.size()];
         added.push_back(tree.add_body(spec));

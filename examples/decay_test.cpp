@@ -1,5 +1,6 @@
 // Decay test of a damped beam: displaced in its first mode and let go, logarithmic decrement from peak to peak.
 #include "elements/cardan_beam/single_beam.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "solvers/time/integrate.hpp"
@@ -21,8 +22,8 @@ int main() try {
     // One hundredth of a radian at the root, everything else as in the mode.
     const Vector zero = Vector::Zero(beam.system.model.size());
     Vector q = zero;
-    for (std::size_t i = 0; i < natural.unknowns.size(); ++i)
-        q(natural.unknowns[i]) = 0.01 * (mode.shape(static_cast<Eigen::Index>(i)) / mode.shape(0)).real();
+    for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
+        q(entry(natural.unknowns, i)) = 0.01 * (mode.shape(i) / mode.shape(0)).real();
     const int root = natural.unknowns.front();
     solvers::IntegrationOptions options;
     options.events = {

@@ -33,9 +33,9 @@ int main() {
     metric(kin, g);
     Christoffel gamma(system.model);
     christoffel_first_kind(kin, gamma);
-    Vector Q(2), qdd(2), of_drives(2);
+    Vector Q(2), qdd(2), drive_forces(2);
     system.forces.generalised_forces(kin, 0, q, qd, Q);
-    ForwardDynamics(system.model).solve(kin, qd, Q, qdd, of_drives);
+    ForwardDynamics(system.model).solve(kin, qd, Q, qdd, drive_forces);
 
     const double c = std::cos(q(1)), s = std::sin(q(1)), fall = m2 * gravity * l2 * std::sin(q(0) + q(1));
     const auto row = [](const char* what, double computed, double formula, const char* unit) {

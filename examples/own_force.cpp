@@ -1,4 +1,4 @@
-// A force of one's own: a spring that hardens, Q = -k q - c q^3, with its energy and its derivatives. The period of
+// A user-defined force: a spring that hardens, Q = -k q - c q^3, with its energy and its derivatives. The period of
 // the oscillation depends on the amplitude; it is known in closed form (Duffing's equation without damping).
 #include "elements/machine/joints.hpp"
 #include "mbs/base/units.hpp"

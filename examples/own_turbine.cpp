@@ -1,4 +1,4 @@
-// A turbine of one's own from a YAML file: examples/data/own_turbine.yaml, or the file named on the command line.
+// Your own turbine from a YAML file: examples/data/own_turbine.yaml, or the file named on the command line.
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "turbines/model/assembly.hpp"

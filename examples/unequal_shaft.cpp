@@ -2,6 +2,7 @@
 // state periodic; between the two critical speeds Floquet's theory finds it unstable, as the closed form says.
 #include "elements/machine/joints.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/steady_state.hpp"
@@ -29,7 +30,7 @@ int main() try {
         const double speed = rpm * units::rpm;
         const solvers::PeriodicSteadyState steady =
             solvers::harmonic_balance(system, system.model.index("spin"), {.rotor_speed = speed});
-        if (!steady.converged) throw NumericalError(steady.message);
+        require_result(steady);
         const solvers::Floquet motions = solvers::floquet(solvers::linearised(system, steady));
 
         // Seen from the shaft: r^2 + r (a + b + 2 speed^2) + (a - speed^2) (b - speed^2) = 0 for r = lambda^2.

@@ -62,7 +62,7 @@ if(failed)
     message(FATAL_ERROR "doxygen warns:\n${warnings}")
 endif()
 
-# Of MathJax only what turns TeX into drawings.
+# The parts of MathJax that turn TeX into drawings.
 foreach(part IN ITEMS MathJax.js extensions jax/element jax/input/TeX jax/output/SVG/jax.js jax/output/SVG/config.js
                       jax/output/SVG/autoload jax/output/SVG/fonts/TeX localization/en)
     cmake_path(GET part PARENT_PATH folder)

@@ -1,5 +1,6 @@
 #include "elements/cardan_beam/cardan_beam.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -180,7 +181,7 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
     std::vector<HingeLawElement> elements;
     for (std::size_t e = 0; e < beam.elements.size(); ++e) {
         const CardanBeam::Element& element = beam.elements[e];
-        const auto n = static_cast<Eigen::Index>(element.bodies.size());
+        const auto n = std::ssize(element.bodies);
         const bool linear = options.hinge_law.is_linear() && element.tilt.products.empty();
         if (linear || !element.damping.isZero(0))
             forces.add_law({text(name, " element ", e + 1),
@@ -203,7 +204,7 @@ void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::
     ForceSet springs;
     const CardanBeam clamped = add_cardan_beam(tree, springs, Tree::base(), beam.line, name, {"beam"}, undamped);
     const Model model(tree);
-    const auto n = static_cast<Eigen::Index>(model.size());
+    const Eigen::Index n = model.size();
     Matrix M(n, n), K = Matrix::Zero(n, n);
     std::vector<int> direction(static_cast<std::size_t>(n));
     std::vector<BodyId> bodies(static_cast<std::size_t>(n));
@@ -213,8 +214,8 @@ void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::
         for (std::size_t i = 0; i < element.bodies.size(); ++i) {
             at.push_back(model.index(element.bodies[i]));
             constexpr std::array<int, 6> of_kind{0, 1, 2, 2, 3, 3};
-            direction[static_cast<std::size_t>(at.back())] = of_kind[static_cast<std::size_t>(element.kinds[i])];
-            bodies[static_cast<std::size_t>(at.back())] = beam.elements[e].bodies[i];
+            entry(direction, at.back()) = entry(of_kind, element.kinds[i]);
+            entry(bodies, at.back()) = beam.elements[e].bodies[i];
         }
         K(at, at) += element.stiffness;
     }

@@ -1,6 +1,7 @@
 #include "elements/cardan_beam/centrifugal_limit.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -28,8 +29,8 @@ struct Outboard {
 // Least stiffness of one cardan joint of an element, the other held, N m/rad.
 double least_stiffness(const CardanBeam::Element& element, ElementCoordinate y, ElementCoordinate z) {
     std::vector<Eigen::Index> at;
-    for (std::size_t i = 0; i < element.kinds.size(); ++i)
-        if (element.kinds[i] == y || element.kinds[i] == z) at.push_back(static_cast<Eigen::Index>(i));
+    for (Eigen::Index i = 0; i < std::ssize(element.kinds); ++i)
+        if (const ElementCoordinate kind = entry(element.kinds, i); kind == y || kind == z) at.push_back(i);
     const Matrix K = element.stiffness(at, at);
     return Eigen::SelfAdjointEigenSolver<Matrix>(K, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }

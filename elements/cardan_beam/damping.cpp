@@ -1,6 +1,7 @@
 #include "elements/cardan_beam/damping.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"
 
@@ -49,7 +50,7 @@ Mat6 dissipation(const BeamSection& section, const std::array<double, 6>& time_c
     Vec6 scale, root;
     for (Eigen::Index i = 0; i < 6; ++i) {
         scale(i) = S(i, i) > 0 ? std::sqrt(S(i, i)) : 1.0;
-        root(i) = std::sqrt(time_constants[static_cast<std::size_t>(i)]);
+        root(i) = std::sqrt(entry(time_constants, i));
     }
     const Vec6 inverse = scale.cwiseInverse();
     const Mat6 unit = inverse.asDiagonal() * S * inverse.asDiagonal();
@@ -65,7 +66,7 @@ Mat6 dissipation(const BeamSection& section, const std::array<double, 6>& time_c
         if (left > 1e-12) kept.push_back(i);
     }
     Mat6 K = Mat6::Zero();
-    const auto n = static_cast<Eigen::Index>(kept.size());
+    const auto n = std::ssize(kept);
     const Matrix K_kept = Matrix(unit(kept, kept)).llt().solve(Matrix::Identity(n, n));
     K(kept, kept) = K_kept;
     const Mat6 half = unit * root.asDiagonal();
@@ -110,11 +111,9 @@ Matrix component_damping(MatrixIn M, MatrixIn K, const std::vector<int>& directi
         const double omega = std::sqrt(std::max(solver.eigenvalues()(i), 0.0));
         std::array<double, 4> energy{};
         const Vector force = K * phi;
-        for (Eigen::Index a = 0; a < phi.size(); ++a)
-            energy[static_cast<std::size_t>(direction[static_cast<std::size_t>(a)])] += phi(a) * force(a);
+        for (Eigen::Index a = 0; a < phi.size(); ++a) entry(energy, entry(direction, a)) += phi(a) * force(a);
         const auto most = std::max_element(energy.begin(), energy.end()) - energy.begin();
-        const double ratio =
-            damping.modal.all.empty() ? lists[static_cast<std::size_t>(most)].next(omega) : all.next(omega);
+        const double ratio = damping.modal.all.empty() ? entry(lists, most).next(omega) : all.next(omega);
         const Vector momentum = M * phi;
         D += 2 * ratio * omega * momentum * momentum.transpose();
     }

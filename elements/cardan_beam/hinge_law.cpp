@@ -1,5 +1,7 @@
 #include "elements/cardan_beam/hinge_law.hpp"
 
+#include "mbs/base/entry.hpp"
+
 #include <algorithm>
 
 namespace cardan {
@@ -145,29 +147,25 @@ Response springs(const HingeLawElement& element, const Coordinates& y) {
 
 Response respond(const HingeLaw& law, const HingeLawElement& element, const Coordinates& q) {
     if (law.is_linear()) return springs(element, q);
-    Vec6 all = Vec6::Zero();
-    for (std::size_t i = 0; i < element.kinds.size(); ++i)
-        all(static_cast<Eigen::Index>(element.kinds[i])) = q(static_cast<Eigen::Index>(i));
-    const std::array<Jet, 6> y = arguments(law, all);
+    const auto kind = [&](Eigen::Index i) { return static_cast<Eigen::Index>(entry(element.kinds, i)); };
     const auto n = q.size();
+    Vec6 all = Vec6::Zero();
+    for (Eigen::Index i = 0; i < n; ++i) all(kind(i)) = q(i);
+    const std::array<Jet, 6> y = arguments(law, all);
     Coordinates values(n);
     Square Y(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
-        const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(i)])];
+        const Jet& jet = entry(y, kind(i));
         values(i) = jet.value;
-        for (Eigen::Index j = 0; j < n; ++j)
-            Y(i, j) = jet.gradient(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
+        for (Eigen::Index j = 0; j < n; ++j) Y(i, j) = jet.gradient(kind(j));
     }
     const Response spring = springs(element, values);
     Response r{spring.energy, Y.transpose().lazyProduct(spring.force),
                Y.transpose().lazyProduct(Square(spring.stiffness.lazyProduct(Y)))};
     for (Eigen::Index k = 0; k < n; ++k) {
-        const Jet& jet = y[static_cast<std::size_t>(element.kinds[static_cast<std::size_t>(k)])];
+        const Jet& jet = entry(y, kind(k));
         for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index j = 0; j < n; ++j)
-                r.stiffness(i, j) += spring.force(k) *
-                                     jet.hessian(static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(i)]),
-                                                 static_cast<Eigen::Index>(element.kinds[static_cast<std::size_t>(j)]));
+            for (Eigen::Index j = 0; j < n; ++j) r.stiffness(i, j) += spring.force(k) * jet.hessian(kind(i), kind(j));
     }
     return r;
 }
@@ -218,12 +216,12 @@ UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vec
     const auto each = [law, elements = std::move(elements)](const ForceInput& at, const auto& f) {
         const Model& model = at.kinematics.model();
         for (const HingeLawElement& element : elements) {
-            const auto n = static_cast<Eigen::Index>(element.bodies.size());
+            const auto n = std::ssize(element.bodies);
             std::array<int, 6> index{};
             Coordinates q(n);
-            for (std::size_t i = 0; i < element.bodies.size(); ++i) {
-                index[i] = model.index(element.bodies[i]);
-                q(static_cast<Eigen::Index>(i)) = at.q(index[i]);
+            for (Eigen::Index i = 0; i < n; ++i) {
+                entry(index, i) = model.index(entry(element.bodies, i));
+                q(i) = at.q(entry(index, i));
             }
             f(index, respond(law, element, q));
         }
@@ -233,14 +231,14 @@ UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vec
     force.elastic = true;
     force.force = [each](const ForceInput& at, VectorOut Q) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
-            for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(index[static_cast<std::size_t>(i)]) -= r.force(i);
+            for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(entry(index, i)) -= r.force(i);
         });
     };
     force.jacobian = [each](const ForceInput& at, MatrixOut dQ_dq, const MatrixOut&) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i)
                 for (Eigen::Index j = 0; j < r.force.size(); ++j)
-                    dQ_dq(index[static_cast<std::size_t>(i)], index[static_cast<std::size_t>(j)]) -= r.stiffness(i, j);
+                    dQ_dq(entry(index, i), entry(index, j)) -= r.stiffness(i, j);
         });
     };
     force.energy = [each](const ForceInput& at) {

@@ -1,5 +1,7 @@
 #include "elements/cardan_beam/planar_element.hpp"
 
+#include "mbs/base/entry.hpp"
+
 namespace cardan {
 
 namespace {
@@ -40,11 +42,11 @@ PlanarElement::PlanarElement(double length, std::vector<double> breaks, std::fun
     : length_(length), breaks_(std::move(breaks)), sections_(std::move(sections)) {
     const std::vector<double> ends = pieces(length_, breaks_);
     const GaussRule& rule = gauss_rule();
-    const auto n = static_cast<Eigen::Index>(ends.size()) - 1;
+    const auto n = std::ssize(ends) - 1;
     half_.resize(n);
     for (Samples* s : {&x_, &weight_, &mass_, &bending_, &shear_}) s->resize(n * points_per_piece);
     for (Eigen::Index i = 0, at = 0; i < n; ++i) {
-        const double from = ends[static_cast<std::size_t>(i)], to = ends[static_cast<std::size_t>(i) + 1];
+        const double from = entry(ends, i), to = entry(ends, i + 1);
         half_(i) = (to - from) / 2;
         for (std::size_t k = 0; k < rule.node.size(); ++k, ++at) {
             x_(at) = (from + to) / 2 + half_(i) * rule.node.at(k);

@@ -1,6 +1,7 @@
 #include "elements/cardan_beam/section_loads.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -172,10 +173,10 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
                          text(model.size(), ", one per coordinate"));
     const Cut cut = cut_at(beam, s);
     const CardanBeam::Element& element = *cut.element;
-    const auto n = static_cast<Eigen::Index>(element.bodies.size());
+    const auto n = std::ssize(element.bodies);
     Vector x(n), v(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-        const int at = model.index(element.bodies[static_cast<std::size_t>(i)]);
+        const int at = model.index(entry(element.bodies, i));
         x(i) = q(at);
         v(i) = qd(at);
     }
@@ -183,10 +184,10 @@ SectionLoads constitutive_loads(const CardanBeam& beam, const Model& model, cons
         hinge_forces(beam.options.hinge_law, {element.bodies, element.kinds, element.stiffness, element.tilt}, x) +
         element.damping * v;
     Vec6 angles = Vec6::Zero(), forces = Vec6::Zero();  // in the order of ElementCoordinate
-    for (std::size_t i = 0; i < element.kinds.size(); ++i) {
-        const auto at = static_cast<Eigen::Index>(i), kind = static_cast<Eigen::Index>(element.kinds[i]);
-        angles(kind) = x(at);
-        forces(kind) = p(at);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto kind = static_cast<Eigen::Index>(entry(element.kinds, i));
+        angles(kind) = x(i);
+        forces(kind) = p(i);
     }
     const TransmittedWrench wrench = transmitted(element, beam.options.order, angles, forces);
     const Placement here = wrench.segments[cut.segment] * cut.line.pose(s);
@@ -216,14 +217,15 @@ SectionLoads equilibrium_loads(const CardanBeam& beam, const Kinematics& kin, co
     const Hinges& h = element.hinges;
     const std::array<double, 4> hinge{h.first, h.first, h.second, h.second};
     const bool inward = cut.segment == 0 || cut.segment == 2;
-    const auto joint = static_cast<std::size_t>(model.index(joint_of(element, joints[cut.segment])));
+    const int joint = model.index(joint_of(element, joints[cut.segment]));
     const double hinge_s = element.start + hinge[cut.segment] * element.arc;
 
     WrenchSum sum(here.p);
-    sum.add(loads.joint[joint].force, loads.joint[joint].moment, loads.motion[joint].origin);
+    const Wrench& passed = entry(loads.joint, joint);
+    sum.add(passed.force, passed.moment, entry(loads.motion, joint).origin);
     const int body = model.frame(element.segments[cut.segment].carrier).body;
     BodyMotion motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // a beam clamped to the base
-    if (body >= 0) motion = loads.motion[static_cast<std::size_t>(body)];
+    if (body >= 0) motion = entry(loads.motion, body);
     const Load load =
         of_segment(cut, axes, motion, forces.gravity(), std::min(s, hinge_s), std::max(s, hinge_s)) * (inward ? 1 : -1);
     sum.add(load.head<3>(), load.tail<3>(), axes.p);

@@ -1,6 +1,7 @@
 #include "elements/cardan_beam/static_moment.hpp"
 
 #include "elements/cardan_beam/static_shapes.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -54,7 +55,7 @@ void move_to_static_moment(const ElementLine& on, double delta, ElementInertia& 
     const double shift = s.Xb - (b[1].mass * b[1].com(0) + b[2].mass * b[2].com(0)) / mb;
     double own = 0.64 * s.D;
     for (int k : {1, 2}) {
-        RigidInertia& body = b[static_cast<std::size_t>(k)];
+        RigidInertia& body = entry(b, k);
         body.com(0) += shift;
         own -= body.mass * std::pow(body.com(0) - s.Xb, 2);
     }
@@ -66,7 +67,7 @@ void move_to_static_moment(const ElementLine& on, double delta, ElementInertia& 
                              : text(">= 0: delta = ", delta, " leaves them none; static moments are made for 1/6, ",
                                     "which they take if delta is left out"));
     for (int k : {1, 2}) {
-        RigidInertia& body = b[static_cast<std::size_t>(k)];
+        RigidInertia& body = entry(b, k);
         body.J = slender(own * body.mass / mb);
     }
     const double limit = 0.1 * L, x1 = delta * L, x2 = (1 - delta) * L;

@@ -17,12 +17,13 @@ StaticShapes static_shapes(const PlanarElement& element, const HingePlaces& hing
     constexpr std::array<double, 2> sigma{1, -1};
     const double sheared = element.integral(element.shear()) / (d * d);
     const Samples shear = element.running(element.shear()) / d;
+    const auto flexibility = [&](std::size_t i, std::size_t j) {
+        return element.integral(c * N[i] * N[j]) + sigma[i] * sigma[j] * sheared;
+    };
     Eigen::Matrix2d F;
+    F << flexibility(0, 0), flexibility(0, 1), flexibility(1, 0), flexibility(1, 1);
     std::array<Samples, 2> turn, psi;  // by hinge moments
     for (std::size_t i = 0; i < 2; ++i) {
-        for (std::size_t j = 0; j < 2; ++j)
-            F(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                element.integral(c * N[i] * N[j]) + sigma[i] * sigma[j] * sheared;
         turn[i] = element.running(c * N[i]);
         psi[i] = element.running(turn[i]) + sigma[i] * shear;
     }

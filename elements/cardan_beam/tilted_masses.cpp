@@ -12,7 +12,7 @@ Eigen::Matrix2d bending(const Mat6& S) {
     return (Eigen::Matrix2d() << S(5, 5), -S(5, 4), -S(4, 5), S(4, 4)).finished();
 }
 
-// Of the mass centre, and all second moments across the axis, about the axis.
+// Second moments across the axis, about the axis: of the mass at its centre, and of the whole body.
 Eigen::Matrix2d of_centre(const RigidInertia& body) {
     return body.mass * body.com.tail<2>() * body.com.tail<2>().transpose();
 }

@@ -1,6 +1,7 @@
 #include "elements/cardan_beam/timoshenko.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -106,16 +107,16 @@ void refuse_rigid(const Mat6& flexibility, ElementCoordinate kind, const std::st
         "> 0: a rigid direction must be locked, with `extension = false` in the options of the beam, or EA given",
         "> 0: a rigid direction must be locked, with `torsion = false` in the options of the beam, or GJ given",
         "> 0: bending cannot be locked, EI must be finite"};
-    throw InputError(where, text("flexibility of ", name.at(static_cast<std::size_t>(i))), flexibility(i, i),
-                     remedy.at(static_cast<std::size_t>(std::min<Eigen::Index>(i, 2))));
+    throw InputError(where, text("flexibility of ", entry(name, kind)), flexibility(i, i),
+                     entry(remedy, std::min<Eigen::Index>(i, 2)));
 }
 
 }  // namespace
 
 Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordinate>& coordinates,
                        const std::string& where) {
-    const auto n = static_cast<Eigen::Index>(coordinates.size());
-    const auto at = [&](Eigen::Index i) { return static_cast<Eigen::Index>(coordinates[static_cast<std::size_t>(i)]); };
+    const auto n = std::ssize(coordinates);
+    const auto at = [&](Eigen::Index i) { return static_cast<Eigen::Index>(entry(coordinates, i)); };
     Matrix f(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) f(i, j) = flexibility(at(i), at(j));

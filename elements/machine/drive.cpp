@@ -8,26 +8,26 @@
 
 namespace cardan {
 
-DriveOrder::DriveOrder(double position, const TravelLimits& limits) : limits_(limits), rate_(0), travel_(position) {
-    require_positive("order of a drive", "largest rate", limits.rate);
-    require_positive("order of a drive", "largest acceleration", limits.acceleration);
-    require_not_negative("order of a drive", "largest jerk", limits.jerk);
+DriveCommand::DriveCommand(double position, const TravelLimits& limits) : limits_(limits), rate_(0), travel_(position) {
+    require_positive("command of a drive", "largest rate", limits.rate);
+    require_positive("command of a drive", "largest acceleration", limits.acceleration);
+    require_not_negative("command of a drive", "largest jerk", limits.jerk);
     // The drive's default jerk, even for slow commands.
     if (limits.jerk == 0) limits_.jerk = default_jerk(limits);
 }
 
-void DriveOrder::move_to(double target, double time) {
+void DriveCommand::move_to(double target, double time) {
     move_to(target, time, limits_.rate);
 }
 
-void DriveOrder::move_to(double target, double time, double rate) {
+void DriveCommand::move_to(double target, double time, double rate) {
     if (target == travel_.target() && rate == rate_ && time >= travel_.start()) return;
     travel_ = Travel(time, travel_.at(time), target, {rate, limits_.acceleration, limits_.jerk});
     rate_ = rate;
 }
 
-void DriveOrder::follow(double target, double time, double period) {
-    require_positive("order of a drive", "period of commands [s]", period);
+void DriveCommand::follow(double target, double time, double period) {
+    require_positive("command of a drive", "period of commands [s]", period);
     if (target == travel_.target() && rate_ == 0 && time >= travel_.start()) return;
     const double from = travel_.at(time).position;
     travel_ = Travel::straight(time, from, target, std::max(period, std::abs(target - from) / limits_.rate));
@@ -41,8 +41,8 @@ struct SpringDeflection {
     double position, rate;
 };
 SpringDeflection deflection(const ElasticDrive& drive, double time, double position, double rate) {
-    const Travel::State ordered = drive.order->at(time);
-    return {position - drive.sense * ordered.position, rate - drive.sense * ordered.rate};
+    const Travel::State commanded = drive.command->at(time);
+    return {position - drive.sense * commanded.position, rate - drive.sense * commanded.rate};
 }
 
 }  // namespace
@@ -54,13 +54,13 @@ double ElasticDrive::force(double time, double position, double rate) const {
 
 double ElasticDrive::power(double time, double position, double rate) const {
     const SpringDeflection d = deflection(*this, time, position, rate);
-    return force(time, position, rate) * sense * order->at(time).rate - damping * d.rate * d.rate;
+    return force(time, position, rate) * sense * command->at(time).rate - damping * d.rate * d.rate;
 }
 
 UserForce drive_force(const ElasticDrive& drive) {
     require_not_negative(drive.name, "stiffness", drive.stiffness);
     require_not_negative(drive.name, "damping", drive.damping);
-    if (!drive.order) throw InputError(drive.name, "order", "none", "one");
+    if (!drive.command) throw InputError(drive.name, "command", "none", "one");
     if (std::abs(drive.sense) != 1) throw InputError(drive.name, "sense", drive.sense, "1 or -1");
     const auto law = [drive](double time, double position, double rate) {
         const SpringDeflection d = deflection(drive, time, position, rate);
@@ -73,9 +73,9 @@ UserForce drive_force(const ElasticDrive& drive) {
 ChannelGroup drive_channels(const ElasticDrive& drive, const std::string& units) {
     ChannelGroup group;
     group.channels = {
-        {.name = drive.name + " order",
+        {.name = drive.name + " command",
          .units = units,
-         .long_name = "position that the drive is ordered to",
+         .long_name = "commanded position of the drive",
          .frame = "axis of " + drive.name},
         {.name = drive.name + " force",
          .units = units == "rad" ? "N m" : "N",
@@ -84,7 +84,7 @@ ChannelGroup drive_channels(const ElasticDrive& drive, const std::string& units)
         {.name = drive.name + " power", .units = "W", .long_name = "power of the drive less the heat of its damper"}};
     group.sample = [drive](const ChannelInput& in, double* values) {
         const int i = in.kinematics.model().index(drive.coordinate);
-        values[0] = drive.order->at(in.time).position;
+        values[0] = drive.command->at(in.time).position;
         values[1] = drive.force(in.time, in.q(i), in.qd(i));
         values[2] = drive.power(in.time, in.q(i), in.qd(i));
     };

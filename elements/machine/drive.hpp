@@ -16,11 +16,11 @@ namespace cardan {
 /// and jerk (Travel); all but the jerk are continuous. A new command starts from the state that the previous one has
 /// reached, so repeating a command changes nothing, and commands may come as often as a controller samples. Commands
 /// are given between two steps (in the action of an event, or between two calls of advance(), followed by
-/// Integrator::restart()). An order belongs to one simulation at a time, and to one thread.
-class DriveOrder {
+/// Integrator::restart()). A DriveCommand belongs to one simulation at a time, and to one thread.
+class DriveCommand {
 public:
     /// At rest at a position. @throws InputError: a position that is not finite, limits that are not positive
-    DriveOrder(double position, const TravelLimits& limits);
+    DriveCommand(double position, const TravelLimits& limits);
     /// Starts the travel to a new target; whatever was commanded for later than `time` is dropped.
     /// @throws InputError for values that are not finite
     void move_to(double target, double time);
@@ -51,7 +51,7 @@ struct ElasticDrive {
     std::string name = "drive";
     BodyId coordinate = {};
     double stiffness = 0, damping = 0;
-    std::shared_ptr<const DriveOrder> order = {};
+    std::shared_ptr<const DriveCommand> command = {};
     double sense = 1;  ///< -1: commands are positive against the coordinate, as for pitch (positive toward feather)
 
     /// Force along the coordinate, N m or N.
@@ -62,10 +62,10 @@ struct ElasticDrive {
 
 /// Force element with exact Jacobian. Its energy is that of the spring, which depends on time while a command is being
 /// carried out.
-/// @throws InputError: negative stiffness or damping, no order, a sense that is neither 1 nor -1
+/// @throws InputError: negative stiffness or damping, no command, a sense that is neither 1 nor -1
 UserForce drive_force(const ElasticDrive& drive);
 
-/// "<name> order" (position), "<name> force" (along the coordinate) and "<name> power".
+/// "<name> command" (position), "<name> force" (along the coordinate) and "<name> power".
 /// @param units  of the coordinate, "rad" or "m"
 ChannelGroup drive_channels(const ElasticDrive& drive, const std::string& units = "rad");
 

@@ -8,25 +8,6 @@
 
 namespace cardan {
 
-namespace {
-
-MonotoneCubic checked(std::vector<double> speeds, std::vector<double> torques) {
-    constexpr const char* place = "torque table";
-    const std::size_t n = speeds.size();
-    if (n < 2) throw InputError(place, "number of speeds", n, ">= 2");
-    if (torques.size() != n) throw InputError(place, "number of torques", torques.size(), text(n, ", one per speed"));
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!std::isfinite(speeds[i])) throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds[i], "finite");
-        if (!std::isfinite(torques[i])) throw InputError(place, text("torque ", i + 1, " [N m]"), torques[i], "finite");
-        if (i > 0 && !(speeds[i] > speeds[i - 1]))
-            throw InputError(place, text("speed ", i + 1, " [rad/s]"), speeds[i],
-                             text("> ", speeds[i - 1], ", the one before"));
-    }
-    return {std::move(speeds), std::move(torques), MonotoneCubic::Ends::level};
-}
-
-}  // namespace
-
 double InductionMachine::slope(double speed) const {
     const double r = (speed / synchronous_speed - 1) / breakdown_slip, d = 1 + r * r;
     return 2 * breakdown_torque * (1 - r * r) / (d * d) / (breakdown_slip * synchronous_speed);
@@ -39,7 +20,8 @@ void InductionMachine::check(std::string_view where) const {
 }
 
 TorqueTable::TorqueTable(std::vector<double> speeds, std::vector<double> torques)
-    : curve_(checked(std::move(speeds), std::move(torques))) {}
+    : curve_(std::move(speeds), std::move(torques), MonotoneCubic::Ends::level,
+             {.table = "torque table", .x = "speed", .y = "torque", .x_unit = " [rad/s]", .y_unit = " [N m]"}) {}
 
 double Generator::torque(double rate) const {
     if (grid && !grid->is_on()) return 0;

@@ -1,5 +1,6 @@
 #include "elements/machine/moving_base.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -10,10 +11,6 @@ namespace cardan {
 namespace {
 
 constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
-
-std::size_t index(BaseCoordinate which) {
-    return static_cast<std::size_t>(which);
-}
 
 std::string written(const Vec3& v) {
     return text("(", v(0), ", ", v(1), ", ", v(2), ")");
@@ -31,14 +28,15 @@ void check(const std::string& name, const MovingBaseOptions& options) {
     const auto& order = options.rotations;
     for (BaseCoordinate rotation : {BaseCoordinate::roll, BaseCoordinate::pitch, BaseCoordinate::yaw})
         if (std::ranges::count(order, rotation) != 1)
-            throw InputError(name, text("number of rotations called ", names.at(index(rotation))),
+            throw InputError(name, text("number of rotations called ", entry(names, rotation)),
                              std::ranges::count(order, rotation), "1");
     for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t first = index(order.at(i)), second = index(order.at(i + 1));
-        const double sine = cross<double>(along.at(first), along.at(second)).norm();
+        const BaseCoordinate first = order[i], second = order[i + 1];
+        const double sine = cross<double>(entry(along, first), entry(along, second)).norm();
         if (sine < smallest)
-            throw InputError(name, text("sine of the angle between ", names.at(first), " and ", names.at(second)), sine,
-                             text("at least ", smallest));
+            throw InputError(name,
+                             text("sine of the angle between ", entry(names, first), " and ", entry(names, second)),
+                             sine, text("at least ", smallest));
     }
 }
 
@@ -57,17 +55,17 @@ MovingBase add_moving_base(Tree& tree, FrameId carrier, const std::string& name,
     MovingBase base;
     FrameId at = carrier;
     const auto add = [&](BaseCoordinate which, JointKind kind) {
-        const Mat3 R = onto(options.directions.at(index(which)));
+        const Mat3 R = onto(entry(options.directions, which));
         BodySpec spec;
-        spec.name = name + " " + names.at(index(which));
+        spec.name = name + " " + entry(names, which);
         spec.inboard = at;
         spec.placement = Placement::rotation(R);
         spec.joint = kind;
         spec.coordinate.part = name;
-        spec.coordinate.role = options.roles.at(index(which)).value_or(options.role);
+        spec.coordinate.role = entry(options.roles, which).value_or(options.role);
         const std::string axes = spec.name + " axes";
         const BodyId body = tree.add_body(std::move(spec));
-        base.coordinates.at(index(which)) = body;
+        entry(base.coordinates, which) = body;
         at = tree.add_frame(tree.frame_of(body), Placement::rotation(R.transpose()), axes);
     };
     for (BaseCoordinate which : {BaseCoordinate::surge, BaseCoordinate::sway, BaseCoordinate::heave})

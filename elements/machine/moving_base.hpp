@@ -3,6 +3,7 @@
 #pragma once
 
 #include "elements/machine/joints.hpp"
+#include "mbs/base/entry.hpp"
 
 #include <array>
 #include <optional>
@@ -30,7 +31,7 @@ struct MovingBaseOptions {
 struct MovingBase {
     FrameId frame;                      ///< moving frame; at q = 0 it coincides with the carrier
     std::array<BodyId, 6> coordinates;  ///< surge ... yaw
-    BodyId coordinate(BaseCoordinate which) const { return coordinates[static_cast<std::size_t>(which)]; }
+    BodyId coordinate(BaseCoordinate which) const { return entry(coordinates, which); }
 };
 
 /// Three translations in the carrier's axes (surge, sway, heave), then three rotations about the point reached: six

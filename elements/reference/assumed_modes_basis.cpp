@@ -43,7 +43,7 @@ ShapeFunctions::ShapeFunctions(Kind kind, std::vector<double> breaks, int terms)
     : kind_(kind), breaks_(std::move(breaks)), terms_(terms) {}
 
 Index ShapeFunctions::size() const {
-    return kind_ == Kind::sines ? terms_ : terms_ * (static_cast<Index>(breaks_.size()) - 1);
+    return kind_ == Kind::sines ? terms_ : terms_ * (std::ssize(breaks_) - 1);
 }
 
 ShapeValues ShapeFunctions::at(double x) const {

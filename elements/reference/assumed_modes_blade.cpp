@@ -1,6 +1,7 @@
 #include "elements/reference/assumed_modes_blade.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"
 
@@ -64,21 +65,20 @@ struct Local {
     template <class Set>
     void add(const ShapeValues& values, Index first, const Set& set) {
         for (std::size_t k = 0; k < values.column.size(); ++k) {
-            set(static_cast<Index>(row.size()), k);
+            set(std::ssize(row), k);
             row.push_back(first + values.column[k]);
         }
     }
     void scatter(const Matrix& local, Matrix& sum) const {
-        for (std::size_t j = 0; j < row.size(); ++j)
-            for (std::size_t i = 0; i < row.size(); ++i)
-                sum(row[i], row[j]) += local(static_cast<Index>(i), static_cast<Index>(j));
+        for (Index j = 0; j < std::ssize(row); ++j)
+            for (Index i = 0; i < std::ssize(row); ++i) sum(entry(row, i), entry(row, j)) += local(i, j);
     }
     void add_form(const Mat6& form, Matrix& sum) const {
         if (!form.isZero(0)) scatter(state.transpose() * form * state, sum);
     }
     template <class Sum>
     void add_row(const SectionRow& form, Sum&& sum) const {
-        for (std::size_t i = 0; i < row.size(); ++i) sum(row[i]) += (form * state.col(static_cast<Index>(i))).value();
+        for (Index i = 0; i < std::ssize(row); ++i) sum(entry(row, i)) += (form * state.col(i)).value();
     }
 };
 
@@ -213,8 +213,7 @@ RootLoad AssumedModesBlade::root_load(const HubMotion& motion, const Vector& q, 
     const auto second = [&](const Vector& rate) {
         Mat3 Z;
         for (Index c = 0; c < 3; ++c)
-            for (Index d = 0; d < 3; ++d)
-                Z(c, d) = d_second_[static_cast<std::size_t>(c)][static_cast<std::size_t>(d)].dot(rate);
+            for (Index d = 0; d < 3; ++d) Z(c, d) = entry(entry(d_second_, c), d).dot(rate);
         return Z;
     };
     const Vec3 p = first_ + d_first_ * q;

@@ -65,7 +65,7 @@ public:
     /// Linear approximation, from the accelerations of the blade.
     RootLoad root_load(const HubMotion& motion, const Vector& q, const Vector& qd, const Vector& qdd) const;
 
-    /// The same blade with q = columns * q_reduced, for instance some of its natural modes.
+    /// This blade in reduced coordinates, q = columns * q_reduced, for instance some of its natural modes.
     AssumedModesBlade reduced(const Matrix& columns) const;
 
 private:

@@ -2,6 +2,7 @@
 
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"
 #include "mbs/model/spatial.hpp"
@@ -87,7 +88,7 @@ SectionMass::SectionMass(const BeamSection& section, double x, bool rotary_inert
 void SectionMass::add_tension(const Eigen::Vector4d& axial) {
     Mat6 slopes = Mat6::Zero();
     slopes(state_v_slope, state_v_slope) = slopes(state_w_slope, state_w_slope) = 1;
-    for (std::size_t b = 0; b < 3; ++b) K_spin[0][b] -= axial(static_cast<Index>(b)) * slopes;
+    for (Index b = 0; b < 3; ++b) entry(K_spin[0], b) -= axial(b) * slopes;
     K_origin[0] -= axial(3) * slopes;
 }
 
@@ -125,15 +126,15 @@ std::vector<AxialLoad::Point> AxialLoad::along(const BeamLine& line, std::span<c
     for (std::size_t k = 1; k < ends.size(); ++k) {
         const double half = (ends[k] - ends[k - 1]) / 2, middle = ends[k - 1] + half;
         Eigen::Matrix<double, 4, 12> n;  // per length: of the first moments of G about the root, times the row x of W
-        for (std::size_t i = 0; i < 12; ++i) {
-            const double x = middle + half * rule.node[i];
+        for (Index i = 0; i < n.cols(); ++i) {
+            const double x = middle + half * entry(rule.node, i);
             const BeamSection s = line.section(x);
-            n.col(static_cast<Index>(i)) = s.mass * Eigen::Vector4d(x, s.centre.y(), s.centre.z(), 1);
+            n.col(i) = s.mass * Eigen::Vector4d(x, s.centre.y(), s.centre.z(), 1);
         }
         const Eigen::Matrix<double, 4, 12> inboard = half * n * running_gauss_rule().transpose();
-        for (std::size_t i = 0; i < 12; ++i)
+        for (Index i = 0; i < n.cols(); ++i)
             points.push_back(
-                {middle + half * rule.node[i], half * rule.weight[i], total + inboard.col(static_cast<Index>(i))});
+                {middle + half * entry(rule.node, i), half * entry(rule.weight, i), total + inboard.col(i)});
         total += half * n * Eigen::Map<const Eigen::Matrix<double, 12, 1>>(rule.weight.data());
     }
     if (from == TensionIntegral::from_free_tip)

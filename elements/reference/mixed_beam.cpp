@@ -1,6 +1,7 @@
 #include "elements/reference/mixed_beam.hpp"
 
 #include "elements/sections/quadrature.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"
 
@@ -84,7 +85,7 @@ struct Station {
 
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 
-// Of (u, theta, F, M).
+// Scales of (u, theta, F, M).
 Vec12 end_scales(const MixedBeam::Scales& scales) {
     Vec12 units;
     units << Vec3::Constant(scales.length), Vec3::Ones(), Vec3::Constant(scales.force),
@@ -92,7 +93,7 @@ Vec12 end_scales(const MixedBeam::Scales& scales) {
     return units;
 }
 
-// Of (V, Omega) and of the velocity equations.
+// Scales of (V, Omega) and of the velocity equations.
 Vec6 velocity_scales(const MixedBeam::Scales& scales) {
     Vec6 units;
     units << Vec3::Constant(scales.length / scales.time), Vec3::Constant(1 / scales.time);
@@ -167,7 +168,7 @@ VectorT<S> MixedBeam::residual(const VectorT<S>& x, const VectorT<S>& xdot, cons
     r.template head<12>() -= x.template head<12>();
     r.template segment<12>(node_rows(elements())) += x.template segment<12>(tip());
     for (int i = 0; i < elements(); ++i) {
-        const Element& section = elements_[static_cast<std::size_t>(i)];
+        const Element& section = entry(elements_, i);
         const Index first = station(i + 1);
         const Station<S> a(x, first);
         const Vec6T<S> strain = section.compliance.cast<S>() * x.template segment<6>(first + Field::F);
@@ -201,7 +202,7 @@ MixedJacobian MixedBeam::jacobian(const Vector& x, const MixedRootMotion& motion
     A.topLeftCorner<12, 12>().diagonal().setConstant(-1);
     A.block<12, 12>(node_rows(elements()), tip()).diagonal().setOnes();
     for (int i = 0; i < elements(); ++i) {
-        const Element& section = elements_[static_cast<std::size_t>(i)];
+        const Element& section = entry(elements_, i);
         const Index first = station(i + 1);
         const Station<double> a(x, first);
         const Vec6 strain = section.compliance * x.segment<6>(first + Field::F);

@@ -114,7 +114,7 @@ private:
     struct Element {
         Mat6 compliance, inertia;
     };
-    Eigen::Index count() const { return static_cast<Eigen::Index>(elements_.size()); }
+    Eigen::Index count() const { return std::ssize(elements_); }
 
     std::string name_;
     double length_;

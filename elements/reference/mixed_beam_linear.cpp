@@ -97,7 +97,7 @@ DescriptorPencil boundary_pencil(const MixedBeam& beam, const MixedSetting& sett
     return rows;
 }
 
-// Of beam and boundary equations.
+// Scales of beam and boundary equations.
 Vector all_equation_scales(const MixedBeam& beam, const MixedSetting& setting) {
     const auto& [length, force, time] = beam.scales();
     Vector scales(beam.unknowns());

@@ -1,6 +1,7 @@
 #include "elements/sections/quadrature.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 
 namespace cardan {
 
@@ -8,7 +9,7 @@ namespace cardan {
 const GaussRule& gauss_rule() {
     static const GaussRule rule = [] {
         GaussRule r{};
-        const auto n = static_cast<Eigen::Index>(r.node.size());
+        const auto n = std::ssize(r.node);
         Matrix jacobi = Matrix::Zero(n, n);
         for (Eigen::Index k = 1; k < n; ++k) {
             const double x = static_cast<double>(k);
@@ -16,8 +17,8 @@ const GaussRule& gauss_rule() {
         }
         const Eigen::SelfAdjointEigenSolver<Matrix> solver(jacobi);
         for (Eigen::Index k = 0; k < n; ++k) {
-            r.node[static_cast<std::size_t>(k)] = solver.eigenvalues()(k);
-            r.weight[static_cast<std::size_t>(k)] = 2 * std::pow(solver.eigenvectors()(0, k), 2);
+            entry(r.node, k) = solver.eigenvalues()(k);
+            entry(r.weight, k) = 2 * std::pow(solver.eigenvectors()(0, k), 2);
         }
         return r;
     }();

@@ -2,6 +2,7 @@
 
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"
 
@@ -40,14 +41,10 @@ using Spline = boost::math::interpolators::cubic_hermite<std::vector<double>>;
 // Slopes of the cubic spline with continuous curvature; the two pieces at either end are one cubic (not-a-knot), so
 // that the ends are as exact as the rest, O(h^4). [de Boor, A Practical Guide to Splines, ch. IV]
 Matrix spline_slopes(const std::vector<double>& t, const std::vector<Vec3>& points) {
-    const auto n = static_cast<Eigen::Index>(t.size());
-    const auto h = [&t](Eigen::Index i) {
-        const auto k = static_cast<std::size_t>(i);
-        return t[k + 1] - t[k];
-    };
+    const auto n = std::ssize(t);
+    const auto h = [&t](Eigen::Index i) { return entry(t, i + 1) - entry(t, i); };
     const auto slope = [&](Eigen::Index i) {
-        const auto k = static_cast<std::size_t>(i);
-        return Eigen::RowVector3d((points[k + 1] - points[k]).transpose() / h(i));
+        return Eigen::RowVector3d((entry(points, i + 1) - entry(points, i)).transpose() / h(i));
     };
     Matrix A = Matrix::Zero(n, n), b(n, 3);
     for (Eigen::Index i = 1; i < n - 1; ++i) {
@@ -143,8 +140,7 @@ ReferenceLine ReferenceLine::through(const std::vector<Vec3>& points, LineShape 
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
             std::vector<double> t = knots, values, rates(slopes.col(axis).begin(), slopes.col(axis).end());
             for (const Vec3& p : points) values.push_back(p(axis));
-            c[static_cast<std::size_t>(axis)] =
-                std::make_shared<Spline>(std::move(t), std::move(values), std::move(rates));
+            entry(c, axis) = std::make_shared<Spline>(std::move(t), std::move(values), std::move(rates));
         }
         // Rounding may put a parameter outside of the table.
         const auto inside = [last = knots.back()](double t) { return std::clamp(t, 0.0, last); };

@@ -2,7 +2,6 @@
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/base/stations.hpp"
 #include "mbs/model/spatial.hpp"
 
 namespace cardan {
@@ -85,6 +84,12 @@ Mat3 plane_inertia(Mat3 J, double rounding, const std::string& where) {
 }
 
 }  // namespace
+
+SectionMatrices interpolated(const std::vector<SectionMatrices>& matrices, const StationPlace& place) {
+    const SectionMatrices &a = matrices[place.left], &b = matrices[place.right];
+    const double t = place.t;
+    return {(1 - t) * a.stiffness + t * b.stiffness, (1 - t) * a.mass + t * b.mass};
+}
 
 Mat3 vabs_axes() {
     return Mat3::Identity();
@@ -211,10 +216,7 @@ BeamLine matrix_line(const std::string& name, std::vector<double> stations, std:
     line.length = stations.back() - stations.front();
     for (double x : stations) line.breaks.push_back(x - stations.front());
     line.section = [name, x = line.breaks, sections](double at) {
-        const auto [left, right, t] = place_among(x, at);
-        const SectionMatrices &a = sections[left], &b = sections[right];
-        return beam_section({(1 - t) * a.stiffness + t * b.stiffness, (1 - t) * a.mass + t * b.mass},
-                            text(name, ", x = ", at, " m"));
+        return beam_section(interpolated(sections, place_among(x, at)), text(name, ", x = ", at, " m"));
     };
     return line;
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "elements/sections/section.hpp"
+#include "mbs/base/stations.hpp"
 
 namespace cardan {
 
@@ -15,17 +16,20 @@ struct SectionMatrices {
     Mat6 mass = Mat6::Zero();       ///< momenta by velocities, per length; kg/m, kg, kg m
 };
 
+/// Linear interpolation between stations, of the entries.
+SectionMatrices interpolated(const std::vector<SectionMatrices>& matrices, const StationPlace& place);
+
 /// Axes of other programs in beam axes: columns are their x, y, z (R_beam_program). Beam axes of a blade: x outward,
 /// y to the leading edge, z downwind.
 Mat3 vabs_axes();     ///< x along the beam: the same
 Mat3 beamdyn_axes();  ///< x downwind, y to the trailing edge, z along the blade
 Mat3 hawc2_axes();    ///< x to the leading edge, y downwind (from the pressure to the suction side), z along the blade
 
-/// The same section in other axes.
+/// A section's matrices in other axes.
 /// @param R  R_ab, a proper rotation: matrices in axes b -> in axes a
 SectionMatrices rotated(const SectionMatrices& section, const Mat3& R);
 
-/// The same section at another reference point.
+/// A section's matrices about another reference point.
 /// @param to  new reference point seen from the old one, m
 SectionMatrices moved(const SectionMatrices& section, const Vec3& to);
 

@@ -23,7 +23,7 @@ using namespace cardan;
 
 namespace {
 
-// Of the steady state under gravity, to begin with; as many more as it needs are taken. The cost rises with their cube.
+// Harmonics of the steady state under gravity to begin with; more are taken if needed. The cost rises with their cube.
 constexpr int steady_harmonics = 4;
 constexpr double tower_max_frequency = 12;  // Hz; first torsion and second bending modes are below
 

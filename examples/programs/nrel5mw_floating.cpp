@@ -28,7 +28,7 @@ struct Arguments {
 
 constexpr std::array<const char*, 6> directions{
     "downwind, m",
-    "to the left for who looks downwind, m",
+    "to the left, looking downwind, m",
     "up, m",
     "about the downwind axis, deg",
     "about the sway axis, deg: positive moves the top of the tower downwind",
@@ -113,7 +113,7 @@ int parse(int argc, char** argv, Arguments& a) {
         "motion.\n"
         "Axes and signs are those of OpenFAST: x downwind, y to the left, z up; positive pitch moves the top "
         "downwind.\n"
-        "No waves, no wind. nrel5mw_floating STUDY --help tells the options of a study.");
+        "No waves, no wind. nrel5mw_floating STUDY --help lists the options of a study.");
     app.footer(
         "Exit code: 0; 1 error, or the energy balance does not close; 2 wrong usage; 3 the period of a decay is not "
         "within 1 % of\nthe linear model's; 130 interrupted: what was computed is written.");

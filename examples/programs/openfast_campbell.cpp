@@ -110,9 +110,9 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
 }
 
 // What was asked for in the place of what the files say.
-void set_freedoms(const Arguments& a, turbines::TurbineFile& model) {
+void set_dofs(const Arguments& a, turbines::TurbineFile& model) {
     turbines::Bearing& yaw = model.description.yaw.rotation;
-    if (!a.generator.empty()) model.freedoms.generator = a.generator == "free";
+    if (!a.generator.empty()) model.dofs.generator = a.generator == "free";
     if (a.yaw == "locked") yaw = turbines::rigid_joint;
     if (a.yaw != "free" || !yaw.is_rigid()) return;
     if (model.yaw_drive.is_rigid())
@@ -120,8 +120,8 @@ void set_freedoms(const Arguments& a, turbines::TurbineFile& model) {
     yaw = model.yaw_drive;
 }
 
-std::string freedoms_in_words(const turbines::TurbineFile& model) {
-    const turbines::FileFreedoms& f = model.freedoms;
+std::string dofs_in_words(const turbines::TurbineFile& model) {
+    const turbines::FileDofs& f = model.dofs;
     std::string locked = f.generator ? "" : ", generator locked";
     if (model.description.yaw.rotation.is_rigid()) locked += ", yaw bearing locked";
     if (model.description.drive_train.main_shaft.is_rigid()) locked += ", main shaft rigid";
@@ -138,9 +138,9 @@ turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::T
     if (a.undamped) o.structural_damping = o.joint_damping = false;
     o.blade_beam = beam_options(model.description.blade.line, a.blade_elements, true);
     o.tower_beam = beam_options(model.description.tower.line, a.tower_elements, false);
-    o.tower_beam->held_y = !model.freedoms.tower_side_side;
-    o.tower_beam->held_z = !model.freedoms.tower_fore_aft;
-    o.blade_beam->held_y = o.blade_beam->held_z = !model.freedoms.blades;
+    o.tower_beam->held_y = !model.dofs.tower_side_side;
+    o.tower_beam->held_z = !model.dofs.tower_fore_aft;
+    o.blade_beam->held_y = o.blade_beam->held_z = !model.dofs.blades;
     return o;
 }
 
@@ -159,7 +159,7 @@ void save(const Arguments& a, const turbines::TurbineFile& model) {
     if (std::filesystem::equivalent(a.save, a.model, error))
         throw InputError("--save", "file", a.save, "another one than the model");
     turbines::write_description(model.description, a.save);
-    const turbines::FileFreedoms& f = model.freedoms;
+    const turbines::FileDofs& f = model.dofs;
     if (model.pitch != 0 || model.rotor_speed != 0 || !f.generator)
         std::cout << "note: " << a.save << " holds the machine, not how it runs: --pitch "
                   << model.pitch * units::to_degrees << ", " << model.rotor_speed * units::to_rpm << " rpm"
@@ -205,8 +205,8 @@ void print_mesh_error(const Arguments& a, const turbines::TurbineFile& model, so
 int run(const Arguments& a) {
     turbines::TurbineFile model = read(a.model);
     print(model.notes, a.notes);
-    set_freedoms(a, model);
-    std::cout << "freedoms: " << freedoms_in_words(model) << "\n";
+    set_dofs(a, model);
+    std::cout << "degrees of freedom: " << dofs_in_words(model) << "\n";
     if (a.generator_inertia != 0) model.description.drive_train.generator_inertia = a.generator_inertia;
     if (!a.save.empty()) save(a, model);
     const std::vector<double> speeds = rotor_speeds(a.rpm, model.rotor_speed);
@@ -216,7 +216,7 @@ int run(const Arguments& a) {
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
     solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.method = method_for(a, model.description);
-    options.spin = model.freedoms.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+    options.spin = model.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     program::stop_at_once();
     program::print_table(diagram);

@@ -249,7 +249,7 @@ int run(const Arguments& a) {
     options.marks = marks(a.marks);
     if (!names.empty()) {
         const std::vector<solvers::HistoryPanel> panels =
-            a.together ? solvers::panels_by_units(history, names, options.angles) : solvers::panels_one_each(names);
+            a.together ? solvers::panels_by_units(history, names, options.angles) : solvers::one_panel_each(names);
         draw(a, "",
              text(names.size(), " channel", names.size() == 1 ? "" : "s", " in ", panels.size(), " panel",
                   panels.size() == 1 ? "" : "s"),

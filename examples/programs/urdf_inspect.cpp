@@ -5,6 +5,7 @@
 //     g(q0) x'' + D x' + K x = 0,   K = diag(stiffness), D = diag(damping of the file),
 // with the metric g. Natural frequencies are |lambda| / (2 pi) of its eigenvalues.
 // Reference: docs/urdf.md; the tests hold metric and poses against hand calculation.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "mbs/model/summary.hpp"
@@ -68,8 +69,7 @@ void print_dh(const Tree& tree) {
                  "      alpha          d     theta0         r0\n";
     for (const Tree::Body& body : tree.bodies()) {
         const DhParameters dh = dh_parameters(body.in_parent);
-        const std::string parent =
-            body.parent < 0 ? "base" : tree.bodies()[static_cast<std::size_t>(body.parent)].spec.name;
+        const std::string parent = body.parent < 0 ? "base" : entry(tree.bodies(), body.parent).spec.name;
         std::cout << "  " << std::left << std::setw(30) << body.spec.name << std::setw(32) << parent << std::setw(10)
                   << (body.spec.joint == JointKind::revolute ? "revolute" : "prismatic") << std::right << std::fixed
                   << std::setprecision(4);
@@ -107,7 +107,7 @@ void print_modes(const solvers::SecondOrderSystem& system, const CoordinateTable
         std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return energy(a) > energy(b); });
         for (std::size_t k = 0; k < order.size() && k < 3 && energy(order[k]) > 0.01; ++k)
             std::cout << (k ? ", " : "") << std::setprecision(0) << 100 * energy(order[k]) << " % "
-                      << table[system.coordinates[static_cast<std::size_t>(order[k])]].name;
+                      << table[entry(system.coordinates, order[k])].name;
         std::cout << std::defaultfloat << std::setprecision(6) << "\n";
     }
     const long oscillating = static_cast<long>(

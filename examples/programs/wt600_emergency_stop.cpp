@@ -1,7 +1,7 @@
 // Emergency stop of the 600 kW machine after the loss of the grid.
 //
 // Problem: the machine runs at rated power, 32.9 rpm, with its converter. The grid is lost, the generator's torque
-// vanishes, the rotor speeds up. At the overspeed limit all blades are ordered to feather; below a speed, or after a
+// vanishes, the rotor speeds up. At the overspeed limit all blades are commanded to feather; below a speed, or after a
 // delay, the brake is applied until the rotor stands. Equations of motion g q'' + Gamma q' q' = Q with gravity and a
 // prescribed load on the rotor (no aerodynamics, see elements/machine/rotor_load.hpp).
 // Checks: the energy balance, by the integration and by the recorded powers; the order of events; standstill.
@@ -71,7 +71,7 @@ public:
         const auto add = [&](const char* name, int direction, auto function, auto action) {
             events.push_back({name, function, direction, [this, name, action](solvers::Integrator& integrator) {
                                   const AfterEvent after = action(integrator.time());
-                                  if (after != AfterEvent::go_on) note(name, integrator);
+                                  if (after != AfterEvent::proceed) note(name, integrator);
                                   return after;
                               }});
         };
@@ -85,7 +85,7 @@ public:
             "overspeed, pitch to feather", 1,
             [this](const ForceInput& in) { return in.qd(spin_) - a_.overspeed * a_.speed * units::rpm; },
             [this](double time) {
-                if (overspeed_at_ >= 0) return AfterEvent::go_on;
+                if (overspeed_at_ >= 0) return AfterEvent::proceed;
                 overspeed_at_ = time;
                 machine_.pitch->move_to(pi / 2, time);
                 return AfterEvent::restart;
@@ -104,7 +104,7 @@ public:
         add(
             "standstill", -1, [this](const ForceInput& in) { return hub_speed(in.qd, in.kinematics.model()); },
             [this](double) {  // later it swings about zero
-                return std::exchange(stands_, true) ? AfterEvent::go_on : AfterEvent::stop;
+                return std::exchange(stands_, true) ? AfterEvent::proceed : AfterEvent::stop;
             });
         return events;
     }

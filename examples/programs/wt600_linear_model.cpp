@@ -5,7 +5,9 @@
 // speeds, accelerations and loads as outputs; the multi-blade transformation makes the matrices constant; balanced
 // truncation leaves a small model to design with.
 // Reference: the modes of A are those of the Campbell diagram at this rotor speed (docs/wt600.md).
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/control/lin_file.hpp"
@@ -84,7 +86,7 @@ const std::vector<std::string> outputs{"GenSpeed",  "RotSpeed",  "RotTorq",   "T
                                        "RootMyb2",  "RootMyb3",  "BldPitch1", "BldPitch2", "BldPitch3"};
 
 solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments& a) {
-    // Before the equilibrium, which would take long for nothing.
+    // Before the equilibrium is sought, which takes long.
     solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
     const double rotor_speed = a.rotor_rpm * units::rpm;
     solvers::StateSpaceOptions options;
@@ -99,13 +101,13 @@ solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments
         periodic.rotor_speed = rotor_speed;
         periodic.harmonics = a.harmonics;
         const auto state = solvers::harmonic_balance(turbine.system(), spin, periodic);
-        if (!state.converged) throw NumericalError(state.message);
+        require_result(state);
         return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);
     }
     solvers::SteadyOptions steady;
     steady.rotor_speed = rotor_speed;
     const solvers::SteadyState state = solvers::steady_state(turbine.system(), spin, steady);
-    if (!state.converged) throw NumericalError(state.message);
+    require_result(state);
     return solvers::state_space(turbine.system(), turbine.rotor(), state.at, list, channels, options);
 }
 
@@ -149,13 +151,13 @@ void print_modes(const turbines::Turbine& turbine, const solvers::ConstantModel&
 Vector output_sizes(const solvers::ConstantModel& model) {
     Vector size(model.C.rows());
     for (Eigen::Index i = 0; i < size.size(); ++i) {
-        const std::string& units = model.outputs[static_cast<std::size_t>(i)].units;
+        const std::string& units = entry(model.outputs, i).units;
         size(i) = units == "N m" || units == "N" ? 1e4 : 0.01;
     }
     return size;
 }
 
-// Of inputs a tenth of what the machine has.
+// Inputs: a tenth of what the machine has.
 double input_size(const solvers::Signal& input) {
     for (const auto& [name, size] :
          {std::pair{"generator torque", 400.0}, std::pair{"yaw moment", 2e4}, std::pair{"thrust", 1e4},
@@ -171,8 +173,7 @@ solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Argum
     options.max_frequency_hz = a.max_frequency;
     options.static_gain = solvers::StaticGain::kept;
     options.input_size.resize(fixed.B.cols());
-    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i)
-        options.input_size(i) = input_size(fixed.inputs[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i) options.input_size(i) = input_size(entry(fixed.inputs, i));
     options.output_size = output_sizes(fixed);
     return solvers::balanced_truncation(fixed, options);
 }
@@ -180,8 +181,8 @@ solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const Argum
 // Which inputs and outputs a small model serves is seen here.
 void print_errors(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency) {
     const auto print = [](const std::vector<solvers::Signal>& signals, const Vector& error) {
-        for (std::size_t i = 0; i < signals.size(); ++i)
-            std::printf("  %-34s %8.2f %%\n", signals[i].name.c_str(), 100 * error(static_cast<Eigen::Index>(i)));
+        for (Eigen::Index i = 0; i < error.size(); ++i)
+            std::printf("  %-34s %8.2f %%\n", entry(signals, i).name.c_str(), 100 * error(i));
     };
     std::printf("largest error up to %g Hz, of the largest response to the same input (each output by its own size)\n",
                 max_frequency);

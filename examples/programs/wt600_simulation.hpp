@@ -2,6 +2,7 @@
 /// What the programs that simulate the 600 kW machine have in common: options, starts, rows, pictures.
 #pragma once
 
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -83,7 +84,7 @@ inline Vector steady_position(const turbines::Turbine& turbine, const ForceSet& 
     options.azimuth = azimuth;
     options.initial = initial;
     const solvers::SteadyState state = solvers::steady_state(system, turbine.rotor().spin, options);
-    if (!state.converged) throw NumericalError(text("start of the simulation: ", state.message));
+    require_result(state, "start of the simulation");
     return state.at.q;
 }
 
@@ -139,7 +140,7 @@ inline Start rotating_start(const turbines::Wt600Operation& machine, const turbi
     return start;
 }
 
-/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and tells a terminal how far
+/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and shows on a terminal how far
 /// things are.
 class Rows {
 public:
@@ -184,7 +185,7 @@ inline solvers::Advance record(solvers::Integrator& integrator, solvers::Recorde
     times.erase(times.begin(), std::ranges::lower_bound(times, integrator.time()));
     solvers::Advance result = solvers::record(
         integrator, recorder, times, [&](double time, const std::vector<double>& values) { rows(time, values); });
-    if (result.end == solvers::Advance::End::failed) throw NumericalError(result.message);
+    require_result(result);
     return result;
 }
 
@@ -214,7 +215,7 @@ inline void write_outputs(Rows& rows, const std::string& prefix, bool complete, 
     std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << history.channels.size()
               << " channels)";
     if (history.time.size() > 1) {
-        std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(platform_motions(history));
+        std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(history));
         panels.insert(panels.end(), {{{"RotSpeed"}},
                                      {{"BldPitch1"}},
                                      {{"GenTq", "RotTorq"}},

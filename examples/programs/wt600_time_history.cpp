@@ -7,6 +7,7 @@
 // aerodynamics, see elements/machine/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
 // Checks: the energy balance, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 constexpr std::array names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 constexpr std::array<const char*, names.size()> directions{
     "of a platform under the tower, downwind, m",
-    "likewise, to the left for who looks downwind, m",
+    "likewise, to the left, looking downwind, m",
     "up, m",
     "about the downwind axis, deg",
     "about the sway axis, deg: positive moves the top of the tower downwind",
@@ -112,7 +113,7 @@ std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, doub
     connect.direction = 1;
     connect.function = [=](const ForceInput& in) { return in.qd(spin) - synchronous; };
     connect.action = [grid = machine.grid, &connected_at](solvers::Integrator& integrator) {
-        if (grid->is_on()) return solvers::AfterEvent::go_on;
+        if (grid->is_on()) return solvers::AfterEvent::proceed;
         connected_at = integrator.time();
         integrator.note(connected, connected_at);
         grid->turn(true, integrator.time());
@@ -161,7 +162,7 @@ void print_resonances(const solvers::History& history, double tower_hz) {
         if (at == speed.end())
             std::printf("%5dP %8.2f %8s\n", p, meets / units::rpm, "-");
         else
-            print_swing(history, text(p, "P"), meets, history.time[static_cast<std::size_t>(at - speed.begin())]);
+            print_swing(history, text(p, "P"), meets, entry(history.time, at - speed.begin()));
     }
     if (history.time.back() > 6) print_swing(history, "end", speed.back(), history.time.back() - 6);
 }

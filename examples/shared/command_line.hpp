@@ -26,7 +26,7 @@ public:
     Option& one_of(const std::vector<std::string>& allowed);
     Option& range(int least, int most);
     Option& positive();
-    /// Of the values within one word.
+    /// Separates the values within one word.
     Option& delimiter(char character);
     /// Every use takes one word; a list otherwise takes all words up to the next option.
     Option& one_word();
@@ -66,7 +66,7 @@ public:
 
     /// One of the subcommands must be given.
     CommandLine add_subcommand(const std::string& name, const std::string& what);
-    /// Of a subcommand: the options of the command line may stand behind it as well.
+    /// For a subcommand: options of the command line may follow it as well.
     void fallthrough();
     /// The name of the subcommand that was given.
     std::string subcommand();

@@ -1,5 +1,5 @@
 /// @file
-/// What the programs have in common: signals, errors and exit codes, progress, a first look at the output files.
+/// What the programs have in common: signals, errors and exit codes, progress, an early check of the output files.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -46,7 +46,7 @@ inline void progress(const std::string& what) {
     if (terminal) std::cerr << what << std::flush;
 }
 
-/// Files that cannot be written are found out before the work, not after it, and what a run that was killed has left
+/// Files that cannot be written are noticed before the work, not after it, and what a killed run has left
 /// behind is named and removed.
 inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings) {
     if (std::filesystem::path(prefix).filename().empty())

@@ -64,7 +64,7 @@ private:
 class RowFile {
 public:
     /// An existing file is replaced.
-    RowFile(const std::string& path, const solvers::HistoryAbout& about, solvers::Integrator& integrator,
+    RowFile(const std::string& path, const solvers::HistoryMetadata& about, solvers::Integrator& integrator,
             const solvers::Recorder& recorder)
         : writer_(solvers::HistoryWriter::create(path, recorder.channels(), about, {.replace = true})) {
         writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
@@ -140,7 +140,7 @@ inline bool check(const char* what, double error, double allowed) {
     return holds;
 }
 
-/// Of a machine that does not turn, where there may be no kinetic energy to measure an error by: the most that kinetic
+/// For a machine that does not turn, where there may be no kinetic energy to measure an error by: the most that kinetic
 /// energy, potential energy or the work of the drives range over in a run, J; at least 1 J, for a machine at rest
 /// exchanges nothing.
 inline double exchanged_energy(const solvers::History& history) {
@@ -154,7 +154,7 @@ inline double exchanged_energy(const solvers::History& history) {
 
 /// The energy balance: change of kinetic energy against the work of all forces, as the integration has added it up.
 /// @param scale    largest kinetic energy of the run, J, or exchanged_energy()
-/// @param allowed  part of it that may be lost or won
+/// @param allowed  part of it that may be lost or gained
 /// @param parked   scale is exchanged_energy()
 inline bool check_energy(const solvers::EnergyBalance& end, double scale, double allowed, bool parked = false) {
     std::printf(

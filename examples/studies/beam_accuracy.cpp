@@ -32,7 +32,7 @@ int parse(int argc, char** argv, Arguments& a) {
         "Errors of beam elements over their number.\n"
         "Prints tables and a check list, computed | reference | error, and writes DIR/beam_accuracy_CASE.csv and "
         "DIR/beam_*.svg, .png.");
-    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check is off; 130 interrupted (finished cases are kept).");
+    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check fails; 130 interrupted (finished cases are kept).");
     app.add_option("--case", a.names, "cases to run (default: all)");
     app.add_option("--out", a.out, "folder of the files");
     app.add_flag("--list", a.list, "print the cases and end");
@@ -84,7 +84,7 @@ int run(const Arguments& a) {
         if (complete(figure, results))
             for (const char* ending : {".svg", ".png"}) draw(figure, results, a.out / (figure.name + ending));
     std::cout << "\nfiles: beam_accuracy_*.csv and figures in " << a.out.string() << "\n"
-              << (failures == 0 ? "all checks hold" : text("checks that are OFF: ", failures)) << "\n";
+              << (failures == 0 ? "all checks hold" : text("checks that FAILED: ", failures)) << "\n";
     return failures == 0 ? 0 : 3;
 }
 

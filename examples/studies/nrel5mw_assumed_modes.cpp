@@ -158,7 +158,7 @@ bool judge(const char* what, double value, double allowed) {
     return value <= allowed;
 }
 
-// Of the paper's tables, if the functions are the paper's; else only said.
+// Judges against the paper's tables if the functions are the paper's; else only prints the difference.
 bool judge_paper(const char* what, double difference, const Functions& functions) {
     if (functions.are_of_the_paper()) return judge(what, difference, 6e-4);
     std::cout << what << ": " << std::defaultfloat << std::setprecision(2) << 100 * difference

@@ -1,12 +1,13 @@
 // Natural frequencies and mode shapes of the rotating NREL 5 MW blade.
 //
 // Problem: the blade of NREL/TP-500-38060, clamped at the hub radius of 1.5 m to a rigid hub, spins about the axis
-// perpendicular to the rotor plane; at every rotor speed it is brought to its steady state (drawn out and straightened
+// perpendicular to the rotor plane; at every rotor speed it is brought to its steady state (stretched and straightened
 // by the centrifugal force) and linearised, M x'' + G x' + K x = 0 in the rotating frame.
 // Reference: converged frequencies of the same blade by a method that shares nothing with the joint chain, exact to
 // 1e-4 Hz (docs/nrel5mw_blade.md). Goals on 1st flap, 1st edge and 2nd flap: 0.1 % with 16 equal elements, 0.5 % with 8
 // refined ones.
 #include "elements/cardan_beam/centrifugal_limit.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
@@ -172,11 +173,10 @@ const solvers::Branch* find(const solvers::Campbell& diagram, const std::string&
 // Elastic energy of a mode in bending out of the plane and in the plane, torsion and extension.
 std::array<double, 4> energies(const solvers::Campbell& d, const solvers::CampbellMode& mode) {
     std::array<double, 4> energy{};
-    for (std::size_t i = 0; i < d.rows.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(d.rows); ++i) {
         constexpr std::array kinds{"bending y", "bending z", "torsion", "extension"};
         for (std::size_t k = 0; k < kinds.size(); ++k)
-            if (d.rows[i].find(kinds.at(k)) != std::string::npos)
-                energy.at(k) += mode.row_shares(static_cast<Eigen::Index>(i));
+            if (entry(d.rows, i).find(kinds.at(k)) != std::string::npos) energy.at(k) += mode.row_shares(i);
     }
     return energy;
 }
@@ -209,7 +209,7 @@ std::optional<double> print(const Arguments& a, const solvers::Campbell& d) {
             } else {
                 std::cout << "     - |         -";
             }
-            for (double e : energies(d, d.points[i].modes[static_cast<std::size_t>(branch->mode[i])]))
+            for (double e : energies(d, entry(d.points[i].modes, branch->mode[i])))
                 std::cout << std::setw(7) << std::setprecision(1) << 100 * e;
             std::cout << "\n";
         }

@@ -151,7 +151,7 @@ solvers::IntegrationOptions integration(const Arguments& a) {
     return options;
 }
 
-solvers::HistoryAbout about(const Arguments& a, const turbines::Turbine& machine) {
+solvers::HistoryMetadata about(const Arguments& a, const turbines::Turbine& machine) {
     std::string motions;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (!a.motions.at(i).empty()) motions += text(", ", names.at(i), " ", a.motions.at(i));

@@ -6,6 +6,7 @@
 // References: (1) with a tube made a million times stiffer the rigid arm comes back; (2) with the drives locked at
 // q = 0 the forearm is a clamped tube with a rigid body (wrist and tool) at its tip, of which the Timoshenko beam has
 // an exact transfer matrix; (3) the arm with the beam, written as URDF and read again, has the same metric.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "solvers/linear/modes.hpp"
 
@@ -29,8 +30,8 @@ struct Arguments {
 int parse(int argc, char** argv, Arguments& a) {
     program::CommandLine app(
         "Natural frequencies of a six-axis arm from URDF with a flexible forearm, beside those of the rigid arm,\n"
-        "and checks against the stiff limit, an exact beam and the way through URDF and back.");
-    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check is off.");
+        "and checks against the stiff limit, an exact beam and the round trip through URDF.");
+    app.footer("Exit code: 0; 1 error; 2 wrong usage; 3 a check fails.");
     app.add_option("--file", a.file,
                    "URDF with the links forearm_tube, forearm_root and forearm_tip, 0.8 m apart along x");
     app.add_option("--elements", a.elements, "beam elements of the forearm, at most 200");
@@ -75,17 +76,15 @@ struct Held {
         : system(tree, with_drives(std::move(forces), bodies, drives)) {
         const Eigen::Index n = system.model.size();
         Vector q = Vector::Zero(n);
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            at.push_back(system.model.index(bodies[i]));
-            q(at.back()) = drives.q(static_cast<Eigen::Index>(i));
+        for (Eigen::Index i = 0; i < std::ssize(bodies); ++i) {
+            at.push_back(system.model.index(entry(bodies, i)));
+            q(at.back()) = drives.q(i);
         }
         linear = solvers::linearise(system, {q, Vector::Zero(n), Vector::Zero(n), 0});
     }
     static ForceSet with_drives(ForceSet forces, const std::vector<BodyId>& bodies, const Drives& drives) {
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            const Eigen::Index k = static_cast<Eigen::Index>(i);
-            forces.add_spring(text("drive ", i + 1), bodies[i], drives.stiffness(k), 0, drives.q(k));
-        }
+        for (Eigen::Index i = 0; i < std::ssize(bodies); ++i)
+            forces.add_spring(text("drive ", i + 1), entry(bodies, i), drives.stiffness(i), 0, drives.q(i));
         return forces;
     }
     std::vector<double> frequencies() const {
@@ -134,7 +133,7 @@ void check_clamped(Checks& checks, const Tree& rigid, const arm::Tube& tube, int
         !(body.J - Mat3(body.J.diagonal().asDiagonal())).isZero(1e-9))
         throw InputError("what the tip carries", "centre of mass [m]", body.com.transpose(),
                          "on the axis of the tube, with principal axes along it");
-    const Eigen::Index n = static_cast<Eigen::Index>(rigid.bodies().size());
+    const Eigen::Index n = std::ssize(rigid.bodies());
     for (const char* axis : {"y", "z"}) {
         const double J = axis[0] == 'y' ? body.J(1, 1) : body.J(2, 2);
         const double exact = arm::clamped_frequency(tube, {body.mass, body.com.x(), J});
@@ -211,7 +210,7 @@ int run(const Arguments& a) {
         write_urdf(a.write, flexible.tree, {robot.robot_name + "_flexible", robot.joints});
         std::cout << "\nwritten: " << a.write << "\n";
     }
-    std::cout << "\n" << (checks.off == 0 ? "all checks hold" : text("checks that are OFF: ", checks.off)) << "\n";
+    std::cout << "\n" << (checks.off == 0 ? "all checks hold" : text("checks that FAILED: ", checks.off)) << "\n";
     if (!std::cout.flush()) throw FileError("standard output", "the table could not be written");
     return checks.off == 0 ? 0 : 3;
 }

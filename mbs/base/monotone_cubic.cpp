@@ -10,23 +10,25 @@ namespace cardan {
 
 namespace {
 
-void check(const std::vector<double>& x, const std::vector<double>& y) {
-    constexpr auto where = "cubics through points";
-    if (x.size() < 2) throw InputError(where, "number of points", x.size(), ">= 2");
-    if (y.size() != x.size()) throw InputError(where, "number of values", y.size(), text(x.size(), ", one per point"));
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (!std::isfinite(x[i])) throw InputError(where, text("point ", i + 1), x[i], "finite");
-        if (!std::isfinite(y[i])) throw InputError(where, text("value ", i + 1), y[i], "finite");
-        if (i > 0 && !(x[i] > x[i - 1]))
-            throw InputError(where, text("point ", i + 1), x[i], text("> ", x[i - 1], ", the one before"));
+void check(const std::vector<double>& x, const std::vector<double>& y, const MonotoneCubic::Names& names) {
+    const auto& [table, x_name, y_name, x_unit, y_unit] = names;
+    const std::size_t n = x.size();
+    if (n < 2) throw InputError(table, text("number of ", x_name, "s"), n, ">= 2");
+    if (y.size() != n)
+        throw InputError(table, text("number of ", y_name, "s"), y.size(), text(n, ", one per ", x_name));
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::string at = text(x_name, " ", i + 1, x_unit);
+        if (!std::isfinite(x[i])) throw InputError(table, at, x[i], "finite");
+        if (!std::isfinite(y[i])) throw InputError(table, text(y_name, " ", i + 1, y_unit), y[i], "finite");
+        if (i > 0 && !(x[i] > x[i - 1])) throw InputError(table, at, x[i], text("> ", x[i - 1], ", the one before"));
     }
 }
 
 }  // namespace
 
-MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y, Ends ends)
+MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y, Ends ends, const Names& names)
     : x_(std::move(x)), y_(std::move(y)), slope_(x_.size(), 0.0) {
-    check(x_, y_);
+    check(x_, y_, names);
     const std::size_t last = intervals();
     for (std::size_t i = 1; i < last; ++i) {
         const double s = secant(i - 1), r = secant(i), h = width(i - 1), k = width(i);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cardan {
@@ -21,10 +23,17 @@ public:
     struct Value {
         double value, slope, second;  ///< in units of y, y/x, y/x^2
     };
+    /// How errors name the table and what x and y are.
+    struct Names {
+        std::string_view table = "cubics through points", x = "point", y = "value";
+        std::string_view x_unit = {}, y_unit = {};  ///< " [s]"
+    };
 
     /// @param x  at least two, ascending
     /// @throws InputError unless x and y are finite, as many, and x ascends
-    MonotoneCubic(std::vector<double> x, std::vector<double> y, Ends ends);
+    MonotoneCubic(std::vector<double> x, std::vector<double> y, Ends ends, const Names& names);
+    MonotoneCubic(std::vector<double> x, std::vector<double> y, Ends ends)
+        : MonotoneCubic(std::move(x), std::move(y), ends, Names()) {}
 
     Value at(double x) const { return at(x, x); }
     /// The cubic of the interval that contains `inside`, continued to x: the limit from one side at a point.

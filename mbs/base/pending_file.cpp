@@ -73,7 +73,7 @@ int holder(const std::string& path) {
 
 std::string lock_holder(const std::string& path) {
     std::string answer = "another program, or another object of this one, has it open";
-    // Who has just begun the file may be about to lock it again, under its other name.
+    // A program that has just created the file may lock it again under its final name in a moment.
     for (int attempt = 0; attempt < 10; ++attempt) {
         for (const std::string& name : {path, path + ".partial"})
             if (const int process = holder(name); process > 0) return text(answer, " (process ", process, ")");
@@ -102,7 +102,7 @@ PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(
     }
 }
 
-// False: while this waited the file got its name, and another one is to be made.
+// False if the partial file was renamed while we waited for the lock: then a new one has to be created.
 bool PendingFile::lock_partial() {
     Opened file(partial_, O_WRONLY | O_CREAT | O_EXCL);
     left_over_ = file.fd() < 0 && errno == EEXIST;

@@ -1,5 +1,6 @@
 #include "mbs/base/travel.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -62,8 +63,8 @@ public:
 
     Way& add(double length, double jerk) {
         if (!(length > 0)) return *this;
-        phases_[static_cast<std::size_t>(count_++)] = {time_, length, now_, jerk};
-        now_ = phases_[static_cast<std::size_t>(count_ - 1)].at(time_ + length);
+        entry(phases_, count_++) = {time_, length, now_, jerk};
+        now_ = entry(phases_, count_ - 1).at(time_ + length);
         time_ += length;
         return *this;
     }
@@ -104,7 +105,7 @@ Travel::Travel(double position) : target_(position) {
     require_finite("position", position);
 }
 
-// What is chosen is how long it goes toward the largest rate before it stops: where it stops rises with that.
+// Unknown: how long it accelerates toward the largest rate before stopping. Where it stops increases with that.
 Travel::Travel(double time, const State& from, double to, const TravelLimits& limits) : target_(to), start_(time) {
     require_finite("time [s]", time);
     require_finite("position at the start", from.position);
@@ -147,8 +148,7 @@ Travel::State Travel::at(double time, double inside) const {
         return count_ > 0 ? Phase{first.start, 0, first.from, 0}.at(time) : State{target_, 0, 0};
     }
     for (int k = 0; k < count_; ++k)
-        if (const Phase& phase = phases_[static_cast<std::size_t>(k)]; inside < phase.start + phase.length)
-            return phase.at(time);
+        if (const Phase& phase = entry(phases_, k); inside < phase.start + phase.length) return phase.at(time);
     return {target_, 0, 0};
 }
 
@@ -157,7 +157,7 @@ std::vector<double> Travel::breaks() const {
     if (!std::isfinite(start_)) return times;
     times.push_back(start_);
     for (int k = 0; k < count_; ++k) {
-        const Phase& phase = phases_[static_cast<std::size_t>(k)];
+        const Phase& phase = entry(phases_, k);
         times.push_back(phase.start + phase.length);
     }
     times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -1,5 +1,6 @@
 #include "mbs/batch/batch.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 
@@ -106,7 +107,7 @@ bool Batch::for_each(int count, const Call& call, const std::stop_token& stop) {
     Failure failure;
     std::atomic<bool> interrupted = false;
     const auto states = [&](const tbb::blocked_range<int>& range) {
-        Workspace& workspace = impl.workspaces[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+        Workspace& workspace = entry(impl.workspaces, tbb::this_task_arena::current_thread_index());
         for (int index = range.begin(); index != range.end() && !failure.before(index); ++index) {
             if (stop.stop_requested()) {
                 interrupted = true;

@@ -1,5 +1,5 @@
 /// @file
-/// The same computation for many states (azimuths, rotor speeds, samples of parameters) on several threads.
+/// One computation for many states (azimuths, rotor speeds, samples of parameters) on several threads.
 #pragma once
 
 #include "mbs/kernels/workspace.hpp"

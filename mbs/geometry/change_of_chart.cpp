@@ -1,6 +1,7 @@
 #include "mbs/geometry/change_of_chart.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/kinematics.hpp"
 
@@ -84,7 +85,7 @@ private:
         Vec6 twist;
     };
 
-    Eigen::Index rows() const { return static_cast<Eigen::Index>(6 * targets_.size()); }
+    Eigen::Index rows() const { return 6 * std::ssize(targets_); }
     // Quarter turns of the first three revolute joints.
     int attempts() const {
         int all = 1, joints = 0;
@@ -109,10 +110,9 @@ private:
         const Kinematics kin = kinematics(to_, q, workspace_);
         Vector e(rows());
         Matrix all(6, to_.size());
-        for (std::size_t k = 0; k < targets_.size(); ++k) {
-            const Target& target = targets_[k];
+        for (Eigen::Index row = 0; row < rows(); row += 6) {
+            const Target& target = entry(targets_, row / 6);
             const Pose<double> now = pose(kin, target.frame);
-            const auto row = static_cast<Eigen::Index>(6 * k);
             e.segment<3>(row) = turn(now.R, target.pose.R);
             e.segment<3>(row + 3) = (target.pose.p - now.p) / size_;
             if (!J) continue;
@@ -124,14 +124,13 @@ private:
     }
     // Newton steps of at most half a radian, halved until the residual falls. Returns the final residual.
     double iterate(Vector& q) {
-        Matrix J(rows(), static_cast<Eigen::Index>(unknown_.size()));
+        Matrix J(rows(), std::ssize(unknown_));
         double left = miss(q, &J).norm();
         for (int i = 0; i < 60; ++i) {
             Vector step = J.completeOrthogonalDecomposition().solve(miss(q, &J));
             double largest = 0;
-            for (std::size_t k = 0; k < unknown_.size(); ++k)
-                if (to_.body(unknown_[k]).revolute)
-                    largest = std::max(largest, std::abs(step(static_cast<Eigen::Index>(k))));
+            for (Eigen::Index k = 0; k < step.size(); ++k)
+                if (to_.body(entry(unknown_, k)).revolute) largest = std::max(largest, std::abs(step(k)));
             if (largest > 0.5) step *= 0.5 / largest;
             Vector trial = q;
             double now = left;
@@ -147,15 +146,15 @@ private:
         return left;
     }
     Vector solve_rates(const Vector& q) {
-        Matrix J(rows(), static_cast<Eigen::Index>(unknown_.size()));
+        Matrix J(rows(), std::ssize(unknown_));
         miss(q, &J);
         const Kinematics kin = kinematics(to_, q, workspace_);
         Vector twist(rows());
         Matrix all(6, to_.size());
-        for (std::size_t k = 0; k < targets_.size(); ++k) {
-            frame_jacobian<double>(kin, targets_[k].frame, all);
-            const auto row = static_cast<Eigen::Index>(6 * k);
-            twist.segment<6>(row) = targets_[k].twist - all * known_rate_;
+        for (Eigen::Index row = 0; row < rows(); row += 6) {
+            const Target& target = entry(targets_, row / 6);
+            frame_jacobian<double>(kin, target.frame, all);
+            twist.segment<6>(row) = target.twist - all * known_rate_;
             twist.segment<3>(row + 3) /= size_;
         }
         const Vector length = J.colwise().norm();
@@ -164,10 +163,10 @@ private:
         Eigen::ColPivHouseholderQR<Matrix> qr(J);
         qr.setThreshold(1e-7);
         if (qr.rank() < J.cols())
-            throw NumericalError(text(
-                in_change_of_chart, ": the new coordinates are singular at this state, '",
-                to_.coordinates()[unknown_[static_cast<std::size_t>(qr.colsPermutation().indices()(qr.rank()))]].name,
-                "' first; change where they are not, or choose others"));
+            throw NumericalError(
+                text(in_change_of_chart, ": the new coordinates are singular at this state, '",
+                     to_.coordinates()[entry(unknown_, qr.colsPermutation().indices()(qr.rank()))].name,
+                     "' first; change where they are not, or choose others"));
         return Vector(qr.solve(twist)).cwiseQuotient(length);
     }
 
@@ -196,16 +195,16 @@ double chart_quality(const Model& model, const Vector& q, std::string_view frame
     const Kinematics kin = kinematics(model, q, workspace);
     Matrix all(6, model.size());
     frame_jacobian<double>(kin, model.frame(frame), all);
-    Matrix J(6, static_cast<Eigen::Index>(coordinates.size()));
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-        const int i = coordinates[k];
+    Matrix J(6, std::ssize(coordinates));
+    for (Eigen::Index k = 0; k < J.cols(); ++k) {
+        const int i = entry(coordinates, k);
         if (i < 0 || i >= model.size())
             throw InputError(in_change_of_chart, "index of a coordinate", i, text("0 ... ", model.size() - 1));
         const double length = all.col(i).norm();
         if (length == 0)
             throw InputError(text(in_change_of_chart, ": frame '", frame, "'"), "coordinate",
                              model.coordinates()[i].name, "one that moves it");
-        J.col(static_cast<Eigen::Index>(k)) = all.col(i) / length;
+        J.col(k) = all.col(i) / length;
     }
     return Eigen::JacobiSVD<Matrix>(J).singularValues().tail<1>()(0);
 }

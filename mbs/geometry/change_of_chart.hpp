@@ -1,5 +1,5 @@
 /// @file
-/// The same bodies in other coordinates: away from the singularity of a chart.
+/// Continues a motion in other coordinates, away from the singularity of a chart.
 ///
 /// Joint coordinates are a chart of the configuration space. Three revolute joints with one centre have a singular
 /// metric where their axes lie in one plane; three about other axes are singular elsewhere. So a motion that approaches

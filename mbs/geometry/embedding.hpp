@@ -2,6 +2,7 @@
 /// The configuration space as a surface in the flat space of the positions of all mass points.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/metric.hpp"
 
 namespace cardan {
@@ -57,8 +58,8 @@ public:
     const Model& model() const { return *model_; }
     /// Binet's tensor of body k about its centre of mass, base axes.
     const Mat3& binet(int k) const {
-        require_index("embedding", "body", k, static_cast<std::ptrdiff_t>(binet_.size()));
-        return binet_[static_cast<std::size_t>(k)];
+        require_index("embedding", "body", k, std::ssize(binet_));
+        return entry(binet_, k);
     }
     const Places& places() const { return places_; }
 

@@ -1,5 +1,6 @@
 #include "mbs/kernels/branch_matrix.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
@@ -26,21 +27,21 @@ BranchMatrixT<S>::BranchMatrixT(const Model& model) : model_(&model) {
 template <class S>
 std::span<const S> BranchMatrixT<S>::row(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(rows_.data() + offset_[static_cast<std::size_t>(m)]), depth};
+    return {numbers(rows_.data() + entry(offset_, m)), depth};
 }
 
 template <class S>
 std::span<const S> BranchMatrixT<S>::column(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(columns_.data() + offset_[static_cast<std::size_t>(m)]), depth - 1};
+    return {numbers(columns_.data() + entry(offset_, m)), depth - 1};
 }
 
 template <class S>
 S BranchMatrixT<S>::operator()(int a, int b) const {
     require_index("branch matrix", "row", a, size());
     require_index("branch matrix", "column", b, size());
-    if (model_->precedes(b, a)) return row(a)[static_cast<std::size_t>(model_->body(b).depth - 1)];
-    if (model_->precedes(a, b)) return column(b)[static_cast<std::size_t>(model_->body(a).depth - 1)];
+    if (model_->precedes(b, a)) return entry(row(a), model_->body(b).depth - 1);
+    if (model_->precedes(a, b)) return entry(column(b), model_->body(a).depth - 1);
     return S(0);
 }
 
@@ -51,7 +52,7 @@ void BranchMatrixT<S>::add(int a, int b, const S& value) {
     if (!left && !model_->precedes(a, b))
         throw InputError("branch matrix", "entry", text("(", a, ", ", b, ")"), "both indices on one path");
     const int position = model_->body(left ? b : a).depth - 1;
-    const std::size_t first = offset_[static_cast<std::size_t>(left ? a : b)];
+    const std::size_t first = entry(offset_, left ? a : b);
     (left ? rows_ : columns_)[first + static_cast<std::size_t>(position / 4)].lanes[position % 4] += value;
 }
 

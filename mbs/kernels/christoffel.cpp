@@ -1,5 +1,6 @@
 #include "mbs/kernels/christoffel.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/composites.hpp"
 #include "mbs/kernels/path_twists.hpp"
@@ -24,15 +25,15 @@ Christoffel::Christoffel(const Model& model) : model_(&model) {
         paths_.resize(on_paths);
     });
     for (int m = 0; m < model.size(); ++m) {
-        auto entry = paths_.begin() + static_cast<std::ptrdiff_t>(path_offset_[static_cast<std::size_t>(m)]);
-        entry += model.body(m).depth;
-        for (int a = m; a >= 0; a = model.body(a).parent) *--entry = a;
+        auto at = paths_.begin() + static_cast<std::ptrdiff_t>(entry(path_offset_, m));
+        at += model.body(m).depth;
+        for (int a = m; a >= 0; a = model.body(a).parent) *--at = a;
     }
 }
 
 std::span<const double> Christoffel::table(int m) const {
     const std::size_t d = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(values_.data() + value_offset_[static_cast<std::size_t>(m)]), d * stride(m)};
+    return {numbers(values_.data() + entry(value_offset_, m)), d * stride(m)};
 }
 
 std::size_t Christoffel::stride(int m) const {
@@ -41,7 +42,7 @@ std::size_t Christoffel::stride(int m) const {
 
 std::span<const int> Christoffel::path(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
-    return {paths_.data() + path_offset_[static_cast<std::size_t>(m)], depth};
+    return {paths_.data() + entry(path_offset_, m), depth};
 }
 
 double Christoffel::operator()(int a, int b, int c) const {
@@ -49,10 +50,8 @@ double Christoffel::operator()(int a, int b, int c) const {
     for (const int index : {a, b, c}) require_index("Christoffel symbols", "index", index, model_->size());
     const int m = std::max(a, c);
     if (!model_->precedes(a, m) || !model_->precedes(b, m) || !model_->precedes(c, m)) return 0;
-    const auto at = [&](int row, int column) {
-        return table(m)[static_cast<std::size_t>(model_->body(row).depth - 1) * stride(m) +
-                        static_cast<std::size_t>(model_->body(column).depth - 1)];
-    };
+    const auto place = [&](int index) { return static_cast<std::size_t>(model_->body(index).depth - 1); };
+    const auto at = [&](int row, int column) { return table(m)[place(row) * stride(m) + place(column)]; };
     return m == c ? at(a, b) : -at(c, b);
 }
 

@@ -1,4 +1,5 @@
 // Contractions of the Christoffel symbols.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "mbs/kernels/path_twists.hpp"
@@ -69,9 +70,9 @@ namespace {
 template <class S>
 struct Distal {
     Distal(const KinematicsT<S>& kin, int m)
-        : M(kin.workspace().composite[static_cast<std::size_t>(m)].M),
-          C(kin.workspace().composite[static_cast<std::size_t>(m)].C.vector()),
-          P(kin.workspace().composite[static_cast<std::size_t>(m)].P.matrix()),
+        : M(entry(kin.workspace().composite, m).M),
+          C(entry(kin.workspace().composite, m).C.vector()),
+          P(entry(kin.workspace().composite, m).P.matrix()),
           own(own_twist_at(kin, m, C)) {}
 
     // For a row b: K_m(a, b) = v_a . f + w_a . t.

@@ -3,6 +3,7 @@
 /// Gamma.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/metric.hpp"
 
 #include <Eigen/LU>
@@ -55,8 +56,8 @@ public:
     std::optional<SingularPivot> singular_pivot(const Kinematics& kin);
 
     bool is_driven(int a) const {
-        require_index("forward dynamics", "coordinate", a, static_cast<std::ptrdiff_t>(driven_.size()));
-        return driven_[static_cast<std::size_t>(a)] != 0;
+        require_index("forward dynamics", "coordinate", a, std::ssize(driven_));
+        return entry(driven_, a) != 0;
     }
 
 private:

@@ -1,4 +1,5 @@
 // Plain twin: tests/mbs/kernels/plain_dynamics.hpp
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 
@@ -64,7 +65,7 @@ void ForwardDynamics::find_support(bool coupled) {
                 std::find(support_.begin(), support_.end(), a) == support_.end())
                 support_.push_back(a);
         }
-    const auto r = static_cast<Eigen::Index>(support_.size());
+    const auto r = std::ssize(support_);
     coupling_.setZero(r, r);
     for (const Model::Spin& armature : model_->armatures())
         for (const auto& [a, sa] : armature.spin)
@@ -82,16 +83,15 @@ void ForwardDynamics::find_support(bool coupled) {
 
 void ForwardDynamics::find_path() {
     std::vector<int> place(static_cast<std::size_t>(model_->size()), -1);
-    const auto at = [&](int body) -> int& { return place[static_cast<std::size_t>(body)]; };
     for (const int support : support_)
-        for (int k = support; k >= 0; k = model_->links()[static_cast<std::size_t>(k)].parent) at(k) = 0;
+        for (int k = support; k >= 0; k = entry(model_->links(), k).parent) entry(place, k) = 0;
     for (int k = 0; k < model_->size(); ++k) {
-        if (at(k) < 0) continue;
-        at(k) = static_cast<int>(path_.size());
-        const int parent = model_->links()[static_cast<std::size_t>(k)].parent;
-        path_.push_back({k, parent < 0 ? -1 : at(parent)});
+        if (entry(place, k) < 0) continue;
+        entry(place, k) = static_cast<int>(path_.size());
+        const int parent = entry(model_->links(), k).parent;
+        path_.push_back({k, parent < 0 ? -1 : entry(place, parent)});
     }
-    for (const int support : support_) at_.push_back(at(support));
+    for (const int support : support_) at_.push_back(entry(place, support));
     on_path_.resize(path_.size() * std::max<std::size_t>(1, support_.size()));
 }
 
@@ -186,7 +186,7 @@ struct ForwardDynamics::Arrays {
         }
     }
 
-    // The same sweeps on the path to the coupled coordinates, for several loads side by side.
+    // Both sweeps restricted to the path to the coupled coordinates, for several loads side by side.
     CARDAN_INLINE void backward_on_path(std::ptrdiff_t loads) const {
         using P3 = Packed3<double>;
         for (std::ptrdiff_t i = 0; i < path_length * loads; ++i) on_path[i].force = on_path[i].moment = P3::zero();
@@ -247,21 +247,21 @@ CARDAN_VECTORISED void ForwardDynamics::forward_on_path(const Arrays& arrays, st
 //   (g_0 + W X W^T) qdd = Q:   g_0 qdd = Q - W (1 + X W^T g_0^-1 W)^-1 X W^T g_0^-1 Q.
 // Only the path from the base to these coordinates is swept.                                             [Woodbury]
 void ForwardDynamics::couple(const Arrays& arrays) {
-    const auto r = static_cast<Eigen::Index>(support_.size());
-    const auto state = [&](std::size_t i, Eigen::Index j, Eigen::Index loads) -> OnPath& {
-        return on_path_[i * static_cast<std::size_t>(loads) + static_cast<std::size_t>(j)];
+    const auto r = std::ssize(support_);
+    // Of coordinate i of the support, under load j of several.
+    const auto state = [&](Eigen::Index i, Eigen::Index j, Eigen::Index loads) -> OnPath& {
+        return entry(on_path_, entry(at_, i) * loads + j);
     };
-    const auto place = [&](Eigen::Index i) { return static_cast<std::size_t>(at_[static_cast<std::size_t>(i)]); };
     for (OnPath& x : on_path_) x.qdd = 0;
-    for (Eigen::Index j = 0; j < r; ++j) state(place(j), j, r).qdd = 1;
+    for (Eigen::Index j = 0; j < r; ++j) state(j, j, r).qdd = 1;
     backward_on_path(arrays, r);
     forward_on_path(arrays, r);
     for (Eigen::Index i = 0; i < r; ++i)
-        for (Eigen::Index j = 0; j < r; ++j) support_inverse_(i, j) = state(place(i), j, r).qdd;
+        for (Eigen::Index j = 0; j < r; ++j) support_inverse_(i, j) = state(i, j, r).qdd;
 
     for (std::size_t i = 0; i < path_.size(); ++i) on_path_[i].qdd = correction_(path_[i].body);
     forward_on_path(arrays, 1);
-    for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = on_path_[place(i)].qdd;
+    for (Eigen::Index i = 0; i < r; ++i) support_qdd_(i) = state(i, 0, 1).qdd;
     capacity_.setIdentity();
     capacity_ += coupling_.lazyProduct(support_inverse_);
     capacity_lu_.compute(capacity_);
@@ -269,7 +269,7 @@ void ForwardDynamics::couple(const Arrays& arrays) {
     support_correction_.noalias() = capacity_lu_.solve(support_load_);
 
     for (std::size_t i = 0; i < path_.size(); ++i) on_path_[i].qdd = 0;
-    for (Eigen::Index i = 0; i < r; ++i) on_path_[place(i)].qdd = -support_correction_(i);
+    for (Eigen::Index i = 0; i < r; ++i) state(i, 0, 1).qdd = -support_correction_(i);
     backward_on_path(arrays, 1);
     for (std::size_t i = 0; i < path_.size(); ++i) {
         correction_(path_[i].body) += on_path_[i].qdd;
@@ -287,7 +287,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     require_size("forward dynamics", "qdd", qdd, n);
     require_size("forward dynamics", "actuator", actuator, n);
     for (Eigen::Index k = 0; k < n; ++k)
-        if (!driven_[static_cast<std::size_t>(k)]) qdd(k) = 0;
+        if (!entry(driven_, k)) qdd(k) = 0;
     inverse_dynamics<double>(kin, qd, qdd, residual_);
     body_inertias(kin);
     residual_ = Q - residual_;
@@ -300,7 +300,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
                         driven_.data(),
                         articulated_.data(),
                         path_.data(),
-                        static_cast<std::ptrdiff_t>(path_.size()),
+                        std::ssize(path_),
                         on_path_.data()};
     factorise(arrays);
     backward(arrays, residual_.data(), correction_.data(), reaction_.data());
@@ -308,7 +308,7 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     forward(arrays, correction_.data(), reaction_.data());
     actuator.setZero();
     for (Eigen::Index k = 0; k < n; ++k)
-        if (driven_[static_cast<std::size_t>(k)])
+        if (entry(driven_, k))
             actuator(k) = reaction_(k) - residual_(k);
         else
             qdd(k) = correction_(k);

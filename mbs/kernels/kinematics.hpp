@@ -2,6 +2,7 @@
 /// Poses of all bodies at q and the kinematic basis functions u, Omega.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/workspace.hpp"
 
 #include <cassert>
@@ -28,8 +29,8 @@ public:
     /// All of these of one body, for kernels.  @throws InputError for a body index out of range, as do the other
     /// accessors
     const typename WorkspaceT<S>::Frame& frame(int k) const {
-        require_index("kinematics", "body", k, static_cast<std::ptrdiff_t>(workspace_->frame.size()));
-        return workspace().frame[static_cast<std::size_t>(k)];
+        require_index("kinematics", "body", k, std::ssize(workspace_->frame));
+        return entry(workspace().frame, k);
     }
 
 private:
@@ -80,7 +81,7 @@ template <class S>
 PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
     const typename WorkspaceT<S>::Frame& frame = kin.frame(a);
     const Vec3T<S> e = frame.E[2].vector();
-    if (kin.model().links()[static_cast<std::size_t>(a)].revolute) return {e, cross<S>(e, C - frame.o.vector())};
+    if (entry(kin.model().links(), a).revolute) return {e, cross<S>(e, C - frame.o.vector())};
     return {Vec3T<S>::Zero(), e};
 }
 

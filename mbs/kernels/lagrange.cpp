@@ -1,5 +1,7 @@
 #include "mbs/kernels/lagrange.hpp"
 
+#include "mbs/base/entry.hpp"
+
 #include <algorithm>
 
 namespace cardan::lagrange {
@@ -48,7 +50,7 @@ double generalised_force(const Kinematics& kin, std::span<const BodyLoad> loads,
     double sum = 0;
     for (int k = a; k < kin.model().body(a).subtree_end; ++k) {
         const BasisFunctions<double> basis = basis_functions(kin, k, a);
-        const BodyLoad& load = loads[static_cast<std::size_t>(k)];
+        const BodyLoad& load = entry(loads, k);
         sum += dot<double>(load.force, basis.u) + dot<double>(load.moment, basis.Omega);
     }
     return sum;

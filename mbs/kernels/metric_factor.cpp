@@ -1,5 +1,6 @@
 #include "mbs/kernels/metric_factor.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/vectorised.hpp"
 
@@ -125,7 +126,7 @@ CARDAN_VECTORISED void sweep_tile(InverseLT, const Rows& rows, double* x) {
 }  // namespace
 
 std::string PivotStatus::message() const {
-    if (ok()) return "positive definite";
+    if (ok()) return {};
     return text("the metric is not positive definite: coordinate '", coordinate, "' (index ", index, ") has the pivot ",
                 pivot, ", its diagonal element being ", diagonal,
                 "; give the bodies that it carries inertia about or along its axis, add an armature, or drive it");
@@ -140,7 +141,7 @@ MetricFactor::MetricFactor(const Model& model, std::vector<bool> driven)
         throw InputError("metric factor", "number of driven flags", driven_.size(), text(n, ", one per coordinate"));
     offset_.push_back(0);
     for (int a = 0; a < n; ++a) {
-        const auto begin = static_cast<std::ptrdiff_t>(paths_.size());
+        const auto begin = std::ssize(paths_);
         if (!is_driven(a))
             for (int b = a; b >= 0; b = model.body(b).parent)
                 if (!is_driven(b)) paths_.push_back(b);
@@ -154,21 +155,21 @@ MetricFactor::MetricFactor(const Model& model, std::vector<bool> driven)
 
 std::span<const int> MetricFactor::path(int a) const {
     require_index("metric factor", "coordinate", a, model_->size());
-    const std::size_t i = static_cast<std::size_t>(a);
-    return {paths_.data() + offset_[i], offset_[i + 1] - offset_[i]};
+    const std::size_t first = entry(offset_, a);
+    return {paths_.data() + first, entry(offset_, a + 1) - first};
 }
 
 std::span<const double> MetricFactor::row(int a) const {
     require_index("metric factor", "coordinate", a, model_->size());
-    const std::size_t i = static_cast<std::size_t>(a);
-    return {values_.data() + offset_[i], offset_[i + 1] - offset_[i]};
+    const std::size_t first = entry(offset_, a);
+    return {values_.data() + first, entry(offset_, a + 1) - first};
 }
 
 double MetricFactor::operator()(int a, int b) const {
     require_index("metric factor", "coordinate", b, model_->size());
     const std::span<const int> on_path = path(a);
     const auto at = std::lower_bound(on_path.begin(), on_path.end(), b);
-    return at != on_path.end() && *at == b ? row(a)[static_cast<std::size_t>(at - on_path.begin())] : 0.0;
+    return at != on_path.end() && *at == b ? entry(row(a), at - on_path.begin()) : 0.0;
 }
 
 PivotStatus MetricFactor::factorise(const Kinematics& kin) {
@@ -180,9 +181,9 @@ PivotStatus MetricFactor::factorise(const Kinematics& kin) {
 PivotStatus MetricFactor::factorise(const BranchMatrix& g) {
     require_model("metric factor", "matrix g", g.model().serial(), model_->serial());
     for (int a = 0; a < model_->size(); ++a) {
-        double* entry = values_.data() + offset_[static_cast<std::size_t>(a)];
+        double* own = values_.data() + entry(offset_, a);
         const std::span<const double> row = g.row(a);
-        for (const int b : path(a)) *entry++ = row[static_cast<std::size_t>(model_->body(b).depth - 1)];
+        for (const int b : path(a)) *own++ = entry(row, model_->body(b).depth - 1);
     }
     return eliminate();
 }
@@ -190,8 +191,8 @@ PivotStatus MetricFactor::factorise(const BranchMatrix& g) {
 PivotStatus MetricFactor::factorise(MatrixIn g) {
     require_size("metric factor", "g", g, model_->size(), model_->size());
     for (int a = 0; a < model_->size(); ++a) {
-        double* entry = values_.data() + offset_[static_cast<std::size_t>(a)];
-        for (const int b : path(a)) *entry++ = g(b, a);
+        double* own = values_.data() + entry(offset_, a);
+        for (const int b : path(a)) *own++ = g(b, a);
     }
     return eliminate();
 }
@@ -200,8 +201,7 @@ PivotStatus MetricFactor::eliminate() {
     const int n = model_->size();
     // The diagonal is kept where the inverse pivots are about to stand.
     for (int a = 0; a < n; ++a)
-        if (const std::span<const double> own = row(a); !own.empty())
-            inverse_pivot_[static_cast<std::size_t>(a)] = own.back();
+        if (const std::span<const double> own = row(a); !own.empty()) entry(inverse_pivot_, a) = own.back();
     const double rounding = n * std::numeric_limits<double>::epsilon();
     for (int a = n - 1; a >= 0; --a) {
         const std::size_t i = static_cast<std::size_t>(a), d = path(a).size();

@@ -2,6 +2,7 @@
 /// The metric factorised on the branches of the tree, g = L^T L, without fill-in.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/metric.hpp"
 
 #include <span>
@@ -20,7 +21,7 @@ struct [[nodiscard]] PivotStatus {
 
     bool ok() const { return index < 0; }
     explicit operator bool() const { return ok(); }
-    /// What failed and what to do; "positive definite" if nothing did.
+    /// What failed and what to do, empty if nothing did.
     std::string message() const;
 };
 
@@ -76,8 +77,8 @@ public:
     const Model& model() const { return *model_; }
     const std::vector<bool>& driven() const { return driven_; }
     bool is_driven(int a) const {
-        require_index("metric factor", "coordinate", a, static_cast<std::ptrdiff_t>(driven_.size()));
-        return driven_[static_cast<std::size_t>(a)];
+        require_index("metric factor", "coordinate", a, std::ssize(driven_));
+        return entry(driven_, a);
     }
 
 private:

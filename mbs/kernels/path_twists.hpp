@@ -2,6 +2,7 @@
 /// The twists along a path from the base, laid out so that a loop over the path uses whole registers.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/kinematics.hpp"
 
 namespace cardan {
@@ -51,14 +52,14 @@ private:
 /// twist_at() for loops over the model's own indices, without checks.
 template <class S>
 CARDAN_INLINE PointTwist<S> own_twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
-    const typename WorkspaceT<S>::Frame& frame = kin.workspace().frame[static_cast<std::size_t>(a)];
+    const typename WorkspaceT<S>::Frame& frame = entry(kin.workspace().frame, a);
     const Vec3T<S> e = frame.E[2].vector();
-    if (kin.model().links()[static_cast<std::size_t>(a)].revolute) return {e, cross<S>(e, C - frame.o.vector())};
+    if (entry(kin.model().links(), a).revolute) return {e, cross<S>(e, C - frame.o.vector())};
     return {Vec3T<S>::Zero(), e};
 }
 /// Model::body(a).parent, likewise without checks.
 inline int own_parent(const Model& model, int a) {
-    return model.links()[static_cast<std::size_t>(a)].parent;
+    return entry(model.links(), a).parent;
 }
 
 /// The numbers of a row, one by one.

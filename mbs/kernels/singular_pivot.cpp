@@ -1,6 +1,7 @@
 // Coordinates without inertia of their own, found in O(n): the pivots of the articulated-body recursion are those of
 // the metric eliminated from the tips to the base.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/model/spatial.hpp"
@@ -62,9 +63,8 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
             B = (P.transpose() * B * P + U * U.transpose() / D).eval();
         }
         if (link.parent < 0) continue;
-        const std::size_t parent = static_cast<std::size_t>(link.parent);
-        const Mat6 X = shift((frame.o - kin.workspace().frame[parent].o).vector());
-        bound[parent] += X.transpose() * B * X;
+        const Mat6 X = shift((frame.o - entry(kin.workspace().frame, link.parent).o).vector());
+        entry(bound, link.parent) += X.transpose() * B * X;
     }
     return singular_pivot_of_support();
 }
@@ -78,13 +78,13 @@ int ForwardDynamics::most_distal(const Kinematics& kin, int at, double scale) co
         const std::size_t i = static_cast<std::size_t>(k);
         const Model::Link& link = model_->links()[i];
         const Workspace::Frame& frame = kin.workspace().frame[i];
-        Vec6& own = twist[static_cast<std::size_t>(k - at)];
+        Vec6& own = entry(twist, k - at);
         if (k == at) {
             own = joint_axis(link, frame);
             continue;
         }
-        const Vec3 arm = (frame.o - kin.workspace().frame[static_cast<std::size_t>(link.parent)].o).vector();
-        own = shift(arm) * twist[static_cast<std::size_t>(link.parent - at)];
+        const Vec3 arm = (frame.o - entry(kin.workspace().frame, link.parent).o).vector();
+        own = shift(arm) * entry(twist, link.parent - at);
         if (driven_[i] != 0) continue;
         Vec6 U;
         U << articulated_[i].U_angular.vector(), articulated_[i].U_linear.vector();
@@ -103,7 +103,7 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot_of_support() const 
     const Matrix without = support_inverse_.llt().solve(Matrix::Identity(r, r));
     const Vector scale = without.diagonal() + coupling_.diagonal().cwiseAbs();
     auto pivot = cardan::singular_pivot(without + coupling_, scale);
-    if (pivot) pivot->index = support_[static_cast<std::size_t>(pivot->index)];
+    if (pivot) pivot->index = entry(support_, pivot->index);
     return pivot;
 }
 

@@ -2,6 +2,7 @@
 /// The table that says what every coordinate means. It accompanies every result.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/sizes.hpp"
 #include "mbs/base/types.hpp"
 
@@ -32,7 +33,7 @@ public:
     /// @throws InputError for an index out of range
     const CoordinateInfo& operator[](int index) const {
         require_index("table of coordinates", "index", index, size());
-        return rows_[static_cast<std::size_t>(index)];
+        return entry(rows_, index);
     }
     auto begin() const { return rows_.begin(); }
     auto end() const { return rows_.end(); }

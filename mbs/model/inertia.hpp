@@ -15,7 +15,7 @@ struct RigidInertia {
     Mat3 J = Mat3::Zero();    ///< ordinary inertia tensor about the centre of mass, frame axes, kg m^2
     bool reduced = false;     ///< only some axes are modelled: the triangle inequality is not checked
 
-    /// The same body in components of frame a, given the pose of its frame in a.
+    /// This body in components of frame a, given the pose of its frame in a.
     RigidInertia in(const Placement& frame_in_a) const;
     /// Two bodies welded together (same frame).
     RigidInertia operator+(const RigidInertia& other) const;

@@ -1,5 +1,6 @@
 #include "mbs/model/model.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/link.hpp"
 
@@ -74,25 +75,25 @@ void Model::sort(const Tree& tree) {
     std::vector<int> stack;
     for (std::size_t k = n; k-- > 0;) {
         const int parent = tree.bodies()[k].parent;
-        (parent < 0 ? stack : children[static_cast<std::size_t>(parent)]).push_back(static_cast<int>(k));
+        (parent < 0 ? stack : entry(children, parent)).push_back(static_cast<int>(k));
     }
     index_of_tree_body_.assign(n, -1);
     std::vector<CoordinateInfo> rows;
     while (!stack.empty()) {
         const int k = stack.back();
         stack.pop_back();
-        const Tree::Body& source = tree.bodies()[static_cast<std::size_t>(k)];
+        const Tree::Body& source = entry(tree.bodies(), k);
         const int parent = source.parent < 0 ? -1 : index(BodyId{source.parent});
-        index_of_tree_body_[static_cast<std::size_t>(k)] = size();
+        entry(index_of_tree_body_, k) = size();
         bodies_.push_back({source.spec.name, parent, size() + 1, parent < 0 ? 1 : body(parent).depth + 1,
                            source.spec.joint == JointKind::revolute, source.in_parent, source.spec.inertia,
                            source.spec.inertia.J});
         rows.push_back(source.spec.coordinate);
-        for (int child : children[static_cast<std::size_t>(k)]) stack.push_back(child);
+        for (int child : entry(children, k)) stack.push_back(child);
     }
     for (int k = size() - 1; k >= 0; --k)
         if (const int p = body(k).parent; p >= 0)
-            bodies_[static_cast<std::size_t>(p)].subtree_end = std::max(body(p).subtree_end, body(k).subtree_end);
+            entry(bodies_, p).subtree_end = std::max(body(p).subtree_end, body(k).subtree_end);
     make_links();
     by_depth_.resize(bodies_.size());
     std::iota(by_depth_.begin(), by_depth_.end(), 0);
@@ -106,9 +107,9 @@ void Model::make_links() {
         links_.push_back(link(body(k), continues ? links_.back().run : k));
     }
     for (int k = size() - 1; k >= 0; --k) {
-        Link& own = links_[static_cast<std::size_t>(k)];
+        Link& own = entry(links_, k);
         if (own.parent < 0 || own.subtree_mass == 0) continue;
-        double& carrier = links_[static_cast<std::size_t>(own.parent)].subtree_mass;
+        double& carrier = entry(links_, own.parent).subtree_mass;
         own.share = own.subtree_mass / (carrier + own.subtree_mass);
         own.reduced = own.share * carrier;
         carrier += own.subtree_mass;
@@ -118,7 +119,7 @@ void Model::make_links() {
 int Model::index(BodyId body) const {
     if (body.index < 0 || body.index >= static_cast<int>(index_of_tree_body_.size()))
         throw InputError("model", "body", body.index, "a body of the tree that the model was made from");
-    return index_of_tree_body_[static_cast<std::size_t>(body.index)];
+    return entry(index_of_tree_body_, body.index);
 }
 
 FrameId Model::frame(std::string_view name) const {

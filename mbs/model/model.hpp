@@ -2,6 +2,7 @@
 /// The immutable tree: sorted, welded, checked once. Shareable between threads.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/sizes.hpp"
 #include "mbs/model/tree.hpp"
 
@@ -51,7 +52,7 @@ public:
     /// @throws InputError for an index out of range
     const Body& body(int index) const {
         require_index("model", "body", index, size());
-        return bodies_[static_cast<std::size_t>(index)];
+        return entry(bodies_, index);
     }
     const std::vector<Body>& bodies() const { return bodies_; }
     const std::vector<Link>& links() const { return links_; }
@@ -67,8 +68,8 @@ public:
     FrameId frame(std::string_view name) const;
     /// @throws InputError for a frame that does not exist
     const Frame& frame(FrameId id) const {
-        require_index("model", "frame", id.index, static_cast<std::ptrdiff_t>(frames_.size()));
-        return frames_[static_cast<std::size_t>(id.index)];
+        require_index("model", "frame", id.index, std::ssize(frames_));
+        return entry(frames_, id.index);
     }
     /// True if a lies on the path from the base to b (or a == b).
     bool precedes(int a, int b) const { return a <= b && b < body(a).subtree_end; }

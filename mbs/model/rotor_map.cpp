@@ -19,7 +19,7 @@ void check(const RotorMap& rotor, const Model& model) {
     if (rotor.spin != -1) require_coordinate(rotor, "spin coordinate", rotor.spin, n);
     for (const std::vector<int>& blade : rotor.blades)
         for (const int coordinate : blade) require_coordinate(rotor, "coordinate of a blade", coordinate, n);
-    for (const int coordinate : rotor.odd) require_coordinate(rotor, "odd coordinate", coordinate, n);
+    for (const int coordinate : rotor.odd_coordinates) require_coordinate(rotor, "odd coordinate", coordinate, n);
     for (const RotatingPair& pair : rotor.rotating_pairs)
         for (const int coordinate : {pair.y, pair.z})
             require_coordinate(rotor, "coordinate of a rotating pair", coordinate, n);

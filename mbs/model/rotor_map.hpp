@@ -41,7 +41,7 @@ struct RotorMap {
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order
     /// Coordinates that change sign when a two-bladed rotor turns by half a revolution and its blades exchange places:
     /// teeter.
-    std::vector<int> odd = {};
+    std::vector<int> odd_coordinates = {};
     /// Pairs that turn with the rotor are transformed to the fixed frame. A rotor without blades (a disc on a shaft)
     /// whirls in them: the modes of their parts are named backward and forward.
     std::vector<RotatingPair> rotating_pairs = {};

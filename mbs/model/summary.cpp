@@ -1,5 +1,6 @@
 #include "mbs/model/summary.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -11,13 +12,12 @@ namespace cardan {
 std::vector<PartMass> masses_by_part(const Tree& tree) {
     std::vector<Placement> pose;  // of every body at q = 0
     for (const Tree::Body& body : tree.bodies())
-        pose.push_back(body.parent < 0 ? body.in_parent : pose[static_cast<std::size_t>(body.parent)] * body.in_parent);
+        pose.push_back(body.parent < 0 ? body.in_parent : entry(pose, body.parent) * body.in_parent);
     std::vector<PartMass> parts;
     for (const Tree::Piece& piece : tree.pieces()) {
         auto part = std::find_if(parts.begin(), parts.end(), [&](const PartMass& p) { return p.part == piece.part; });
         if (part == parts.end()) part = parts.insert(parts.end(), {piece.part, 0.0, Vec3::Zero(), false});
-        const Vec3 centre =
-            piece.body < 0 ? piece.inertia.com : pose[static_cast<std::size_t>(piece.body)] * piece.inertia.com;
+        const Vec3 centre = piece.body < 0 ? piece.inertia.com : entry(pose, piece.body) * piece.inertia.com;
         const double mass = part->mass + piece.inertia.mass;
         if (mass > 0) part->centre = (part->first_moment() + piece.inertia.mass * centre) / mass;
         part->mass = mass;
@@ -53,7 +53,7 @@ std::string summary(const Tree& tree) {
                 << a.inertia << " on";
             for (const auto& [body, factor] : a.spin)
                 out << " " << (factor == 1 ? "" : text(factor, " * ")) << "'"
-                    << tree.bodies()[static_cast<std::size_t>(body.index)].spec.coordinate.name << "'";
+                    << entry(tree.bodies(), body.index).spec.coordinate.name << "'";
             out << "\n";
         }
     }

@@ -1,5 +1,6 @@
 #include "mbs/model/tree.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ BodyId Tree::add_body(BodySpec spec) {
     spec.inertia.check(where);
     spec.coordinate.unit = spec.joint == JointKind::revolute ? "rad" : "m";
 
-    const Frame inboard = frames_[static_cast<std::size_t>(spec.inboard.index)];
+    const Frame inboard = entry(frames_, spec.inboard.index);
     const BodyId id{static_cast<int>(bodies_.size())};
     const FrameId own{static_cast<int>(frames_.size())};
     if (!spec.inertia.is_massless())
@@ -69,7 +70,7 @@ FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string 
     require_new_frame(name, where);
     require(parent, where);
     check(placement, where);
-    const Frame carrier = frames_[static_cast<std::size_t>(parent.index)];
+    const Frame carrier = entry(frames_, parent.index);
     const FrameId id{static_cast<int>(frames_.size())};
     frame_index_.emplace(name, id.index);
     frames_.push_back({std::move(name), carrier.body, carrier.in_body * placement, parent.index});
@@ -79,10 +80,10 @@ FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string 
 void Tree::weld(FrameId frame, const RigidInertia& inertia, std::string_view part) {
     require(frame, part);
     inertia.check(part);
-    const Frame& at = frames_[static_cast<std::size_t>(frame.index)];
+    const Frame& at = entry(frames_, frame.index);
     pieces_.push_back({std::string(part), at.body, inertia.in(at.in_body)});
     if (at.body < 0) return;
-    RigidInertia& body = bodies_[static_cast<std::size_t>(at.body)].spec.inertia;
+    RigidInertia& body = entry(bodies_, at.body).spec.inertia;
     body = body + pieces_.back().inertia;
 }
 
@@ -98,7 +99,7 @@ void Tree::add_armature(const Armature& armature) {
         proximal = std::min(proximal, body.index);
     }
     std::vector<int> branch;
-    for (int k = distal; k >= proximal; k = bodies_[static_cast<std::size_t>(k)].parent) branch.push_back(k);
+    for (int k = distal; k >= proximal; k = entry(bodies_, k).parent) branch.push_back(k);
     for (const auto& [body, factor] : armature.spin)
         if (std::find(branch.begin(), branch.end(), body.index) == branch.end())
             throw InputError(text(where, ": the coordinates of its spin must lie on one branch of the tree"));
@@ -107,7 +108,7 @@ void Tree::add_armature(const Armature& armature) {
 
 FrameId Tree::frame_of(BodyId body) const {
     require(body, "frame_of");
-    return bodies_[static_cast<std::size_t>(body.index)].frame;
+    return entry(bodies_, body.index).frame;
 }
 
 FrameId Tree::frame(std::string_view name) const {
@@ -118,8 +119,8 @@ FrameId Tree::frame(std::string_view name) const {
 
 BodyId Tree::body(std::string_view name) const {
     if (const auto at = frame_index_.find(name); at != frame_index_.end()) {
-        const int body = frames_[static_cast<std::size_t>(at->second)].body;
-        if (body >= 0 && bodies_[static_cast<std::size_t>(body)].frame.index == at->second) return BodyId{body};
+        const int body = entry(frames_, at->second).body;
+        if (body >= 0 && entry(bodies_, body).frame.index == at->second) return BodyId{body};
     }
     throw InputError(text("unknown body '", name, "'; the tree has ",
                           known_names(bodies_, [](const Body& b) { return b.spec.name; })));

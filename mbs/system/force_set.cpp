@@ -1,4 +1,5 @@
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/system/forces.hpp"
 
@@ -93,10 +94,9 @@ std::string Forces::stiffest_law(int coordinate) const {
     std::string name;
     double stiffest = 0;
     for (const Law& law : laws_)
-        for (std::size_t i = 0; i < law.at.size(); ++i) {
-            const auto row = static_cast<Eigen::Index>(i);
-            if (law.at[i] != coordinate || !(law.K(row, row) > stiffest)) continue;
-            stiffest = law.K(row, row);
+        for (Eigen::Index i = 0; i < law.K.rows(); ++i) {
+            if (entry(law.at, i) != coordinate || !(law.K(i, i) > stiffest)) continue;
+            stiffest = law.K(i, i);
             name = law.name;
         }
     return name;

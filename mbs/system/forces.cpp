@@ -1,5 +1,6 @@
 #include "mbs/system/forces.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
@@ -60,12 +61,11 @@ void Forces::require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<
 
 template <class S>
 void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
-    const auto n = static_cast<Eigen::Index>(law.at.size());
+    const auto n = std::ssize(law.at);
     for (Eigen::Index j = 0; j < n; ++j) {
-        const int b = law.at[static_cast<std::size_t>(j)];
+        const int b = entry(law.at, j);
         const S x = q(b) - law.rest(j), v = qd(b);
-        for (Eigen::Index i = 0; i < n; ++i)
-            Q(law.at[static_cast<std::size_t>(i)]) -= law.K(i, j) * x + law.D(i, j) * v;
+        for (Eigen::Index i = 0; i < n; ++i) Q(entry(law.at, i)) -= law.K(i, j) * x + law.D(i, j) * v;
     }
 }
 
@@ -75,7 +75,7 @@ void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
     composites(kin);
     const Vec3T<S> g = gravity_.template cast<S>();
     for (int a = 0; a < kin.model().size(); ++a) {
-        const auto& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        const auto& subtree = entry(kin.workspace().composite, a);
         Q(a) += subtree.M * dot<S>(g, own_twist_at(kin, a, subtree.C.vector()).v);
     }
 }
@@ -127,7 +127,7 @@ void Forces::add_user(const User& user, const ForceInput& at, VectorOut& Q) cons
 void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
     composites(kin);
     for (int a = 0; a < kin.model().size(); ++a) {
-        const Workspace::Inertia& subtree = kin.workspace().composite[static_cast<std::size_t>(a)];
+        const Workspace::Inertia& subtree = entry(kin.workspace().composite, a);
         const Vec3 C = subtree.C.vector(), lift = own_twist_at(kin, a, C).v;
         for (int b = a; b >= 0; b = own_parent(kin.model(), b)) {
             const Vec3 w = own_twist_at(kin, b, C).w;
@@ -190,11 +190,10 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
     const Eigen::Index n = q.size();
     for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
     for (const Law& law : laws_)
-        for (std::size_t i = 0; i < law.at.size(); ++i)
-            for (std::size_t j = 0; j < law.at.size(); ++j) {
-                const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
-                out.elastic(law.at[i], law.at[j]) += law.K(r, c);
-                out.damping(law.at[i], law.at[j]) += law.D(r, c);
+        for (Eigen::Index i = 0; i < law.K.rows(); ++i)
+            for (Eigen::Index j = 0; j < law.K.cols(); ++j) {
+                out.elastic(entry(law.at, i), entry(law.at, j)) += law.K(i, j);
+                out.damping(entry(law.at, i), entry(law.at, j)) += law.D(i, j);
             }
     if (has_gravity()) gravity_stiffness(kin, out.gravity);
     for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, out.loads);
@@ -207,8 +206,7 @@ double Forces::dissipation(const Vector& qd) const {
     for (const Law& law : laws_)
         for (Eigen::Index j = 0; j < law.D.cols(); ++j)
             for (Eigen::Index i = 0; i < law.D.rows(); ++i)
-                power +=
-                    qd(law.at[static_cast<std::size_t>(i)]) * law.D(i, j) * qd(law.at[static_cast<std::size_t>(j)]);
+                power += qd(entry(law.at, i)) * law.D(i, j) * qd(entry(law.at, j));
     return power;
 }
 
@@ -230,7 +228,7 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
     };
     for (const Law& law : laws_) {
         Vector x(law.K.rows());
-        for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = q(law.at[static_cast<std::size_t>(i)]) - law.rest(i);
+        for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = q(entry(law.at, i)) - law.rest(i);
         add_law<double>(law, q, qd, Q);
         reports.push_back({law.name, x.dot(law.K * x) / 2, power()});
     }

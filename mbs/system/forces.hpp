@@ -129,10 +129,10 @@ public:
     std::string stiffest_law(int coordinate) const;
     /// Power dissipated by the dampers of the linear laws, qd^T D qd, W.  Cost O(n), no allocation.
     double dissipation(const Vector& qd) const;
-    /// The same forces under another gravity.  @throws InputError if it is not finite
+    /// A copy with another gravity.  @throws InputError if it is not finite
     Forces with_gravity(const Vec3& g) const;
-    /// The same forces with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian
-    /// and energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
+    /// A copy with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian and
+    /// energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.
     Forces with_load_factor(double factor, bool gravity_too) const;
 

@@ -1,5 +1,7 @@
 #include "mbs/system/joint_loads.hpp"
 
+#include "mbs/base/entry.hpp"
+
 namespace cardan {
 
 namespace {
@@ -20,30 +22,25 @@ JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd,
     inverse_dynamics<double>(kin, qd, qdd, tau);
     JointLoads t;
     for (int k = 0; k < model.size(); ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        const Workspace::Motion& motion = ws.motion[i];
+        const Workspace::Motion& motion = entry(ws.motion, k);
+        const auto& load = entry(ws.load, k);
         t.motion.push_back({kin.origin(k), motion.a.vector(), motion.w.vector(), motion.al.vector()});
-        t.joint.push_back({ws.load[i].F.vector(), ws.load[i].N.vector()});
+        t.joint.push_back({load.F.vector(), load.N.vector()});
     }
     std::vector<Wrench> applied(t.joint.size());
     for (int k = 0; k < model.size(); ++k) {
-        const auto i = static_cast<std::size_t>(k);
         const Wrench weight{model.body(k).inertia.mass * forces.gravity(), Vec3::Zero()};
-        add_at(applied[i], weight, kin.centre_of_mass(k), kin.origin(k), 1);
+        add_at(entry(applied, k), weight, kin.centre_of_mass(k), kin.origin(k), 1);
     }
     for (const FrameLoad& load : forces.loads()) {
         const int body = model.frame(load.frame).body;
         if (body < 0) continue;
-        const auto i = static_cast<std::size_t>(body);
-        add_at(applied[i], forces.at_frame(load, kin), pose(kin, load.frame).p, kin.origin(body), 1);
+        add_at(entry(applied, body), forces.at_frame(load, kin), pose(kin, load.frame).p, kin.origin(body), 1);
     }
     for (int k = model.size() - 1; k >= 0; --k) {
-        const auto i = static_cast<std::size_t>(k);
-        add_at(t.joint[i], applied[i], kin.origin(k), kin.origin(k), -1);
-        if (model.body(k).parent >= 0) {
-            const auto p = static_cast<std::size_t>(model.body(k).parent);
-            add_at(applied[p], applied[i], kin.origin(k), kin.origin(model.body(k).parent), 1);
-        }
+        add_at(entry(t.joint, k), entry(applied, k), kin.origin(k), kin.origin(k), -1);
+        if (const int parent = model.body(k).parent; parent >= 0)
+            add_at(entry(applied, parent), entry(applied, k), kin.origin(k), kin.origin(parent), 1);
     }
     return t;
 }

@@ -1,8 +1,8 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/urdf/detail/reading.hpp"
 #include "mbs/urdf/urdf.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <urdf_model/joint.h>
 #include <urdf_model/link.h>
@@ -70,7 +70,7 @@ public:
     void build() {
         give_names();
         root();
-        for (const int j : structure_.order) joint(outline_.joints[static_cast<std::size_t>(j)]);
+        for (const int j : structure_.order) joint(entry(outline_.joints, j));
         check_ends();
     }
 
@@ -101,7 +101,7 @@ private:
     }
 
     void root() {
-        const LinkEntry& link = outline_.links[static_cast<std::size_t>(structure_.root)];
+        const LinkEntry& link = entry(outline_.links, structure_.root);
         frame_of_link_[link.name] =
             link.name == "base" ? Tree::base() : out_.tree.add_frame(Tree::base(), {}, name_of_link_.at(link.name));
         weld(link.name);
@@ -195,9 +195,9 @@ private:
 
     void floating(const Place& start, const urdf::Joint& joint, const JointEntry& entry) {
         Place at = start;
-        constexpr std::array axes{"x", "y", "z"};
+        constexpr const char* axes[] = {"x", "y", "z"};
         const auto name = [&](const char* motion, int i) {
-            return coordinates_.take(text(joint.name, " ", motion, " ", axes.at(static_cast<std::size_t>(i))));
+            return coordinates_.take(text(joint.name, " ", motion, " ", axes[i]));
         };
         for (int i = 0; i < 3; ++i) at = massless(at, JointKind::prismatic, Vec3::Unit(i), name("translation", i));
         for (int i = 0; i < 2; ++i) at = massless(at, JointKind::revolute, Vec3::Unit(i), name("rotation", i));
@@ -265,7 +265,7 @@ private:
     void check_ends() const {
         std::vector<bool> carries(out_.tree.bodies().size(), false);
         for (const Tree::Body& body : out_.tree.bodies())
-            if (body.parent >= 0) carries[static_cast<std::size_t>(body.parent)] = true;
+            if (body.parent >= 0) entry(carries, body.parent) = true;
         for (std::size_t k = 0; k < carries.size(); ++k) {
             const BodySpec& body = out_.tree.bodies()[k].spec;
             if (carries[k] || !body.inertia.is_massless()) continue;

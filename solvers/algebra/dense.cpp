@@ -1,5 +1,6 @@
 #include "solvers/algebra/dense.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/sizes.hpp"
 
 #include <algorithm>
@@ -71,13 +72,13 @@ void eliminate(Matrix& A, Index from, Index to, Exchanged&& exchanged) {
 
 void LuFactors::factorise() {
     const Index n = lu_.rows();
-    const auto exchange = [&](Index k, Index pivot) { exchanges_[static_cast<std::size_t>(k)] = pivot; };
+    const auto exchange = [&](Index k, Index pivot) { entry(exchanges_, k) = pivot; };
     for (Index k = 0; k < n; k += depth) eliminate(lu_, k, std::min(n, k + depth), exchange);
 }
 
 void LuFactors::solve(Vector& b) const {
     require_size("solution of equations", "b", b, lu_.rows());
-    for (Index k = 0; k < b.size(); ++k) std::swap(b(k), b(exchanges_[static_cast<std::size_t>(k)]));
+    for (Index k = 0; k < b.size(); ++k) std::swap(b(k), b(entry(exchanges_, k)));
     lu_.triangularView<Eigen::UnitLower>().solveInPlace(b);
     lu_.triangularView<Eigen::Upper>().solveInPlace(b);
 }

@@ -49,7 +49,7 @@ struct RealFourier::Plan {
     }
 
     void forward(const std::vector<Complex>& from, std::vector<Complex>& to) {
-        fft.fwd(to.data(), from.data(), static_cast<Eigen::Index>(from.size()));
+        fft.fwd(to.data(), from.data(), std::ssize(from));
     }
 
     void convolve(std::span<const double> x, std::span<Complex> X) {
@@ -57,7 +57,7 @@ struct RealFourier::Plan {
         for (std::size_t j = 0; j < x.size(); ++j) a[j] = chirp[j] * x[j];
         forward(a, A);
         for (std::size_t k = 0; k < A.size(); ++k) A[k] *= kernel[k];
-        fft.inv(a.data(), A.data(), static_cast<Eigen::Index>(A.size()));
+        fft.inv(a.data(), A.data(), std::ssize(A));
         for (std::size_t k = 0; k < X.size(); ++k) X[k] = chirp[k] * a[k];
     }
 };

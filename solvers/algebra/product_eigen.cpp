@@ -1,6 +1,7 @@
 #include "solvers/algebra/product_eigen.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/dense.hpp"
 
@@ -12,10 +13,6 @@ namespace cardan::solvers {
 namespace {
 
 using Index = Eigen::Index;
-
-std::size_t at(Index k) {
-    return static_cast<std::size_t>(k);
-}
 
 // A power of two taken out of x, so that products of many factors neither vanish nor overflow.
 template <class Numbers>
@@ -85,20 +82,20 @@ std::vector<Matrix> ProductEigen::start(const std::vector<Matrix>& factors) {
 // Q_k's columns i, i + 1 by G: what comes out of factor k and what goes into factor k + 1.
 void ProductEigen::rotate(Index space, Index i, const Rotation& G) {
     const Index p = factors(), n = size();
-    ComplexMatrix& after = T_[at(space)];
-    ComplexMatrix& before = T_[at((space + p - 1) % p)];
+    ComplexMatrix& after = entry(T_, space);
+    ComplexMatrix& before = entry(T_, (space + p - 1) % p);
     const Index from = std::max<Index>(i - 1, 0), rows = std::min(n, i + 3);
     before.rightCols(n - from).applyOnTheLeft(i, i + 1, G.adjoint());
     after.topRows(rows).applyOnTheRight(i, i + 1, G);
-    Q_[at(space)].applyOnTheRight(i, i + 1, G);
+    entry(Q_, space).applyOnTheRight(i, i + 1, G);
 }
 
-// After a rotation of space 0 the triangular factors are made triangular again, one after the other. Zeros on their
-// diagonals would stop what is chased: rounding takes their place.
+// After a rotation of space 0 the triangular factors are made triangular again, one after the other. A zero on a
+// diagonal would stop the bulge chase; it is replaced by a number of rounding size.
 void ProductEigen::chase(Index i) {
     Rotation G;
     for (Index k = 0; k + 1 < factors(); ++k) {
-        ComplexMatrix& T = T_[at(k)];
+        ComplexMatrix& T = entry(T_, k);
         G.makeGivens(T(i, i), T(i + 1, i));
         rotate(k + 1, i, G);
         T(i + 1, i) = 0;
@@ -110,27 +107,27 @@ void ProductEigen::chase(Index i) {
 // All factors but the last triangular, the last one a Hessenberg matrix: reflections of real numbers, column by column
 // through all factors.                                                          [Bojanczyk, Golub and Van Dooren 1992]
 void ProductEigen::reduce(std::vector<Matrix> F) {
-    const Index p = static_cast<Index>(F.size()), n = F.front().rows();
+    const Index p = std::ssize(F), n = F.front().rows();
     std::vector<Matrix> Q(F.size(), Matrix::Identity(n, n));
     Vector work(n);
     for (Index j = 0; j + 1 < n; ++j)
         for (Index k = 0; k < p; ++k) {
             const Index size = k + 1 < p ? n - j : n - j - 1;
             if (size < 2) continue;
-            Matrix &own = F[at(k)], &next = F[at((k + 1) % p)];
+            Matrix &own = entry(F, k), &next = entry(F, (k + 1) % p);
             Vector essential(size - 1);
             double tau = 0, beta = 0;
             own.col(j).tail(size).makeHouseholder(essential, tau, beta);
             own.bottomRightCorner(size, n - j).applyHouseholderOnTheLeft(essential, tau, work.data());
             own.col(j).tail(size - 1).setZero();
-            for (Matrix* x : {&next, &Q[at((k + 1) % p)]})
+            for (Matrix* x : {&next, &entry(Q, (k + 1) % p)})
                 x->rightCols(size).applyHouseholderOnTheRight(essential, tau, work.data());
         }
     T_.clear();
     Q_.clear();
     for (Index k = 0; k < p; ++k) {
-        T_.emplace_back(F[at(k)].cast<Complex>());
-        Q_.emplace_back(Q[at(k)].cast<Complex>());
+        T_.emplace_back(entry(F, k).cast<Complex>());
+        Q_.emplace_back(entry(Q, k).cast<Complex>());
     }
 }
 
@@ -147,16 +144,16 @@ Index ProductEigen::active_from(Index last, double negligible) {
     return 0;
 }
 
-// Of the last 2 x 2 block of the product, the eigenvalue next to its last entry; over the first diagonal entries of the
-// triangular factors, since both may be far outside the range of numbers.
+// The eigenvalue of the last 2 x 2 block of the product that is next to its last entry; over the first diagonal entries
+// of the triangular factors, since both may be far outside the range of numbers.
 Complex ProductEigen::shift(Index first, Index last) const {
     const Index from = std::max(first, last - 2), width = last - from + 1;
     ComplexMatrix W = ComplexMatrix::Identity(width, width).rightCols(2);
     Complex t = 1;
     int exponent = 0;
     for (Index k = 0; k + 1 < factors(); ++k) {
-        W = T_[at(k)].block(from, from, width, width) * W;
-        t *= T_[at(k)](first, first);
+        W = entry(T_, k).block(from, from, width, width) * W;
+        t *= entry(T_, k)(first, first);
         exponent += take_exponent(W, W.cwiseAbs().maxCoeff()) - take_exponent(t, std::abs(t));
     }
     ComplexMatrix B = H().block(last - 1, from, 2, width) * W;
@@ -207,7 +204,7 @@ bool ProductEigen::compute(const std::vector<Matrix>& factors) {
 
 ComplexVector ProductEigen::diagonal(Index j) const {
     ComplexVector d(factors());
-    for (Index k = 0; k < d.size(); ++k) d(k) = T_[at(k)](j, j);
+    for (Index k = 0; k < d.size(); ++k) d(k) = entry(T_, k)(j, j);
     return d;
 }
 
@@ -215,7 +212,7 @@ Complex ProductEigen::logarithm(Index i) const {
     Complex mantissa = 1;
     int exponent = 0;
     for (Index k = 0; k < factors(); ++k) {
-        mantissa *= T_[at(k)](i, i) * norms_[at(k)];
+        mantissa *= entry(T_, k)(i, i) * entry(norms_, k);
         exponent += take_exponent(mantissa, std::abs(mantissa));
     }
     const double angle = std::arg(mantissa);
@@ -224,7 +221,7 @@ Complex ProductEigen::logarithm(Index i) const {
 
 double ProductEigen::mean_level(Index i) const {
     double sum = 0;
-    for (Index k = 0; k < factors(); ++k) sum += std::log(std::abs(T_[at(k)](i, i)));
+    for (Index k = 0; k < factors(); ++k) sum += std::log(std::abs(entry(T_, k)(i, i)));
     return sum / static_cast<double>(factors());
 }
 
@@ -237,7 +234,7 @@ ComplexMatrix ProductEigen::right_coefficients(Index j) const {
     const ComplexVector g = diagonal(j);
     for (Index i = j; i >= 0; --i) {
         if (i < j) x.row(i) = Circle{diagonal(i), sums.row(i).transpose(), g}.solve().transpose();
-        for (Index k = 0; k < p; ++k) sums.col(k).head(i) += x(i, k) * T_[at(k)].col(i).head(i);
+        for (Index k = 0; k < p; ++k) sums.col(k).head(i) += x(i, k) * entry(T_, k).col(i).head(i);
     }
     return x;
 }
@@ -252,7 +249,8 @@ ComplexMatrix ProductEigen::left_coefficients(Index j) const {
     for (Index i = j + 1; i < n; ++i) {
         ComplexVector b(p);
         for (Index k = 0; k < p; ++k)
-            b(p - 1 - k) = T_[at(k)].col(i).segment(j, i - j).cwiseProduct(y.col((k + 1) % p).segment(j, i - j)).sum();
+            b(p - 1 - k) =
+                entry(T_, k).col(i).segment(j, i - j).cwiseProduct(y.col((k + 1) % p).segment(j, i - j)).sum();
         // Place m of the reversed circle is k + 1 = p - m.
         const ComplexVector own = Circle{diagonal(i).reverse(), b, g}.solve();
         for (Index m = 0; m < p; ++m) y(i, (p - m) % p) = own(m);
@@ -265,9 +263,9 @@ ProductEigen::Vectors ProductEigen::vectors(Index i) const {
     const ComplexMatrix x = right_coefficients(i), y = left_coefficients(i);
     Vectors v{ComplexMatrix(size(), p), ComplexMatrix(size(), p), diagonal(i), 0};
     for (Index k = 0; k < p; ++k) {
-        v.growth(k) *= norms_[at(k)];
-        v.right.col(k) = Q_[at(k)] * x.col(k);
-        v.left.col(k) = Q_[at(k)].conjugate() * y.col(k);
+        v.growth(k) *= entry(norms_, k);
+        v.right.col(k) = entry(Q_, k) * x.col(k);
+        v.left.col(k) = entry(Q_, k).conjugate() * y.col(k);
         v.condition = std::max(v.condition, x.col(k).norm() * y.col(k).norm());
     }
     return v;

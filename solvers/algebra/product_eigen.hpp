@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool compute(const std::vector<Matrix>& factors);
 
     Eigen::Index size() const { return Q_.front().rows(); }
-    Eigen::Index factors() const { return static_cast<Eigen::Index>(Q_.size()); }
+    Eigen::Index factors() const { return std::ssize(Q_); }
 
     /// log mu, imaginary part in (-pi, pi]; real part -infinity for mu = 0.
     Complex logarithm(Eigen::Index i) const;

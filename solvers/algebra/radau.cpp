@@ -1,6 +1,7 @@
 #include "solvers/algebra/radau.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan::solvers {
@@ -63,8 +64,8 @@ RadauStage::RadauStage(const RadauIIA& method, Index coordinates)
       K_(C_.size()) {}
 
 void RadauStage::set(Index stage, double h, const Matrix& M, const Matrix& C, const Matrix& K) {
-    C_[static_cast<std::size_t>(stage)] = C;
-    K_[static_cast<std::size_t>(stage)] = K;
+    entry(C_, stage) = C;
+    entry(K_, stage) = K;
     for (Index j = 0; j < method_->stages(); ++j) {
         auto block = left_.block(stage * n_, j * n_, n_, n_);
         block.noalias() = h * method_->A(stage, j) * C + h * h * method_->A2(stage, j) * K;
@@ -86,8 +87,8 @@ void RadauStage::advance(double h, Matrix& X) {
     right_.resize(s * n_, X.cols());
     for (Index i = 0; i < s; ++i) {
         auto f = right_.middleRows(i * n_, n_);
-        f.noalias() = -K_[static_cast<std::size_t>(i)] * (q + method_->c(i) * h * v);
-        f.noalias() -= C_[static_cast<std::size_t>(i)] * v;
+        f.noalias() = -entry(K_, i) * (q + method_->c(i) * h * v);
+        f.noalias() -= entry(C_, i) * v;
     }
     solve(right_);
     X.topRows(n_) += h * v;

@@ -1,5 +1,6 @@
 #include "solvers/algebra/schur.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "solvers/algebra/dense.hpp"
 
 #include <Eigen/Jacobi>
@@ -77,8 +78,7 @@ void SchurIteration::turn_rows(Matrix& A, const Batch& batch, Index from_column)
         const Index columns = std::min<Index>(strip, A.cols() - j);
         double* a = A.data() + batch.first + j * A.rows();
         for (Index c = 0; c < columns; ++c)
-            for (Index i = 0; i < batch.width; ++i)
-                x[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)] = a[i + c * A.rows()];
+            for (Index i = 0; i < batch.width; ++i) entry(entry(x, i), c) = a[i + c * A.rows()];
         for (std::size_t k = 0; k < static_cast<std::size_t>(batch.count); ++k) {
             const Reflector g = reflectors_[k];
             double* __restrict x0 = x[k].data(), * __restrict x1 = x[k + 1].data(), * __restrict x2 = x[k + 2].data();
@@ -90,8 +90,7 @@ void SchurIteration::turn_rows(Matrix& A, const Batch& batch, Index from_column)
             }
         }
         for (Index c = 0; c < columns; ++c)
-            for (Index i = 0; i < batch.width; ++i)
-                a[i + c * A.rows()] = x[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+            for (Index i = 0; i < batch.width; ++i) a[i + c * A.rows()] = entry(entry(x, i), c);
     }
 }
 
@@ -136,7 +135,7 @@ void SchurIteration::chase(Matrix& T, const Batch& batch, Index last, Index star
         double beta = 0;
         const Column below = k == start ? v : Column{T(k, k - 1), T(k + 1, k - 1), size == 3 ? T(k + 2, k - 1) : 0.0};
         const Reflector h = reflector(below, beta);
-        reflectors_[static_cast<std::size_t>(k - batch.first)] = h;
+        entry(reflectors_, k - batch.first) = h;
         if (k > start) {
             T.col(k - 1).segment(k, size).setZero();
             T(k, k - 1) = beta;

@@ -1,6 +1,7 @@
 #include "solvers/algebra/shifted_schur.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -19,11 +20,11 @@ double default_shift(const Matrix& A) {
     std::sort(sizes.begin(), sizes.end());
     const double largest = sizes.size() > 0 ? sizes(sizes.size() - 1) : 0;
     if (largest == 0) return 1;
-    // Eigenvalues zero come out of the size of rounding times the largest entry.
+    // Zero eigenvalues come out with the size of the largest entry times rounding.
     const auto rises = [&](double size) { return size > std::max(1e-8 * largest, 1e-5); };
     const auto first = std::find_if(sizes.begin(), sizes.end(), rises);
     const auto tenth = sizes.begin() + sizes.size() / 10;
-    // Off the round numbers that unstable real eigenvalues might have.
+    // Not a round number, which an unstable real eigenvalue might be.
     return 1.0371 * (first == sizes.end() ? largest : *std::max(first, tenth));
 }
 
@@ -91,10 +92,10 @@ Matrix ShiftedSchur::subspace(std::vector<bool> chosen) const {
     ComplexMatrix T = T_, U = U_;
     for (Index target = 0; target < count; ++target) {
         Index at = target;
-        while (!chosen[static_cast<std::size_t>(at)]) ++at;
+        while (!entry(chosen, at)) ++at;
         for (; at > target; --at) {
             exchange(T, U, at - 1);
-            std::vector<bool>::swap(chosen[static_cast<std::size_t>(at)], chosen[static_cast<std::size_t>(at - 1)]);
+            std::vector<bool>::swap(entry(chosen, at), entry(chosen, at - 1));
         }
     }
     // The span is closed under conjugation: real and imaginary parts of its basis span it over the real numbers.

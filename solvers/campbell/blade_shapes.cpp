@@ -1,5 +1,6 @@
 #include "solvers/campbell/blade_shapes.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
 #include "mbs/base/units.hpp"
@@ -31,8 +32,7 @@ BladeShapes blade_shapes(const Campbell& diagram, std::span<const std::string> n
     const auto line = std::find_if(diagram.lines.begin(), diagram.lines.end(),
                                    [](const Polyline& l) { return l.blade == 1 && l.points.size() > 1; });
     if (line == diagram.lines.end()) throw InputError(text(diagram.machine, ": no line of blade 1 for mode shapes"));
-    const auto index = [](FrameId frame) { return static_cast<std::size_t>(frame.index); };
-    const auto position = [&](FrameId frame) { return diagram.frame_positions[index(frame)]; };
+    const auto position = [&](FrameId frame) { return entry(diagram.frame_positions, frame.index); };
     const Vec3 centre = position(line->points.front());
     const Vec3 x = (position(line->points.back()) - centre).normalized();
     Mat3 to_blade;  // rows: blade axes in base axes
@@ -48,7 +48,7 @@ BladeShapes blade_shapes(const Campbell& diagram, std::span<const std::string> n
         BladeShape shape{name, diagram.natural_hz(*branch, point), branch->doubtful[point], {}, {}, {}};
         const std::vector<FrameMotion> motion = diagram.motion(*branch, point);
         for (auto frame = line->points.begin() + 1; frame != line->points.end(); ++frame) {
-            const Vec6T<Complex>& m = motion[index(*frame)].motion;
+            const Vec6T<Complex>& m = entry(motion, frame->index).motion;
             shape.radius.push_back(x.dot(position(*frame) - centre));
             shape.rotation.emplace_back(to_blade.cast<Complex>() * m.head<3>());
             shape.displacement.emplace_back(to_blade.cast<Complex>() * m.tail<3>());

@@ -1,3 +1,4 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
 #include "solvers/campbell/tracking.hpp"
@@ -56,7 +57,7 @@ std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whir
 // Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
 double part(const CampbellMode& mode, const Label& label) {
     if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
-    return mode.shares[static_cast<std::size_t>(label.component)].of(label.pattern, label.harmonic);
+    return entry(mode.shares, label.component).of(label.pattern, label.harmonic);
 }
 
 // Nothing whirls at standstill: a name there holds the energy of its pair.
@@ -96,18 +97,19 @@ public:
         Matrix score = scores(branches);
         if (neighbour_) continue_names(branches, score);
         const std::vector<int> label_of = assign(score);
-        std::vector<std::size_t> others;
-        for (std::size_t b = 0; b < branches.size(); ++b) {
-            const auto row = static_cast<Eigen::Index>(b);
-            if (label_of[b] >= 0 && score(row, label_of[b]) >= least_share * length(branches[b]))
-                set(branches[b], labels_[static_cast<std::size_t>(label_of[b])]);
+        std::vector<Eigen::Index> others;
+        for (Eigen::Index b = 0; b < score.rows(); ++b) {
+            Branch& branch = entry(branches, b);
+            const int label = entry(label_of, b);
+            if (label >= 0 && score(b, label) >= least_share * length(branch))
+                set(branch, entry(labels_, label));
             else
                 others.push_back(b);
         }
-        for (std::size_t b : others) {
+        for (const Eigen::Index b : others) {
             Eigen::Index most = 0;
-            score.row(static_cast<Eigen::Index>(b)).maxCoeff(&most);
-            set(branches[b], labels_[static_cast<std::size_t>(most)]);
+            score.row(b).maxCoeff(&most);
+            set(entry(branches, b), entry(labels_, most));
         }
         name_others(branches, others);
         name_motions(branches);
@@ -118,7 +120,7 @@ public:
 private:
     const CampbellMode* mode(const Branch& branch, std::size_t point) const {
         const int index = branch.mode[point];
-        return index < 0 ? nullptr : &points_[point].modes[static_cast<std::size_t>(index)];
+        return index < 0 ? nullptr : &entry(points_[point].modes, index);
     }
     // Number of points.
     static double length(const Branch& branch) {
@@ -137,7 +139,7 @@ private:
     void set(Branch& branch, const Label& label) const;
     double own_pattern(const CampbellMode& mode, const Label& label) const;
     const char* tendency(const Branch& branch) const;
-    static void name_others(std::vector<Branch>& branches, const std::vector<std::size_t>& others);
+    static void name_others(std::vector<Branch>& branches, const std::vector<Eigen::Index>& others);
     void name_motions(std::vector<Branch>& branches) const;
 
     const std::vector<CampbellPoint>& points_;
@@ -168,13 +170,12 @@ std::string Naming::usual_kind(const Branch& branch) const {
 }
 
 Matrix Naming::scores(const std::vector<Branch>& branches) const {
-    Matrix score = Matrix::Zero(static_cast<Eigen::Index>(branches.size()), static_cast<Eigen::Index>(labels_.size()));
-    for (std::size_t b = 0; b < branches.size(); ++b)
+    Matrix score = Matrix::Zero(std::ssize(branches), std::ssize(labels_));
+    for (Eigen::Index b = 0; b < score.rows(); ++b)
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            const CampbellMode* m = mode(branches[b], i);
+            const CampbellMode* m = mode(entry(branches, b), i);
             if (!m) continue;
-            for (std::size_t l = 0; l < labels_.size(); ++l)
-                score(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(l)) += part(*m, labels_[l]);
+            for (Eigen::Index l = 0; l < score.cols(); ++l) score(b, l) += part(*m, entry(labels_, l));
         }
     return score;
 }
@@ -187,7 +188,7 @@ std::size_t Naming::own_label(const Branch& partner) const {
     for (; l < labels_.size(); ++l) {
         const Label& label = labels_[l];
         if (label.row >= 0 || label.pattern != partner.pattern || label.harmonic != partner.harmonic) continue;
-        const Component& own = energy_shares_.components()[static_cast<std::size_t>(label.component)];
+        const Component& own = entry(energy_shares_.components(), label.component);
         if (own.part == wanted.part && own.family == wanted.family && own.ordinal == wanted.ordinal) break;
     }
     return l;
@@ -239,14 +240,14 @@ Label Naming::strongest(std::size_t point, const CampbellMode& mode, const Label
 
 std::string Naming::label_name(const Label& label, const CampbellMode& mode) const {
     if (label.row < 0) return energy_shares_.name(label.component, label.pattern, label.harmonic);
-    return motion_name(rows_[static_cast<std::size_t>(label.row)], mode.kind_name(), "", "");
+    return motion_name(entry(rows_, label.row), mode.kind_name(), "", "");
 }
 
-// Of the energy of a label's component, the part that has its pattern (at standstill: that of its pair). A motion
+// The part of the energy of a label's component that has its pattern (at standstill: that of its pair). A motion
 // localised in one blade of three has a third of each.
 double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
-    const Share& share = mode.shares[static_cast<std::size_t>(label.component)];
+    const Share& share = entry(mode.shares, label.component);
     const double total = share.total();
     return total > 0 ? share.of(label.pattern, label.harmonic) / total : 1;
 }
@@ -258,9 +259,9 @@ void Naming::set(Branch& branch, const Label& label) const {
     branch.row = label.row;
     if (label.row < 0) {
         branch.name = energy_shares_.name(label.component, label.pattern, label.harmonic);
-        branch.family = energy_shares_.components()[static_cast<std::size_t>(label.component)].family;
+        branch.family = entry(energy_shares_.components(), label.component).family;
     } else {
-        branch.family = rows_[static_cast<std::size_t>(label.row)];
+        branch.family = entry(rows_, label.row);
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
         branch.doubtful.push_back(false);
@@ -268,7 +269,7 @@ void Naming::set(Branch& branch, const Label& label) const {
         const CampbellMode* m = mode(branch, i);
         if (!m) continue;
         const Label best = strongest(i, *m, label);
-        branch.doubtful.back() = branch.mac[i] < sure_mac ||
+        branch.doubtful.back() = branch.mac[i] < min_reliable_mac ||
                                  held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
                                  (points_[i].rotor_speed != 0 && own_pattern(*m, label) < sure_pattern);
         branch.mostly.back() = label_name(best, *m);
@@ -289,10 +290,11 @@ const char* Naming::tendency(const Branch& branch) const {
 
 // Branches of the same kind as one that has the name already: the two motions of a locked mode, parts of the machine
 // that have no component modes. "1st tower fore-aft (another)", "blade flap (backward, another 2)"
-void Naming::name_others(std::vector<Branch>& branches, const std::vector<std::size_t>& others) {
+void Naming::name_others(std::vector<Branch>& branches, const std::vector<Eigen::Index>& others) {
     std::map<std::string, int> count;
-    for (std::size_t b : others) {
-        std::string& name = branches[b].name;
+    for (const Eigen::Index b : others) {
+        Branch& branch = entry(branches, b);
+        std::string& name = branch.name;
         if (name.empty()) continue;  // a motion of a coordinate
         const int number = ++count[name];
         const std::string which = number == 1 ? "another" : text("another ", number);
@@ -301,8 +303,7 @@ void Naming::name_others(std::vector<Branch>& branches, const std::vector<std::s
         else
             name += " (" + which + ")";
         // Named after what it holds most of, which another branch is.
-        std::vector<bool>& doubtful = branches[b].doubtful;
-        for (std::size_t i = 0; i < doubtful.size(); ++i) doubtful[i] = branches[b].mode[i] >= 0;
+        for (std::size_t i = 0; i < branch.doubtful.size(); ++i) branch.doubtful[i] = branch.mode[i] >= 0;
     }
 }
 
@@ -334,7 +335,7 @@ std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, 
     std::vector<Branch> branches = Naming(points, energy_shares, rows, whirl, neighbour).name(std::move(tracked));
     const auto first_frequency = [&](const Branch& branch) {
         for (std::size_t i = 0; i < points.size(); ++i)
-            if (branch.mode[i] >= 0) return points[i].modes[static_cast<std::size_t>(branch.mode[i])].mode.natural_hz();
+            if (branch.mode[i] >= 0) return entry(points[i].modes, branch.mode[i]).mode.natural_hz();
         return std::numeric_limits<double>::infinity();
     };
     std::stable_sort(branches.begin(), branches.end(),

@@ -1,5 +1,6 @@
 #include "solvers/campbell/diagram.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/floquet_mac.hpp"
@@ -48,7 +49,7 @@ void drop_high_modes(Campbell& diagram, double limit_hz) {
         }
         modes = std::move(kept);
         for (Branch& branch : diagram.branches)
-            if (branch.mode[i] >= 0) branch.mode[i] = new_index[static_cast<std::size_t>(branch.mode[i])];
+            if (branch.mode[i] >= 0) branch.mode[i] = entry(new_index, branch.mode[i]);
     }
 }
 
@@ -56,9 +57,9 @@ void drop_high_modes(Campbell& diagram, double limit_hz) {
 ComplexMatrix shapes_at_azimuth_0(const PointMethod& solver, const CampbellPoint& point,
                                   const std::vector<int>& modes) {
     const Matrix T = solver.rotating_coordinates();
-    ComplexMatrix shapes(T.rows(), static_cast<Eigen::Index>(modes.size()));
+    ComplexMatrix shapes(T.rows(), std::ssize(modes));
     for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
-        const CampbellMode& m = point.modes[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])];
+        const CampbellMode& m = entry(point.modes, entry(modes, j));
         if (m.floquet)
             shapes.col(j) = T * m.floquet->shape(0);
         else
@@ -79,8 +80,7 @@ std::vector<std::vector<FrameMotion>> motions(const System& system, const PointM
     for (FrameId frame : frames) {
         frame_jacobian(kin, frame, jacobian);
         const ComplexMatrix all = jacobian(Eigen::all, solver.unknowns()) * shapes;
-        for (std::size_t j = 0; j < modes.size(); ++j)
-            motions[static_cast<std::size_t>(modes[j])].push_back({all.col(static_cast<Eigen::Index>(j))});
+        for (Eigen::Index j = 0; j < all.cols(); ++j) entry(motions, entry(modes, j)).push_back({all.col(j)});
     }
     return motions;
 }

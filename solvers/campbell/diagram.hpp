@@ -22,7 +22,7 @@ std::vector<double> rpm_range(double first, double last, double step);
 enum class CampbellMethod : std::uint8_t {
     automatic,  ///< `coleman` where the equations are constant in multi-blade coordinates, else `floquet`: two blades,
                 ///< blades that differ, gravity on coned or bent blades; Campbell::method says which and why
-    coleman,         ///< fixed frame, by multi-blade transformation; three or more blades
+    coleman,    ///< fixed frame, by multi-blade transformation; three or more blades
     frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: not true motions of the machine
     floquet,  ///< motions about the periodic steady state by Floquet theory, in multi-blade rows: any number of blades,
               ///< gravity, unequal blades. The frequencies are principal ones: in the fixed frame, except those of
@@ -40,14 +40,14 @@ struct CampbellFloquetOptions {
     double per_period =
         0;  ///< modes up to this frequency, in multiples of the rotor speed, are accurate; 0: up to `max_frequency_hz`
     double tolerance = 1e-9;  ///< of exponents, relative to the rotor speed
-    int most_steps = 0;       ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
+    int max_steps = 0;        ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
 };
 
 struct Campbell;
 
 /// MAC between consecutive points below which the identity of a mode is doubtful. The MAC values of one mode with
 /// others that are orthogonal to each other add up to at most one: above 0.5 only one of them can be the same mode.
-inline constexpr double sure_mac = 0.6;
+inline constexpr double min_reliable_mac = 0.6;
 
 struct CampbellOptions {
     RotorSpin spin = RotorSpin::free;
@@ -58,9 +58,9 @@ struct CampbellOptions {
     CampbellFloquetOptions floquet = {};
     /// Diagram of a similar variant of the machine, with the same method, blades and rows: branches take over the names
     /// they have there, matched by the complex energy MAC at the rotor speeds common to both. A name is doubtful where
-    /// the MAC is below `sure_mac` or two candidates compete, and everywhere if the neighbour has no such branch (it
-    /// should have at least as many: use the same `max_frequency_hz`). Motions named after a coordinate are not
-    /// matched. Null: names from the elastic energy alone. Must outlive the call. Not for a diagram over another
+    /// the MAC is below `min_reliable_mac` or two candidates compete, and everywhere if the neighbour has no such
+    /// branch (it should have at least as many: use the same `max_frequency_hz`). Motions named after a coordinate are
+    /// not matched. Null: names from the elastic energy alone. Must outlive the call. Not for a diagram over another
     /// parameter, which is tracked from one machine to the next anyway.
     const Campbell* neighbour = nullptr;
     /// Called after every rotor speed with the numbers done and to do.
@@ -109,9 +109,9 @@ struct Branch {
     int harmonic = 1;         ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
     std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
     std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
-    /// True where the mode was tracked with a MAC below `sure_mac`, another name clearly holds more energy, the blades
-    /// do not move in the named pattern, another branch has the name ("another"), or the neighbouring variant of the
-    /// machine does not confirm it (CampbellOptions::neighbour).
+    /// True where the mode was tracked with a MAC below `min_reliable_mac`, another name clearly holds more energy, the
+    /// blades do not move in the named pattern, another branch has the name ("another"), or the neighbouring variant of
+    /// the machine does not confirm it (CampbellOptions::neighbour).
     std::vector<bool> doubtful;
     std::vector<std::string> mostly;  ///< the name with most elastic energy at the point; empty without a mode
 };

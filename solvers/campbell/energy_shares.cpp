@@ -1,6 +1,7 @@
 #include "solvers/campbell/energy_shares.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ std::vector<std::string> coordinate_families(const Model& model, const PartAxes&
         Eigen::Index axis = 0;
         along.cwiseAbs().maxCoeff(&axis);
         const auto& names = model.body(a).revolute ? part.rotation : part.translation;
-        const std::string& name = names[static_cast<std::size_t>(axis)];
+        const std::string& name = entry(names, axis);
         families.push_back(name.empty() ? part.part : name);
     }
     return families;
@@ -31,10 +32,7 @@ std::vector<std::string> coordinate_families(const Model& model, const PartAxes&
 std::string family_of(const Vector& v, const Matrix& K, const std::vector<std::string>& families) {
     std::map<std::string, double> energy;
     const Vector force = K * v;
-    for (std::size_t i = 0; i < families.size(); ++i) {
-        const auto row = static_cast<Eigen::Index>(i);
-        energy[families[i]] += v(row) * force(row);
-    }
+    for (Eigen::Index i = 0; i < std::ssize(families); ++i) energy[entry(families, i)] += v(i) * force(i);
     return std::max_element(energy.begin(), energy.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
         ->first;
@@ -69,7 +67,7 @@ ComponentModes component_modes(const Matrix& K, const Matrix& M, const std::stri
 
 const char* ordinal_name(int n) {
     constexpr std::array names{"1st", "2nd", "3rd"};
-    return n <= 3 ? names[static_cast<std::size_t>(n - 1)] : nullptr;
+    return n <= 3 ? entry(names, n - 1) : nullptr;
 }
 
 }  // namespace
@@ -117,7 +115,7 @@ EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const R
         const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {
             harmonics_ = std::max(harmonics_, harmonic);
             lists.resize(std::max(lists.size(), static_cast<std::size_t>(harmonic)));
-            return lists[static_cast<std::size_t>(harmonic - 1)];
+            return entry(lists, harmonic - 1);
         };
         std::vector<int> own;  // model indices: of the part, or of the part in blade 1
         bool blades = false;
@@ -177,11 +175,10 @@ Complex EnergyShares::amplitude(const Block& block, Eigen::Index component, cons
                                 const Mode& mode) {
     const auto weights = block.weights.col(component);
     double re = 0, im = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const double weight = weights(static_cast<Eigen::Index>(i));
-        const Complex x = mode.shape(rows[i]);
-        re += weight * x.real();
-        im += weight * x.imag();
+    for (Eigen::Index i = 0; i < std::ssize(rows); ++i) {
+        const Complex x = mode.shape(entry(rows, i));
+        re += weights(i) * x.real();
+        im += weights(i) * x.imag();
     }
     return {re, im};
 }
@@ -213,7 +210,7 @@ void EnergyShares::shares(const Mode& mode, std::vector<Share>& out) const {
     double total = 0;
     for (const Block& block : blocks_)
         for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
-            Share& own = out[static_cast<std::size_t>(block.first_component + i)];
+            Share& own = entry(out, block.first_component + i);
             own = share(block, i, mode, std::move(own.higher));
             total += own.total();
         }
@@ -236,7 +233,7 @@ std::vector<Share> EnergyShares::shares(const Mode& mode) const {
 
 namespace {
 
-// What turns the other way at a negative frequency whirls the other way. The whirl of a sum is the mean by energy.
+// A negative frequency reverses the sense of whirl. The whirl of a sum is the energy-weighted mean.
 WhirlShare sum_of(const WhirlShare& a, WhirlShare b, bool reversed) {
     if (reversed) b.whirl = -b.whirl;
     const double size_a = a.cosine + a.sine, size_b = b.cosine + b.sine, size = size_a + size_b;
@@ -259,7 +256,7 @@ std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics) const {
     double total = 0;
     for (const Block& block : blocks_)
         for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
-            Share& own = all[static_cast<std::size_t>(block.first_component + i)];
+            Share& own = entry(all, block.first_component + i);
             own.component = static_cast<int>(block.first_component + i);
             for (const Mode& one : harmonics) add(own, share(block, i, one, {}), one.eigenvalue.imag() < 0);
             total += own.total();
@@ -269,7 +266,7 @@ std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics) const {
 }
 
 std::string EnergyShares::name(int component, RotorPattern pattern, int harmonic) const {
-    const Component& c = components_[static_cast<std::size_t>(component)];
+    const Component& c = entry(components_, component);
     const bool only_one = std::count_if(components_.begin(), components_.end(),
                                         [&](const Component& other) { return other.family == c.family; }) == 1;
     std::string name;

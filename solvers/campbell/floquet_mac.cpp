@@ -1,5 +1,7 @@
 #include "solvers/campbell/floquet_mac.hpp"
 
+#include "mbs/base/entry.hpp"
+
 #include <algorithm>
 
 namespace cardan::solvers {
@@ -91,16 +93,17 @@ PeriodicMac periodic_mac(const SecondOrderSystem& weights, const std::vector<con
     std::vector<ModalMotion> rows, columns;
     for (const CampbellMode* mode : before) rows.emplace_back(*mode, weights);
     for (const CampbellMode& mode : now) columns.emplace_back(mode, weights);
-    const auto m = static_cast<Index>(rows.size()), n = static_cast<Index>(columns.size());
+    const auto m = std::ssize(rows), n = std::ssize(columns);
     PeriodicMac result{Matrix(m, n), Matrix(m, n)};
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-        const ModalMotion &y = columns[j], conjugate = y.conjugate();
+    for (Index j = 0; j < n; ++j) {
+        const ModalMotion &y = entry(columns, j), conjugate = y.conjugate();
         const double low = 1.5 * y.frequency;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            Likeness one = likeness(rows[i], y);
-            if (y.exponent.imag() < low && rows[i].exponent.imag() < low) one = best(one, likeness(rows[i], conjugate));
-            result.mac(static_cast<Index>(i), static_cast<Index>(j)) = one.mac;
-            result.score(static_cast<Index>(i), static_cast<Index>(j)) = one.score;
+        for (Index i = 0; i < m; ++i) {
+            const ModalMotion& x = entry(rows, i);
+            Likeness one = likeness(x, y);
+            if (y.exponent.imag() < low && x.exponent.imag() < low) one = best(one, likeness(x, conjugate));
+            result.mac(i, j) = one.mac;
+            result.score(i, j) = one.score;
         }
     }
     return result;

@@ -1,6 +1,8 @@
 #include "solvers/campbell/floquet_point.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 
 #include <algorithm>
@@ -20,7 +22,7 @@ constexpr double elastic_limit = 0.05;
 // Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
 // a double zero by their square root.
 constexpr double rigid_per_radian = 1e-4;
-// The same limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
+// That limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
 constexpr double free_spin_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
@@ -90,7 +92,7 @@ PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& r
     if (!(o.per_period >= 0))
         throw InputError(rotor.machine, "frequency per revolution up to which modes are accurate", o.per_period,
                          ">= 0");
-    if (o.most_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.most_steps, ">= 0");
+    if (o.max_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.max_steps, ">= 0");
 }
 
 void PeriodicPointSolver::warn(const std::string& what) {
@@ -140,8 +142,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
         const std::array same_speed{rotor_speed};
         found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
     }
-    if (!found.converged)
-        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm: ", found.message));
+    require_result(found, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     if (!found.note.empty()) warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
     if (found.remainder > small_remainder)
         warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.harmonics(),
@@ -165,7 +166,7 @@ void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
 BladeSymmetry PeriodicPointSolver::renumbering() const {
     const ColemanTransform* T = standstill_.coleman();
     if (!T || rotor_.blades.empty()) return {};
-    std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd : std::vector<int>();
+    std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd_coordinates : std::vector<int>();
     std::erase_if(odd, [&](int i) { return std::find(unknowns().begin(), unknowns().end(), i) == unknowns().end(); });
     BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
     found.P = (T->matrix(0).transpose() * found.P * T->matrix(2 * pi / found.parts)).eval();
@@ -200,14 +201,14 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
                          text("frequency per revolution at ", state_->rotor_speed * units::to_rpm, " rpm"),
                          options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
-    options.most_steps =
-        own.most_steps > 0 ? own.most_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
+    options.max_steps =
+        own.max_steps > 0 ? own.max_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
     return options;
 }
 
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
     Floquet result = floquet(periodic, floquet_options(periodic));
-    if (!result.message.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.message));
+    if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
     for (FloquetMode& mode : result.modes) {
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;
@@ -271,7 +272,7 @@ void PeriodicPointSolver::leave_out_free_spin(double scale, CampbellPoint& point
     std::erase_if(point.modes, [&](const CampbellMode& m) {
         if (std::abs(m.mode.eigenvalue) >= free_spin_limit * scale) return false;
         const int row = largest(kinetic_by_row(mean_, m.mode.shape, m.mode.eigenvalue));
-        return unknowns()[static_cast<std::size_t>(row)] == rotor_.spin;
+        return entry(unknowns(), row) == rotor_.spin;
     });
     set_stability_margin(point);
 }

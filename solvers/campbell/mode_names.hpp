@@ -20,8 +20,8 @@ enum class NameStyle : std::uint8_t { descriptive, community };
 std::string community_name(std::string_view name);
 std::string community_name(const Branch& branch);
 
-/// The same diagram with all its names in a style: branches (and what they mostly are) for tables, files and pictures.
-/// Names of families, rows and components are unchanged, so selection by family still works.
+/// A copy of a diagram with all its names in another style: branches (and what they mostly are) for tables, files and
+/// pictures. Names of families, rows and components are unchanged, so selection by family still works.
 /// @param diagram  with the names of the solvers
 Campbell renamed(Campbell diagram, NameStyle style);
 

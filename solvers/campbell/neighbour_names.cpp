@@ -1,5 +1,6 @@
 #include "solvers/campbell/neighbour_names.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
 #include "solvers/campbell/floquet_mac.hpp"
@@ -44,46 +45,45 @@ void NeighbourNames::add(const SecondOrderSystem& system, const CampbellPoint& p
     const int there = point_at_speed(neighbour_, point.rotor_speed);
     if (there < 0) return;
     std::vector<const CampbellMode*> modes;
-    std::vector<std::size_t> branches;
-    for (std::size_t b = 0; b < neighbour_.branches.size(); ++b)
-        if (const CampbellMode* m = neighbour_.mode(neighbour_.branches[b], static_cast<std::size_t>(there))) {
+    std::vector<Eigen::Index> branches;
+    for (Eigen::Index b = 0; b < std::ssize(neighbour_.branches); ++b)
+        if (const CampbellMode* m = neighbour_.mode(entry(neighbour_.branches, b), static_cast<std::size_t>(there))) {
             modes.push_back(m);
             branches.push_back(b);
         }
     const Matrix found = periodic_mac(system, modes, point.modes).mac;
-    mac = Matrix::Zero(static_cast<Eigen::Index>(neighbour_.branches.size()), found.cols());
-    for (std::size_t i = 0; i < branches.size(); ++i)
-        mac.row(static_cast<Eigen::Index>(branches[i])) = found.row(static_cast<Eigen::Index>(i));
+    mac = Matrix::Zero(std::ssize(neighbour_.branches), found.cols());
+    for (Eigen::Index i = 0; i < found.rows(); ++i) mac.row(entry(branches, i)) = found.row(i);
 }
 
 void NeighbourNames::pair(const std::vector<Branch>& branches) {
-    const auto others = static_cast<Eigen::Index>(neighbour_.branches.size());
-    Matrix sum = Matrix::Zero(static_cast<Eigen::Index>(branches.size()), others);
+    const auto others = std::ssize(neighbour_.branches);
+    Matrix sum = Matrix::Zero(std::ssize(branches), others);
     Vector count = Vector::Zero(sum.rows());
     bool common = mac_.empty();
     for (std::size_t i = 0; i < mac_.size(); ++i) {
         if (mac_[i].size() == 0) continue;
         common = true;
-        for (std::size_t b = 0; b < branches.size(); ++b) {
-            if (branches[b].mode[i] < 0) continue;
-            const auto row = static_cast<Eigen::Index>(b);
-            sum.row(row) += mac_[i].col(branches[b].mode[i]).transpose();
-            ++count(row);
+        for (Eigen::Index b = 0; b < sum.rows(); ++b) {
+            const int mode = entry(branches, b).mode[i];
+            if (mode < 0) continue;
+            sum.row(b) += mac_[i].col(mode).transpose();
+            ++count(b);
         }
     }
     if (!common)
         throw InputError("neighbouring Campbell diagram", "number of rotor speeds that both diagrams have", 0,
                          "at least one with modes");
     partner_ = assign(sum);
-    for (std::size_t b = 0; b < partner_.size(); ++b) {
-        const auto row = static_cast<Eigen::Index>(b);
-        if (partner_[b] >= 0 && !(sum(row, partner_[b]) >= least_score * std::max(1.0, count(row)))) partner_[b] = -1;
+    for (Eigen::Index b = 0; b < sum.rows(); ++b) {
+        int& found = entry(partner_, b);
+        if (found >= 0 && !(sum(b, found) >= min_score * std::max(1.0, count(b)))) found = -1;
     }
 }
 
 const Branch* NeighbourNames::partner(std::size_t branch) const {
     const int index = partner_.at(branch);
-    return index < 0 ? nullptr : &neighbour_.branches[static_cast<std::size_t>(index)];
+    return index < 0 ? nullptr : &entry(neighbour_.branches, index);
 }
 
 bool NeighbourNames::doubtful(std::size_t branch, std::size_t point, int mode) const {
@@ -92,7 +92,7 @@ bool NeighbourNames::doubtful(std::size_t branch, std::size_t point, int mode) c
     const Matrix& mac = mac_.at(point);
     if (mac.size() == 0 || mac.row(index).isZero(0)) return false;  // the neighbour has nothing there
     const double own = mac(index, mode);
-    if (own < sure_mac) return true;
+    if (own < min_reliable_mac) return true;
     double rival = 0;
     for (Eigen::Index b = 0; b < mac.rows(); ++b)
         if (b != index) rival = std::max(rival, mac(b, mode));

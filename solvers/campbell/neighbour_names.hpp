@@ -31,8 +31,8 @@ public:
     const Component& component(const Branch& partner) const {
         return neighbour_.components.at(static_cast<std::size_t>(partner.component));
     }
-    /// True if the MAC with the partner is below `sure_mac`, or another mode is nearly as close to the partner, or
-    /// another branch of the neighbour nearly as close to this mode (0.8 of the MAC); always true without a partner.
+    /// True if the MAC with the partner is below `min_reliable_mac`, or another mode is nearly as close to the partner,
+    /// or another branch of the neighbour nearly as close to this mode (0.8 of the MAC); always true without a partner.
     bool doubtful(std::size_t branch, std::size_t point, int mode) const;
 
 private:

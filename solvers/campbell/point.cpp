@@ -1,8 +1,11 @@
 #include "solvers/campbell/point.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/problem_size.hpp"
+#include "solvers/periodic/periodic_system.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -20,9 +23,6 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
     const bool spin_is_unknown = options.spin == RotorSpin::free && blades != 1;
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
-    if (unknowns.empty())
-        throw InputError(rotor.machine, "coordinates that can move", 0,
-                         "1 and more: all its parts are rigid, locked or driven");
     check_number_of_unknowns(rotor.machine, unknowns.size());
     return unknowns;
 }
@@ -60,7 +60,7 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       plain_rows_(unknowns_.size()),
       steady_solver_(system, rotor.spin),
       lineariser_(system),
-      mode_solver_(static_cast<Eigen::Index>(unknowns_.size())) {
+      mode_solver_(std::ssize(unknowns_)) {
     const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
     if (disc || rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
 }
@@ -68,8 +68,7 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
 void PointSolver::find_steady_state(double rotor_speed) {
     steady_options_.rotor_speed = rotor_speed;
     steady_solver_.solve(steady_options_, steady_);
-    if (!steady_.converged)
-        throw NumericalError(text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm: ", steady_.message));
+    require_result(steady_, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     steady_options_.initial = steady_.at.q;
 }
 
@@ -90,7 +89,7 @@ void PointSolver::note_rigid_springs() {
         if (w > 0) lowest = std::min(lowest, w);
     std::string names;
     for (Eigen::Index i = 0; i < omega.size(); ++i)
-        if (const int k = unknowns_[static_cast<std::size_t>(i)]; omega(i) > rigid_ratio * lowest)
+        if (const int k = entry(unknowns_, i); omega(i) > rigid_ratio * lowest)
             names += text(names.empty() ? "'" : ", '", system_.forces.stiffest_law(k), "' (", other_.K_elastic(i, i),
                           " on the coordinate '", system_.model.coordinates()[k].name, "')");
     if (!names.empty())
@@ -138,7 +137,7 @@ void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count)
     const std::size_t most = 2 * unknowns_.size();
     modes.reserve(most);
     spare_.reserve(most);
-    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    const auto n = std::ssize(unknowns_);
     const std::size_t components = energy_shares_->components().size();
     const auto higher = static_cast<std::size_t>(energy_shares_->harmonics() - 1);
     while (modes.size() + spare_.size() < most) {
@@ -160,17 +159,17 @@ void PointSolver::set_system(double rotor_speed) {
     if (!frozen && rotor_speed != 0 && rotor_.spin >= 0) average_if_periodic(rotor_speed);
 }
 
-void PointSolver::set_other_azimuth(double psi, double rotor_speed) {
+void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out) {
     turned_ = steady_.at;
     turned_.q(rotor_.spin) += psi;
     lineariser_.linearise(turned_, lin_);
-    restrict_to(lin_, unknowns_, rotor_.spin, other_);
-    coleman_->transform_in_place(other_, psi, rotor_speed);
+    restrict_to(lin_, unknowns_, rotor_.spin, out);
+    coleman_->transform_in_place(out, psi, rotor_speed);
 }
 
 double PointSolver::remainder(double rotor_speed) {
     const SecondOrderSystem& z = current_;
-    set_other_azimuth(1.0, rotor_speed);
+    set_at_azimuth(1.0, rotor_speed, other_);
     return (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
            (other_.M - z.M).norm() / z.M.norm();
 }
@@ -186,17 +185,15 @@ double PointSolver::periodic_remainder(double rotor_speed) {
 }
 
 // The transformed matrices of an isotropic rotor are constant; otherwise their azimuthal average is used, with a
-// warning.
+// warning. The steady state is the constant one of this solver: only the rotor is turned. PeriodicPointSolver and
+// azimuth_average() take the periodic one.
 void PointSolver::average_if_periodic(double rotor_speed) {
     SecondOrderSystem& z = current_;
     const double remainder = this->remainder(rotor_speed);
     if (remainder < negligible_remainder) return;
     const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
-    for (int i = 1; i < azimuths; ++i) {
-        set_other_azimuth(2 * pi * i / azimuths, rotor_speed);
-        z.M += other_.M, z.C += other_.C, z.K += other_.K, z.K_elastic += other_.K_elastic;
-    }
-    z.M /= azimuths, z.C /= azimuths, z.K /= azimuths, z.K_elastic /= azimuths;
+    const auto at = [&](int i, SecondOrderSystem& out) { set_at_azimuth(2 * pi * i / azimuths, rotor_speed, out); };
+    average(azimuths, at, z, other_);
     if (warning_.find("not isotropic") == std::string::npos)
         warning_ += text(warning_.empty() ? "" : "; ",
                          "the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,
@@ -208,7 +205,7 @@ std::vector<std::string> PointSolver::row_names() const {
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
         const MultiBladeRow& row = rows()[i];
         const bool blade = row.blade_coordinate >= 0;
-        const int coordinate = blade ? rotor_.blades[0][static_cast<std::size_t>(row.blade_coordinate)] : unknowns_[i];
+        const int coordinate = blade ? entry(rotor_.blades[0], row.blade_coordinate) : unknowns_[i];
         const std::string& name = system_.model.coordinates()[coordinate].name;
         names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);
     }
@@ -216,7 +213,7 @@ std::vector<std::string> PointSolver::row_names() const {
 }
 
 Matrix PointSolver::rotating_coordinates() const {
-    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    const auto n = std::ssize(unknowns_);
     return coleman_ ? coleman_->matrix(0) : Matrix(Matrix::Identity(n, n));
 }
 

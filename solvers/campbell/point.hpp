@@ -79,7 +79,7 @@ private:
     void note_rigid_springs();
     void set_margin(CampbellPoint& point) const;
     void set_system(double rotor_speed);
-    void set_other_azimuth(double psi, double rotor_speed);
+    void set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out);
     double remainder(double rotor_speed);
     void average_if_periodic(double rotor_speed);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);

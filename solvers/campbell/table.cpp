@@ -1,3 +1,4 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
@@ -39,7 +40,7 @@ std::string CampbellMode::kind_name() const {
 
 const CampbellMode* Campbell::mode(const Branch& branch, std::size_t point) const {
     const int index = branch.mode.at(point);
-    return index < 0 ? nullptr : &points[point].modes[static_cast<std::size_t>(index)];
+    return index < 0 ? nullptr : &entry(points[point].modes, index);
 }
 
 std::vector<double> Campbell::rotor_speeds() const {
@@ -79,13 +80,13 @@ std::vector<FrameMotion> Campbell::motion(const Branch& branch, std::size_t poin
     if (point >= motions.size() || branch.mode.at(point) < 0)
         throw InputError(machine, "mode shape of", text("'", branch.name, "' at point ", point),
                          "a point where the branch has a mode, in a diagram made with keep_shapes");
-    return motions[point][static_cast<std::size_t>(branch.mode[point])];
+    return entry(motions[point], branch.mode[point]);
 }
 
 namespace {
 
 // "    0.9581 ( -4.53) ?", "-" without a mode.
-std::string entry(const Campbell& diagram, const Branch& branch, std::size_t point) {
+std::string cell(const Campbell& diagram, const Branch& branch, std::size_t point) {
     std::ostringstream out;
     if (branch.mode[point] < 0) {
         out << std::setw(21) << "-";
@@ -136,7 +137,7 @@ std::string table(const Campbell& diagram) {
     out << "\n";
     for (const Branch& branch : diagram.branches) {
         out << std::left << std::setw(width) << branch.name << std::right;
-        for (std::size_t i : shown) out << entry(diagram, branch, i);
+        for (std::size_t i : shown) out << cell(diagram, branch, i);
         out << "\n";
     }
     out << margins(diagram, shown, width);
@@ -146,8 +147,7 @@ std::string table(const Campbell& diagram) {
         for (const Crossing& crossing : diagram.crossings)
             out << "  " << std::setw(2) << crossing.multiple << "P at " << std::setw(6) << std::setprecision(2)
                 << crossing.rotor_speed * units::to_rpm << " rpm, " << std::setw(7) << std::setprecision(4)
-                << crossing.frequency_hz << " Hz: " << diagram.branches[static_cast<std::size_t>(crossing.branch)].name
-                << "\n";
+                << crossing.frequency_hz << " Hz: " << entry(diagram.branches, crossing.branch).name << "\n";
     }
     if (!diagram.warning.empty()) out << "\nwarning: " << diagram.warning << "\n";
     if (!diagram.complete) out << "\nthe sweep was interrupted: only the rotor speeds above were computed\n";

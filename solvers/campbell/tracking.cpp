@@ -1,5 +1,6 @@
 #include "solvers/campbell/tracking.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
 
@@ -30,8 +31,8 @@ std::vector<const CampbellMode*> Tracker::last() const {
 }
 
 void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
-    const auto count = static_cast<Eigen::Index>(point.modes.size());
-    Matrix mac = Matrix::Zero(static_cast<Eigen::Index>(tracks_.size()), count);
+    const auto count = std::ssize(point.modes);
+    Matrix mac = Matrix::Zero(std::ssize(tracks_), count);
     if (mac.size() > 0) {
         const Eigen::Index n = system.M.rows();
         ComplexMatrix X(n, mac.rows()), Y(n, count);
@@ -41,8 +42,8 @@ void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
             shapes.col(i) = from.mode.shape;
             eigenvalues(i) = from.mode.eigenvalue;
         };
-        for (Eigen::Index i = 0; i < mac.rows(); ++i) set(last_[static_cast<std::size_t>(i)], X, lx, i);
-        for (Eigen::Index j = 0; j < count; ++j) set(point.modes[static_cast<std::size_t>(j)], Y, ly, j);
+        for (Eigen::Index i = 0; i < mac.rows(); ++i) set(entry(last_, i), X, lx, i);
+        for (Eigen::Index j = 0; j < count; ++j) set(entry(point.modes, j), Y, ly, j);
         // Modes have energy norm 2 (their own at their own speed), so |product|^2 / 4 is the MAC up to the change of M.
         const ComplexMatrix elastic = X.adjoint() * (system.K_elastic * Y), kinetic = X.adjoint() * (system.M * Y);
         for (Eigen::Index i = 0; i < mac.rows(); ++i)
@@ -54,25 +55,24 @@ void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
 
 void Tracker::add(const Matrix& score, const Matrix& mac, const CampbellPoint& point) {
     for (const Matrix* m : {&score, &mac})
-        if (m->rows() != static_cast<Eigen::Index>(tracks_.size()) ||
-            m->cols() != static_cast<Eigen::Index>(point.modes.size()))
+        if (m->rows() != std::ssize(tracks_) || m->cols() != std::ssize(point.modes))
             throw InputError("tracking", "size of a matrix of likenesses", text(m->rows(), " x ", m->cols()),
                              text(tracks_.size(), " x ", point.modes.size(), ", tracks by modes"));
     std::vector<int> mode_of_track(tracks_.size(), -1);
     std::vector<bool> taken(point.modes.size(), false);
     if (score.size() > 0) mode_of_track = assign(score);
-    for (std::size_t t = 0; t < tracks_.size(); ++t) {
-        const int mode = mode_of_track[t];
-        const auto row = static_cast<Eigen::Index>(t);
-        if (mode < 0 || score(row, mode) < least_score) {
-            tracks_[t].mode.push_back(-1);
-            tracks_[t].mac.push_back(0);
+    for (Eigen::Index t = 0; t < std::ssize(tracks_); ++t) {
+        Track& track = entry(tracks_, t);
+        const int mode = entry(mode_of_track, t);
+        if (mode < 0 || score(t, mode) < min_score) {
+            track.mode.push_back(-1);
+            track.mac.push_back(0);
             continue;
         }
-        tracks_[t].mode.push_back(mode);
-        tracks_[t].mac.push_back(mac(row, mode));
-        taken[static_cast<std::size_t>(mode)] = true;
-        last_[t] = point.modes[static_cast<std::size_t>(mode)];
+        track.mode.push_back(mode);
+        track.mac.push_back(mac(t, mode));
+        entry(taken, mode) = true;
+        entry(last_, t) = entry(point.modes, mode);
     }
     for (std::size_t m = 0; m < point.modes.size(); ++m) {
         if (taken[m] || !begins(point.modes[m])) continue;

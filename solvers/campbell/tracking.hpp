@@ -8,7 +8,7 @@
 namespace cardan::solvers {
 
 /// Score between 0 and 1 below which two modes are never taken for the same.
-inline constexpr double least_score = 0.1;
+inline constexpr double min_score = 0.1;
 
 /// Links the modes of consecutive points by optimal assignment on the complex energy MAC, never by frequency order.
 /// Points may differ in anything but their rows. Oscillations, and motions named after a coordinate, begin a track.
@@ -18,7 +18,7 @@ public:
     void add(const SecondOrderSystem& system, const CampbellPoint& point);
     /// With a score and MAC supplied by the caller, e.g. from periodic_mac(): one row per track (see last()), one
     /// column per mode.
-    /// @param score  the assignment maximises its sum; below least_score a track ends
+    /// @param score  the assignment maximises its sum; below min_score a track ends
     /// @param mac    kept with the branch
     /// @throws InputError for matrices of another size
     void add(const Matrix& score, const Matrix& mac, const CampbellPoint& point);

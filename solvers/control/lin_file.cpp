@@ -1,5 +1,6 @@
 #include "solvers/control/lin_file.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
 #include "mbs/base/version.hpp"
@@ -34,7 +35,7 @@ std::string padded(std::string words, std::size_t width) {
     return words;
 }
 
-// Of a state, its derivative, an input or an output.
+// Row of a state, its derivative, an input or an output.
 struct Row {
     double value;
     bool rotating;
@@ -69,7 +70,7 @@ void add_matrix(std::string& out, const char* name, const Matrix& A) {
     }
 }
 
-// Of these signals the ones that all blades have, in triplets (or more) that differ in the number only.
+// Whether all blades have this signal: names in triplets (or more) that differ in the number only.
 bool in_all_blades(const std::vector<Signal>& signals, const Signal& signal, int blades) {
     if (signal.blade == 0 || blades < 2) return false;
     const std::string own = text("blade ", signal.blade);
@@ -130,22 +131,24 @@ private:
     }
     std::vector<Row> states(const Vector& values, bool derivative) const {
         std::vector<Row> rows;
-        const std::size_t half = m_.states.size() / 2;
-        for (std::size_t i = 0; i < m_.states.size(); ++i) {
-            const Signal& position = m_.states[i % half];
+        const Index half = std::ssize(m_.states) / 2;
+        for (Index i = 0; i < std::ssize(m_.states); ++i) {
+            const Signal& position = entry(m_.states, i % half);
             std::string name = text(position.name, ", ", units_of(position));
             if (i >= half) name = text("First time derivative of ", name, "/s");
             // Blade coordinates come in sets always; their numbers stand somewhere in the name.
-            rows.push_back({values(static_cast<Index>(i)), position.blade > 0, 2,
+            rows.push_back({values(i), position.blade > 0, 2,
                             derivative ? text("First time derivative of Cardan ", name, "/s") : text("Cardan ", name)});
         }
         return rows;
     }
     std::vector<Row> signals(const std::vector<Signal>& list, const Vector& values) const {
         std::vector<Row> rows;
-        for (std::size_t i = 0; i < list.size(); ++i)
-            rows.push_back({values(static_cast<Index>(i)), in_all_blades(list, list[i], m_.blades), 0,
-                            text("Cardan ", name_of(list[i]), ", ", units_of(list[i]))});
+        for (Index i = 0; i < std::ssize(list); ++i) {
+            const Signal& signal = entry(list, i);
+            rows.push_back({values(i), in_all_blades(list, signal, m_.blades), 0,
+                            text("Cardan ", name_of(signal), ", ", units_of(signal))});
+        }
         return rows;
     }
 

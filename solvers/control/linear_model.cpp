@@ -1,6 +1,7 @@
 #include "solvers/control/linear_model.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/azimuth_series.hpp"
 
@@ -22,7 +23,7 @@ StateMatrices weighted(const Items& items, const Vector& weight) {
     StateMatrices sum;
     for (Matrix StateMatrices::*m : state_matrices) {
         sum.*m = Matrix::Zero((items[0].*m).rows(), (items[0].*m).cols());
-        for (std::size_t i = 0; i < items.size(); ++i) sum.*m += weight(static_cast<Eigen::Index>(i)) * (items[i].*m);
+        for (Eigen::Index i = 0; i < std::ssize(items); ++i) sum.*m += weight(i) * (entry(items, i).*m);
     }
     return sum;
 }
@@ -37,8 +38,7 @@ std::vector<StateMatrices> fourier_coefficients(const LinearModel& model, int ha
     if (harmonics < 0) harmonics = most;
     Matrix weights(count, 2 * harmonics + 1);
     for (int s = 0; s < count; ++s)
-        weights.row(s) =
-            fourier_weights(model.samples[static_cast<std::size_t>(s)].azimuth, harmonics, count).transpose();
+        weights.row(s) = fourier_weights(entry(model.samples, s).azimuth, harmonics, count).transpose();
     std::vector<StateMatrices> coefficients;
     for (Eigen::Index j = 0; j < weights.cols(); ++j)
         coefficients.push_back(weighted(model.samples, Vector(weights.col(j))));

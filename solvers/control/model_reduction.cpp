@@ -136,7 +136,7 @@ ConstantModel modal_truncation(const ConstantModel& model, const ModalOptions& o
 
 namespace {
 
-// A stable system in balanced coordinates, most of what it does first.
+// A stable system in balanced coordinates, by descending Hankel value.
 struct Balanced {
     Vector hankel;
     StateMatrices system;  // as many states as are more than rounding
@@ -244,7 +244,7 @@ public:
     Vector input, output;
 
 private:
-    // What nothing responds to, or what responds to nothing, keeps its size.
+    // Inputs without effect and outputs without response keep their scale.
     static void replace(Vector& sizes, const Vector& by) {
         for (Index k = 0; k < sizes.size(); ++k)
             if (by(k) > 0) sizes(k) = by(k);

@@ -1,6 +1,7 @@
 #include "solvers/control/multi_blade_model.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/linear/coleman.hpp"
 
@@ -56,7 +57,7 @@ public:
             std::vector<int>& rows = by_name[name];
             if (rows.empty()) order.push_back(name);
             rows.resize(static_cast<std::size_t>(blades), -1);
-            rows[static_cast<std::size_t>(signals_[i].blade - 1)] = static_cast<int>(i);
+            entry(rows, signals_[i].blade - 1) = static_cast<int>(i);
         }
         for (const std::string& name : order)
             if (std::ranges::none_of(by_name[name], [](int row) { return row < 0; })) add(name, by_name[name]);
@@ -65,7 +66,7 @@ public:
     const std::vector<Signal>& signals() const { return signals_; }
     const std::vector<std::string>& names() const { return names_; }
     Matrix matrix(double psi) const {
-        const auto n = static_cast<Index>(signals_.size());
+        const auto n = std::ssize(signals_);
         Matrix T = Matrix::Identity(n, n);
         const Matrix block = blade_block(blades_, psi);
         for (const std::vector<int>& rows : sets_) T(rows, rows) = block;
@@ -77,7 +78,7 @@ private:
         names_.push_back(name);
         sets_.push_back(rows);
         for (int j = 0; j < blades_; ++j) {
-            Signal& signal = signals_[static_cast<std::size_t>(rows[static_cast<std::size_t>(j)])];
+            Signal& signal = entry(signals_, entry(rows, j));
             signal.name = text(name, " (", multi_blade_name(pattern(j, blades_)), ")");
             signal.alias.clear();
             signal.blade = 0;
@@ -115,12 +116,12 @@ private:
     // From the orthonormal coordinates of ColemanTransform to those whose collective value is the mean.
     Vector scales(const RotorMap& rotor) const {
         const double B = static_cast<double>(rotor.blades.size());
-        Vector scale = Vector::Ones(static_cast<Index>(rows().size()));
-        for (std::size_t i = 0; i < rows().size(); ++i) {
-            const MultiBlade kind = rows()[i].kind;
+        Vector scale = Vector::Ones(std::ssize(rows()));
+        for (Index i = 0; i < scale.size(); ++i) {
+            const MultiBlade kind = entry(rows(), i).kind;
             if (kind == MultiBlade::none) continue;
             const bool whirls = kind == MultiBlade::cosine || kind == MultiBlade::sine;
-            scale(static_cast<Index>(i)) = std::sqrt(whirls ? B / 2 : B);
+            scale(i) = std::sqrt(whirls ? B / 2 : B);
         }
         return scale;
     }
@@ -147,10 +148,9 @@ std::vector<Signal> state_signals(const LinearModel& model, const RotorMap& roto
         const MultiBladeRow& row = rows[i % rows.size()];
         if (row.kind == MultiBlade::none) continue;
         // Named after blade 1.
-        const int coordinate = rotor.blades[0][static_cast<std::size_t>(row.blade_coordinate)];
+        const int coordinate = entry(rotor.blades[0], row.blade_coordinate);
         const auto first = std::ranges::find(model.coordinates, coordinate) - model.coordinates.begin();
-        const Signal& source =
-            model.states[static_cast<std::size_t>(first) + (i < rows.size() ? std::size_t{0} : rows.size())];
+        const Signal& source = entry(model.states, first + (i < rows.size() ? 0 : std::ssize(rows)));
         const std::string name = without_number(source);
         signals[i] = source;
         signals[i].name = text(name.empty() ? source.name : name, " (", multi_blade_name(row), ")");
@@ -185,12 +185,12 @@ double remainder(const Matrix& difference, const Matrix& mean) {
 double remainder_by_row(const Matrix& difference, const Matrix& mean, const std::vector<Signal>& outputs) {
     std::map<std::string, double> largest;
     for (Index i = 0; i < mean.rows(); ++i) {
-        double& size = largest[outputs[static_cast<std::size_t>(i)].units];
+        double& size = largest[entry(outputs, i).units];
         size = std::max(size, mean.row(i).norm());
     }
     double result = 0;
     for (Index i = 0; i < mean.rows(); ++i) {
-        const double size = std::max(mean.row(i).norm(), 1e-6 * largest[outputs[static_cast<std::size_t>(i)].units]);
+        const double size = std::max(mean.row(i).norm(), 1e-6 * largest[entry(outputs, i).units]);
         if (size > 0) result = std::max(result, difference.row(i).norm() / size);
     }
     return result;

@@ -7,7 +7,9 @@
 
 namespace cardan::solvers {
 
-/// A model whose matrices are averaged over the azimuth after multi-blade transformation.
+/// A model whose matrices are averaged over the azimuth after multi-blade transformation. The mean is that of the state
+/// matrices, with the inverse of M in them, and not of M, C and K as in azimuth_average(): the eigenvalues of the two
+/// differ in the second order of what varies with the azimuth.
 struct MultiBladeModel : ConstantModel {
     /// Largest difference between the transformed matrices at an azimuth and their mean, relative to the Frobenius norm
     /// of the mean: rounding for an isotropic rotor without gravity. Those of C and D are the largest over all outputs,

@@ -1,6 +1,7 @@
 #include "solvers/control/state_space.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/control/detail/state_space.hpp"
@@ -90,10 +91,10 @@ void Builder::find_forces(const OperatingPoint& at, LinearModel& model) {
     actuator_ = Vector::Zero(n);
     for (int i : layout_.driven) actuator_(i) = missing(i);
     Vector on_unknowns = missing(layout_.unknowns);
-    for (std::size_t row = 0; row < layout_.unknowns.size(); ++row)
-        if (layout_.unknowns[row] == rotor_.spin) {
+    for (Index row = 0; row < on_unknowns.size(); ++row)
+        if (entry(layout_.unknowns, row) == rotor_.spin) {
             actuator_(rotor_.spin) = missing(rotor_.spin);
-            on_unknowns(static_cast<Index>(row)) = 0;
+            on_unknowns(row) = 0;
         }
     const Matrix M = lin_.mass(layout_.unknowns, layout_.unknowns);
     const Vector off = M.llt().solve(on_unknowns);

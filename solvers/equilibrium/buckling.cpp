@@ -1,6 +1,7 @@
 #include "solvers/equilibrium/buckling.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/linear/modes.hpp"
@@ -33,7 +34,7 @@ Matrix term_sizes(const System& system, const Vector& q, bool gravity) {
     if (!gravity || !system.forces.has_gravity()) return sizes;
     composites(kin);
     for (int a = 0; a < model.size(); ++a) {
-        const auto& subtree = workspace.composite[static_cast<std::size_t>(a)];
+        const auto& subtree = entry(workspace.composite, a);
         const Vec3 C = subtree.C.vector();
         const double size = subtree.M * system.forces.gravity().norm() * (twist_at(kin, a, C).v.norm() + C.norm());
         for (int b = a; b >= 0; b = model.body(b).parent) sizes(a, b) = sizes(b, a) = sizes(b, a) + size;
@@ -200,11 +201,10 @@ LoadStability load_stability(const System& system, const LoadStabilityOptions& o
             result.stable_factor = factor;
             continue;
         }
-        result.complete = true;
         if (i == 0) {
             result.stable_factor = factor;
-            result.message = text("unstable already at the first load factor ", factor);
-            return result;
+            result.note = text("unstable already at the first load factor ", factor);
+            break;
         }
         q = before;
         while (result.factor - result.stable_factor > options.tolerance) {
@@ -225,9 +225,9 @@ LoadStability load_stability(const System& system, const LoadStabilityOptions& o
                 result.kind = refined->kind;
             }
         }
-        return result;
+        break;
     }
-    result.complete = true;
+    result.converged = true;
     return result;
 }
 

@@ -60,15 +60,15 @@ struct LoadStabilityPoint {
     Complex eigenvalue;  ///< the one with the largest Re(lambda) / |lambda|, 1/s
 };
 
-/// Result of load_stability().
-struct [[nodiscard]] LoadStability {
-    bool complete = false;                 ///< an instability was found, or the scan reached `to` without one
+/// Result of load_stability(). It converged if an instability was found and narrowed, or if the scan reached `to`
+/// without one; otherwise there is no equilibrium at some load factor.
+struct [[nodiscard]] LoadStability : Outcome {
     Instability kind = Instability::none;  ///< none: stable as far as the scan went
     double factor = 0;         ///< lowest unstable load factor (within `tolerance`); without instability the last one
     double stable_factor = 0;  ///< largest stable load factor below it; equal to `factor` if the first one is unstable
     Complex eigenvalue;        ///< of the unstable mode at `factor`, 1/s
     std::vector<LoadStabilityPoint> points;  ///< of the scan, in its order
-    std::string message;                     ///< why the scan ended early, empty if it did not
+    std::string note;                        ///< that the first load factor is unstable already; usually empty
 
     double frequency_hz() const { return eigenvalue.imag() / (2 * pi); }
 };

@@ -50,13 +50,12 @@ struct StabilityChange {
     double factor() const { return (before + after) / 2; }
 };
 
-/// Result of load_path(): every state that converged, in the order of load factors.
-struct [[nodiscard]] LoadPath {
-    bool converged = false;             ///< the last factor was reached
+/// Result of load_path(): every state that converged, in the order of load factors. The path itself did if the last
+/// factor was reached; otherwise the message says why it ended early, at which factor and what to do.
+struct [[nodiscard]] LoadPath : Outcome {
     std::vector<LoadPathPoint> points;  ///< requested factors and those of halved steps; the last one is always kept
     std::optional<StabilityChange> stability_change;
     int failed_steps = 0;  ///< steps that were tried and halved
-    std::string message;   ///< why the path ended early, at which factor and what to do; empty if it did not
 };
 
 /// Equilibria r(q) = Gamma_abc qd^b qd^c - Q_a(q, factor) = 0 while the loads grow. Every step starts from the last

@@ -1,5 +1,6 @@
 #include "solvers/equilibrium/steady_state.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "solvers/algebra/detail/sundials_memory.hpp"
@@ -65,8 +66,8 @@ public:
         for (int b : unknowns)
             for (int a : unknowns) *J++ = by_q_(a, b);
     }
-    // Of the springs alone, at the place of the last call of jacobian().
-    double elastic_diagonal(std::size_t i) const { return forces_.elastic(unknowns[i], unknowns[i]); }
+    // Stiffness of the springs alone, at the state of the last call of jacobian().
+    double elastic_diagonal(Eigen::Index i) const { return forces_.elastic(entry(unknowns, i), entry(unknowns, i)); }
 
     std::vector<int> unknowns;
     OperatingPoint at;
@@ -146,7 +147,7 @@ private:
     int spin_, coordinates_;
     Residual residual_;
     Vector scale_, r_;
-    // In this order: KINSOL goes before what it uses, the context last.
+    // The order matters: members are destroyed in reverse, KINSOL first, the context last.
     SundialsContext context_;
     SundialsVector x_, x_scale_, f_scale_;
     SundialsMatrix J_;
@@ -197,14 +198,14 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
 // springs at least, for at a critical load they and the loads cancel.
 void SteadySolver::Memory::set_scale() {
     residual_.jacobian(SUNDenseMatrix_Data(J_.get()));
-    const auto n = static_cast<std::size_t>(scale_.size());
-    const auto stiffness = [&](std::size_t i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (n + 1)]); };
-    const auto spring = [&](std::size_t i) { return std::abs(residual_.elastic_diagonal(i)); };
+    const Eigen::Index n = scale_.size();
+    const auto stiffness = [&](Eigen::Index i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (n + 1)]); };
+    const auto spring = [&](Eigen::Index i) { return std::abs(residual_.elastic_diagonal(i)); };
     double stiffest = 1e-280;
-    for (std::size_t i = 0; i < n; ++i) stiffest = std::max({stiffest, stiffness(i), spring(i)});
-    for (std::size_t i = 0; i < n; ++i) {
+    for (Eigen::Index i = 0; i < n; ++i) stiffest = std::max({stiffest, stiffness(i), spring(i)});
+    for (Eigen::Index i = 0; i < n; ++i) {
         const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
-        scale_(static_cast<Eigen::Index>(i)) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
+        scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
     }
 }
 

@@ -2,12 +2,12 @@
 /// Equilibrium at standstill and in steady rotation.
 #pragma once
 
+#include "mbs/base/outcome.hpp"
 #include "mbs/model/rotor_map.hpp"
 #include "mbs/system/system.hpp"
 #include "solvers/linear/operating_point.hpp"
 
 #include <memory>
-#include <string>
 
 namespace cardan::solvers {
 
@@ -20,12 +20,10 @@ struct SteadyOptions {
 };
 
 /// Result of steady_state(); `at` is the last iterate also if it did not converge.
-struct [[nodiscard]] SteadyState {
-    bool converged = false;
+struct [[nodiscard]] SteadyState : Outcome {
     OperatingPoint at;
     double residual = 0;  ///< largest residual over stiffness, rad or m
     int iterations = 0;
-    std::string message;  ///< why it did not converge and what to do, empty if it did
 };
 
 /// Constant free coordinates while only the spin coordinate moves: r(q) = Gamma_abc qd^b qd^c - Q_a = 0 on the free

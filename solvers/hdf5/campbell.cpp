@@ -1,5 +1,6 @@
 #include "solvers/hdf5/campbell.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/version.hpp"
 #include "solvers/hdf5/file.hpp"
 
@@ -235,8 +236,7 @@ private:
                 const int mode = branch.mode[i];
                 for (std::size_t f = 0; f < frames; ++f)
                     for (Eigen::Index k = 0; k < 6; ++k)
-                        motion.push_back(mode < 0 ? Complex(nan, nan)
-                                                  : d_.motions[i][static_cast<std::size_t>(mode)][f].motion(k));
+                        motion.push_back(mode < 0 ? Complex(nan, nan) : entry(d_.motions[i], mode)[f].motion(k));
             }
         file_.write("branches/frame_motion", motion, {points_, branches_, frames, 6},
                     {"rad or m",

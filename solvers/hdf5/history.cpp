@@ -84,7 +84,7 @@ HistoryWriter& HistoryWriter::operator=(HistoryWriter&&) noexcept = default;
 HistoryWriter::~HistoryWriter() = default;
 
 HistoryWriter HistoryWriter::create(const std::filesystem::path& path, const std::vector<Channel>& channels,
-                                    const HistoryAbout& about, const HistoryStorage& storage) {
+                                    const HistoryMetadata& about, const HistoryStorage& storage) {
     auto impl = std::make_unique<Impl>();
     impl->path = path.string();
     check(impl->path, channels);

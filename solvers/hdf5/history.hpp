@@ -19,7 +19,7 @@
 namespace cardan::solvers {
 
 /// Metadata of a history.
-struct HistoryAbout {
+struct HistoryMetadata {
     std::string title = {};
     std::string method = {};       ///< of integration, one line
     std::string description = {};  ///< the input of the run, as text
@@ -53,7 +53,7 @@ public:
     /// @throws InputError for channels that do not meet this or options out of range; FileError, also if the file
     ///         exists and `storage.replace` is not set, or if another program has it open
     [[nodiscard]] static HistoryWriter create(const std::filesystem::path& path, const std::vector<Channel>& channels,
-                                              const HistoryAbout& about = {}, const HistoryStorage& storage = {});
+                                              const HistoryMetadata& about = {}, const HistoryStorage& storage = {});
     /// Reopens a history, finished or interrupted, to continue from its checkpoint (read_checkpoint()): rows after it
     /// are removed; without a checkpoint all rows stay. An interrupted flush is completed or undone.
     /// @throws InputError if names or units of the channels are not those of the file; FileError
@@ -103,7 +103,7 @@ Advance record(Integrator& integrator, Recorder& recorder, const std::vector<dou
 
 /// Information about a history other than its rows.
 struct HistoryInfo {
-    HistoryAbout about;
+    HistoryMetadata about;
     std::string version;         ///< of the program
     bool finished = false;       ///< finish() was called
     bool being_written = false;  ///< a program currently has it open for writing

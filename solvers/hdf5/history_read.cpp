@@ -61,7 +61,7 @@ StoredHistory stored_history(HistorySource& source) {
     return stored;
 }
 
-/// Of the chosen channels in the order in which they are asked for.
+/// Indices of the chosen channels in the order in which they are asked for.
 std::vector<std::size_t> chosen(const HistoryInfo& info, const HistorySelection& selection) {
     std::vector<std::size_t> indices;
     if (selection.channels.empty())

@@ -23,13 +23,15 @@ struct Field {
 
 constexpr std::array<Field<Checkpoint, double>, 3> checkpoint_numbers{{
     {"checkpoint_time", "s", "time of the checkpoint", &Checkpoint::time},  // "time" is the name of an axis
-    {"kinetic_energy_at_start", "J", "kinetic energy when the works were zero", &Checkpoint::kinetic_at_start},
-    {"potential_energy_at_start", "J", "potential energy when the works were zero", &Checkpoint::potential_at_start},
+    {"kinetic_energy_at_start", "J", "kinetic energy at the start, where the work is zero",
+     &Checkpoint::kinetic_at_start},
+    {"potential_energy_at_start", "J", "potential energy at the start, where the work is zero",
+     &Checkpoint::potential_at_start},
 }};
-constexpr std::array<Field<Works, double>, 3> works_numbers{{
-    {"work_of_forces", "J", "work of all forces since the start", &Works::forces},
-    {"work_of_dissipation", "J", "time integral of the power of linear dampers since the start", &Works::dissipation},
-    {"work_of_drives", "J", "work of the drives since the start", &Works::drives},
+constexpr std::array<Field<Work, double>, 3> work_numbers{{
+    {"work_of_forces", "J", "work of all forces since the start", &Work::forces},
+    {"work_of_dissipation", "J", "time integral of the power of linear dampers since the start", &Work::dissipation},
+    {"work_of_drives", "J", "work of the drives since the start", &Work::drives},
 }};
 constexpr const char* method_steps = "method_steps";
 constexpr const char* positions_at_start = "positions_at_start";
@@ -96,7 +98,7 @@ void put(Hdf5File& file, const std::string& name, const Vector& values, const De
 
 Vector vector_of(const Hdf5File& file, const std::string& name) {
     const std::vector<double> values = file.read_doubles(name);
-    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+    return Eigen::Map<const Vector>(values.data(), std::ssize(values));
 }
 
 IntegrationStatistics statistics_of(const Hdf5File& file) {
@@ -109,7 +111,7 @@ IntegrationStatistics statistics_of(const Hdf5File& file) {
     return statistics;
 }
 
-// Of files that have it: written by versions that could go on from within a step.
+// For files that have it: written by versions that could continue from within a step.
 MethodState method_of(const Hdf5File& file) {
     const std::string group = checkpoint_group;
     MethodState method;
@@ -140,7 +142,7 @@ Checkpoint checkpoint_of(const Hdf5File& file) {
     const std::string group = checkpoint_group;
     Checkpoint checkpoint;
     for (const auto& f : checkpoint_numbers) checkpoint.*f.member = file.read_doubles(group + f.name).at(0);
-    for (const auto& f : works_numbers) checkpoint.works.*f.member = file.read_doubles(group + f.name).at(0);
+    for (const auto& f : work_numbers) checkpoint.work.*f.member = file.read_doubles(group + f.name).at(0);
     checkpoint.q = vector_of(file, group + "q");
     checkpoint.qd = vector_of(file, group + "qd");
     checkpoint.method = method_of(file);
@@ -156,7 +158,7 @@ void put_checkpoint(Hdf5File& file, const Checkpoint& checkpoint, std::size_t ro
     const std::string group = checkpoint_group;
     put(file, group + "rows", static_cast<std::int64_t>(rows), {"1", "rows of the history up to the checkpoint"});
     for (const auto& f : checkpoint_numbers) put(file, group + f.name, checkpoint.*f.member, {f.units, f.long_name});
-    for (const auto& f : works_numbers) put(file, group + f.name, checkpoint.works.*f.member, {f.units, f.long_name});
+    for (const auto& f : work_numbers) put(file, group + f.name, checkpoint.work.*f.member, {f.units, f.long_name});
     put(file, group + "q", checkpoint.q, {"rad or m", "coordinates"}, coordinate_axis);
     put(file, group + "qd", checkpoint.qd, {"rad s-1 or m s-1", "rates of the coordinates"}, coordinate_axis);
     put_method(file, checkpoint.method);

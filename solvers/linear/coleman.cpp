@@ -1,5 +1,6 @@
 #include "solvers/linear/coleman.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
     if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))
         throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
-    if (blades_ > most_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", most_blades));
+    if (blades_ > max_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", max_blades));
     for (const std::vector<int>& blade : rotor.blades)
         if (blade.size() != rotor.blades[0].size())
             throw InputError(rotor.machine, "coordinates of a blade", blade.size(),
@@ -77,11 +78,11 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
             throw InputError(rotor.machine, "blade coordinate number", i + 1, "free on all blades or on none of them");
         at_.push_back(rows);
         for (int k = 0; k < blades_; ++k) {
-            const int row = rows[static_cast<std::size_t>(k)];
+            const int row = entry(rows, k);
             const MultiBladeRow z = row_kind(k, blades_, static_cast<int>(i));
-            rows_[static_cast<std::size_t>(row)] = z;
+            entry(rows_, row) = z;
             if (z.kind == MultiBlade::cosine)
-                pairs_.push_back({row, rows[static_cast<std::size_t>(k) + 1], static_cast<double>(z.harmonic)});
+                pairs_.push_back({row, entry(rows, k + 1), static_cast<double>(z.harmonic)});
         }
     }
     // A vector fixed in space, seen from a part that turns by sense * psi about its x axis.
@@ -90,25 +91,22 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
         if (y < 0 || z < 0) continue;
         if (pair.turns) pairs_.push_back({y, z, pair.sense});
         if (blades_ > 0) continue;
-        rows_[static_cast<std::size_t>(y)].kind = pair.sense > 0 ? MultiBlade::cosine : MultiBlade::sine;
-        rows_[static_cast<std::size_t>(z)].kind = pair.sense > 0 ? MultiBlade::sine : MultiBlade::cosine;
-        for (const int row : {y, z}) rows_[static_cast<std::size_t>(row)].harmonic = 1;
+        entry(rows_, y).kind = pair.sense > 0 ? MultiBlade::cosine : MultiBlade::sine;
+        entry(rows_, z).kind = pair.sense > 0 ? MultiBlade::sine : MultiBlade::cosine;
+        for (const int row : {y, z}) entry(rows_, row).harmonic = 1;
     }
 }
 
 // A T: every row alike.
 void ColemanTransform::transform_columns(double psi, Matrix& A) const {
-    std::array<double, most_blades> x{};
+    std::array<double, max_blades> x{};
     for (const std::vector<int>& rows : at_)
         for (Eigen::Index i = 0; i < A.rows(); ++i) {
-            for (int k = 0; k < blades_; ++k) {
-                const auto at = static_cast<std::size_t>(k);
-                x[at] = A(i, rows[at]);
-            }
+            for (int k = 0; k < blades_; ++k) entry(x, k) = A(i, entry(rows, k));
             for (int j = 0; j < blades_; ++j) {
                 double sum = 0;
-                for (int k = 0; k < blades_; ++k) sum += x[static_cast<std::size_t>(k)] * blade_block_(k, j);
-                A(i, rows[static_cast<std::size_t>(j)]) = sum;
+                for (int k = 0; k < blades_; ++k) sum += entry(x, k) * blade_block_(k, j);
+                A(i, entry(rows, j)) = sum;
             }
         }
     if (psi == 0) return;
@@ -124,17 +122,14 @@ void ColemanTransform::transform_columns(double psi, Matrix& A) const {
 
 // T^T A: every column alike.
 void ColemanTransform::transform_rows(double psi, Matrix& A) const {
-    std::array<double, most_blades> x{};
+    std::array<double, max_blades> x{};
     for (Eigen::Index column = 0; column < A.cols(); ++column) {
         for (const std::vector<int>& rows : at_) {
-            for (int k = 0; k < blades_; ++k) {
-                const auto at = static_cast<std::size_t>(k);
-                x[at] = A(rows[at], column);
-            }
+            for (int k = 0; k < blades_; ++k) entry(x, k) = A(entry(rows, k), column);
             for (int j = 0; j < blades_; ++j) {
                 double sum = 0;
-                for (int k = 0; k < blades_; ++k) sum += x[static_cast<std::size_t>(k)] * blade_block_(k, j);
-                A(rows[static_cast<std::size_t>(j)], column) = sum;
+                for (int k = 0; k < blades_; ++k) sum += entry(x, k) * blade_block_(k, j);
+                A(entry(rows, j), column) = sum;
             }
         }
     }
@@ -156,7 +151,7 @@ void ColemanTransform::congruence(double psi, Matrix& A) const {
 
 Matrix ColemanTransform::matrix(double psi, int derivative) const {
     if (derivative < 0) throw InputError("multi-blade transformation", "derivative", derivative, ">= 0");
-    const auto n = static_cast<Eigen::Index>(rows_.size());
+    const auto n = std::ssize(rows_);
     Matrix T = Matrix::Identity(n, n);
     transform_columns(psi, T);
     for (int d = 0; d < derivative; ++d) {
@@ -171,7 +166,7 @@ Matrix ColemanTransform::matrix(double psi, int derivative) const {
 }
 
 void ColemanTransform::transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const {
-    const auto size = static_cast<Eigen::Index>(rows_.size());
+    const auto size = std::ssize(rows_);
     for (const Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic})
         require_size("multi-blade transformation", "matrix of the system", *A, size, size);
     for (Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic}) congruence(psi, *A);

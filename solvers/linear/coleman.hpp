@@ -54,7 +54,7 @@ public:
     SecondOrderSystem transform(SecondOrderSystem system, double psi, double rotor_speed) const;
 
 private:
-    static constexpr int most_blades = 32;
+    static constexpr int max_blades = 32;
 
     // Two columns that rotate into one another: a' = -factor b, b' = factor a (derivatives by psi), i.e. T rotates them
     // by factor * psi.

@@ -1,5 +1,6 @@
 #include "solvers/linear/linearise.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
 
@@ -58,7 +59,7 @@ Linearisation linearise(const System& system, const OperatingPoint& at) {
 }
 
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out) {
-    const auto n = static_cast<Eigen::Index>(coordinates.size());
+    const auto n = std::ssize(coordinates);
     const Eigen::Index all = lin.mass.rows();
     for (const Matrix* m :
          {&lin.mass, &lin.damping, &lin.gyroscopic, &lin.elastic, &lin.gravity, &lin.loads, &lin.inertial})
@@ -68,9 +69,9 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
     out.cyclic = -1;
     for (Matrix* m : {&out.M, &out.C, &out.K, &out.K_elastic}) m->resize(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
-        const int b = coordinates[static_cast<std::size_t>(j)];
+        const int b = entry(coordinates, j);
         for (Eigen::Index i = 0; i < n; ++i) {
-            const int a = coordinates[static_cast<std::size_t>(i)];
+            const int a = entry(coordinates, i);
             out.M(i, j) = lin.mass(a, b);
             out.C(i, j) = lin.damping(a, b) + lin.gyroscopic(a, b);
             out.K(i, j) = lin.elastic(a, b) + (lin.gravity(a, b) + lin.loads(a, b) + lin.inertial(a, b));

@@ -177,7 +177,7 @@ void ModeSolver::normalise(const SecondOrderSystem& system) {
 }
 
 void ModeSolver::copy(std::size_t mode, Mode& out) const {
-    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), static_cast<std::ptrdiff_t>(found_.size()));
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), std::ssize(found_));
     const Found& found = found_[mode];
     out.eigenvalue = found.eigenvalue;
     out.shape.resize(d_.size());
@@ -189,7 +189,7 @@ void ModeSolver::copy(std::size_t mode, Mode& out) const {
 }
 
 void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
-    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), static_cast<std::ptrdiff_t>(found_.size()));
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), std::ssize(found_));
     const Found& found = found_[mode];
     const Eigen::Index j = found.column;
     out = shapes_.col(j).cwiseProduct(elastic_.col(j));

@@ -5,6 +5,9 @@
 namespace cardan::solvers {
 
 void check_number_of_unknowns(const std::string& machine, std::size_t unknowns) {
+    if (unknowns == 0)
+        throw InputError(machine, "coordinates that can move", 0,
+                         "1 and more: all its parts are rigid, locked or driven");
     if (unknowns <= max_unknowns) return;
     throw InputError(
         machine, "number of unknowns", unknowns,

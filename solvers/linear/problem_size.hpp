@@ -12,7 +12,7 @@ namespace cardan::solvers {
 inline constexpr std::size_t max_unknowns = 1500;
 
 /// @param machine  named in the error
-/// @throws InputError: more unknowns than max_unknowns; with the reason and the remedy
+/// @throws InputError: none, or more than max_unknowns; with the reason and the remedy
 void check_number_of_unknowns(const std::string& machine, std::size_t unknowns);
 
 }  // namespace cardan::solvers

@@ -1,5 +1,6 @@
 #include "solvers/matlab/state_space.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
 #include "mbs/base/version.hpp"
@@ -140,8 +141,8 @@ Variable stack(const Items& items, Matrix StateMatrices::*m) {
 }
 
 Variable columns(const LinearModel& model, Vector LinearSample::*field) {
-    Matrix all((model.samples[0].*field).size(), static_cast<Index>(model.samples.size()));
-    for (std::size_t i = 0; i < model.samples.size(); ++i) all.col(static_cast<Index>(i)) = model.samples[i].*field;
+    Matrix all((model.samples[0].*field).size(), std::ssize(model.samples));
+    for (Index i = 0; i < all.cols(); ++i) all.col(i) = entry(model.samples, i).*field;
     return matrix(all);
 }
 
@@ -152,8 +153,8 @@ Structure periodic(const LinearModel& model) {
     s.set("cardan_version", characters(std::string(version())));
     s.set("rotor_speed", number(model.rotor_speed));
     s.set("blades", number(model.blades));
-    Matrix azimuth(1, static_cast<Index>(model.samples.size()));
-    for (std::size_t i = 0; i < model.samples.size(); ++i) azimuth(0, static_cast<Index>(i)) = model.samples[i].azimuth;
+    Matrix azimuth(1, std::ssize(model.samples));
+    for (Index i = 0; i < azimuth.cols(); ++i) azimuth(0, i) = entry(model.samples, i).azimuth;
     s.set("azimuth", matrix(azimuth));
     set_signals(s, model.states, model.inputs, model.outputs);
     const std::vector<StateMatrices> series = fourier_coefficients(model);

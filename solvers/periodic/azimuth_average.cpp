@@ -1,6 +1,7 @@
 #include "solvers/periodic/azimuth_average.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "solvers/periodic/periodic_system.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ PeriodicSteadyState periodic_state(const System& system, int spin, const Azimuth
     periodic.rotor_speed = options.rotor_speed;
     periodic.harmonics = options.harmonics;
     PeriodicSteadyState state = harmonic_balance(system, spin, periodic);
-    if (!state.converged) throw NumericalError(state.message);
+    require_result(state);
     return state;
 }
 
@@ -22,7 +23,7 @@ OperatingPoint standstill(const System& system, int spin, double azimuth) {
     SteadyOptions options;
     options.azimuth = azimuth;
     const SteadyState state = steady_state(system, spin, options);
-    if (!state.converged) throw NumericalError(state.message);
+    require_result(state);
     return state.at;
 }
 

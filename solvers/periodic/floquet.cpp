@@ -1,5 +1,6 @@
 #include "solvers/periodic/floquet.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
@@ -57,7 +58,7 @@ PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
 
 Normalised::Normalised(const PeriodicSystem& raw) : system(normalised(raw, units(raw))), unit(units(raw)) {}
 
-// Of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each.
+// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each.
 struct Grid {
     int samples, factors, steps;
 };
@@ -93,7 +94,7 @@ void check(const PeriodicSystem& system, const FloquetOptions& options) {
     if (!(options.per_period >= 0) || options.per_period > 1e4)
         throw InputError(in_floquet_theory, "frequency per period up to which modes are wanted", options.per_period,
                          "0 ... 1e4");
-    if (options.most_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.most_steps, ">= 1");
+    if (options.max_steps < 1) throw InputError(in_floquet_theory, "limit of steps", options.max_steps, ">= 1");
     const double difference = asymmetry(system, symmetry);
     if (!(difference < 1e-7))
         throw InputError(in_floquet_theory, text("difference of the ", symmetry.parts, " parts"), difference,
@@ -146,7 +147,7 @@ private:
     bool wanted(const FloquetMode& mode) const;
     bool accurate(const FloquetMode& mode) const;
     bool improvable(const FloquetMode& mode) const;
-    /// Of an exponent over the frequency.
+    /// Rounding error of an exponent over the frequency.
     double rounding(double condition) const { return 1e-15 * condition / angle_; }
 
     const PeriodicSystem& raw_;
@@ -190,9 +191,8 @@ double Analysis::error(const ProductEigen::Vectors& v) const {
     Complex change = 0;
     const Index p = v.growth.size();
     for (Index k = 0; k < p; ++k)
-        change += (v.left.col((k + 1) % p).transpose() * (difference_[static_cast<std::size_t>(k)] * v.right.col(k)))
-                      .value() /
-                  v.growth(k);
+        change +=
+            (v.left.col((k + 1) % p).transpose() * (entry(difference_, k) * v.right.col(k))).value() / v.growth(k);
     const int stages = options_.transition.method == TransitionMethod::radau ? options_.transition.stages : 1;
     return std::abs(change) / angle_ / std::pow(2.0, stages) + rounding(v.condition);
 }
@@ -208,7 +208,7 @@ ComplexMatrix Analysis::periodic_vector(const ProductEigen::Vectors& v, Complex 
         if (s % each == 0) x = v.right.col(s / each);
         const Complex factor = std::exp(grown - exponent * (angle_ * s / S));
         p.col(s) = factor * normalised_.unit.cwiseProduct(x);
-        x = fine_[static_cast<std::size_t>(s)] * x;
+        x = entry(fine_, s) * x;
         if ((s + 1) % each == 0) grown += std::log(v.growth(s / each));
     }
     for (int s = S; s < Q * S; ++s) p.col(s) = raw_permutation_.transpose() * p.col(s - S);
@@ -233,7 +233,7 @@ void Analysis::transform(const ComplexMatrix& samples, FloquetSolution& out) con
     // A rigid displacement has rates of the size of rounding.
     const double at_rest = 1e-12 * raw_.frequency() * raw_.frequency() *
                            out.harmonics.cwiseQuotient(normalised_.unit.head(n).replicate(1, 2 * J + 1)).squaredNorm();
-    // Of an alias they are off by the rate of the samples, two fifths of the energy at least.
+    // With an alias they are off by the rate of the samples, two fifths of the energy at least.
     out.resolved = off <= 0.2 * all + at_rest;
 }
 
@@ -311,13 +311,13 @@ Floquet Analysis::compute() {
         result.steps = steps * grid_.samples * parts;
         const bool enough = std::none_of(result.modes.begin(), result.modes.end(),
                                          [&](const FloquetMode& mode) { return improvable(mode); });
-        if (!refine || enough || 2 * result.steps > options_.most_steps) break;
+        if (!refine || enough || 2 * result.steps > options_.max_steps) break;
     }
     const auto rough = std::count_if(result.modes.begin(), result.modes.end(),
                                      [&](const FloquetMode& mode) { return !accurate(mode); });
     if (refine && rough > 0)
-        result.message = text(rough, " mode(s) are less accurate than wanted with ", result.steps,
-                              " steps per period; see their errors and conditions, or allow more steps");
+        result.note = text(rough, " mode(s) are less accurate than wanted with ", result.steps,
+                           " steps per period; see their errors and conditions, or allow more steps");
     return result;
 }
 

@@ -12,11 +12,11 @@ struct FloquetOptions {
     /// Integrates over T/Q only: Phi(T) = P^-Q (P Phi(T/Q))^Q                        [Peters 1994; Lee et al., eq. 18]
     BladeSymmetry symmetry = {};
     /// Steps per period; 0: doubled until the exponents of all resolved modes with a principal frequency up to
-    /// `per_period` times 2 pi / T have an estimated error below `tolerance` times 2 pi / T, or `most_steps` is
+    /// `per_period` times 2 pi / T have an estimated error below `tolerance` times 2 pi / T, or `max_steps` is
     /// reached.
     int steps = 0;
     double per_period = 10, tolerance = 1e-9;
-    int most_steps = 4096;
+    int max_steps = 4096;
     /// The monodromy matrix is kept as a product of this many factors (per T/Q): strongly damped motions keep their
     /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;
@@ -36,7 +36,7 @@ struct Floquet {
     /// Number of multipliers that are zero or indistinguishable from rounding: algebraic states, and motions that are
     /// damped out (by the integration method if they are too fast for its steps). They are not modes.
     int damped_out = 0;
-    std::string message;  ///< which modes are not as accurate as wanted, empty if all are
+    std::string note;  ///< which modes are not as accurate as wanted; usually empty
 
     /// Largest growth rate of all modes except rigid ones, 1/s; -infinity without any.
     double growth() const;

@@ -29,7 +29,7 @@ Vector energies(const FloquetSolution& s, const EnergyWeights& w, double omega) 
     return e.cwiseMax(0);
 }
 
-// Of the largest the one of the lowest frequency, the positive one of two.
+// Among the largest the one of the lowest frequency, the positive one of two.
 Index principal(const Vector& e, const FloquetSolution& s, double omega) {
     const Index J = e.size() / 2;
     const double largest = e.maxCoeff();

@@ -1,4 +1,5 @@
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/periodic/rotor_equations.hpp"
 
@@ -93,7 +94,7 @@ bool Balance::evaluate(const Matrix& x, Matrix& R) {
     Vector r(x.rows());
     R.setZero(x.rows(), x.cols());
     for (int s = 0; s < samples(); ++s) {
-        equations_.set_azimuth(azimuths_[static_cast<std::size_t>(s)]);
+        equations_.set_azimuth(entry(azimuths_, s));
         equations_.set(x * basis_[0].col(s), x * basis_[1].col(s), x * basis_[2].col(s));
         equations_.residual(r);
         R += r * weights_.col(s).transpose();
@@ -107,7 +108,7 @@ Matrix Balance::jacobian() {
     Matrix J = Matrix::Zero(x_.size(), x_.size()), block(n, n);
     SecondOrderSystem at;
     for (int s = 0; s < samples(); ++s) {
-        equations_.set_azimuth(azimuths_[static_cast<std::size_t>(s)]);
+        equations_.set_azimuth(entry(azimuths_, s));
         equations_.set(x_ * basis_[0].col(s), x_ * basis_[1].col(s), x_ * basis_[2].col(s));
         equations_.linearise(at);
         for (Index l = 0; l < columns; ++l) {

@@ -109,7 +109,7 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
         PeriodicSteadyState about;
         std::vector<int> unknowns;
     };
-    const auto n = static_cast<Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const auto memory =
         std::make_shared<Memory>(Memory{Lineariser(system), Linearisation{}, about, std::move(unknowns)});
     return PeriodicSystem::second_order(
@@ -137,13 +137,10 @@ PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform trans
 
 SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples) {
     if (samples < 1) throw InputError("mean over a period", "number of samples", samples, ">= 1");
-    SecondOrderSystem mean, at;
+    SecondOrderSystem mean, scratch;
     system.at(0, mean);
-    for (int s = 1; s < samples; ++s) {
-        system.at(system.period() * s / samples, at);
-        mean.M += at.M, mean.C += at.C, mean.K += at.K, mean.K_elastic += at.K_elastic;
-    }
-    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
+    const auto at = [&](int i, SecondOrderSystem& out) { system.at(system.period() * i / samples, out); };
+    average(samples, at, mean, scratch);
     return mean;
 }
 
@@ -153,8 +150,7 @@ namespace {
 class Permutation {
 public:
     explicit Permutation(const std::vector<int>& coordinates)
-        : P(Matrix::Identity(static_cast<Index>(coordinates.size()), static_cast<Index>(coordinates.size()))),
-          coordinates_(coordinates) {}
+        : P(Matrix::Identity(std::ssize(coordinates), std::ssize(coordinates))), coordinates_(coordinates) {}
 
     void renumber(const std::vector<std::vector<int>>& blades, std::size_t coordinate, bool backward);
     void turn(const RotatingPair& pair, double angle);

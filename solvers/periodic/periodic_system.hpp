@@ -58,7 +58,21 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
 /// The system in multi-blade rows, rotating with psi = rotor_speed * t from psi = 0.
 PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed);
 
-/// Mean of the matrices over a period from `samples` equidistant times: exact for harmonics below that number.
+/// Mean of M, C, K and K_elastic at `samples` equidistant azimuths or times of a period: exact for harmonics below that
+/// number. Allocates nothing once both systems have their size.
+/// @param at  `at(i, out)` fills in the matrices of sample i, i = 1 ... samples - 1
+/// @param mean  holds the matrices of sample 0; overwritten
+/// @param scratch  overwritten
+template <class At>
+void average(int samples, const At& at, SecondOrderSystem& mean, SecondOrderSystem& scratch) {
+    for (int i = 1; i < samples; ++i) {
+        at(i, scratch);
+        mean.M += scratch.M, mean.C += scratch.C, mean.K += scratch.K, mean.K_elastic += scratch.K_elastic;
+    }
+    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
+}
+
+/// average() over the period of a system.
 /// @throws InputError for a system of first order or fewer than one sample
 SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples);
 

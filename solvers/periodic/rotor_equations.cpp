@@ -1,5 +1,6 @@
 #include "solvers/periodic/rotor_equations.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
 
@@ -49,7 +50,7 @@ Index RotorEquations::row_of(int coordinate) const {
 }
 
 const std::string& RotorEquations::name(Index row) const {
-    return system_.model.coordinates()[unknowns_[static_cast<std::size_t>(row)]].name;
+    return system_.model.coordinates()[entry(unknowns_, row)].name;
 }
 
 void RotorEquations::set_azimuth(double psi) {
@@ -64,7 +65,7 @@ void RotorEquations::set_azimuth(double psi) {
 
 void RotorEquations::set(VectorIn q, VectorIn qd, VectorIn qdd) {
     for (Index i = 0; i < size(); ++i) {
-        const int at = unknowns_[static_cast<std::size_t>(i)];
+        const int at = entry(unknowns_, i);
         at_.q(at) = q(i);
         at_.qd(at) = qd(i);
         at_.qdd(at) = qdd(i);
@@ -83,7 +84,7 @@ void RotorEquations::residual(VectorOut r) {
     inverse_dynamics<double>(kin, at_.qd, at_.qdd, tau_);
     system_.forces.generalised_forces(kin, at_.time, at_.q, at_.qd, Q_);
     for (Index i = 0; i < size(); ++i) {
-        const int at = unknowns_[static_cast<std::size_t>(i)];
+        const int at = entry(unknowns_, i);
         r(i) = tau_(at) - Q_(at);
     }
 }
@@ -96,8 +97,7 @@ void RotorEquations::linearise(SecondOrderSystem& out) {
 Matrix RotorEquations::start(int harmonics) const {
     Matrix own = Matrix::Zero(size(), 2 * harmonics + 1);
     const Index columns = std::min(own.cols(), given_.cols());
-    for (Index i = 0; i < size(); ++i)
-        own.row(i).head(columns) = given_.row(unknowns_[static_cast<std::size_t>(i)]).head(columns);
+    for (Index i = 0; i < size(); ++i) own.row(i).head(columns) = given_.row(entry(unknowns_, i)).head(columns);
     return own;
 }
 
@@ -105,7 +105,7 @@ Matrix RotorEquations::all(const Matrix& own) const {
     Matrix coefficients = Matrix::Zero(given_.rows(), std::max(own.cols(), given_.cols()));
     coefficients.leftCols(given_.cols()) = given_;
     for (Index i = 0; i < size(); ++i) {
-        auto row = coefficients.row(unknowns_[static_cast<std::size_t>(i)]);
+        auto row = coefficients.row(entry(unknowns_, i));
         row.setZero();
         row.head(own.cols()) = own.row(i);
     }

@@ -15,7 +15,7 @@ public:
     RotorEquations(const System& system, int spin, const PeriodicOptions& options, std::string_view place);
 
     const std::vector<int>& unknowns() const { return unknowns_; }
-    Eigen::Index size() const { return static_cast<Eigen::Index>(unknowns_.size()); }
+    Eigen::Index size() const { return std::ssize(unknowns_); }
     const System& system() const { return system_; }
     int spin() const { return spin_; }
     double rotor_speed() const { return rotor_speed_; }

@@ -36,8 +36,7 @@ struct HeldMean {
 
 /// q(psi) = h0 + sum_j hc_j cos j psi + hs_j sin j psi, psi = rotor_speed * time the spin coordinate.
 ///                                                                                            [Lee et al. 2002, eq. 15]
-struct [[nodiscard]] PeriodicSteadyState {
-    bool converged = false;
+struct [[nodiscard]] PeriodicSteadyState : Outcome {
     double rotor_speed = 0;  ///< rad/s
     int spin = -1;
     /// A row per coordinate of the model (rad or m; that of the spin is zero), columns h0, hc_1, hs_1, hc_2, ...
@@ -50,8 +49,7 @@ struct [[nodiscard]] PeriodicSteadyState {
     /// harmonics would have to balance.
     double remainder = 0;
     std::vector<HeldMean> held;
-    std::string message;  ///< why it did not converge and what to do, empty if it did
-    std::string note;     ///< what the equations leave undetermined and at which value it was kept; usually empty
+    std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
     /// All coordinates with rates and accelerations; time = psi / rotor_speed.

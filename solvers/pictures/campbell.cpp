@@ -1,5 +1,6 @@
 #include "solvers/pictures/campbell.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/pictures/detail/campbell_style.hpp"
 
@@ -100,8 +101,7 @@ private:
         if (!families.empty() && std::find(families.begin(), families.end(), branch.family) == families.end())
             return false;
         if (options_.ordinal > 0 &&
-            (branch.component < 0 ||
-             d.components[static_cast<std::size_t>(branch.component)].ordinal != options_.ordinal))
+            (branch.component < 0 || entry(d.components, branch.component).ordinal != options_.ordinal))
             return false;
         double lowest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < d.points.size(); ++i) {

@@ -21,7 +21,7 @@ Curves curves(const std::vector<BranchDifference>& shown, const std::vector<doub
     for (std::size_t b = 0; b < shown.size(); ++b) {
         const BranchDifference& one = shown[b];
         const auto family = std::find(families.begin(), families.end(), one.family) - families.begin();
-        if (family == static_cast<std::ptrdiff_t>(families.size())) families.push_back(one.family);
+        if (family == std::ssize(families)) families.push_back(one.family);
         std::vector<double> millihertz, percent;
         for (const double f : one.frequency_hz) millihertz.push_back(1e3 * f);
         for (const double zeta : one.damping_ratio) percent.push_back(100 * zeta);

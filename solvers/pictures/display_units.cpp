@@ -1,5 +1,6 @@
 #include "solvers/pictures/display_units.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 
@@ -45,7 +46,7 @@ Power power_of(std::string_view word) {
 
 std::string superscript(char digit) {
     constexpr std::array<const char*, 10> signs{"", "", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    return signs[static_cast<std::size_t>(digit - '0')];
+    return entry(signs, digit - '0');
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ std::size_t columns(int width) {
 
 }  // namespace
 
-std::vector<HistoryPanel> panels_one_each(const std::vector<std::string>& channels) {
+std::vector<HistoryPanel> one_panel_each(const std::vector<std::string>& channels) {
     std::vector<HistoryPanel> panels;
     panels.reserve(channels.size());
     for (const std::string& channel : channels) panels.push_back({{channel}});
@@ -170,7 +170,7 @@ void plot_spectra(const History& history, const std::vector<HistoryPanel>& panel
                 options.max_frequency_hz > 0
                     ? std::upper_bound(s.frequency.begin(), s.frequency.end(), options.max_frequency_hz) -
                           s.frequency.begin()
-                    : static_cast<std::ptrdiff_t>(s.frequency.size()));
+                    : std::ssize(s.frequency));
             const auto y = std::span(options.density ? s.density : s.amplitude).first(shown);
             curves.channels.push_back(&history.channels[history.index(channel)]);
             curves.curves.push_back(min_max_envelope(std::span(s.frequency).first(shown), y, columns(options.width)));

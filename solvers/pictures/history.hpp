@@ -19,7 +19,7 @@ struct HistoryPanel {
 };
 
 /// One panel for each channel.
-std::vector<HistoryPanel> panels_one_each(const std::vector<std::string>& channels);
+std::vector<HistoryPanel> one_panel_each(const std::vector<std::string>& channels);
 
 /// Groups channels with the same display units, in the order in which the units occur, at most seven (the number of
 /// colours) per panel. Pure numbers get panels of their own.

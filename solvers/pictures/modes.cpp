@@ -1,3 +1,4 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/pictures/campbell.hpp"
@@ -31,9 +32,8 @@ std::string lines_data(const Campbell& d, const std::string& name, const std::ve
     std::string data = "$" + name + " << EOD\n";
     for (const Polyline& line : d.lines) {
         for (FrameId frame : line.points) {
-            const auto i = static_cast<std::size_t>(frame.index);
-            const Vec3 moved =
-                d.frame_positions[i] + scale * (motion[i].motion.tail<3>() * std::polar(1.0, phase)).real();
+            const Vec3 displacement = (entry(motion, frame.index).motion.tail<3>() * std::polar(1.0, phase)).real();
+            const Vec3 moved = entry(d.frame_positions, frame.index) + scale * displacement;
             data += text(moved(0), " ", moved(1), " ", moved(2), "\n");
         }
         data += "\n\n";

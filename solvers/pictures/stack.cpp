@@ -1,5 +1,6 @@
 #include "solvers/pictures/stack.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/pictures/gnuplot.hpp"
 
@@ -48,7 +49,7 @@ Range finite_range(const StackPanel& panel) {
 std::string superscript(int number) {
     constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string shown = number < 0 ? "⁻" : "";
-    for (const char c : text(std::abs(number))) shown += digits[static_cast<std::size_t>(c - '0')];
+    for (const char c : text(std::abs(number))) shown += entry(digits, c - '0');
     return shown;
 }
 
@@ -158,8 +159,9 @@ private:
                                  text("1 to ", palette.size()));
     }
 
-    // Labels to the right of the tops of their lines, near the right border to the left. Who overlaps others goes above
-    // them, those to the right first and those to the left last: so no line crosses a label.
+    // Labels stand to the right of the tops of their lines, near the right border to the left. Overlapping labels go
+    // into higher rows: those right of their lines first, from the right on, then those left of them from the left on,
+    // so that no line crosses a label.
     void place_marks() {
         for (const StackMark& mark : stack_.marks)
             if (mark.x >= stack_.x_low && mark.x <= stack_.x_high)

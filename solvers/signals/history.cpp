@@ -11,7 +11,7 @@ namespace cardan::solvers {
 
 namespace {
 
-// How many letters have to be changed, put in or taken out (Levenshtein), capital or not; few if one is in the other.
+// Edit (Levenshtein) distance without regard to case; small if one name contains the other.
 std::size_t distance(std::string_view a, std::string_view b) {
     const auto same = [](char x, char y) {
         return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));

@@ -19,11 +19,11 @@ bool has(const Model& model, const std::string& coordinate) {
 }  // namespace
 
 AtlasIntegrator::AtlasIntegrator(std::vector<Chart> charts, std::string frame, double time, const Vector& q,
-                                 const Vector& qd, double least_quality)
-    : charts_(std::move(charts)), frame_(std::move(frame)), least_quality_(least_quality) {
+                                 const Vector& qd, double min_quality)
+    : charts_(std::move(charts)), frame_(std::move(frame)), min_quality_(min_quality) {
     if (charts_.size() < 2) throw InputError(in_atlas, "number of charts", charts_.size(), ">= 2");
-    if (!(least_quality > 0 && least_quality < 1))
-        throw InputError(in_atlas, "least quality", least_quality, "between 0 and 1");
+    if (!(min_quality > 0 && min_quality < 1))
+        throw InputError(in_atlas, "minimum quality", min_quality, "between 0 and 1");
     for (std::size_t k = 0; k < charts_.size(); ++k)
         if (!charts_[k].system) throw InputError(in_atlas, text("system of chart ", k), "none", "one");
     for (std::size_t k = 0; k < charts_.size(); ++k) {
@@ -50,12 +50,12 @@ void AtlasIntegrator::watch(std::size_t chart) {
     IntegrationOptions& options = charts_[chart].options;
     options.events.push_back(
         {.name = "quality of the chart",
-         .function = [this, chart](const ForceInput& at) { return quality(chart, at.q) - least_quality_; },
+         .function = [this, chart](const ForceInput& at) { return quality(chart, at.q) - min_quality_; },
          .direction = -1,
          .action =
              [this](Integrator&) {
                  poor_ = true;
-                 return AfterEvent::go_on;
+                 return AfterEvent::proceed;
              }});
     options.cancelled = [this, own = options.cancelled] { return poor_ || (own && own()); };
 }

@@ -21,7 +21,7 @@ struct Chart {
 /// Integrates in one chart while its quality is sufficient, and continues in the best other one from the end of the
 /// step in which the quality falls below the minimum. Coordinates with the same name in all charts are copied (see
 /// change_of_chart()); the others, in which the charts differ, such as the three rotations of a floating body, must all
-/// carry one frame. Works, energies and statistics are continued; the integration method restarts. Motions and forces
+/// carry one frame. Work, energies and statistics are continued; the integration method restarts. Motions and forces
 /// that events have replaced in one chart are not replaced in the others.
 ///
 /// If no other chart is better it stays in the present one. Near a singularity steps become short and rounding errors
@@ -31,10 +31,10 @@ public:
     /// @param charts  two or more; each model has a frame of this name, and coordinates the others lack
     /// @param frame   carried by the coordinates that differ
     /// @param time, q, qd   start, in the first chart
-    /// @param least_quality  see chart_quality(): 1 for perpendicular axes, 0 for a singularity
+    /// @param min_quality  see chart_quality(): 1 for perpendicular axes, 0 for a singularity
     /// @throws InputError for values out of range, and what Integrator throws
     AtlasIntegrator(std::vector<Chart> charts, std::string frame, double time, const Vector& q, const Vector& qd,
-                    double least_quality = 0.3);
+                    double min_quality = 0.3);
     ~AtlasIntegrator() = default;
     AtlasIntegrator(const AtlasIntegrator&) = delete;
     AtlasIntegrator& operator=(const AtlasIntegrator&) = delete;
@@ -57,7 +57,7 @@ private:
 
     std::vector<Chart> charts_;
     std::string frame_;
-    double least_quality_;
+    double min_quality_;
     std::vector<std::vector<int>> own_;  ///< coordinates that not all charts have
     std::size_t now_ = 0;
     int changes_ = 0;

@@ -1,5 +1,6 @@
 #include "solvers/time/equations_of_motion.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
 
@@ -31,21 +32,20 @@ std::vector<Drive> all_drives(const Model& model, std::vector<Drive> drives, dou
         if (drive.coordinate < 0 || drive.coordinate >= model.size())
             throw InputError(in_integration, "index of a driven coordinate", drive.coordinate,
                              text("0 ... ", model.size() - 1));
-        const auto i = static_cast<std::size_t>(drive.coordinate);
-        if (given[i])
+        if (entry(given, drive.coordinate))
             throw InputError(in_integration, "motions of one coordinate", model.coordinates()[drive.coordinate].name,
                              "one at most");
-        given[i] = true;
+        entry(given, drive.coordinate) = true;
     }
     for (int i = 0; i < model.size(); ++i)
-        if (model.coordinates()[i].role == CoordinateRole::driven && !given[static_cast<std::size_t>(i)])
+        if (model.coordinates()[i].role == CoordinateRole::driven && !entry(given, i))
             drives.push_back({i, Motion::constant_rate(q(i), qd(i), time)});
     return drives;
 }
 
 std::vector<bool> flags(const Model& model, const std::vector<Drive>& drives) {
     std::vector<bool> driven(static_cast<std::size_t>(model.size()));
-    for (const Drive& drive : drives) driven[static_cast<std::size_t>(drive.coordinate)] = true;
+    for (const Drive& drive : drives) entry(driven, drive.coordinate) = true;
     return driven;
 }
 
@@ -63,7 +63,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
       inside_(time) {
     const int n = system.model.size();
     for (int i = 0; i < n; ++i)
-        if (!driven_[static_cast<std::size_t>(i)]) free_.push_back(i);
+        if (!entry(driven_, i)) free_.push_back(i);
     for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_}) v->setZero(n);
     for (Matrix* m : {&g_, &tau_q_, &tau_qd_}) m->setZero(n, n);
     for (Matrix* m : {&by_q_, &by_qd_}) m->setZero(size(), size());
@@ -152,7 +152,7 @@ bool EquationsOfMotion::jacobian(double time, const double* x) {
     }
     for (int b = 0; b < size(); ++b)
         for (int a = 0; a < size(); ++a) {
-            const int i = free_[static_cast<std::size_t>(a)], j = free_[static_cast<std::size_t>(b)];
+            const int i = entry(free_, a), j = entry(free_, b);
             by_q_(a, b) = derivatives_.dqdd_dq()(i, j);
             by_qd_(a, b) = derivatives_.dqdd_dqd()(i, j);
         }
@@ -178,7 +178,7 @@ void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut
     const ForceDerivatives& d = force_derivatives_;
     for (int b = 0; b < size(); ++b)
         for (int a = 0; a < size(); ++a) {
-            const int i = free_[static_cast<std::size_t>(a)], j = free_[static_cast<std::size_t>(b)];
+            const int i = entry(free_, a), j = entry(free_, b);
             K(a, b) = c_qdd * g_(i, j) + c_qd * (tau_qd_(i, j) + d.damping(i, j)) +
                       c_q * (tau_q_(i, j) + d.elastic(i, j) + d.gravity(i, j) + d.loads(i, j));
         }
@@ -222,9 +222,9 @@ double EquationsOfMotion::evaluate(const std::function<double(const ForceInput&)
     return function({time, q_, qd_, kin});
 }
 
-std::string EquationsOfMotion::name_of(int entry) const {
-    const bool rate = entry >= size();
-    const int coordinate = free_[static_cast<std::size_t>(rate ? entry - size() : entry)];
+std::string EquationsOfMotion::name_of(int index) const {
+    const bool rate = index >= size();
+    const int coordinate = entry(free_, rate ? index - size() : index);
     return text(rate ? "rate of '" : "position of '", model().coordinates()[coordinate].name, "'");
 }
 

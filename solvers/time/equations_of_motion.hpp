@@ -2,6 +2,7 @@
 /// A system with prescribed motions of some coordinates, as seen by the integration methods.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/system/forward_derivatives.hpp"
 #include "mbs/system/system.hpp"
@@ -55,7 +56,7 @@ public:
     const std::vector<int>& unknowns() const { return free_; }
     int size() const { return static_cast<int>(free_.size()); }
     const std::vector<Drive>& drives() const { return drives_; }
-    bool is_driven(int coordinate) const { return driven_[static_cast<std::size_t>(coordinate)]; }
+    bool is_driven(int coordinate) const { return entry(driven_, coordinate); }
     /// Replaces the motion of a driven coordinate from now on.
     /// @throws InputError if the coordinate is not driven, or if its position or rate would jump at `time`
     void set_motion(int coordinate, Motion motion, double time);
@@ -100,9 +101,9 @@ public:
 
     /// What went wrong when a function returned false.
     const std::string& problem() const { return problem_; }
-    void forget_problem() { problem_.clear(); }
+    void clear_problem() { problem_.clear(); }
     /// "position of 'name'" or "rate of 'name'" of an entry of x.
-    std::string name_of(int entry) const;
+    std::string name_of(int index) const;
 
 private:
     void drive_at(double time);

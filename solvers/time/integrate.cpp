@@ -1,6 +1,6 @@
 #include "solvers/time/integrate.hpp"
 
-#include "mbs/base/error.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/time/detail/stepper.hpp"
 
 #include <algorithm>
@@ -66,8 +66,8 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     x_.resize(2 * m);
     x_between_.resize(2 * m);
     for (Eigen::Index i = 0; i < m; ++i) {
-        x_(i) = q(equations_.unknowns()[static_cast<std::size_t>(i)]);
-        x_(m + i) = qd(equations_.unknowns()[static_cast<std::size_t>(i)]);
+        x_(i) = q(entry(equations_.unknowns(), i));
+        x_(m + i) = qd(entry(equations_.unknowns(), i));
     }
     stepper_ = make_stepper(equations_, options_);
     values_.resize(options_.events.size());
@@ -202,7 +202,7 @@ int Integrator::first_event(double to, double& at) {
 // Gauss' formula, as exact as the interpolation within a step: of order 6 beside the long steps of Runge-Kutta methods,
 // of order 4 beside the short ones of the others.
 bool Integrator::accumulate(double to) {
-    if (!options_.works) return true;
+    if (!options_.integrate_work) return true;
     struct Node {
         double at, weight;  // on -1 ... 1
     };
@@ -211,7 +211,7 @@ bool Integrator::accumulate(double to) {
     static constexpr std::array<Node, 2> two{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
     const bool long_steps = options_.method == Method::dirk || options_.method == Method::erk;
     const double half = (to - state_.time) / 2, middle = state_.time + half;
-    Works sum = works_;  // kept as it was if a user force throws
+    Work sum = work_;  // kept as it was if a user force throws
     for (const Node& node : long_steps ? std::span<const Node>(three) : std::span<const Node>(two)) {
         const double time = middle + node.at * half, weight = node.weight * half;
         stepper_->state_at(time, x_between_.data());
@@ -221,7 +221,7 @@ bool Integrator::accumulate(double to) {
         sum.dissipation += weight * power.dissipation;
         sum.drives += weight * power.drives;
     }
-    works_ = sum;
+    work_ = sum;
     return true;
 }
 
@@ -233,7 +233,7 @@ void Integrator::complete(Advance& result) {
 }
 
 AfterEvent Integrator::act(int event) {
-    const Event& happened = options_.events[static_cast<std::size_t>(event)];
+    const Event& happened = entry(options_.events, event);
     if (!equations_.complete(state_.time, x_.data(), state_))
         throw NumericalError(
             text(in_integration, ": no state at the event '", happened.name, "': ", equations_.problem()));
@@ -258,14 +258,14 @@ bool Integrator::process(double to, Advance& result) {
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
     // An action that throws is repeated when the run continues.
-    AfterEvent after = event < 0 ? AfterEvent::go_on : act(event);
+    AfterEvent after = event < 0 ? AfterEvent::proceed : act(event);
     set_sides(event);
     if (event < 0) return true;
-    if (after == AfterEvent::go_on && accelerations_changed()) after = AfterEvent::restart;
-    if (after != AfterEvent::go_on) begin_piece();
+    if (after == AfterEvent::proceed && accelerations_changed()) after = AfterEvent::restart;
+    if (after != AfterEvent::proceed) begin_piece();
     if (after != AfterEvent::stop) return true;
     result.end = Advance::End::event;
-    result.message = options_.events[static_cast<std::size_t>(event)].name;
+    result.event = entry(options_.events, event).name;
     return false;
 }
 
@@ -282,13 +282,13 @@ bool Integrator::accelerations_changed() {
     if (start_pending_) return false;
     if (!equations_.accelerations(state_.time, x_.data(), now_.data())) return true;
     for (Eigen::Index i = 0; i < now_.size(); ++i)
-        if (now_(i) != state_.qdd(equations_.unknowns()[static_cast<std::size_t>(i)])) return true;
+        if (now_(i) != state_.qdd(entry(equations_.unknowns(), i))) return true;
     if (seen_at_ != stepper_->time() || seen_at_ <= state_.time) return false;
     stepper_->state_at(seen_at_, x_between_.data());
     return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
 }
 
-// Nothing but tiny steps, one after the other.
+// A stall: tiny steps in succession.
 bool Integrator::stands_still() {
     if (++steps_ < watched_steps) return false;
     const bool still = stepper_->time() - moved_ < watched_steps * shortest_step(stepper_->time());

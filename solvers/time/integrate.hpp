@@ -2,6 +2,7 @@
 /// Time integration of a system: one interface for all methods.
 #pragma once
 
+#include "mbs/base/error.hpp"
 #include "solvers/time/equations_of_motion.hpp"
 
 #include <limits>
@@ -36,11 +37,10 @@ struct Tolerances {
 };
 
 struct IntegrationStatistics {
-    long steps = 0;          ///< accepted
-    long rejected = 0;       ///< by the error test
-    long not_converged = 0;  ///< steps repeated because the iteration did not converge
-    long evaluations =
-        0;  ///< of the equations of motion, by the method itself; those for outputs, events and works are not counted
+    long steps = 0;           ///< accepted
+    long rejected = 0;        ///< by the error test
+    long not_converged = 0;   ///< steps repeated because the iteration did not converge
+    long evaluations = 0;     ///< of the equations of motion, by the method itself, not for outputs, events and work
     long jacobians = 0;       ///< or tangents
     long factorisations = 0;  ///< of the matrix of Newton's method
     long iterations = 0;      ///< nonlinear
@@ -53,7 +53,7 @@ class Integrator;
 
 /// What happens after the action of an event.
 enum class AfterEvent : std::uint8_t {
-    go_on,    ///< nothing has changed
+    proceed,  ///< nothing has changed
     restart,  ///< motions or forces have changed: the method restarts
     stop      ///< advance() returns
 };
@@ -78,9 +78,9 @@ struct IntegrationOptions {
     /// s; if positive, steps have this length (shorter only to end at a break): dirk, erk, generalised_alpha
     double fixed_step = 0;
     double spectral_radius = 0.8;  ///< of generalised_alpha at infinite frequency, 0 ... 1 (1: no dissipation)
-    /// Integrates works along with the motion by Gauss quadrature, which costs two evaluations per step (three with
-    /// dirk and erk).
-    bool works = true;
+    /// Integrates the work done along with the motion by Gauss quadrature, which costs two evaluations per step (three
+    /// with dirk and erk).
+    bool integrate_work = true;
     std::vector<double> breaks = {};  ///< further times, ascending, at which to restart: jumps of user forces
     std::vector<Event> events = {};
     std::function<bool()> cancelled = {};                                          ///< called before every step
@@ -88,7 +88,7 @@ struct IntegrationOptions {
 };
 
 /// Time integrals of Powers since the start, J. Work-energy theorem: forces + drives = change of kinetic energy.
-struct Works {
+struct Work {
     double forces = 0, dissipation = 0, drives = 0;
 };
 
@@ -108,10 +108,16 @@ struct [[nodiscard]] Advance {
     enum class End : std::uint8_t { reached, event, cancelled, failed };
     End end = End::reached;
     double time = 0;           ///< s, reached
-    std::string message = {};  ///< name of the event, or why the integration failed and what to do
+    std::string event = {};    ///< name of the event that stopped it, empty without
+    std::string message = {};  ///< why it failed and what to do, empty if it did not
 
     bool reached() const { return end == End::reached; }
 };
+
+/// @throws NumericalError with the message if the integration failed
+inline void require_result(const Advance& advance) {
+    if (advance.end == Advance::End::failed) throw NumericalError(advance.message);
+}
 
 /// Allows a one-step method to repeat exactly the steps it has taken since it started or last dropped its matrices and
 /// estimates.
@@ -132,8 +138,8 @@ struct MethodState {
 struct Checkpoint {
     double time = 0;
     Vector q, qd;  ///< size n
-    Works works;
-    double kinetic_at_start = 0, potential_at_start = 0;  ///< J, at the start, when the works were zero
+    Work work;
+    double kinetic_at_start = 0, potential_at_start = 0;  ///< J, at the start, when the work was zero
     IntegrationStatistics statistics;
     std::map<std::string, double> notes = {};  ///< see Integrator::note()
     MethodState method = {};
@@ -158,7 +164,7 @@ public:
     /// @throws InputError for values out of range
     Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
                IntegrationOptions options = {});
-    /// Continues from a checkpoint of the same system, including works, energies and statistics. Pass the drives as
+    /// Continues from a checkpoint of the same system, including work, energies and statistics. Pass the drives as
     /// they were at the checkpoint; forces may be restored before the first advance().
     Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                IntegrationOptions options = {});
@@ -183,10 +189,10 @@ public:
     double time() const { return state_.time; }
     /// The present state; at a break, accelerations and drive forces are those just before it.
     const DynamicState& state() const { return state_; }
-    const Works& works() const { return works_; }
+    const Work& work() const { return work_; }
     /// The forces in effect now.
     const Forces& forces() const { return equations_.forces(); }
-    /// Energies at the present state. Allocates.  @throws InputError if works are not integrated
+    /// Energies at the present state. Allocates.  @throws InputError if the work is not integrated
     EnergyBalance energy();
     IntegrationStatistics statistics() const;
     Checkpoint checkpoint() const;
@@ -251,7 +257,7 @@ private:
     std::vector<double> values_;                                 ///< of the event functions at the end of the stretch
     std::vector<int> sides_;                                     ///< last sign of each event function that was not zero
     DynamicState state_;
-    Works works_;
+    Work work_;
     double kinetic_at_start_ = 0, potential_at_start_ = 0;
     std::map<std::string, double> notes_;
     IntegrationStatistics earlier_;  ///< up to the checkpoint it started from, less those that were repeated

@@ -12,12 +12,12 @@ namespace cardan::solvers {
 namespace {
 
 void check(const Checkpoint& from) {
-    for (const auto& [what, value] : {std::pair{"work of forces [J]", from.works.forces},
-                                      std::pair{"dissipated energy [J]", from.works.dissipation},
-                                      std::pair{"work of drives [J]", from.works.drives},
-                                      std::pair{"kinetic energy at the start [J]", from.kinetic_at_start},
-                                      std::pair{"potential energy at the start [J]", from.potential_at_start},
-                                      std::pair{"time of the first start [s]", from.method.since}})
+    for (const auto& [what, value] :
+         {std::pair{"work of forces [J]", from.work.forces}, std::pair{"dissipated energy [J]", from.work.dissipation},
+          std::pair{"work of drives [J]", from.work.drives},
+          std::pair{"kinetic energy at the start [J]", from.kinetic_at_start},
+          std::pair{"potential energy at the start [J]", from.potential_at_start},
+          std::pair{"time of the first start [s]", from.method.since}})
         if (!std::isfinite(value)) throw InputError("checkpoint", what, value, "finite");
     for (const auto& [name, value] : from.notes)
         if (!std::isfinite(value)) throw InputError("checkpoint", text("note '", name, "'"), value, "finite");
@@ -25,7 +25,7 @@ void check(const Checkpoint& from) {
         if (!std::isfinite(value)) throw InputError("checkpoint", "position at the first start", value, "finite");
 }
 
-// What its role drives at a constant rate goes on in the digits of the first start.
+// Coordinates driven at constant rate by their role continue bit for bit from the first start.
 std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from) {
     check(from);
     const int n = system.model.size();
@@ -47,7 +47,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, const Ch
 }
 
 void Integrator::go_on_from(const Checkpoint& from) {
-    works_ = from.works;
+    work_ = from.work;
     kinetic_at_start_ = from.kinetic_at_start;
     potential_at_start_ = from.potential_at_start;
     notes_ = from.notes;
@@ -80,14 +80,15 @@ void Integrator::repeat_steps() {
 }
 
 EnergyBalance Integrator::energy() {
-    if (!options_.works) throw InputError(in_integration, "works", "off", "on, for a balance of energy");
+    if (!options_.integrate_work)
+        throw InputError(in_integration, "integrate_work", "false", "true, for a balance of energy");
     EnergyBalance balance;
     balance.kinetic = equations_.kinetic_energy(state_);
     balance.potential = equations_.potential_energy(state_);
-    balance.dissipated = works_.dissipation;
-    balance.drives = works_.drives;
-    balance.loads = works_.forces + works_.dissipation + balance.potential - potential_at_start_;
-    balance.error = balance.kinetic - kinetic_at_start_ - works_.forces - works_.drives;
+    balance.dissipated = work_.dissipation;
+    balance.drives = work_.drives;
+    balance.loads = work_.forces + work_.dissipation + balance.potential - potential_at_start_;
+    balance.error = balance.kinetic - kinetic_at_start_ - work_.forces - work_.drives;
     return balance;
 }
 
@@ -103,7 +104,7 @@ Checkpoint Integrator::checkpoint() const {
     if ((start_pending_ && !repeat_pending_) || state_.time >= piece_end_ || doing_ == Doing::acting) method.steps = -1;
     method.since = since_;
     method.positions = positions_;
-    return {state_.time,         state_.q,     state_.qd, works_, kinetic_at_start_,
+    return {state_.time,         state_.q,     state_.qd, work_, kinetic_at_start_,
             potential_at_start_, statistics(), notes_,    method};
 }
 

@@ -105,14 +105,9 @@ Motion Motion::harmonic(double mean, double amplitude, double period, double pha
 }
 
 Motion Motion::table(std::vector<double> times, std::vector<double> values) {
-    if (times.size() < 2) throw InputError("table of a motion", "number of times", times.size(), ">= 2");
-    if (times.size() != values.size())
-        throw InputError("table of a motion", "number of values", values.size(), text(times.size(), ", one per time"));
-    require_rising("table of a motion", times);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        require_finite("table of a motion", text("value ", i + 1), values[i]);
-    const auto law = [curve = MonotoneCubic(times, std::move(values), MonotoneCubic::Ends::parabola)](double t,
-                                                                                                      double inside) {
+    const MonotoneCubic curve(times, std::move(values), MonotoneCubic::Ends::parabola,
+                              {.table = "table of a motion", .x = "time", .x_unit = " [s]"});
+    const auto law = [curve](double t, double inside) {
         const MonotoneCubic::Value at = curve.at(t, inside);
         return MotionState{at.value, at.slope, at.second};
     };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* in_recorder = "recorder";
 
-// Of an integral number of values, as an array: its size is the number of channels.
+// An array, so that its size is the number of channels.
 std::array<double, 6> values_of(const EnergyBalance& e) {
     return {e.kinetic, e.potential, e.dissipated, e.drives, e.loads, e.error};
 }

@@ -65,7 +65,7 @@ TEST_CASE("beam: at least one element; boundaries increase from 0 to the length"
         {"spar: element boundary 2 [m] = nan; allowed: finite"});
 }
 
-TEST_CASE("beam: an element too short to be told from rounding, a boundary that is no number", "[property]") {
+TEST_CASE("beam: an element shorter than rounding allows, a boundary that is not a number", "[property]") {
     check_beam_refused(
         [](L&, O& o) {
             o.boundaries = {0, 5, 5.00001, 10};

@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     from.time = numbers.next();
     for (double& x : from.q) x = numbers.next();
     for (double& x : from.qd) x = numbers.next();
-    from.works = {numbers.next(), numbers.next(), numbers.next()};
+    from.work = {numbers.next(), numbers.next(), numbers.next()};
     from.kinetic_at_start = numbers.next();
     from.potential_at_start = numbers.next();
     from.statistics.last_step = numbers.next();

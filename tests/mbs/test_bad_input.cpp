@@ -92,7 +92,7 @@ TEST_CASE("bad input: a part that is welded on is checked like a body", "[proper
     CHECK(tree.bodies()[0].spec.inertia.reduced);
 }
 
-TEST_CASE("bad input: a placement that is no rigid motion", "[property]") {
+TEST_CASE("bad input: a placement that is not a rigid motion", "[property]") {
     BodySpec spec = body("blade");
     spec.placement.R *= 1.5;
     check_body_refused(spec, {"body 'blade'", "placement", "1.5", "proper rotation"});

@@ -1,5 +1,6 @@
 // What a large tree costs: memory in proportion to its bodies, no recursion, and an error where memory runs out.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/geometry/curvature.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/dynamics.hpp"
@@ -23,11 +24,10 @@ Tree large_tree(int n, Shape shape) {
     std::vector<FrameId> own;
     for (int k = 0; k < n; ++k) {
         const bool on_base = k == 0 || shape == Shape::bush;
-        const std::size_t carrier =
-            static_cast<std::size_t>(shape == Shape::comb && k % 2 == 1 ? k - 1 : k - 1 - k % 2);
+        const int carrier = shape == Shape::comb && k % 2 == 1 ? k - 1 : k - 1 - k % 2;
         BodySpec spec;
         spec.name = text("link ", k);
-        if (!on_base) spec.inboard = own[shape == Shape::chain ? static_cast<std::size_t>(k - 1) : carrier];
+        if (!on_base) spec.inboard = entry(own, shape == Shape::chain ? k - 1 : carrier);
         spec.placement = {k % 2 == 0 ? rot_x(0.7) : rot_y(-0.4), Vec3(0, 0, 0.5)};
         spec.inertia = {2, Vec3(0, 0.1, 0.25), Vec3(0.3, 0.4, 0.2).asDiagonal()};
         own.push_back(tree.frame_of(tree.add_body(spec)));

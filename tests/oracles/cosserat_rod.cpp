@@ -1,9 +1,9 @@
 #include "tests/oracles/cosserat_rod.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/root_finding.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -98,12 +98,12 @@ bool RodSolution::newton(RodVector6& root, double share) {
     RodVector6 r = miss(root, share);
     double before = r.norm();
     for (int iteration = 0; iteration < 25; ++iteration) {
-        RodMatrix6 J;
+        Eigen::MatrixXd J(6, 6);
         for (Eigen::Index i = 0; i < 6; ++i) {
             const double step = 1e-7 * scale_(i);
             J.col(i) = (miss(root + step * RodVector6::Unit(i), share) - r) / 1e-7;
         }
-        const RodVector6 change = -scale_.cwiseProduct(J.fullPivLu().solve(r));
+        const RodVector6 change = -scale_.cwiseProduct(J.partialPivLu().solve(r));
         root += change;
         r = miss(root, share);
         residual_ = r.norm();

@@ -45,7 +45,7 @@ struct CosseratRod {
 /// Linear law of a uniform rod with its section axes along the principal ones: EA, GA_y, GA_z, GJ, EI_y, EI_z (N and
 /// N m^2; infinite: rigid).
 std::function<RodVector6(double, const RodVector6&)> linear_strain(const RodVector6& stiffness);
-/// The same for a full 6 x 6 compliance.
+/// Likewise for a full 6 x 6 compliance.
 std::function<RodVector6(double, const RodVector6&)> linear_strain(const RodMatrix6& compliance);
 
 struct RodLoad {

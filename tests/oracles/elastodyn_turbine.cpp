@@ -1,9 +1,7 @@
 #include "tests/oracles/elastodyn_turbine.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/jet.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <numbers>
@@ -139,7 +137,7 @@ struct Machine {
     struct Axes {
         V origin, shaft, radial, lateral;
     };
-    // Of a blade at psi + phase, in the head; then turned.
+    // A point of a blade at psi + phase, in the head; then turned.
     Axes rotor(const J* q, double phase) const {
         const V shaft{std::cos(data.tilt), 0, -std::sin(data.tilt)}, up{std::sin(data.tilt), 0, std::cos(data.tilt)},
             side{0, 1, 0};
@@ -302,11 +300,11 @@ ElastodynTurbine::Modes ElastodynTurbine::modes(double rotor_speed, int azimuths
     Column z = Column::Zero();  // the steady state is constant in multi-blade coordinates but for small 3 per rev
     Machine::Linear system = mean(machine, z, rotor_speed, azimuths);
     for (int i = 0; i < 2; ++i) {
-        z -= system.K.fullPivLu().solve(system.residual);
+        z -= Eigen::MatrixXd(system.K).completeOrthogonalDecomposition().solve(Eigen::VectorXd(system.residual));
         system = mean(machine, z, rotor_speed, azimuths);
     }
     Eigen::Matrix<double, 2 * all, 2 * all> A = decltype(A)::Zero();
-    const Eigen::PartialPivLU<Full> M(system.M);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> M(system.M);
     A.topRightCorner(all, all).setIdentity();
     A.bottomLeftCorner(all, all) = -M.solve(system.K);
     A.bottomRightCorner(all, all) = -M.solve(system.C);

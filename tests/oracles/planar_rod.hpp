@@ -33,7 +33,7 @@ public:
     struct Load {
         double fx, fy, moment;
     };
-    /// Clamped at s = 0 on a hub at the origin that turns as told; at rest in the axes of the hub at first.
+    /// Clamped at s = 0 on a hub at the origin that turns as prescribed; at rest in the axes of the hub at first.
     PlanarRodMotion(const PlanarRod& rod, std::function<Hub(double time)> hub);
     /// Free, at rest and straight at first; the load acts at s = 0, in fixed axes.
     PlanarRodMotion(const PlanarRod& rod, const Eigen::Vector2d& start, double angle,

@@ -52,7 +52,7 @@ struct TwistedRod {
         const double c = std::cos(beta(s)), d = std::sin(beta(s));
         return (Eigen::Matrix3d() << 1, 0, 0, 0, c, -d, 0, d, c).finished();
     }
-    /// The same in the axes of the line, that do not turn with the twist.
+    /// Likewise in the axes of the line, which do not turn with the twist.
     CosseratRod rod_in_line_axes() const {
         CosseratRod rod;
         rod.length = length;

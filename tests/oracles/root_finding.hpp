@@ -32,12 +32,12 @@ double bisect(Function&& f, double a, double b) {
 /// Two zeros inside one step are overlooked: choose the step well below their distance.
 template <typename Function>
 std::vector<double> first_zeros(Function&& f, double start, double step, int count) {
-    constexpr int most_steps = 10'000'000;
+    constexpr int max_steps = 10'000'000;
     std::vector<double> zeros;
     double a = start;
     double fa = f(a);
     for (int i = 1; static_cast<int>(zeros.size()) < count; ++i) {
-        if (i > most_steps) throw std::runtime_error("first_zeros: not enough zeros found");
+        if (i > max_steps) throw std::runtime_error("first_zeros: not enough zeros found");
         const double b = start + i * step;
         const double fb = f(b);
         if ((fa > 0.0) != (fb > 0.0)) zeros.push_back(bisect(f, a, b));

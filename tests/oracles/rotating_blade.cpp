@@ -1,12 +1,11 @@
 #include "tests/oracles/rotating_blade.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/jet.hpp"
 
-#include <Eigen/Dense>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -71,10 +70,11 @@ VectorXd gyroscopic_frequencies(const MatrixXd& m, const MatrixXd& g, const Matr
     skew.topRightCorner(n, n) = coupling.transpose();
     skew.bottomLeftCorner(n, n) = -coupling;
     skew.bottomRightCorner(n, n) = -0.5 * (gyro - gyro.transpose());
-    const Eigen::MatrixXcd hermitian = std::complex<double>(0.0, 1.0) * skew;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(hermitian, Eigen::EigenvaluesOnly);
+    const Eigen::EigenSolver<MatrixXd> solver(skew, false);
     if (solver.info() != Eigen::Success) throw std::runtime_error("RotatingBlade: eigenvalues not found");
-    return solver.eigenvalues().segment(n, count);
+    VectorXd frequencies = solver.eigenvalues().imag();  // accurate to rounding: the matrix is normal
+    std::sort(frequencies.begin(), frequencies.end());
+    return frequencies.segment(n, count);
 }
 
 }  // namespace
@@ -190,14 +190,14 @@ RotatingBlade::Assembly RotatingBlade::assemble(const VectorXd& q, double rotor_
 }
 
 RotatingBlade::Modes RotatingBlade::modes(double rotor_speed, int count, About about) const {
-    constexpr int most_steps = 30;
+    constexpr int max_steps = 30;
     VectorXd q = VectorXd::Zero(unknowns());
     Assembly a = assemble(q, rotor_speed);
     Modes out{};
     const auto relative = [&] { return a.load > 0.0 ? a.residual.cwiseAbs().maxCoeff() / a.load : 0.0; };
     if (about == About::deflected) {
         while (relative() > 1e-13) {
-            if (++out.newton_steps > most_steps) throw std::runtime_error("RotatingBlade: no steady state found");
+            if (++out.newton_steps > max_steps) throw std::runtime_error("RotatingBlade: no steady state found");
             q -= a.stiffness.ldlt().solve(a.residual);
             a = assemble(q, rotor_speed);
         }

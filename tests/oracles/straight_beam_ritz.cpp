@@ -38,7 +38,7 @@ StraightBeamRitz::StraightBeamRitz(const StraightBeam& beam, int degree) {
     stiffness_ += theta.transpose() * w.cwiseProduct(tension).asDiagonal() * theta;
     if (beam.plane == StraightBeam::Plane::lag) stiffness_ -= omega2 * mass_;
 
-    // Of the size of the first frequency squared: keeps stiffness + shift * mass definite with rigid-body modes.
+    // Shift of the size of the first frequency squared: keeps stiffness + shift * mass definite with rigid-body modes.
     const double length = beam.breaks[beam.breaks.size() - 1] - beam.breaks[0];
     shift_ = omega2 + w.dot(ei) / (w.dot(mu) * std::pow(length, 4));
 }

@@ -36,7 +36,7 @@ struct Motion {
     Vec w, alpha, a;
     std::array<Vec, 8> w_by, v_by;
 
-    // Of the point at r, carried along.
+    // Motion of the point at r, carried along.
     Motion at(const Vec& r) const {
         Motion moved = *this;
         moved.a += cross(alpha, r) + cross(w, cross(w, r));

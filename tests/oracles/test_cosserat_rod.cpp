@@ -81,7 +81,7 @@ double self_weight_rotation(double q) {
 
 }  // namespace
 
-TEST_CASE("cosserat rod: a tip force P L^2 / EI = 5 bends it like the elastica", "[oracles][published]") {
+TEST_CASE("cosserat rod: a tip force P L^2 / EI = 5 bends it like the elastica", "[oracles][analytic]") {
     // Elliptic integrals: Bisshopp and Drucker, Q. Appl. Math. 3 (1945) 272-275; digits by a separate computation.
     for (const bool vertical : {false, true}) {
         const RodSolution rod(elastica(), tip_force(vertical ? Vector3d(0, 0, 5) : Vector3d(0, 5, 0)));
@@ -107,7 +107,7 @@ TEST_CASE("cosserat rod: a tip moment 2 pi EI / L closes the circle", "[oracles]
     }
 }
 
-TEST_CASE("cosserat rod: the 45-degree bend has the known tip positions", "[oracles][published]") {
+TEST_CASE("cosserat rod: the 45-degree bend has the known tip positions", "[oracles][analytic]") {
     // The problem of Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979) 961-986; digits by a separate
     // computation. Shear factor 5/6.
     const auto tip = [](double GA, double force) {

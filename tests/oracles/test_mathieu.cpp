@@ -13,7 +13,7 @@ TEST_CASE("Mathieu: Hill's determinant gives cos(pi nu) = +-1 at the characteris
                        {10, -2.39914240, -1}, {10, -13.93655248, -1}, {10, 7.71736985, 1}};
     for (const auto& line : table) {
         CAPTURE(line.q, line.a);
-        // Of the last digit, by the slope there.
+        // Rounding of the last digit, by the slope there.
         const double slope = (mathieu_cosine(line.a + 1e-5, line.q) - mathieu_cosine(line.a - 1e-5, line.q)) / 2e-5;
         CHECK(std::abs(mathieu_cosine(line.a, line.q) - line.cosine) < 6e-9 * std::abs(slope) + 1e-9);
     }

@@ -24,7 +24,7 @@ TEST_CASE("elastica: elliptic integrals and shooting give the same tip under a d
     }
 }
 
-TEST_CASE("elastica: published tip displacements under a dead transverse force", "[oracles]") {
+TEST_CASE("elastica: published tip displacements under a dead transverse force", "[oracles][published]") {
     // Mattiasson, Int. J. Numer. Meth. Eng. 17, 1981, 145-153, table 1: (1 - x, y, theta), five decimals.
     for (const auto& [P, u, w, theta] : std::vector<std::tuple<double, double, double, double>>{
              {1, 0.05643, 0.30172, 0.46135}, {5, 0.38763, 0.71379, 1.21537}, {10, 0.55500, 0.81061, 1.43029}}) {
@@ -59,7 +59,8 @@ TEST_CASE("elastica: limits of small forces, and the first integral of the curve
     CHECK(arc.y == Approx(2 / std::numbers::pi).epsilon(1e-15));
 }
 
-TEST_CASE("lateral buckling: zero of the Bessel function, published 4.0126, limit of the bent beam", "[oracles]") {
+TEST_CASE("lateral buckling: zero of the Bessel function, published 4.0126, limit of the bent beam",
+          "[oracles][published]") {
     // Timoshenko and Gere 1961, eq. 6-24: 4.013; Bazant and Cedolin 1991, section 6.3: 4.0126.
     const double stiff = lateral_buckling::tip_force();
     CHECK(stiff == Approx(4.0126).margin(5.1e-5).epsilon(0));
@@ -72,7 +73,7 @@ TEST_CASE("lateral buckling: zero of the Bessel function, published 4.0126, limi
 }
 
 TEST_CASE("Beck's column: published flutter load, beam frequencies without load, both forms of the equation",
-          "[oracles]") {
+          "[oracles][published]") {
     const auto flutter = beck_column::flutter();
     CHECK(flutter.force == Approx(20.05).margin(5.1e-3).epsilon(0));   // Beck 1952, Bolotin 1963
     CHECK(flutter.omega == Approx(11.016).margin(5.1e-4).epsilon(0));  // Bolotin 1963

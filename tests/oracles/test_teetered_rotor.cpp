@@ -49,7 +49,7 @@ TEST_CASE("rigid teetered rotor: the equations of motion are those of Appendix A
         appendix.row(2) /= rotor.yaw + Ih3 * c * c;
         appendix.row(3) << 0, W * W * (Ih2 - Ih3), W * (Ih2 - Ih3) * c, 0;
         appendix.row(3) /= Ih1;
-        // The same motion in (y, b, y', b'): b = -q_h, b' = U2 + U1 sin.
+        // That motion in (y, b, y', b'): b = -q_h, b' = U2 + U1 sin.
         Eigen::Matrix4d to = Eigen::Matrix4d::Identity(), to_rate = Eigen::Matrix4d::Zero();
         to(1, 1) = -1;
         to(3, 2) = s;
@@ -62,7 +62,7 @@ TEST_CASE("rigid teetered rotor: the equations of motion are those of Appendix A
 TEST_CASE(
     "rigid teetered rotor: free yaw is a double multiplier 1, the teeter pair is reciprocal and known to first order",
     "[oracles][analytic]") {
-    // Of first order in (shaft - spanwise - teeter)/yaw: lambda^2 = (It + Is - Ia)/(2 J) Omega^2.
+    // To first order in (shaft - spanwise - teeter)/yaw: lambda^2 = (It + Is - Ia)/(2 J) Omega^2.
     RigidTeeteredRotor rotor = some_rotor();
     for (const double difference : {40.0, 10.0, -10.0}) {
         rotor.shaft = rotor.teeter + rotor.spanwise - difference;

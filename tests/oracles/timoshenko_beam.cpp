@@ -1,8 +1,7 @@
 #include "tests/oracles/timoshenko_beam.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/root_finding.hpp"
-
-#include <Eigen/Dense>
 
 #include <cmath>
 #include <numbers>
@@ -72,7 +71,7 @@ double TimoshenkoBeam::boundary_determinant(Ends ends, double b) const {
             ++column;
         }
     }
-    return m.fullPivLu().determinant();
+    return Eigen::MatrixXd(m).partialPivLu().determinant();
 }
 
 std::vector<double> TimoshenkoBeam::frequencies(Ends ends, int count) const {

@@ -17,7 +17,7 @@ class MujocoPeer : public Peer {
 public:
     /// @throws PeerRefusal for a massless link that carries not exactly one other, and for what MuJoCo itself refuses
     explicit MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {});
-    /// The same from a URDF text, which MuJoCo reads by itself. Limits, damping and friction are switched off.
+    /// From a URDF text, which MuJoCo reads by itself. Limits, damping and friction are switched off.
     /// @throws PeerRefusal for what MuJoCo refuses
     static std::unique_ptr<MujocoPeer> from_urdf(const std::string& urdf);
     ~MujocoPeer() override;

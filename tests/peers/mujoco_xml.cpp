@@ -1,4 +1,5 @@
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/model/spatial.hpp"
 #include "tests/peers/mujoco_peer.hpp"
 
@@ -31,8 +32,8 @@ public:
     }
 
 private:
-    std::vector<int>& children_of(int link) { return link < 0 ? roots_ : children_[static_cast<std::size_t>(link)]; }
-    const PeerLink& link(int index) const { return links_[static_cast<std::size_t>(index)]; }
+    std::vector<int>& children_of(int link) { return link < 0 ? roots_ : entry(children_, link); }
+    const PeerLink& link(int index) const { return entry(links_, index); }
 
     void attribute(const char* name, const Eigen::VectorXd& values) {
         out_ << ' ' << name << "=\"" << values.transpose() << '"';

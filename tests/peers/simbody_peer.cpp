@@ -1,5 +1,7 @@
 #include "tests/peers/simbody_peer.hpp"
 
+#include "mbs/base/entry.hpp"
+
 #include <Simbody.h>
 
 #include <algorithm>
@@ -77,8 +79,7 @@ SimbodyPeer::SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 
     Impl& s = *impl_;
     s.gravity = Vec3(gravity[0], gravity[1], gravity[2]);
     for (const PeerLink& link : links) {
-        MobilizedBody& parent =
-            link.parent < 0 ? s.matter.updGround() : s.bodies[static_cast<std::size_t>(link.parent)];
+        MobilizedBody& parent = link.parent < 0 ? s.matter.updGround() : entry(s.bodies, link.parent);
         s.bodies.push_back(attach(parent, link));
     }
     s.state = s.system.realizeTopology();

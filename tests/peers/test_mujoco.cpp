@@ -69,7 +69,7 @@ TEST_CASE("mujoco: several joints with one centre between bodies", "[peers]") {
     }
 }
 
-TEST_CASE("mujoco: what it cannot represent is refused in words", "[peers]") {
+TEST_CASE("mujoco: what it cannot represent is refused with a reason", "[peers]") {
     const PeerLink massless = peer_link(-1, PeerJoint::revolute, {}, {});
     REQUIRE_THROWS_AS(MujocoPeer({massless}), PeerRefusal);
     // Moments of inertia of no body: A + B < C.

@@ -54,7 +54,7 @@ kill -TERM "$pid"
 wait "$pid" || true
 [ "$(rows one.h5)" -gt 100 ] || fail "the first run has lost its rows"
 
-# Of several that begin at once one wins, the others say so.
+# If several begin at once, one wins and the others say so.
 pids=
 for k in 1 2 3 4; do
     "$run" $options --duration 100000 --out new >"new$k.log" 2>&1 &

@@ -35,15 +35,15 @@ add_example_test(example_openfast_pitched openfast_campbell 0 "holds the machine
                  example_openfast_pitched)
 add_example_test(example_openfast_gravity openfast_campbell 0 "mean over the azimuth.*1st tower fore-aft"
                  ${models}/openfast/small.fst --rpm 0,45 --gravity ${coarse} --out example_openfast_gravity)
-# Freedoms of the file, and instead of them. A locked generator has drive-train torsion of the rotor alone.
+# Degrees of freedom of the file, and what replaces them. A locked generator has drive-train torsion of the rotor alone.
 file(READ ${models}/openfast/small_ElastoDyn.dat elastodyn)
 file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/locked)
 string(REPLACE "True   GenDOF" "False   GenDOF" elastodyn_locked "${elastodyn}")
 string(REPLACE "True   YawDOF" "False   YawDOF" elastodyn_locked "${elastodyn_locked}")
 file(WRITE ${test_output_dir}/locked/small_ElastoDyn.dat "${elastodyn_locked}")
-add_example_test(example_openfast_locked openfast_campbell 0 "freedoms: generator locked, yaw bearing locked\n.*drive-train torsion +2[.].*mesh: at standstill 2 elements per blade"
+add_example_test(example_openfast_locked openfast_campbell 0 "degrees of freedom: generator locked, yaw bearing locked\n.*drive-train torsion +2[.].*mesh: at standstill 2 elements per blade"
                  locked/small.fst --rpm 0,45 ${coarse} --out example_openfast_locked)
-add_example_test(example_openfast_unlocked openfast_campbell 0 "freedoms: generator and yaw bearing free\n" locked/small.fst
+add_example_test(example_openfast_unlocked openfast_campbell 0 "degrees of freedom: generator and yaw bearing free\n" locked/small.fst
                  --generator free --yaw free --rpm 45 ${coarse} --out example_openfast_unlocked)
 add_example_test(example_openfast_yaw openfast_campbell 1 "--yaw: value = free; allowed: locked: the model gives no spring"
                  ${models}/openfast/small_ElastoDyn.dat --yaw free)

@@ -1,5 +1,6 @@
-// Numbers of the 600 kW machine as the library gave them in November 2026. They are no truth: what is known to be right
-// is in tests/turbines and tests/elements. A change here is to be understood and noted in the changelog.
+// Numbers of the 600 kW machine as the library gave them in November 2026. They are not a reference: what is known to
+// be right is in tests/turbines and tests/elements. A change here is to be understood and noted in the changelog.
+#include "mbs/base/entry.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
@@ -61,7 +62,7 @@ TEST_CASE("pinned: crossings of the 600 kW machine with 2P and 3P up to 40 rpm",
     for (const solvers::Crossing& crossing : d.crossings) {
         if (crossing.multiple > 3) continue;
         REQUIRE(i < std::size(rows));
-        CHECK(d.branches[static_cast<std::size_t>(crossing.branch)].name == rows[i].branch);
+        CHECK(entry(d.branches, crossing.branch).name == rows[i].branch);
         CHECK(crossing.multiple == rows[i].multiple);
         CHECK(crossing.rotor_speed / rpm == Approx(rows[i].rpm).margin(2e-5).epsilon(0));
         CHECK(crossing.frequency_hz == Approx(rows[i].hz).margin(2e-6).epsilon(0));

@@ -71,7 +71,7 @@ TEST_CASE("reuse: a steady solver gives the states of fresh ones, in any order a
         // Bad input, and a start from which it does not converge.
         const double nan = std::numeric_limits<double>::quiet_NaN();
         check_refused([&] { solver.solve({.rotor_speed = nan}, state); }, {"rotor speed", "nan", "finite"});
-        const auto n = static_cast<Eigen::Index>(rotor.system.model.size());
+        const Eigen::Index n = rotor.system.model.size();
         solver.solve({.rotor_speed = speed + 1, .initial = Vector::Constant(n, 1.3), .iterations = 1}, state);
         CHECK_FALSE(state.converged);
         CHECK_FALSE(state.message.empty());
@@ -110,7 +110,7 @@ TEST_CASE("reuse: lineariser, restriction and transformation give what fresh one
 TEST_CASE("reuse: a mode solver gives the modes of fresh ones, in any order and after a failure", "[property]") {
     const SmallRotor rotor = rotor_on_elastic_support();
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
-    ModeSolver solver(static_cast<Eigen::Index>(rotor.unknowns().size()));
+    ModeSolver solver(std::ssize(rotor.unknowns()));
     for (const double speed : mixed_speeds) {
         const SecondOrderSystem system = fresh_system(rotor, coleman, speed);
         check_same(solver, solver.solve(system), modes(system));
@@ -127,7 +127,7 @@ TEST_CASE("reuse: shares and energies written into used memory are those written
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
     const EnergyShares energy_shares(linearise(rotor.system, rotor.spinning(0)), rotor.system.model, rotor.map,
                                      rotor.unknowns(), coleman.rows());
-    ModeSolver solver(static_cast<Eigen::Index>(rotor.unknowns().size()));
+    ModeSolver solver(std::ssize(rotor.unknowns()));
     Mode mode;
     std::vector<Share> shares(17, Share{.component = 4, .whirl = 3, .higher = {{1, 2, 3}}});
     Vector by_row = Vector::Constant(99, 5);

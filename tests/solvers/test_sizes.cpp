@@ -1,4 +1,4 @@
-// The doors of the solvers with what does not fit, is not finite or belongs to another system.
+// Arguments of the solvers that do not fit, are not finite or belong to another system.
 #include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/campbell/diagram.hpp"
@@ -117,7 +117,7 @@ TEST_CASE("recorder: an integrator of another system or with other drives is ref
     CHECK(history.time.empty());
 }
 
-TEST_CASE("bad input: values that are not finite, tolerances and functions that are none", "[property][solvers]") {
+TEST_CASE("bad input: values that are not finite, invalid tolerances, empty functions", "[property][solvers]") {
     const SmallRotor rotor = small_rotor();
     const System& system = rotor.system;
     for (const double bad : {not_a_number, infinite, -infinite}) {
@@ -158,13 +158,13 @@ TEST_CASE("bad input: values that are not finite, tolerances and functions that 
     check_refused([&] { forced_response(constant, {}, 2); }, {"forced response", "empty"});
 }
 
-TEST_CASE("bad input: a harmonic motion whose accelerations are no numbers names its period", "[property][solvers]") {
+TEST_CASE("bad input: a harmonic motion whose accelerations are not finite names its period", "[property][solvers]") {
     check_refused([] { Motion::harmonic(0, 0.1, 1e-320); }, {"harmonic motion", "period [s] = 9.99", "e-321"});
     check_refused([] { Motion::harmonic(0, 1e200, 1e-100); }, {"period [s] = 1e-100"});
     CHECK(refusal([] { Motion::harmonic(0, 0.1, 1e-6); }) == "(accepted)");
 }
 
-TEST_CASE("bad input: a checkpoint with a number that is none", "[property][solvers]") {
+TEST_CASE("bad input: a checkpoint with a number that is not finite", "[property][solvers]") {
     const SmallRotor rotor = small_rotor();
     const Vector zero = Vector::Zero(rotor.system.model.size());
     Integrator integrator(rotor.system, {}, 0, zero, zero);
@@ -178,7 +178,7 @@ TEST_CASE("bad input: a checkpoint with a number that is none", "[property][solv
     refused("flap 2", [](Checkpoint& c) { c.q(2) = not_a_number; });
     refused("flap 3", [](Checkpoint& c) { c.qd(3) = not_a_number; });
     refused("kinetic energy", [](Checkpoint& c) { c.kinetic_at_start = not_a_number; });
-    refused("dissipated energy", [](Checkpoint& c) { c.works.dissipation = not_a_number; });
+    refused("dissipated energy", [](Checkpoint& c) { c.work.dissipation = not_a_number; });
     refused("'brake'", [](Checkpoint& c) { c.notes["brake"] = not_a_number; });
     CHECK(refusal([&] { Integrator(rotor.system, {}, good); }) == "(accepted)");
 }
@@ -192,7 +192,7 @@ TEST_CASE("Campbell diagram: a spring meant to be rigid is named, and its roundi
     const std::vector<double> speeds{0, 3};
     const Campbell soft = campbell(rotor.system, rotor.map, speeds);
     CHECK(soft.warning.empty());
-    // The same machine with a rigid yaw spring besides.
+    // This machine with a rigid yaw spring added.
     spec.rigid_yaw = 1e30;
     rotor = small_rotor(spec);
     const Campbell rigid = campbell(rotor.system, rotor.map, speeds);
@@ -204,7 +204,7 @@ TEST_CASE("Campbell diagram: a spring meant to be rigid is named, and its roundi
     for (const CampbellPoint& point : rigid.points) CHECK(point.stability_margin > -1e-6);
 }
 
-TEST_CASE("Campbell diagram: more unknowns than can be served are refused with the reason", "[property][solvers]") {
+TEST_CASE("Campbell diagram: more unknowns than can be handled are refused with the reason", "[property][solvers]") {
     Tree tree;
     FrameId at = Tree::base();
     ForceSet forces;

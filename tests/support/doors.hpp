@@ -1,5 +1,5 @@
 /// @file
-/// Public functions called with what does not fit.
+/// Public functions called with arguments that do not fit.
 #pragma once
 
 #include "tests/support/refusal.hpp"

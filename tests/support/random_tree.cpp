@@ -1,5 +1,6 @@
 #include "tests/support/random_tree.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <Eigen/Geometry>
@@ -52,8 +53,8 @@ Tree random_tree(Random& random, const RandomTreeOptions& options) {
         const int p = k == 0 || choice < 0.05 ? -1
                       : choice < 0.65         ? k - 1
                                               : std::uniform_int_distribution<int>(0, k - 1)(random);
-        parent[static_cast<std::size_t>(k)] = p;
-        if (p >= 0) leaf[static_cast<std::size_t>(p)] = false;
+        entry(parent, k) = p;
+        if (p >= 0) entry(leaf, p) = false;
     }
     Tree tree;
     std::vector<BodyId> ids;
@@ -63,11 +64,11 @@ Tree random_tree(Random& random, const RandomTreeOptions& options) {
         const std::size_t i = static_cast<std::size_t>(k);
         BodySpec spec;
         spec.name = text("body ", k);
-        spec.inboard = parent[i] < 0 ? Tree::base() : tree.frame_of(ids[static_cast<std::size_t>(parent[i])]);
+        spec.inboard = parent[i] < 0 ? Tree::base() : tree.frame_of(entry(ids, parent[i]));
         spec.placement = random_placement(random);
         if (parent[i] >= 0 && uniform(random, 0, 1) < options.coincident) spec.placement.p.setZero();
         spec.joint = uniform(random, 0, 1) < options.prismatic ? JointKind::prismatic : JointKind::revolute;
-        const int run = parent[i] < 0 ? 0 : massless_run[static_cast<std::size_t>(parent[i])];
+        const int run = parent[i] < 0 ? 0 : entry(massless_run, parent[i]);
         if (leaf[i] || run == 2 || uniform(random, 0, 1) >= options.massless)
             spec.inertia = random_inertia(random);
         else
@@ -78,8 +79,8 @@ Tree random_tree(Random& random, const RandomTreeOptions& options) {
     if (options.armatures && n > 3) {
         tree.add_armature({"single", 0.7, {{ids[1], 1.0}}});
         std::vector<std::pair<BodyId, double>> spin;
-        for (int k = n - 1; k >= 0 && spin.size() < 3; k = parent[static_cast<std::size_t>(k)])
-            spin.emplace_back(ids[static_cast<std::size_t>(k)], uniform(random, -2, 2));
+        for (int k = n - 1; k >= 0 && spin.size() < 3; k = entry(parent, k))
+            spin.emplace_back(entry(ids, k), uniform(random, -2, 2));
         tree.add_armature({"geared", 1.3, spin});
     }
     return tree;

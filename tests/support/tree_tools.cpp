@@ -1,5 +1,6 @@
 #include "tests/support/tree_tools.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <Eigen/Geometry>
@@ -38,14 +39,14 @@ std::vector<BodyId> transplant(Tree& target, FrameId onto, const Tree& source, s
     }
     std::vector<BodyId> added(n);
     for (const int k : order) {
-        const Tree::Body& body = source.bodies()[static_cast<std::size_t>(k)];
+        const Tree::Body& body = entry(source.bodies(), k);
         BodySpec spec = body.spec;
-        spec.inboard = body.parent < 0 ? onto : target.frame_of(added[static_cast<std::size_t>(body.parent)]);
+        spec.inboard = body.parent < 0 ? onto : target.frame_of(entry(added, body.parent));
         spec.placement = body.in_parent;
-        added[static_cast<std::size_t>(k)] = target.add_body(spec);
+        entry(added, k) = target.add_body(spec);
     }
     for (Armature armature : source.armatures()) {
-        for (auto& [body, factor] : armature.spin) body = added[static_cast<std::size_t>(body.index)];
+        for (auto& [body, factor] : armature.spin) body = entry(added, body.index);
         target.add_armature(armature);
     }
     return added;

@@ -110,7 +110,7 @@ TEST_CASE("turbine data in a folder: a missing quantity, another unit, a wrong n
     }
 }
 
-TEST_CASE("turbine data in a folder: sections that cannot be are named by station", "[property]") {
+TEST_CASE("turbine data in a folder: impossible sections are named by station", "[property]") {
     {
         const DataFolder data;
         data.replace("wt600_blade.csv", "0.30,126,5.10e7", "0.30,126,-5.10e7");

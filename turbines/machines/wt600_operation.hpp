@@ -43,11 +43,11 @@ struct Wt600OperationOptions {
 };
 
 /// The machine and everything that acts on it. Pitch drives replace the pitch springs, with the same stiffness.
-/// Switches and orders are shared by copies: use them in one simulation at a time.
+/// Switches and commands are shared by copies: use them in one simulation at a time.
 struct Wt600Operation {
     Turbine turbine;
     std::shared_ptr<Switch> grid, brake_valve;
-    std::shared_ptr<DriveOrder> pitch;  ///< of all blades, positive toward feather; 8 deg/s, 15 deg/s^2 (assumed)
+    std::shared_ptr<DriveCommand> pitch;  ///< of all blades, positive toward feather; 8 deg/s, 15 deg/s^2 (assumed)
     Generator generator;
     Brake brake;  ///< on the generator's shaft: 6 kN m within 0.5 s, regularised at 1 rad/s (assumed)
     RotorLoad rotor;

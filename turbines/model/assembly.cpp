@@ -95,7 +95,7 @@ RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& na
     map.machine = name;
     map.spin = a.spin ? model.index(*a.spin) : -1;
     map.hub = a.layout.rotor_centre;
-    for (BodyId body : a.odd) map.odd.push_back(model.index(body));
+    for (BodyId body : a.odd) map.odd_coordinates.push_back(model.index(body));
     for (const std::vector<BodyId>& blade : a.blades) {
         map.blades.emplace_back();
         for (BodyId body : blade) map.blades.back().push_back(model.index(body));
@@ -126,7 +126,7 @@ namespace {
 // Last, so that it can be cut off and read again; what it was read from stands before it.
 std::string computed(TurbineDescription description) {
     description.source.clear();
-    return text("\n\nthe machine that was computed\n", as_computed(description));
+    return text("\n\nthe machine that was computed\n", description_text(description));
 }
 
 }  // namespace

@@ -23,10 +23,9 @@ std::string station(const BeamTable& table, std::size_t i) {
 
 BeamSection section_at(const BeamTable& table, double x) {
     const StationPlace place = place_among(table.stations, x);
-    const SectionMatrices &a = table.matrices[place.left], &b = table.matrices[place.right];
-    const double t = place.t, beta = place.of(table.beta);
-    const SectionMatrices own{(1 - t) * a.stiffness + t * b.stiffness, (1 - t) * a.mass + t * b.mass};
-    BeamSection section = beam_section(rotated(own, rot_x(beta)), text(table.name, ", x = ", x, " m"));
+    const double beta = place.of(table.beta);
+    BeamSection section =
+        beam_section(rotated(interpolated(table.matrices, place), rot_x(beta)), text(table.name, ", x = ", x, " m"));
     section.beta = beta;
     return section;
 }

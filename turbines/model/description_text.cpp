@@ -22,7 +22,7 @@ std::string to_yaml(const TurbineDescription& description) {
     return written(description, BeamLines::exact);
 }
 
-std::string as_computed(const TurbineDescription& description) {
+std::string description_text(const TurbineDescription& description) {
     return written(description, BeamLines::near);
 }
 

@@ -17,7 +17,7 @@ inline constexpr int description_yaml_version = 2;
 std::string to_yaml(const TurbineDescription& description);
 /// As to_yaml(), for documentation: lines without a table are written as sampled(), or by name only.
 /// @throws InputError for NaN
-std::string as_computed(const TurbineDescription& description);
+std::string description_text(const TurbineDescription& description);
 /// @throws FileError, InputError
 void write_description(const TurbineDescription& description, const std::filesystem::path& path);
 

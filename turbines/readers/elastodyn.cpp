@@ -46,7 +46,7 @@ public:
         read_hub();
         read_teeter();
         read_blades();
-        read_freedoms();
+        read_dofs();
         note_states();
         for (FileNote& note : file_.notes(ignored_by_elastodyn())) out_.notes.push_back(std::move(note));
         return std::move(out_);
@@ -128,7 +128,7 @@ private:
         t.main_shaft = {not_negative("DTTorSpr"), not_negative("DTTorDmp")};
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
         if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
-        out_.freedoms.generator = file_.flag("GenDOF");
+        out_.dofs.generator = file_.flag("GenDOF");
         file_.note_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
@@ -247,8 +247,8 @@ private:
         return true;
     }
 
-    void read_freedoms() {
-        FileFreedoms& f = out_.freedoms;
+    void read_dofs() {
+        FileDofs& f = out_.dofs;
         if (context_.blade) {
             for (const char* keyword : {"FlapDOF1", "FlapDOF2", "EdgeDOF"})
                 if (!file_.flag_or(keyword, true)) file_.note(keyword, "of ElastoDyn's blades: BeamDyn's bend");

@@ -71,11 +71,8 @@ BeamTable matrix_blade_table(const std::string& name, const MatrixBlade& blade) 
         for (double place : s) twist_at.push_back(place / length);
     check_stations(name + ", twist", twist_at, blade.twist.size());
     for (double at : merged(eta, twist_at)) {
-        const StationPlace c = place_among(eta, at);
-        const SectionMatrices &a = blade.matrices[c.left], &b = blade.matrices[c.right];
-        const SectionMatrices here{(1 - c.t) * a.stiffness + c.t * b.stiffness, (1 - c.t) * a.mass + c.t * b.mass};
         table.stations.push_back(at * length);
-        table.matrices.push_back(rotated(here, beamdyn_axes()));
+        table.matrices.push_back(rotated(interpolated(blade.matrices, place_among(eta, at)), beamdyn_axes()));
         table.beta.push_back(turn(line, at * length) - interpolated(twist_at, blade.twist, at));
     }
     return table;

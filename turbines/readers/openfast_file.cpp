@@ -1,5 +1,6 @@
 #include "turbines/readers/openfast_file.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 
@@ -360,7 +361,7 @@ std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& group
         const auto group =
             std::find_if(groups.begin(), groups.end(), [&](const KeywordGroup& g) { return belongs(line.keyword, g); });
         if (group != groups.end()) {
-            members[static_cast<std::size_t>(group - groups.begin())].push_back(line.keyword);
+            entry(members, group - groups.begin()).push_back(line.keyword);
             continue;
         }
         std::string value;

@@ -23,7 +23,7 @@ struct FileNote {
 std::string to_text(const FileNote& note);
 
 /// Degrees of freedom that a file may switch off (ElastoDyn's flags); they are not part of the description.
-struct FileFreedoms {
+struct FileDofs {
     bool generator = true;  ///< false: the rotor turns at constant speed (RotorSpin::prescribed)
     /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, both of the blades).
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
@@ -32,7 +32,7 @@ struct FileFreedoms {
 /// A machine read from files.
 struct TurbineFile {
     TurbineDescription description;
-    FileFreedoms freedoms = {};
+    FileDofs dofs = {};
     /// Spring of the yaw drive, even if the files lock the yaw bearing and it is rigid in the description; rigid: the
     /// files give no spring.
     Bearing yaw_drive = rigid_joint;

@@ -1,5 +1,6 @@
 #include "turbines/yaml/description.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "turbines/model/detail/description_fields.hpp"
@@ -41,10 +42,10 @@ template <class M>
 M matrix(const YamlNode& node) {
     M m;
     const std::vector<YamlNode> rows = node.items();
-    if (static_cast<Eigen::Index>(rows.size()) != m.rows()) node.fail(text(rows.size(), " rows; allowed: ", m.rows()));
+    if (std::ssize(rows) != m.rows()) node.fail(text(rows.size(), " rows; allowed: ", m.rows()));
     for (Eigen::Index i = 0; i < m.rows(); ++i) {
-        const std::vector<double> row = rows[static_cast<std::size_t>(i)].numbers(static_cast<std::size_t>(m.cols()));
-        for (Eigen::Index j = 0; j < m.cols(); ++j) m(i, j) = row[static_cast<std::size_t>(j)];
+        const std::vector<double> row = entry(rows, i).numbers(static_cast<std::size_t>(m.cols()));
+        for (Eigen::Index j = 0; j < m.cols(); ++j) m(i, j) = entry(row, j);
     }
     return m;
 }

@@ -2,6 +2,7 @@
 /// A multi-blade system whose tower and blades are limited to the shapes of FAST's ElastoDyn.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/azimuth_average.hpp"
 #include "turbines/machines/nrel5mw_shapes.hpp"
 #include "turbines/model/assembly.hpp"
@@ -14,10 +15,10 @@ enum class Limited : std::uint8_t { nothing, tower, tower_and_blades };
 /// @param mean  of this machine (pitch rigid, no extension or torsion where it is limited)
 inline Matrix shapes_left(const turbines::Turbine& machine, const solvers::AzimuthAverage& mean, Limited limited) {
     const Model& model = machine.system().model;
-    const auto rows = static_cast<Eigen::Index>(mean.rows.size());
+    const auto rows = std::ssize(mean.rows);
     const auto row_of = [&](int coordinate) {
         for (Eigen::Index i = 0; i < rows; ++i)
-            if (mean.system.coordinates[static_cast<std::size_t>(i)] == coordinate) return i;
+            if (entry(mean.system.coordinates, i) == coordinate) return i;
         return Eigen::Index(-1);
     };
     std::vector<Vector> columns;
@@ -32,7 +33,7 @@ inline Matrix shapes_left(const turbines::Turbine& machine, const solvers::Azimu
                 for (const BodyId body : element.bodies) {
                     const Eigen::Index row = row_of(model.index(body));
                     column(row) = shapes(at++, k);
-                    taken[static_cast<std::size_t>(row)] = true;
+                    entry(taken, row) = true;
                 }
             columns.push_back(column);
         }
@@ -43,18 +44,18 @@ inline Matrix shapes_left(const turbines::Turbine& machine, const solvers::Azimu
              {solvers::MultiBlade::collective, solvers::MultiBlade::cosine, solvers::MultiBlade::sine})
             for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
                 Vector column = Vector::Zero(rows);
-                for (std::size_t i = 0; i < mean.rows.size(); ++i)
-                    if (mean.rows[i].kind == pattern) {
-                        column(static_cast<Eigen::Index>(i)) = shapes(mean.rows[i].blade_coordinate, k);
-                        taken[i] = true;
+                for (Eigen::Index i = 0; i < rows; ++i)
+                    if (const solvers::MultiBladeRow& row = entry(mean.rows, i); row.kind == pattern) {
+                        column(i) = shapes(row.blade_coordinate, k);
+                        entry(taken, i) = true;
                     }
                 columns.push_back(column);
             }
     }
-    for (std::size_t i = 0; i < taken.size(); ++i)
-        if (!taken[i]) columns.emplace_back(Vector::Unit(rows, static_cast<Eigen::Index>(i)));
-    Matrix all(rows, static_cast<Eigen::Index>(columns.size()));
-    for (Eigen::Index j = 0; j < all.cols(); ++j) all.col(j) = columns[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = 0; i < rows; ++i)
+        if (!entry(taken, i)) columns.emplace_back(Vector::Unit(rows, i));
+    Matrix all(rows, std::ssize(columns));
+    for (Eigen::Index j = 0; j < all.cols(); ++j) all.col(j) = entry(columns, j);
     return all;
 }
 

@@ -1,5 +1,6 @@
 #include "examples/programs/nrel5mw_campbell/comparison.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ UnderGravity under_gravity(const turbines::Turbine& heavy, const solvers::Campbe
         result.hz.push_back(std::numeric_limits<double>::quiet_NaN());
         result.mac.push_back(0);
         if (branch.mode[point] < 0) continue;
-        const auto& light = diagram.points[point].modes[static_cast<std::size_t>(branch.mode[point])].mode;
+        const auto& light = entry(diagram.points[point].modes, branch.mode[point]).mode;
         const solvers::NearestMode nearest = solvers::nearest_mode(mean.system, modes, light);
         result.hz.back() = modes[nearest.index].natural_hz();
         result.mac.back() = nearest.mac;
@@ -79,7 +80,7 @@ void print_row(const solvers::Campbell& diagram, const OpenFast& reference, std:
     if (gravity) {
         const auto at = static_cast<std::size_t>(branch - diagram.branches.begin());
         hz = gravity->hz.at(at);
-        std::cout << std::setw(10) << hz << (gravity->mac.at(at) < solvers::sure_mac ? "?" : " ");
+        std::cout << std::setw(10) << hz << (gravity->mac.at(at) < solvers::min_reliable_mac ? "?" : " ");
     }
     print_difference(hz, reference.elastodyn.at(mode));
     print_difference(hz, reference.beamdyn.at(mode));

@@ -184,7 +184,7 @@ DecayOutcome let_go(const Run& run, const Release& release, const Linear& linear
             program::progress(text("\r", history.title, ": ", std::round(time), " of ", std::round(duration), " s  "));
         });
     program::progress("\r");
-    if (end.end == solvers::Advance::End::failed) throw NumericalError(end.message);
+    require_result(end);
     file.close(end.reached());
     std::printf("\n%s\n", history.title.c_str());
     DecayOutcome out;

@@ -1,5 +1,6 @@
 #include "examples/programs/nrel5mw_floating/free_modes.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/campbell/mode_names.hpp"
@@ -35,7 +36,7 @@ Campbell diagram(const turbines::Turbine& turbine, const std::vector<double>& sp
 // Multiples of the rotor speed meet them within the first turns of a start-up, which says nothing.
 Campbell without_platform_crossings(Campbell d) {
     std::erase_if(d.crossings, [&](const solvers::Crossing& crossing) {
-        return d.branches[static_cast<std::size_t>(crossing.branch)].family.starts_with("platform");
+        return entry(d.branches, crossing.branch).family.starts_with("platform");
     });
     return d;
 }

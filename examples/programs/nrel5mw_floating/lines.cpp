@@ -1,6 +1,7 @@
 #include "examples/programs/nrel5mw_floating/lines.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -83,8 +84,8 @@ Resolution needed_resolution(const std::vector<double>& motions_hz, double rotor
 }
 
 LineFit::LineFit(const std::vector<double>& time, Lines lines) : lines_(std::move(lines)) {
-    const auto rows = static_cast<Eigen::Index>(time.size());
-    const auto columns = static_cast<Eigen::Index>(1 + 2 * lines_.hz.size());
+    const auto rows = std::ssize(time);
+    const auto columns = 1 + 2 * std::ssize(lines_.hz);
     if (rows <= columns)
         throw InputError("amplitudes", "samples in the stretch", rows,
                          text("more than ", columns, ", twice the lines"));
@@ -92,8 +93,7 @@ LineFit::LineFit(const std::vector<double>& time, Lines lines) : lines_(std::mov
     for (Eigen::Index i = 0; i < rows; ++i) {
         basis_(i, 0) = 1;
         for (Eigen::Index k = 1; k < columns; k += 2) {
-            const double angle =
-                2 * pi * lines_.hz[static_cast<std::size_t>(k / 2)] * time[static_cast<std::size_t>(i)];
+            const double angle = 2 * pi * entry(lines_.hz, k / 2) * entry(time, i);
             basis_(i, k) = std::cos(angle);
             basis_(i, k + 1) = std::sin(angle);
         }

@@ -1,6 +1,7 @@
 #include "examples/programs/nrel5mw_floating/machine.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/periodic/steady_state.hpp"
 
@@ -69,12 +70,9 @@ turbines::Turbine on_land(const MachineOptions& options) {
 }
 
 solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rotor_speed) {
-    const auto check = [](bool converged, const std::string& message) {
-        if (!converged) throw NumericalError(text("equilibrium: ", message));
-    };
     if (rotor_speed == 0) {
         const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin);
-        check(state.converged, state.message);
+        require_result(state, "equilibrium");
         return state.at;
     }
     solvers::PeriodicOptions options;
@@ -82,7 +80,7 @@ solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rot
     options.harmonics = 4;
     const solvers::PeriodicSteadyState state =
         solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
-    check(state.converged, state.message);
+    require_result(state, "equilibrium");
     return state.at(0);
 }
 

@@ -13,7 +13,7 @@ namespace cardan::floating {
 
 inline constexpr std::array coordinate_names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 inline constexpr std::array aliases{"PtfmSurge", "PtfmSway", "PtfmHeave", "PtfmRoll", "PtfmPitch", "PtfmYaw"};
-/// Of the command line: one metre or one degree in SI.
+/// One metre or one degree of the command line in SI.
 double unit(std::size_t coordinate);
 inline const char* unit_name(std::size_t coordinate) {
     return coordinate < 3 ? "m" : "deg";
@@ -26,7 +26,7 @@ std::size_t coordinate_index(const std::string& option, const std::string& name)
 /// @throws InputError naming the option
 void check_offset(const std::string& option, std::size_t coordinate, double value);
 
-/// Of the integration, and what of its energy it may lose.
+/// Tolerance of the integration, and the part of the energy that may be lost.
 /// @throws InputError
 void check_tolerance(double tolerance);
 inline double energy_allowed(double tolerance) {

@@ -171,7 +171,7 @@ MotionOutcome run(const Study& study, const Case& one, const std::string& prefix
             program::progress(text("\r", one.name, ": ", std::round(time), " of ", std::round(study.duration), " s  "));
         });
     program::progress("\r                                  \r");
-    if (end.end == solvers::Advance::End::failed) throw NumericalError(end.message);
+    require_result(end);
     file.close(end.reached());
     out.complete = end.reached();
     std::printf("\n%s\n", out.history.title.c_str());
@@ -255,7 +255,7 @@ void draw(const solvers::History& history, const Case& one, double from, const s
     std::vector<std::string> moved;
     for (std::size_t i = 0; i < 6; ++i)
         if (one.motions.at(i)) moved.emplace_back(aliases.at(i));
-    std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(moved);
+    std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(moved);
     panels.insert(panels.end(), {{{"OoPDefl1", "IPDefl1"}}, {{"RootMyc1", "RootMxc1"}}, {{"TwrBsMyt", "TwrBsMxt"}}});
     solvers::HistoryPlotOptions options;
     options.from = from;

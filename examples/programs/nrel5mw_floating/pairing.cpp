@@ -1,5 +1,6 @@
 #include "examples/programs/nrel5mw_floating/pairing.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
 #include "solvers/periodic/azimuth_average.hpp"
@@ -53,15 +54,15 @@ Modes oscillations(const Campbell& d, std::size_t point) {
 
 Matrix likeness(const solvers::SecondOrderSystem& system, const std::vector<Mode>& a, const std::vector<Mode>& b) {
     const auto energy = [&](const Mode& mode) { return std::real(solvers::energy_product(system, mode, mode)); };
-    Matrix mac(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+    Matrix mac(std::ssize(a), std::ssize(b));
     std::vector<double> energies;
     energies.reserve(b.size());
     for (const Mode& mode : b) energies.push_back(energy(mode));
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double own = energy(a[i]);
-        for (std::size_t j = 0; j < b.size(); ++j)
-            mac(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                std::norm(solvers::energy_product(system, a[i], b[j])) / (own * energies[j]);
+    for (Eigen::Index i = 0; i < mac.rows(); ++i) {
+        const Mode& mode = entry(a, i);
+        const double own = energy(mode);
+        for (Eigen::Index j = 0; j < mac.cols(); ++j)
+            mac(i, j) = std::norm(solvers::energy_product(system, mode, entry(b, j))) / (own * entry(energies, j));
     }
     return mac;
 }
@@ -85,15 +86,15 @@ Campbell paired(const Campbell& diagram, const Campbell& other, const turbines::
         const Modes mine = of_branches(diagram, p, rows), theirs = oscillations(other, p);
         const Matrix mac = likeness(at_rest, mine.modes, theirs.modes);
         const std::vector<int> partner = solvers::assign(mac);
-        for (std::size_t i = 0; i < mine.place.size(); ++i) {
-            if (partner[i] < 0) continue;
-            solvers::Branch& branch = result.branches[mine.place[i]];
-            const auto row = static_cast<Eigen::Index>(i);
-            const double found = mac(row, partner[i]);
-            branch.mode[p] = static_cast<int>(theirs.place[static_cast<std::size_t>(partner[i])]);
+        for (Eigen::Index i = 0; i < mac.rows(); ++i) {
+            const int other_mode = entry(partner, i);
+            if (other_mode < 0) continue;
+            solvers::Branch& branch = result.branches[entry(mine.place, i)];
+            const double found = mac(i, other_mode);
+            branch.mode[p] = static_cast<int>(entry(theirs.place, other_mode));
             branch.mac[p] = found;
             branch.doubtful[p] =
-                found < std::max({solvers::sure_mac, mac.row(row).maxCoeff(), mac.col(partner[i]).maxCoeff()});
+                found < std::max({solvers::min_reliable_mac, mac.row(i).maxCoeff(), mac.col(other_mode).maxCoeff()});
         }
     }
     return result;

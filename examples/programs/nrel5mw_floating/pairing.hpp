@@ -12,7 +12,7 @@ namespace cardan::floating {
 /// platform's own modes are left out.
 /// @param machine  whose diagram `other` is; the rows of its modes must be among those of `diagram`
 /// @return `other` with the branches of `diagram` in place of its own; doubtful where the MAC is below
-/// `solvers::sure_mac` or a mode of either machine is nearer to another one
+/// `solvers::min_reliable_mac` or a mode of either machine is nearer to another one
 /// @throws InputError for machines whose rows do not agree
 solvers::Campbell paired(const solvers::Campbell& diagram, const solvers::Campbell& other,
                          const turbines::Turbine& machine);

@@ -1,5 +1,6 @@
 #include "examples/programs/teetered_floquet/pictures.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/pictures/gnuplot.hpp"
@@ -27,8 +28,8 @@ struct Place {
 std::vector<Place> places(const Campbell& diagram, const std::vector<FrameMotion>& motion, const Polyline& line) {
     std::vector<Place> all;
     for (FrameId frame : line.points) {
-        const auto i = static_cast<std::size_t>(frame.index);
-        all.push_back({diagram.frame_positions[i], motion[i].motion.tail<3>(), motion[i].motion.head<3>()});
+        const Vec6T<Complex>& moved = entry(motion, frame.index).motion;
+        all.push_back({entry(diagram.frame_positions, frame.index), moved.tail<3>(), moved.head<3>()});
     }
     return all;
 }

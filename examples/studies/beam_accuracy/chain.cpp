@@ -3,7 +3,9 @@
 #include "elements/reference/mixed_beam.hpp"
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
 #include "mbs/kernels/kinematics.hpp"
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_path.hpp"
@@ -66,8 +68,8 @@ BendingModes chain_modes(const Method& method, const Beam& beam, const std::vect
         if (!mode.oscillates()) throw NumericalError("the spinning chain is not stable");
         const Vector energy = solvers::energy_by_row(spun.system, mode);
         double flap = 0;
-        for (std::size_t i = 0; i < spun.about_y.size(); ++i)
-            if (spun.about_y[i]) flap += energy(static_cast<Eigen::Index>(i));
+        for (Eigen::Index i = 0; i < energy.size(); ++i)
+            if (entry(spun.about_y, i)) flap += energy(i);
         (flap > 0.5 ? result.flap : result.edge).push_back(std::abs(mode.eigenvalue));
     }
     return result;
@@ -141,7 +143,7 @@ Vec3 chain_tip(const Method& method, const BeamLine& line, int elements, const T
     solvers::LoadPathOptions path_options;
     path_options.steps = load.steps;
     const solvers::LoadPath path = solvers::load_path(system, path_options);
-    if (!path.converged) throw NumericalError(path.message);
+    require_result(path);
     Workspace workspace(system.model);
     return pose(kinematics(system.model, path.points.back().at.q, workspace), beam.tip()).p;
 }

@@ -38,7 +38,7 @@ public:
         K.setFromTriplets(k.begin(), k.end());
         M.setFromTriplets(m.begin(), m.end());
     }
-    Eigen::Index size() const { return static_cast<Eigen::Index>(ends_.size() - 1) * per_node(); }
+    Eigen::Index size() const { return (std::ssize(ends_) - 1) * per_node(); }
     Eigen::Index per_node() const { return beam_.plane == Plane::both ? 4 : 2; }
 
 private:
@@ -75,7 +75,7 @@ private:
         return m;
     }
 
-    // Unknown of plane i (0 flap, 1 edge), node and kind (0 displacement, 1 rotation); -1: clamped or not looked at.
+    // Unknown of plane i (0 flap, 1 edge), node and kind (0 displacement, 1 rotation); -1: clamped or ignored.
     Eigen::Index unknown(std::size_t node, int i, int kind) const {
         const bool active = beam_.plane == Plane::both || (beam_.plane == Plane::edge) == (i == 1);
         if (!active || node == 0) return -1;

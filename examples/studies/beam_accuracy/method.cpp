@@ -10,7 +10,7 @@ namespace {
 
 constexpr double sixth = 1. / 6;
 
-// K and Gauss + N place their hinges themselves: delta is not looked at.
+// K and Gauss + N place their hinges themselves: delta is ignored.
 CardanBeamOptions chain(double delta, Partition partition, double bending_armature = 0, double torsion_armature = 0) {
     CardanBeamOptions options;
     options.delta = delta;

@@ -21,7 +21,7 @@ struct Method {
     std::string key;    ///< in tables and files
     std::string label;  ///< in legends
     Scheme scheme;
-    CardanBeamOptions chain = {};  ///< elements, boundaries and freedoms are set by the case
+    CardanBeamOptions chain = {};  ///< elements, boundaries and free coordinates are set by the case
     int colour = 0, symbol = 7;    ///< of the curve: index into the palette, point type of gnuplot
     bool dashed = false;           ///< drawn over the solid curves, where it may lie on one of them
 };

@@ -92,7 +92,7 @@ ElementShapes::ElementShapes(const BeamLine& line, Plane plane, Shapes shapes, d
 Block2 ElementShapes::compliance(double x) const {
     Block2 D = bending_stiffness(line_->section(x), plane_);
     for (int i = 0; i < 2; ++i)
-        if (D(i, i) == 0) D(i, i) = 1;  // not looked at
+        if (D(i, i) == 0) D(i, i) = 1;  // ignored
     return D.inverse();
 }
 

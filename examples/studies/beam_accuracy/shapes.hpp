@@ -38,7 +38,7 @@ struct GaussPoint {
 /// Gauss points of [a, b], 12 between all breaks.
 std::vector<GaussPoint> gauss_points(double a, double b, const std::vector<double>& breaks);
 
-/// Moments by the derivatives of both rotations; zero in a plane that is not looked at.
+/// Moments by the derivatives of both rotations; zero in a plane that is ignored.
 Block2 bending_stiffness(const BeamSection& section, Plane plane);
 
 class ElementShapes {

@@ -1,5 +1,6 @@
 #include "examples/studies/nrel5mw_assumed_modes/frequencies.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/model/spatial.hpp"
@@ -30,8 +31,8 @@ private:
 };
 
 Matrix natural_shapes(const std::vector<AssumedMode>& found, Eigen::Index count) {
-    Matrix columns(found.front().shape.size(), std::min(count, static_cast<Eigen::Index>(found.size())));
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = found[static_cast<std::size_t>(k)].shape;
+    Matrix columns(found.front().shape.size(), std::min(count, std::ssize(found)));
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = entry(found, k).shape;
     return columns;
 }
 

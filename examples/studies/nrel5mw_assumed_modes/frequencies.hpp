@@ -43,15 +43,15 @@ struct NamedModes {
 NamedModes named_modes(const AssumedModesBlade& blade, double rpm);
 /// With the velocity terms, that is, Coriolis forces.
 Frequencies gyroscopic_frequencies(const AssumedModesBlade& blade, double rpm);
-/// By converged functions with the velocity terms, of the blade drawn out by its centrifugal force.
+/// By converged functions with the velocity terms, of the blade stretched by its centrifugal force.
 Frequencies stretched_frequencies(double rpm);
 /// First torsion at rest by the paper's model, Hz: the blade as it is; its polar inertia without the mass factor;
 /// the tabulated inertia taken to be about the pitch axis instead of the mass centre.
 std::array<double, 3> torsion_at_rest(const AssumedModesBasis& basis);
-/// The paper's model at rest without twist and offset of mass centres: flap and edge know nothing of each other.
+/// The paper's model at rest without twist and offset of mass centres: flap and edge are uncoupled.
 Frequencies untwisted_at_rest(const AssumedModesBasis& basis);
 
-/// Of the joint chain.
+/// Frequencies of the joint chain.
 std::vector<Frequencies> chain_frequencies(int elements, const std::vector<double>& rpm);
 
 }  // namespace cardan::paper2018

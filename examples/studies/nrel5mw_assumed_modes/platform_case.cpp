@@ -1,5 +1,6 @@
 #include "examples/studies/nrel5mw_assumed_modes/platform_case.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/machines/nrel5mw_platform.hpp"
@@ -48,7 +49,7 @@ void analyse(Signal& y, int harmonics) {
 AssumedModesBlade in_natural_modes(const AssumedModesBlade& blade, int count) {
     const auto all_modes = natural_modes(blade.at(turbines::nrel5mw_spinning_hub(rated_speed)));
     Matrix columns(blade.size(), std::min<Eigen::Index>(count, blade.size()));
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = all_modes[static_cast<std::size_t>(k)].shape;
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = entry(all_modes, k).shape;
     return blade.reduced(columns);
 }
 

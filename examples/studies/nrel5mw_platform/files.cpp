@@ -65,7 +65,7 @@ std::vector<std::string> table_channels(const turbines::Turbine& machine) {
 }
 
 void draw_last_periods(const turbines::Turbine& machine, const solvers::History& history, const std::string& prefix) {
-    std::vector<solvers::HistoryPanel> panels = solvers::panels_one_each(motions(machine, history));
+    std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(motions(machine, history));
     for (const char* what : {"tip flap deflection", "tip edge deflection", "root My", "root Mz"})
         panels.push_back({of_blades(machine, what)});
     for (const char* ending : {".svg", ".png"}) solvers::plot(history, panels, prefix + ending);

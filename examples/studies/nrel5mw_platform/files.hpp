@@ -15,7 +15,7 @@ namespace cardan::platform {
 /// and the counters of the integration this is what is recorded; rates are left out, which would double the file.
 std::vector<ChannelGroup> recorded_channels(const turbines::Turbine& machine);
 solvers::RecorderOptions recorder_options();
-/// Of all blades, m.
+/// Channels of all blades, m.
 std::vector<std::string> tip_deflections(const turbines::Turbine& machine);
 
 /// Endings of the files.

@@ -1,5 +1,6 @@
 #include "examples/studies/nrel5mw_platform/reference.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 
@@ -58,9 +59,9 @@ public:
     void computed(const char* name, const Harmonics& h, double unit) const {
         row(name);
         for (double value : {h.mean, h.max, h.min}) number(value / unit, 10);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
-            number(h.amplitude[k] / unit, 10);
-            angle(h.phase[k] * units::to_degrees);
+        for (int k = 0; k < count_; ++k) {
+            number(entry(h.amplitude, k) / unit, 10);
+            angle(entry(h.phase, k) * units::to_degrees);
         }
         std::cout << "\n";
     }
@@ -77,9 +78,8 @@ public:
         for (auto [value, exact] : {std::pair(h.mean, r.mean), std::pair(h.max, r.max), std::pair(h.min, r.min)})
             percent(value / unit / exact - 1, 10);
         each(r, [&](const ReferenceHarmonic& exact) {
-            const auto i = static_cast<std::size_t>(exact.k - 1);
-            percent(h.amplitude[i] / unit / exact.amplitude - 1, 10);
-            angle(difference(h.phase[i] * units::to_degrees, exact.phase));
+            percent(entry(h.amplitude, exact.k - 1) / unit / exact.amplitude - 1, 10);
+            angle(difference(entry(h.phase, exact.k - 1) * units::to_degrees, exact.phase));
         });
     }
 
@@ -118,10 +118,10 @@ double worst(const ReferenceSignal& r, const Harmonics& h, double unit, bool len
         used = std::max(used, used_up(value / unit, exact, length));
     for (const ReferenceHarmonic& exact : r.harmonics) {
         if (!counts(r, exact, length)) continue;
-        const auto i = static_cast<std::size_t>(exact.k - 1);
-        used = std::max(used, used_up(h.amplitude[i] / unit, exact.amplitude, length));
+        used = std::max(used, used_up(entry(h.amplitude, exact.k - 1) / unit, exact.amplitude, length));
         if (std::isfinite(exact.phase))
-            used = std::max(used, std::abs(difference(h.phase[i] * units::to_degrees, exact.phase)) / goal_phase);
+            used = std::max(
+                used, std::abs(difference(entry(h.phase, exact.k - 1) * units::to_degrees, exact.phase)) / goal_phase);
     }
     return used;
 }

@@ -67,7 +67,7 @@ Response periodic_response(solvers::Integrator& integrator, solvers::Recorder& r
                 into.time.push_back(time);
                 for (std::size_t i = 0; i < values.size(); ++i) into.values[i].push_back(values[i]);
             });
-        if (end.end == solvers::Advance::End::failed) throw NumericalError(end.message);
+        require_result(end);
         return end.reached();
     };
     solvers::History before;

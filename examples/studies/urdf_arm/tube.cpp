@@ -1,6 +1,7 @@
 #include "examples/studies/urdf_arm/tube.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 
 namespace arm {
@@ -60,18 +61,18 @@ double residual(const Tube& t, const TipBody& b, double omega) {
 }
 
 const Tree::Frame& frame(const Tree& tree, std::string_view name) {
-    return tree.frames()[static_cast<std::size_t>(tree.frame(name).index)];
+    return entry(tree.frames(), tree.frame(name).index);
 }
 
 int own_frame(const Tree& tree, int body) {
-    return body < 0 ? 0 : tree.bodies()[static_cast<std::size_t>(body)].frame.index;
+    return body < 0 ? 0 : entry(tree.bodies(), body).frame.index;
 }
 
 // The frame that a frame was placed on; -1 of the base.
 int carrier(const Tree& tree, int index) {
-    const Tree::Frame& f = tree.frames()[static_cast<std::size_t>(index)];
+    const Tree::Frame& f = entry(tree.frames(), index);
     if (index == 0) return -1;
-    if (index == own_frame(tree, f.body)) return tree.bodies()[static_cast<std::size_t>(f.body)].spec.inboard.index;
+    if (index == own_frame(tree, f.body)) return entry(tree.bodies(), f.body).spec.inboard.index;
     return f.parent >= 0 ? f.parent : own_frame(tree, f.body);
 }
 
@@ -111,28 +112,30 @@ FlexibleArm flexible_arm(const Tree& rigid, const Tube& tube, int elements) {
     const std::vector<Tree::Frame>& frames = rigid.frames();
     std::vector<FrameId> to(frames.size(), Tree::base());
     for (int i = 1; i < static_cast<int>(frames.size()); ++i) {
-        const Tree::Frame& f = frames[static_cast<std::size_t>(i)];
-        const std::size_t at = static_cast<std::size_t>(i), on = static_cast<std::size_t>(carrier(rigid, i));
+        const Tree::Frame& f = entry(frames, i);
+        FrameId& at = entry(to, i);
+        const int on = carrier(rigid, i);
         if (i == own_frame(rigid, f.body)) {
-            BodySpec spec = rigid.bodies()[static_cast<std::size_t>(f.body)].spec;
-            spec.inboard = to[on];
+            BodySpec spec = entry(rigid.bodies(), f.body).spec;
+            spec.inboard = entry(to, on);
             spec.inertia = {};
             out.drives.push_back(out.tree.add_body(spec));
-            to[at] = out.tree.frame_of(out.drives.back());
+            at = out.tree.frame_of(out.drives.back());
         } else if (f.name == "forearm_tip") {
-            to[at] = out.tree.add_frame(out.beam.tip(), {}, f.name);
+            at = out.tree.add_frame(out.beam.tip(), {}, f.name);
         } else {
-            to[at] = out.tree.add_frame(to[on], frames[on].in_body.inverse() * f.in_body, f.name);
+            at = out.tree.add_frame(entry(to, on), entry(frames, on).in_body.inverse() * f.in_body, f.name);
         }
         if (f.name == "forearm_root")
-            out.beam = add_cardan_beam(out.tree, out.forces, to[at], tube.line(), "forearm", {"forearm"},
-                                       {.elements = elements});
+            out.beam =
+                add_cardan_beam(out.tree, out.forces, at, tube.line(), "forearm", {"forearm"}, {.elements = elements});
     }
     for (const Tree::Piece& piece : rigid.pieces()) {
         if (piece.part == "forearm_tube") continue;
-        const std::size_t at = static_cast<std::size_t>(link_of(rigid, piece));
-        const bool own = static_cast<int>(at) == own_frame(rigid, piece.body);
-        out.tree.weld(to[at], own ? piece.inertia : piece.inertia.in(frames[at].in_body.inverse()), piece.part);
+        const int link = link_of(rigid, piece);
+        const bool own = link == own_frame(rigid, piece.body);
+        out.tree.weld(entry(to, link), own ? piece.inertia : piece.inertia.in(entry(frames, link).in_body.inverse()),
+                      piece.part);
     }
     return out;
 }
@@ -140,15 +143,15 @@ FlexibleArm flexible_arm(const Tree& rigid, const Tube& tube, int elements) {
 RigidInertia carried_by_tip(const Tree& rigid) {
     std::vector<Placement> pose;  // of every body at q = 0
     for (const Tree::Body& body : rigid.bodies())
-        pose.push_back(body.parent < 0 ? body.in_parent : pose[static_cast<std::size_t>(body.parent)] * body.in_parent);
+        pose.push_back(body.parent < 0 ? body.in_parent : entry(pose, body.parent) * body.in_parent);
     const int tip = rigid.frame("forearm_tip").index;
     const Tree::Frame& at = frame(rigid, "forearm_tip");
-    const Placement base_in_tip = (pose.at(static_cast<std::size_t>(at.body)) * at.in_body).inverse();
+    const Placement base_in_tip = (entry(pose, at.body) * at.in_body).inverse();
     RigidInertia sum;
     for (const Tree::Piece& piece : rigid.pieces()) {
         int link = link_of(rigid, piece);
         while (link >= 0 && link != tip) link = carrier(rigid, link);
-        if (link == tip) sum = sum + piece.inertia.in(base_in_tip * pose.at(static_cast<std::size_t>(piece.body)));
+        if (link == tip) sum = sum + piece.inertia.in(base_in_tip * entry(pose, piece.body));
     }
     return sum;
 }

@@ -1,5 +1,6 @@
 #include "mbs/urdf/detail/plan.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/urdf/detail/reading.hpp"
 
 #include <algorithm>
@@ -38,8 +39,8 @@ public:
     }
 
 private:
-    const Tree::Body& body(int index) const { return tree_.bodies()[static_cast<std::size_t>(index)]; }
-    const Tree::Frame& frame_at(int index) const { return tree_.frames()[static_cast<std::size_t>(index)]; }
+    const Tree::Body& body(int index) const { return entry(tree_.bodies(), index); }
+    const Tree::Frame& frame_at(int index) const { return entry(tree_.frames(), index); }
     bool is_own(std::size_t i) const {
         const int at = tree_.frames()[i].body;
         return i == 0 || (at >= 0 && body(at).frame.index == static_cast<int>(i));

@@ -1,3 +1,4 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/urdf/detail/reading.hpp"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ Index index_by_name(const Entries& entries, const Outline& outline, const char* 
         const auto [first, is_new] = index.emplace(entries[i].name, static_cast<int>(i));
         if (!is_new)
             throw InputError(text(outline.at(entries[i].line), kind, " '", entries[i].name,
-                                  "' is defined twice, in line ", entries[static_cast<std::size_t>(first->second)].line,
-                                  " before"));
+                                  "' is defined twice, in line ", entry(entries, first->second).line, " before"));
     }
     return index;
 }
@@ -49,14 +49,13 @@ std::vector<int> carriers(const Outline& outline, const Index& links) {
         const JointEntry& joint = outline.joints[j];
         check_type(joint, outline);
         link_of(links, joint.parent, joint, outline, "parent");
-        int& by = carrier[static_cast<std::size_t>(link_of(links, joint.child, joint, outline, "child"))];
+        int& by = entry(carrier, link_of(links, joint.child, joint, outline, "child"));
         if (joint.parent == joint.child)
             throw InputError(text(outline.at(joint.line), "joint '", joint.name, "' is a loop: it joins the link '",
                                   joint.child, "' to itself; only trees can be held"));
         if (by >= 0)
             throw InputError(text(outline.at(joint.line), "joint '", joint.name, "' closes a loop: its child link '",
-                                  joint.child, "' is carried by joint '",
-                                  outline.joints[static_cast<std::size_t>(by)].name,
+                                  joint.child, "' is carried by joint '", entry(outline.joints, by).name,
                                   "' already; only trees can be held"));
         by = static_cast<int>(j);
     }
@@ -70,7 +69,7 @@ int the_root(const Outline& outline, const std::vector<int>& carrier) {
         if (carrier[i] >= 0) continue;
         if (root >= 0)
             throw InputError(text(outline.at(outline.links[i].line), "link '", outline.links[i].name,
-                                  "' hangs on no joint, and link '", outline.links[static_cast<std::size_t>(root)].name,
+                                  "' hangs on no joint, and link '", entry(outline.links, root).name,
                                   "' does not either; there must be one root"));
         root = static_cast<int>(i);
     }
@@ -90,18 +89,17 @@ Structure structure(const Outline& outline) {
     std::vector<bool> placed(outline.joints.size(), false);
     for (std::size_t j = 0; j < outline.joints.size(); ++j) {
         std::vector<int> way;
-        for (int k = static_cast<int>(j); k >= 0 && !placed[static_cast<std::size_t>(k)];) {
-            const JointEntry& joint = outline.joints[static_cast<std::size_t>(k)];
+        for (int k = static_cast<int>(j); k >= 0 && !entry(placed, k);) {
+            const JointEntry& joint = entry(outline.joints, k);
             if (way.size() > outline.joints.size())
                 throw InputError(text(outline.at(outline.joints[j].line), "joint '", outline.joints[j].name,
                                       "' belongs to a loop or hangs on one, and not on the root '",
-                                      outline.links[static_cast<std::size_t>(result.root)].name,
-                                      "'; only trees can be held"));
+                                      entry(outline.links, result.root).name, "'; only trees can be held"));
             way.push_back(k);
-            k = carrier[static_cast<std::size_t>(links.at(joint.parent))];
+            k = entry(carrier, links.at(joint.parent));
         }
         for (; !way.empty(); way.pop_back()) {
-            placed[static_cast<std::size_t>(way.back())] = true;
+            entry(placed, way.back()) = true;
             result.order.push_back(way.back());
         }
     }

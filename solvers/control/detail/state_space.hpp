@@ -25,8 +25,8 @@ public:
     Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
            const StateSpaceOptions& options);
 
-    Eigen::Index states() const { return 2 * static_cast<Eigen::Index>(coordinates.size()); }
-    Eigen::Index columns() const { return states() + static_cast<Eigen::Index>(input_signals.size()); }
+    Eigen::Index states() const { return 2 * std::ssize(coordinates); }
+    Eigen::Index columns() const { return states() + std::ssize(input_signals); }
 
     std::vector<int> coordinates;       ///< whose positions and rates are states
     std::vector<int> unknowns, driven;  ///< coordinates with an equation of motion, and the others

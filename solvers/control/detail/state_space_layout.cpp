@@ -1,4 +1,5 @@
 // Which coordinates are states, which are driven, and what every column of B stands for.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/control/detail/state_space.hpp"
 
@@ -155,8 +156,7 @@ void Layout::add_columns(const std::vector<LinearInput>& inputs) {
         const bool motion = input.kind() == LinearInput::Kind::motion;
         const int first = input.with_states() ? 2 : 0, last = motion ? 2 : 0;
         for (int d = first; d <= last; ++d) {
-            const auto at = static_cast<std::size_t>(d);
-            Signal signal{.name = input.name() + suffix[at], .units = units(input) + per[at]};
+            Signal signal{.name = input.name() + entry(suffix, d), .units = units(input) + entry(per, d)};
             signal.blade = blade_number(signal.name);
             if (input.name().empty() || !names.insert(signal.name).second)
                 throw InputError(in_inputs, "name", text("'", signal.name, "'"), "not empty, each name once");
@@ -183,13 +183,13 @@ void Layout::begin(const Kinematics& kin, Directions& out) const {
     for (Matrix* m : {&out.q, &out.qd, &out.qdd, &out.actuator, &out.Q}) m->setZero(n, columns());
     const Eigen::Index half = states() / 2;
     for (Eigen::Index i = 0; i < half; ++i) {
-        const int coordinate = coordinates[static_cast<std::size_t>(i)];
+        const int coordinate = entry(coordinates, i);
         out.q(coordinate, i) = 1;
         out.qd(coordinate, half + i) = 1;
     }
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const LinearInput& input = inputs_[columns_[c].input];
-        const Eigen::Index column = states() + static_cast<Eigen::Index>(c);
+    for (Eigen::Index column = states(); column < columns(); ++column) {
+        const Column& own = entry(columns_, column - states());
+        const LinearInput& input = inputs_[own.input];
         if (const std::optional<FrameLoad> load = wrench_of(column)) {
             Matrix J(6, n);
             frame_jacobian<double>(kin, load->frame, J);
@@ -198,8 +198,8 @@ void Layout::begin(const Kinematics& kin, Directions& out) const {
             continue;
         }
         Matrix& target = input.kind() == LinearInput::Kind::generalised_force ? out.Q
-                         : columns_[c].derivative == 0                        ? out.q
-                         : columns_[c].derivative == 1                        ? out.qd
+                         : own.derivative == 0                                ? out.q
+                         : own.derivative == 1                                ? out.qd
                                                                               : out.qdd;
         for (const auto& [coordinate, factor] : input.coordinates()) target(coordinate, column) += factor;
     }
@@ -207,7 +207,7 @@ void Layout::begin(const Kinematics& kin, Directions& out) const {
 
 std::optional<FrameLoad> Layout::wrench_of(Eigen::Index column) const {
     if (column < states()) return std::nullopt;
-    const LinearInput& input = inputs_[columns_[static_cast<std::size_t>(column - states())].input];
+    const LinearInput& input = inputs_[entry(columns_, column - states()).input];
     FrameLoad load{.name = input.name(), .frame = input.frame(), .axes = input.axes()};
     if (input.kind() == LinearInput::Kind::force)
         load.wrench.force = input.direction();
@@ -219,13 +219,14 @@ std::optional<FrameLoad> Layout::wrench_of(Eigen::Index column) const {
 }
 
 Vector Layout::input_values(const OperatingPoint& at) const {
-    Vector values = Vector::Zero(static_cast<Eigen::Index>(columns_.size()));
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const LinearInput& input = inputs_[columns_[c].input];
+    Vector values = Vector::Zero(std::ssize(columns_));
+    for (Eigen::Index c = 0; c < values.size(); ++c) {
+        const Column& own = entry(columns_, c);
+        const LinearInput& input = inputs_[own.input];
         if (input.kind() != LinearInput::Kind::motion) continue;
         const auto& [coordinate, factor] = input.coordinates()[0];
-        const Vector& from = columns_[c].derivative == 0 ? at.q : columns_[c].derivative == 1 ? at.qd : at.qdd;
-        values(static_cast<Eigen::Index>(c)) = from(coordinate) / factor;
+        const Vector& from = own.derivative == 0 ? at.q : own.derivative == 1 ? at.qd : at.qdd;
+        values(c) = from(coordinate) / factor;
     }
     return values;
 }

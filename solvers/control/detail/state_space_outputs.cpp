@@ -1,4 +1,5 @@
 // Channels along directions of the state by central differences.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/control/detail/state_space.hpp"
 
@@ -66,18 +67,18 @@ Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator
         group.sample(input, next);
         next += group.channels.size();
     }
-    Vector values(static_cast<Eigen::Index>(at_.size()));
-    for (std::size_t i = 0; i < at_.size(); ++i) {
-        if (!std::isfinite(all[at_[i]]))
-            throw NumericalError(text("linear model: the channel '", signals_[i].name, "' is ", all[at_[i]]));
-        values(static_cast<Eigen::Index>(i)) = all[at_[i]];
+    Vector values(std::ssize(at_));
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        values(i) = all[entry(at_, i)];
+        if (!std::isfinite(values(i)))
+            throw NumericalError(text("linear model: the channel '", entry(signals_, i).name, "' is ", values(i)));
     }
     return values;
 }
 
 Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actuator, const Directions& directions,
                                 const Layout& layout, Vector& error, Vector& size) {
-    const auto rows = static_cast<Eigen::Index>(at_.size());
+    const auto rows = std::ssize(at_);
     Matrix slopes = Matrix::Zero(rows, layout.columns());
     if (size.size() == 0) error = size = Vector::Zero(rows);
     if (rows == 0) return slopes;
@@ -103,7 +104,7 @@ Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actua
         const auto difference = [&](double step) {
             Vector d = value(step) - value(-step);
             for (Eigen::Index i = 0; i < rows; ++i)
-                if (angle_[static_cast<std::size_t>(i)]) d(i) = std::remainder(d(i), 2 * pi);
+                if (entry(angle_, i)) d(i) = std::remainder(d(i), 2 * pi);
             return Vector(d / (2 * step));
         };
         const Vector fine = difference(h), coarse = difference(2 * h);

@@ -22,7 +22,7 @@ constexpr int history_format_version = 2;
 /// For a new file.
 [[nodiscard]] Handle creation_list(const Hdf5File::Impl& impl);
 /// Everything but the time and the channels.
-void write_about(Hdf5File& file, const HistoryAbout& about);
+void write_about(Hdf5File& file, const HistoryMetadata& about);
 /// The time and the channels, without rows.
 void create_variables(Hdf5File& file, const std::vector<Channel>& channels, int chunk);
 /// Name of the attribute that says whether the history is finished.

@@ -23,7 +23,7 @@ constexpr const char* no_frame = "none";
 
 constexpr const char* description_name = "run/input_description";
 
-/// Of a list that file.write() cannot make: without an end, filled with NaN.
+/// Storage that file.write() cannot make: without an end, filled with NaN.
 Handle storage_of_variables(const Hdf5File::Impl& impl, int chunk) {
     Handle list = impl.own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "", "be created");
     const hsize_t length = static_cast<hsize_t>(chunk);
@@ -124,7 +124,7 @@ Handle creation_list(const Hdf5File::Impl& impl) {
     return list;
 }
 
-void write_about(Hdf5File& file, const HistoryAbout& about) {
+void write_about(Hdf5File& file, const HistoryMetadata& about) {
     const std::pair<const char*, std::string> texts[] = {
         {"title", about.title},     {"Conventions", "CF-1.8"},           {"format", history_format},
         {"program", about.program}, {"version", std::string(version())}, {"method", about.method}};

@@ -31,7 +31,7 @@ std::uint64_t whole_blocks(std::uint64_t address) {
     return (address + size - 1) / size * size;
 }
 
-/// Of whole words: the multiplicative part of FNV-1a with a shift that brings high bits down.
+/// Checksum of whole words: the multiplicative part of FNV-1a with a shift that brings high bits down.
 std::uint64_t checksum(std::span<const char> bytes) {
     std::uint64_t sum = 0xcbf29ce484222325;
     for (std::size_t at = 0; at + sizeof sum <= bytes.size(); at += sizeof sum) {

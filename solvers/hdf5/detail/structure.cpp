@@ -21,7 +21,7 @@ using ObjectInfo = H5O_info1_t;
 
 constexpr std::uint64_t undefined = ~std::uint64_t{0};
 
-/// Bytes of the file, little-endian, read in order. Whoever reads beyond them is led astray.
+/// Bytes of the file, little-endian, read in order. Reading past the end throws a FileError: the file is damaged.
 class Bytes {
 public:
     Bytes(const Hdf5File::Impl& impl, const std::string& name, std::uint64_t address, std::uint64_t size)

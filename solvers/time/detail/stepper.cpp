@@ -1,5 +1,7 @@
 #include "solvers/time/detail/stepper.hpp"
 
+#include "mbs/base/entry.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -9,7 +11,7 @@ ErrorWeights::ErrorWeights(const EquationsOfMotion& equations, const Tolerances&
     : relative_(tolerances.relative), absolute_(2 * Eigen::Index{equations.size()}), largest_(absolute_.size()) {
     const Eigen::Index m = equations.size();
     for (Eigen::Index i = 0; i < m; ++i) {
-        const bool angle = equations.model().body(equations.unknowns()[static_cast<std::size_t>(i)]).revolute;
+        const bool angle = equations.model().body(entry(equations.unknowns(), i)).revolute;
         absolute_(i) = angle ? tolerances.angle : tolerances.length;
         absolute_(m + i) = angle ? tolerances.angular_rate : tolerances.speed;
         largest_(i) = angle ? 1 : std::numeric_limits<double>::max();

@@ -84,7 +84,7 @@ bool ArkodeStepper::set_up_newton(void* ark) {
               ARKStepSetLinSysFn(ark, linear_system) == 0 && ARKStepSetNonlinConvCoef(ark, 0.003) == 0 &&
               ARKStepSetMaxNonlinIters(ark, 8) == 0 && ARKStepSetDeduceImplicitRhs(ark, SUNTRUE) == 0 &&
               ARKStepSetPredictorMethod(ark, 1) == 0 && ARKStepSetInterpolantDegree(ark, 3) == 0;
-    // What does not converge cannot be tried again with a shorter step then: fresh matrices, more patience.
+    // With a fixed step a failed iteration cannot be retried with a shorter one: fresh matrices, more iterations.
     if (fixed_step_ > 0)
         ok = ok && ARKStepSetMaxNonlinIters(ark, 12) == 0 && ARKStepSetLSetupFrequency(ark, 1) == 0 &&
              ARKStepSetJacEvalFrequency(ark, 1) == 0;
@@ -116,7 +116,7 @@ void ArkodeStepper::begin_at(double time, const double* x, double stop, double n
 }
 
 bool ArkodeStepper::do_step(double horizon) {
-    equations_.forget_problem();
+    equations_.clear_problem();
     const double from = time_;
     const int flag = ARKStepEvolve(arkode_.get(), towards(horizon), vector(), &time_, ARK_ONE_STEP);
     rethrow();

@@ -75,7 +75,7 @@ void CvodeStepper::do_start(double time, const double* x, double stop) {
 }
 
 bool CvodeStepper::do_step(double horizon) {
-    equations_.forget_problem();
+    equations_.clear_problem();
     const double from = time_;
     const int flag = CVode(cvode_.get(), towards(horizon), vector(), &time_, CV_ONE_STEP);
     rethrow();

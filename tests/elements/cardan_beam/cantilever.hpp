@@ -1,8 +1,9 @@
 // A uniform or tapered beam modelled by cardanic elements, all the way to its frequencies.
 #pragma once
 
-#include "elements/cardan_beam/cardan_beam.hpp"
-#include "solvers/linear/modes.hpp"
+#include "elements/cardan_beam/single_beam.hpp"
+#include "mbs/base/entry.hpp"
+#include "solvers/equilibrium/natural_modes.hpp"
 
 #include <cmath>
 
@@ -44,22 +45,16 @@ inline double order(double coarse, double fine, double exact = 0) {
 
 /// Angular frequencies of a clamped beam (both planes), ascending.
 inline std::vector<double> clamped_frequencies(const BeamLine& line, const CardanBeamOptions& options) {
-    Tree tree;
-    ForceSet forces;
-    add_cardan_beam(tree, forces, Tree::base(), line, "beam", {"beam"}, options);
-    const System system(tree, forces);
-    const auto n = system.model.size();
-    const solvers::OperatingPoint rest{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
-    const auto lin = solvers::linearise(system, rest);
+    const SingleBeam beam = clamped_beam(line, options);
     std::vector<double> omega;
-    for (const solvers::Mode& mode : solvers::modes(solvers::restrict_to(lin, system.model.coordinates().free())))
+    for (const solvers::Mode& mode : solvers::natural_modes(beam.system).modes)
         omega.push_back(std::abs(mode.eigenvalue));
     return omega;
 }
 
 /// Bending frequency number `mode` (from 1) of a beam whose two planes are alike: each comes twice.
 inline double bending(const std::vector<double>& omega, int mode) {
-    return omega[static_cast<std::size_t>(2 * (mode - 1))];
+    return entry(omega, 2 * (mode - 1));
 }
 
 }  // namespace cardan::testing

@@ -2,34 +2,22 @@
 /// A rotating uniform cantilever through the whole chain: tree, steady state, linearisation, modes.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/catch.hpp"
 
 namespace cardan::testing {
 
 /// A beam clamped to a hub that spins about z, along x from the hub radius on.
-struct RotatingBeam {
-    CardanBeam beam;
-    std::optional<System> system;
-
-    RotatingBeam(const BeamLine& line, const CardanBeamOptions& options, double hub_radius) {
-        Tree tree;
-        ForceSet forces;
-        const JointedFrame hub = add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "spin", {"hub"});
-        const FrameId root = tree.add_frame(hub.frame, Placement::translation({hub_radius, 0, 0}), "root");
-        beam = add_cardan_beam(tree, forces, root, line, "beam", {"beam"}, options);
-        system.emplace(tree, forces);
-    }
+struct RotatingBeam : SingleBeam {
+    RotatingBeam(const BeamLine& line, const CardanBeamOptions& options, double hub_radius)
+        : SingleBeam(spinning_beam(line, options, hub_radius)) {}
     /// Linearised about the straight beam, which must be an equilibrium.
     solvers::SecondOrderSystem at(double rotor_speed) const {
-        const int spin = system->model.index("spin");
-        const auto n = system->model.size();
-        solvers::OperatingPoint point{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
+        const Vector zero = Vector::Zero(system.model.size());
+        solvers::OperatingPoint point{zero, zero, zero};
         point.qd(spin) = rotor_speed;
-        std::vector<int> blade;
-        for (int i = 0; i < n; ++i)
-            if (i != spin) blade.push_back(i);
-        return solvers::restrict_to(solvers::linearise(*system, point), blade);
+        return solvers::restrict_to(solvers::linearise(system, point), system.model.coordinates().free_without(spin));
     }
 };
 
@@ -41,13 +29,13 @@ struct FlapLag {
 inline FlapLag rotating(double eta, const CardanBeamOptions& options, double hub_radius = 0) {
     const RotatingBeam rotor(uniform_beam(1, slender(1, 1)), options, hub_radius);
     const solvers::SecondOrderSystem blade = rotor.at(eta);
-    const CoordinateTable& coordinates = rotor.system->model.coordinates();
+    const CoordinateTable& coordinates = rotor.system.model.coordinates();
     std::vector<double> flap, lag;
     for (const auto& mode : solvers::modes(blade)) {
         double about_y = 0, about_z = 0;
-        for (std::size_t i = 0; i < blade.coordinates.size(); ++i) {
-            const bool y = coordinates[blade.coordinates[i]].name.find("bending y") != std::string::npos;
-            (y ? about_y : about_z) += std::norm(mode.shape(static_cast<Eigen::Index>(i)));
+        for (Eigen::Index i = 0; i < mode.shape.size(); ++i) {
+            const bool y = coordinates[entry(blade.coordinates, i)].name.find("bending y") != std::string::npos;
+            (y ? about_y : about_z) += std::norm(mode.shape(i));
         }
         (about_y > about_z ? flap : lag).push_back(std::abs(mode.eigenvalue));
     }

@@ -70,7 +70,7 @@ TEST_CASE("mean differences: discrete flap frequencies of the rotating uniform c
     CHECK(flap1(16, 12) == Approx(13.170318).margin(6e-7).epsilon(0));
 }
 
-TEST_CASE("compliance Gauss points: on a uniform beam nothing but segment masses at delta_gauss", "[property]") {
+TEST_CASE("compliance Gauss points: on a uniform beam they are segment masses at delta_gauss", "[property]") {
     const BeamLine uniform = uniform_beam(1, slender(1, 1));
     for (int elements : {1, 2, 4})
         for (int number : {1, 2})

@@ -131,7 +131,8 @@ TEST_CASE("partitions by compliance: the polar inertia is cut at the centroid of
     CHECK(partition_element(line, 0, 1, 0.2, Partition::segment_masses).rotary_split == 0.5);
 }
 
-TEST_CASE("partitions by compliance: bodies of random twisted beams with offsets are possible bodies", "[property]") {
+TEST_CASE("partitions by compliance: bodies of random twisted beams with offsets are physically possible",
+          "[property]") {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(0, 1);
     for (int trial = 0; trial < 300; ++trial) {
@@ -164,8 +165,7 @@ TEST_CASE("partitions by compliance: bodies of random twisted beams with offsets
     }
 }
 
-TEST_CASE("partitions by compliance: elements without mass, partly without mass or rigid are no trouble",
-          "[property]") {
+TEST_CASE("partitions by compliance: elements without mass, partly without mass or rigid are accepted", "[property]") {
     for (const Partition partition : both_partitions) {
         CAPTURE(partition_name(partition));
         const ElementInertia none = partition_element(uniform_beam(1, slender(1, 0)), 0, 1, 0.2, partition);
@@ -193,7 +193,8 @@ TEST_CASE("partitions by compliance: elements without mass, partly without mass 
     }
 }
 
-TEST_CASE("partitions by compliance: on a curve mass and first moment are kept, bodies are possible", "[property]") {
+TEST_CASE("partitions by compliance: on a curve mass and first moment are kept, bodies are physically possible",
+          "[property]") {
     // A quarter circle of radius 4 in the plane x-z.
     BeamLine line = blade();
     line.length = 2 * pi;

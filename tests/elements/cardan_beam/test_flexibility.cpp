@@ -59,7 +59,7 @@ Mat6 continuum_compliance(const BeamLine& line) {
     });
 }
 
-// The same of the chain of joints: J K^-1 J^T with the Jacobian of the tip.
+// Likewise for the chain of joints: J K^-1 J^T with the Jacobian of the tip.
 Mat6 element_compliance(const BeamLine& line, const CardanBeamOptions& options) {
     Tree tree;
     ForceSet forces;
@@ -122,7 +122,7 @@ TEST_CASE("element: without extension the other five compliances stay those at z
     CHECK(condensed(0, 0) < 1e-12);
 }
 
-TEST_CASE("element: a condensed extension with an offset tension centre is warned about", "[property]") {
+TEST_CASE("element: a condensed extension with an offset tension centre gives a warning", "[property]") {
     Tree tree;
     ForceSet forces;
     CardanBeamOptions options;
@@ -135,7 +135,7 @@ TEST_CASE("element: a condensed extension with an offset tension centre is warne
     CHECK(add_cardan_beam(tree, forces, Tree::base(), coupled_line(1), "b", {"b"}, options).warnings.empty());
 }
 
-TEST_CASE("element: a condensed extension with an offset shear centre is warned about, once per beam", "[property]") {
+TEST_CASE("element: a condensed extension with an offset shear centre gives one warning per beam", "[property]") {
     const auto warnings = [](const SectionOffset& shear_centre, bool extension) {
         EngineeringSection section = slender(2, 3);
         section.GJ = 1, section.j_flap = section.j_edge = 0.01, section.EA = 100;

@@ -172,8 +172,10 @@ TEST_CASE("static moments: total mass and first two moments of a tapered beam ar
     CHECK(I == Approx(2. / 3 - 1. / 4));
 }
 
-TEST_CASE("static moments: a strongly tapered element is warned about, with its place and centres; one more so refused",
-          "[property]") {
+TEST_CASE(
+    "static moments: a strongly tapered element gives a warning with its place and centres; a stronger taper is "
+    "refused",
+    "[property]") {
     const auto thin = [](double taper) {
         return BeamLine{
             1, {}, [taper](double x) { return slender(std::exp(-taper * x), 1 - 0.9 * x).section(); }, "thin tip"};
@@ -229,7 +231,7 @@ TEST_CASE("cardan order: mirrored joints do not twist a beam that is bent diagon
 }
 
 TEST_CASE(
-    "partition: the place of the hinges follows from it unless asked otherwise, and another place is warned about",
+    "partition: the place of the hinges follows from it unless asked otherwise, and another place gives a warning",
     "[property]") {
     const auto made = [](Partition partition, std::optional<double> delta) {
         CardanBeamOptions options = bending_only(2);

@@ -114,7 +114,7 @@ TEST_CASE("static moments: the chain has the linear momentum of the static shape
     CHECK(chain(1) == Approx(exact(1)).epsilon(1e-9));
 }
 
-TEST_CASE("static moments: without mass in a segment they cannot be, which is said", "[property]") {
+TEST_CASE("static moments: a segment without mass is refused", "[property]") {
     BeamLine line{1, {0.9}, [](double x) { return slender(1, x < 0.9 ? 1 : 0).section(); }, "half a beam"};
     line.section = [](double x) { return slender(1, x < 0.8 ? 1 : 0).section(); };
     line.breaks = {0.8};

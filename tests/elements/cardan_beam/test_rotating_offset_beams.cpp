@@ -159,7 +159,7 @@ TEST_CASE("spinning beam: the same swept and prebent", "[analytic]") {
     for (const SpinningRod& setting : {back, forward}) check_order_2(setting, exact(setting), cardanic, cardanic_error);
 }
 
-TEST_CASE("spinning beam: no sign of cone, twist, offset or curvature can be turned without being seen", "[property]") {
+TEST_CASE("spinning beam: a wrong sign of cone, twist, offset or curvature would show", "[property]") {
     // Every change is at least a hundred times the error that the tests above allow.
     SpinningRod setting = fore();
     setting.curvature = {-0.2, 0.25};

@@ -2,6 +2,7 @@
 // body, by hand.
 #include "elements/cardan_beam/distributed_load.hpp"
 #include "elements/sections/reference_line.hpp"
+#include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/loaded_beam.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -121,15 +122,15 @@ TEST_CASE("section loads: in any motion the loads at a hinge, along its axis, ar
     b.system->forces.generalised_forces(kin, 0, b.at.q, b.at.qd, Q);
     for (const CardanBeam::Element& element : b.beam.elements) {
         Vector q(6);
-        for (Eigen::Index i = 0; i < 6; ++i) q(i) = b.at.q(model.index(element.bodies[static_cast<std::size_t>(i)]));
+        for (Eigen::Index i = 0; i < 6; ++i) q(i) = b.at.q(model.index(entry(element.bodies, i)));
         const Vector springs = hinge_forces({}, {element.bodies, element.kinds, element.stiffness, element.tilt}, q);
-        for (std::size_t i = 0; i < 6; ++i) {
-            const int a = model.index(element.bodies[i]);
-            const Wrench& joint = loads.joint[static_cast<std::size_t>(a)];
+        for (Eigen::Index i = 0; i < 6; ++i) {
+            const int a = model.index(entry(element.bodies, i));
+            const Wrench& joint = entry(loads.joint, a);
             const Vec3 axis = kin.axis(a);
             const double along = axis.dot(model.body(a).revolute ? joint.moment : joint.force);
             // tau - Q without the spring's own -K q is what the joint transmits along its axis.
-            CHECK(along == Approx(tau(a) - Q(a) - springs(static_cast<Eigen::Index>(i))).margin(1e-9));
+            CHECK(along == Approx(tau(a) - Q(a) - springs(i)).margin(1e-9));
         }
     }
 

@@ -139,7 +139,7 @@ TEST_CASE("section loads: by equilibrium those of a spinning beam with everythin
 
 TEST_CASE("section loads: the pull of a spinning beam by equilibrium is the centrifugal force of what is outboard",
           "[analytic]") {
-    // int mu r Omega^2 ds over the deflected rod, r the way of the mass centres from the spin axis, in the
+    // int mu r Omega^2 ds over the deflected rod, r the distance of the mass centres from the spin axis, in the
     // plane of rotation. The elements are good to 1e-5 (above), the midpoint rule of 200 points to 200^-2 / 24 = 1e-6.
     for (const SpinningRod& setting : {aft(), fore()}) {
         const oracles::RodSolution rod(setting.rod().rod(), setting.loads());
@@ -165,7 +165,7 @@ TEST_CASE("section loads: the pull of a spinning beam by equilibrium is the cent
 }
 
 TEST_CASE(
-    "section loads: the springs of a spinning beam tell them with order 2 in the middle of elements, without the shear "
+    "section loads: the springs of a spinning beam give them with order 2 in the middle of elements, without the shear "
     "that moments across the beam ask for",
     "[analytic]") {
     // Springs know the force as constant in an element. They see M' of the shear, which a distributed moment m changes:

@@ -40,7 +40,7 @@ CardanBeamOptions extensible(int elements, Partition partition) {
     return options;
 }
 
-// The same with four elements and without the load.
+// That column with four elements and without the load.
 struct BareColumn {
     BareColumn(double GA, bool extension) {
         CardanBeamOptions options = extensible(4, Partition::segment_masses);
@@ -62,7 +62,7 @@ double haringx(double GA) {
 
 }  // namespace
 
-TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for all partitions", "[analytic]") {
+TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for all partitions", "[analytic][discrete]") {
     for (const double GA : {20.0, 10.0}) {
         const double exact = haringx(GA);
         CHECK(exact == Approx(GA == 20 ? 2.22080 : 2.04798).margin(5e-6));
@@ -93,11 +93,11 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
     CHECK(found.stability_change->factor() == Approx(discrete(20, 8)).epsilon(2e-5));
 }
 
-TEST_CASE("column flexible in shear: under tension and compression with extension condensed it is told", "[property]") {
+TEST_CASE("column flexible in shear: condensed extension gives a warning about axial forces", "[property]") {
     const auto warnings = [](double GA, bool extension) { return BareColumn(GA, extension).beam.warnings; };
     CHECK(warnings(20, true).empty());
     CHECK(warnings(shear_rigid, false).empty());
-    CHECK(warnings(1e4, false).empty());  // EI / GA L^2 = 1e-4: nothing to speak of
+    CHECK(warnings(1e4, false).empty());  // EI / GA L^2 = 1e-4: negligible
     const auto found = warnings(20, false);
     REQUIRE(found.size() == 1);
     CHECK(found[0].find("GA + 1.732050808 N") != std::string::npos);

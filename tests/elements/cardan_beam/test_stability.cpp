@@ -75,7 +75,7 @@ double critical(const System& system) {
 }  // namespace
 
 TEST_CASE("column under a dead tip load: linear buckling gives the discrete values; fourth and second order",
-          "[discrete]") {
+          "[analytic][discrete]") {
     const auto tip_load = [](int elements, double delta) {
         return critical(column(bending_only(elements, delta), {-1, 0, 0}, WrenchAxes::base));
     };

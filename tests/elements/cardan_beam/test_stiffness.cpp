@@ -52,7 +52,7 @@ CardanBeamOptions with(int elements, double delta, bool extension) {
     return options;
 }
 
-// The same of a cantilever of cardanic elements: J K^-1 J^T with the tip's Jacobian in the tree.
+// Likewise for a cantilever of cardanic elements: J K^-1 J^T with the tip's Jacobian in the tree.
 Mat6 chain_tip_compliance(const BeamLine& line, const CardanBeamOptions& options) {
     Tree tree;
     ForceSet forces;

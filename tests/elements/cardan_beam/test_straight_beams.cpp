@@ -159,7 +159,8 @@ TEST_CASE("Euler-Bernoulli cantilever: a negative armature of M L^2 / 360 lifts 
     CHECK(order(coarse, bending(clamped_frequencies(line, options), 3), 61.697214413536) > 5.7);
 }
 
-TEST_CASE("Timoshenko cantilever, r/L = 0.05: discrete values and second order toward the exact ones", "[discrete]") {
+TEST_CASE("Timoshenko cantilever, r/L = 0.05: discrete values and second order toward the exact ones",
+          "[analytic][discrete]") {
     // E/(kG) = 3.12. Exact: roots of the transcendental equation, 46.60313987 for mode 3.
     EngineeringSection s = slender(1, 1);
     s.GA_y = s.GA_z = 1 / (0.05 * 0.05 * 3.12);
@@ -208,7 +209,7 @@ TEST_CASE("torsion and extension, clamped-free: 2 N sin(pi / 4N) for every delta
     }
 }
 
-TEST_CASE("tapered cantilever, A ~ (1 - x/2), I ~ (1 - x/2)^3: discrete values, fourth order", "[discrete]") {
+TEST_CASE("tapered cantilever, A ~ (1 - x/2), I ~ (1 - x/2)^3: discrete values, fourth order", "[analytic][discrete]") {
     constexpr double exact = 3.82378485;  // Bessel functions
     BeamLine line{1, {}, [](double x) {
                       const double t = 1 - x / 2;

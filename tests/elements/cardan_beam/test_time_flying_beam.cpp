@@ -3,6 +3,7 @@
 // but the data; what holds exactly are impulse and momentum, and the energy once the load has ended. The plane motion
 // is held against Ritz's method for the geometrically exact rod (oracles/planar_rod).
 #include "elements/cardan_beam/cardan_beam.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/time/atlas.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
@@ -97,7 +98,7 @@ private:
             wrench << factor * load.moment, factor * load.force;
             Q += J.transpose() * wrench;
             const Vec3 moment = wrench.head<3>() + pose(in.kinematics, root).p.cross(wrench.tail<3>());
-            for (int i = 0; i < 3; ++i) Q(at[static_cast<std::size_t>(i)]) += moment(i);
+            for (int i = 0; i < 3; ++i) Q(entry(at, i)) += moment(i);
         };
         // In the plane only the moment about the origin depends on the position.
         if (plane)

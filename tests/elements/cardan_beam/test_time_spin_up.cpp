@@ -29,7 +29,7 @@ MotionState hub_angle(double t) {
             a * (1 - std::cos(k * t))};
 }
 
-// Of the tip in the axes of the hub, less the length: extension and lag.
+// Displacement of the tip in the axes of the hub: extension and lag.
 Eigen::Vector2d in_hub_axes(double x, double y, double t) {
     const double psi = hub_angle(t).position, c = std::cos(psi), s = std::sin(psi);
     return {c * x + s * y - length, c * y - s * x};
@@ -47,7 +47,7 @@ struct Manoeuvre {
         IntegrationOptions options;
         options.method = method;
         options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
-        options.works = false;
+        options.integrate_work = false;
         const Vector rest = Vector::Zero(system.model.size());
         return {system, drives, 0, rest, rest, options};
     }

@@ -1,4 +1,4 @@
-// The friction brake: closed form of the stop of a flywheel, ramp, creep, heat.
+// The friction brake: closed form of the stop of a flywheel, ramp, creep, dissipation.
 #include "elements/machine/brake.hpp"
 #include "tests/elements/machine/shaft.hpp"
 #include "tests/support/refusal.hpp"
@@ -64,7 +64,7 @@ TEST_CASE("brake: a flywheel stops as sinh(w / w_r) falls exponentially", "[anal
         CAPTURE(t);
         CHECK(integrator.state().qd(0) == Approx(expected).epsilon(1e-6));
     }
-    // All of the kinetic energy became heat.
+    // All of the kinetic energy was dissipated.
     const double left = std::pow(integrator.state().qd(0), 2);
     CHECK(integrator.energy().loads == Approx(-shaft.J / 2 * (w0 * w0 - left)).epsilon(1e-7));
     CHECK(integrator.energy().error == Approx(0).margin(1e-7 * w0 * w0));
@@ -100,7 +100,7 @@ TEST_CASE("brake: it does not hold a shaft at rest but lets it creep", "[analyti
     CHECK(integrator.state().qd(0) == Approx(0.5 * std::atanh(0.75) / 4).epsilon(1e-7));
 }
 
-TEST_CASE("brake: in any motion it makes heat and no energy", "[property]") {
+TEST_CASE("brake: in any motion it only dissipates", "[property]") {
     const Brake brake = disc({});
     std::mt19937 random(2);
     std::uniform_real_distribution<double> u(-4, 4);

@@ -1,4 +1,4 @@
-// Elastic drives and the orders they obey.
+// Elastic drives and the commands they follow.
 #include "elements/machine/drive.hpp"
 #include "solvers/time/motion.hpp"
 #include "tests/elements/machine/shaft.hpp"
@@ -14,47 +14,48 @@ namespace {
 
 constexpr TravelLimits limits{0.4, 0.9};
 
-ElasticDrive drive_on(BodyId coordinate, std::shared_ptr<const DriveOrder> order, double sense = 1) {
+ElasticDrive drive_on(BodyId coordinate, std::shared_ptr<const DriveCommand> command, double sense = 1) {
     return {.name = "pitch drive",
             .coordinate = coordinate,
             .stiffness = 500,
             .damping = 20,
-            .order = std::move(order),
+            .command = std::move(command),
             .sense = sense};
 }
 
-System driven(const Shaft& shaft, const std::shared_ptr<const DriveOrder>& order, double sense = 1) {
-    return shaft.system([&](BodyId wheel) { return std::vector{drive_force(drive_on(wheel, order, sense))}; });
+System driven(const Shaft& shaft, const std::shared_ptr<const DriveCommand>& command, double sense = 1) {
+    return shaft.system([&](BodyId wheel) { return std::vector{drive_force(drive_on(wheel, command, sense))}; });
 }
 
 }  // namespace
 
-TEST_CASE("drive: a new order starts from where the last one has come to, without jumps", "[property]") {
-    DriveOrder order(0.1, limits);
-    CHECK(order.at(-5).position == 0.1);
-    CHECK(order.at(77).position == 0.1);
-    order.move_to(1.5, 2);
-    CHECK(order.target() == 1.5);
-    CHECK(order.at(2).position == Approx(0.1));
-    const Travel::State before = order.at(3.1);
+TEST_CASE("drive: a new command starts from where the last one has come to, without jumps", "[property]") {
+    DriveCommand command(0.1, limits);
+    CHECK(command.at(-5).position == 0.1);
+    CHECK(command.at(77).position == 0.1);
+    command.move_to(1.5, 2);
+    CHECK(command.target() == 1.5);
+    CHECK(command.at(2).position == Approx(0.1));
+    const Travel::State before = command.at(3.1);
     CHECK(before.rate > 0.3);
-    order.move_to(-0.2, 3.1);  // at full rate
-    CHECK(order.at(3.1).position == Approx(before.position).epsilon(1e-14));
-    CHECK(order.at(3.1).rate == Approx(before.rate).epsilon(1e-14));
-    CHECK(order.at(3.1).acceleration == Approx(before.acceleration).margin(1e-14));
-    CHECK(order.at(3.2).position > before.position);  // it has to stop first
-    CHECK(order.at(order.arrival() + 1).position == -0.2);
-    order.move_to(0.3, 20, 0.05);
-    CHECK(order.at(25).rate == Approx(0.05).epsilon(1e-12));
+    command.move_to(-0.2, 3.1);  // at full rate
+    CHECK(command.at(3.1).position == Approx(before.position).epsilon(1e-14));
+    CHECK(command.at(3.1).rate == Approx(before.rate).epsilon(1e-14));
+    CHECK(command.at(3.1).acceleration == Approx(before.acceleration).margin(1e-14));
+    CHECK(command.at(3.2).position > before.position);  // it has to stop first
+    CHECK(command.at(command.arrival() + 1).position == -0.2);
+    command.move_to(0.3, 20, 0.05);
+    CHECK(command.at(25).rate == Approx(0.05).epsilon(1e-12));
 }
 
-TEST_CASE("drive: an order that is repeated at any rate is the one order", "[analytic]") {
+TEST_CASE("drive: a command repeated at any sampling rate acts as one command", "[analytic]") {
     constexpr double degree = pi / 180, target = 20 * degree, rate = 8 * degree, acceleration = 15 * degree;
     const TravelLimits pitch{rate, acceleration};
-    // Up and down to the largest rate take 3/2 rate / acceleration each, and half the way of that at the full rate.
+    // Up and down to the largest rate take 3/2 rate / acceleration each, and half the distance of that at the full
+    // rate.
     const double arrival = target / rate + 1.5 * rate / acceleration;
     for (double period : {0.05, 0.02, 0.001}) {
-        DriveOrder repeated(0, pitch), single(0, pitch);
+        DriveCommand repeated(0, pitch), single(0, pitch);
         single.move_to(target, 0);
         for (int k = 0; k * period < 20; ++k) {
             const double t = k * period;
@@ -70,17 +71,17 @@ TEST_CASE("drive: an order that is repeated at any rate is the one order", "[ana
     }
 }
 
-TEST_CASE("drive: orders that change with every sample are followed without overshoot or jumps", "[property]") {
-    // A command that rises slowly, with noise of the last digits, so that no order is the one before; then it stands.
+TEST_CASE("drive: commands that change with every sample are followed without overshoot or jumps", "[property]") {
+    // A command that rises slowly, with noise of the last digits, so that none equals the one before; then it stays.
     constexpr double top = 0.5, slope = 0.1;
     for (double period : {0.05, 0.02, 0.001}) {
-        DriveOrder order(0, limits);
+        DriveCommand drive(0, limits);
         Travel::State last;
         double worst = 0;
         for (int k = 0; k * period < 12; ++k) {
             const double t = k * period, command = std::min(top, slope * t);
-            order.move_to(command * (1 + 1e-12 * (k % 3)), t);
-            const Travel::State now = order.at(t);
+            drive.move_to(command * (1 + 1e-12 * (k % 3)), t);
+            const Travel::State now = drive.at(t);
             CAPTURE(period, t);
             REQUIRE(std::abs(now.position - last.position) <= limits.rate * period * (1 + 1e-9));
             REQUIRE(std::abs(now.rate - last.rate) <= limits.acceleration * period * (1 + 1e-9));
@@ -89,10 +90,10 @@ TEST_CASE("drive: orders that change with every sample are followed without over
             if (t > 2) worst = std::max(worst, command - now.position);
             last = now;
         }
-        // Never farther behind than it needs to stop, and what a sample brings.
+        // Never farther behind than its stopping distance and one sample.
         const double stopping = slope / 2 * 2 * std::sqrt(slope / default_jerk(limits));
         CHECK(worst < stopping + 2 * slope * period);
-        CHECK(order.at(12).position == Approx(top).epsilon(1e-9));
+        CHECK(drive.at(12).position == Approx(top).epsilon(1e-9));
     }
 }
 
@@ -100,33 +101,33 @@ TEST_CASE("drive: commands that are followed are limited in rate and one period 
     for (double period : {0.05, 0.02, 0.001}) {
         CAPTURE(period);
         // A step: at the largest rate, however often it is commanded.
-        DriveOrder step(0, limits);
+        DriveCommand step(0, limits);
         for (int k = 0; k * period < 2; ++k) {
             step.follow(0.5, k * period, period);
             const double t = (k + 0.4) * period;
             REQUIRE(step.at(t).position == Approx(std::min(0.5, limits.rate * t)).epsilon(1e-12));
         }
         // A ramp below the largest rate.
-        DriveOrder ramp(0, limits);
+        DriveCommand ramp(0, limits);
         for (int k = 0; k * period < 2; ++k) {
             ramp.follow(0.3 * k * period, k * period, period);
             const double t = (k + 0.4) * period;
             REQUIRE(ramp.at(t).position == Approx(0.3 * std::max(0.0, t - period)).margin(1e-12));
         }
     }
-    check_refused([] { DriveOrder(0, limits).follow(1, 0, 0); }, {"order of a drive: period of commands [s] = 0"});
-    check_refused([] { DriveOrder(0, limits).follow(NAN, 0, 1); }, {"target = nan"});
+    check_refused([] { DriveCommand(0, limits).follow(1, 0, 0); }, {"command of a drive: period of commands [s] = 0"});
+    check_refused([] { DriveCommand(0, limits).follow(NAN, 0, 1); }, {"target = nan"});
 }
 
-TEST_CASE("drive: an order while moving is smooth in position, rate and acceleration", "[property]") {
-    DriveOrder order(0, limits);
-    order.move_to(1, 0);
+TEST_CASE("drive: a command while moving is smooth in position, rate and acceleration", "[property]") {
+    DriveCommand command(0, limits);
+    command.move_to(1, 0);
     int moving = 0;
     for (int k = 1; k <= 200; ++k) {
         const double t = 0.037 * k;
-        const Travel::State before = order.at(t);
-        order.move_to(std::sin(3.7 * k), t);
-        const Travel::State after = order.at(t);
+        const Travel::State before = command.at(t);
+        command.move_to(std::sin(3.7 * k), t);
+        const Travel::State after = command.at(t);
         REQUIRE(after.position == Approx(before.position).margin(1e-12));
         REQUIRE(after.rate == Approx(before.rate).margin(1e-12));
         REQUIRE(after.acceleration == Approx(before.acceleration).margin(1e-12));
@@ -135,13 +136,13 @@ TEST_CASE("drive: an order while moving is smooth in position, rate and accelera
     CHECK(moving > 100);
 }
 
-TEST_CASE("drive: a spring and a damper about the order, in either sense", "[analytic]") {
-    const auto order = std::make_shared<DriveOrder>(0.2, limits);
-    order->move_to(1.2, 0);
+TEST_CASE("drive: a spring and a damper about the command, in either sense", "[analytic]") {
+    const auto command = std::make_shared<DriveCommand>(0.2, limits);
+    command->move_to(1.2, 0);
     for (double sense : {1.0, -1.0}) {
-        const System system = driven({}, order, sense);
+        const System system = driven({}, command, sense);
         for (double t : {-1.0, 0.3, 1.4, 9.0}) {
-            const Travel::State p = order->at(t);
+            const Travel::State p = command->at(t);
             const double q = 0.7, qd = -0.3, x = q - sense * p.position, v = qd - sense * p.rate;
             const OneForce f = evaluate(system, t, q, qd);
             CHECK(f.Q == Approx(-500 * x - 20 * v).epsilon(1e-13));
@@ -151,7 +152,7 @@ TEST_CASE("drive: a spring and a damper about the order, in either sense", "[ana
         }
     }
     ForceDerivatives d;
-    const System system = driven({}, order);
+    const System system = driven({}, command);
     Workspace workspace(system.model);
     const Vector q = one(0.1);
     system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, q, d);
@@ -159,12 +160,13 @@ TEST_CASE("drive: a spring and a damper about the order, in either sense", "[ana
     CHECK(d.loads(0, 0) == 0);
 }
 
-TEST_CASE("drive: it follows its order within inertia times acceleration over stiffness and holds a moment elastically",
-          "[analytic]") {
-    const auto order = std::make_shared<DriveOrder>(0, limits);
+TEST_CASE(
+    "drive: it follows its command within inertia times acceleration over stiffness and holds a moment elastically",
+    "[analytic]") {
+    const auto command = std::make_shared<DriveCommand>(0, limits);
     const Shaft shaft{.J = 2, .moment = 5};
-    const System system = driven(shaft, order, -1);
-    order->move_to(0.8, 0.5);
+    const System system = driven(shaft, command, -1);
+    command->move_to(0.8, 0.5);
     const double sag = shaft.moment / 500;
     solvers::Integrator integrator(system, {}, 0, one(sag), one(0), accurate());
     // x'' + (d/J) x' + (k/J) x = -p'' from rest: the largest swing is below twice J |p''| / k at any damping.
@@ -172,7 +174,7 @@ TEST_CASE("drive: it follows its order within inertia times acceleration over st
     double lag = 0;
     for (double t = 0.1; t < 4; t += 0.1) {
         REQUIRE(integrator.advance(t).reached());
-        lag = std::max(lag, std::abs(integrator.state().q(0) + order->at(t).position - sag));
+        lag = std::max(lag, std::abs(integrator.state().q(0) + command->at(t).position - sag));
     }
     CHECK(lag < bound);
     CHECK(lag > bound / 8);
@@ -180,14 +182,14 @@ TEST_CASE("drive: it follows its order within inertia times acceleration over st
     CHECK(integrator.state().q(0) == Approx(sag - 0.8).epsilon(1e-9));
 }
 
-TEST_CASE("drive: the stiffer, the closer to a prescribed motion of the same order", "[analytic]") {
+TEST_CASE("drive: the stiffer, the closer to a prescribed motion by the same command", "[analytic]") {
     // Both arms turn against a damper; the moment of the prescribed drive is that of the elastic one but for O(1/k).
-    const auto order = std::make_shared<DriveOrder>(0, limits);
-    order->move_to(1, 0);
+    const auto command = std::make_shared<DriveCommand>(0, limits);
+    command->move_to(1, 0);
     const auto deviation = [&](double stiffness) {
         const Shaft shaft{.J = 2};
         const System system = shaft.system([&](BodyId wheel) {
-            ElasticDrive drive = drive_on(wheel, order);
+            ElasticDrive drive = drive_on(wheel, command);
             drive.stiffness = stiffness;
             drive.damping = 2 * std::sqrt(stiffness * shaft.J);  // critical
             return std::vector{drive_force(drive)};
@@ -196,7 +198,7 @@ TEST_CASE("drive: the stiffer, the closer to a prescribed motion of the same ord
         double largest = 0;
         for (double t = 0.05; t < 4; t += 0.05) {
             REQUIRE(integrator.advance(t).reached());
-            largest = std::max(largest, std::abs(integrator.state().q(0) - order->at(t).position));
+            largest = std::max(largest, std::abs(integrator.state().q(0) - command->at(t).position));
         }
         return largest;
     };
@@ -206,12 +208,12 @@ TEST_CASE("drive: the stiffer, the closer to a prescribed motion of the same ord
 }
 
 TEST_CASE("drive: power of the motor less heat of the damper is the work of the drive", "[property]") {
-    const auto order = std::make_shared<DriveOrder>(0, limits);
-    order->move_to(0.8, 0.2);
-    const System system = driven({.J = 2}, order, -1);
-    const ElasticDrive drive = drive_on(BodyId{0}, order, -1);
+    const auto command = std::make_shared<DriveCommand>(0, limits);
+    command->move_to(0.8, 0.2);
+    const System system = driven({.J = 2}, command, -1);
+    const ElasticDrive drive = drive_on(BodyId{0}, command, -1);
     solvers::IntegrationOptions options = accurate(1e-11);
-    options.breaks = order->breaks();
+    options.breaks = command->breaks();
     solvers::Integrator integrator(system, {}, 0, one(0), one(0), options);
     double work = 0;
     constexpr double h = 0.002;
@@ -231,16 +233,16 @@ TEST_CASE("drive: power of the motor less heat of the damper is the work of the 
     CHECK(std::abs(drive.force(0.2, 0.1, 0.3) + 500 * 0.1 + 20 * 0.3) < 1e-12);
 }
 
-TEST_CASE("drive: an order between two calls of advance() is obeyed from then on", "[crosscheck]") {
-    // Position, rate and acceleration of the order go on smoothly, so that nothing shows at the time of the order
+TEST_CASE("drive: a command between two calls of advance() is followed from then on", "[crosscheck]") {
+    // Position, rate and acceleration of the command go on smoothly, so that nothing shows at the time of the command
     // itself.
     const auto position = [](bool told) {
-        const auto order = std::make_shared<DriveOrder>(0, limits);
-        order->move_to(1.5, 0);
-        const System system = driven({.J = 2}, order);
+        const auto command = std::make_shared<DriveCommand>(0, limits);
+        command->move_to(1.5, 0);
+        const System system = driven({.J = 2}, command);
         solvers::Integrator integrator(system, {}, 0, one(0), one(0), accurate());
         REQUIRE(integrator.advance(1).reached());
-        order->move_to(-0.4, 1);
+        command->move_to(-0.4, 1);
         if (told) integrator.restart();
         REQUIRE(integrator.advance(1.4).reached());
         CHECK(integrator.statistics().restarts == 1);
@@ -251,9 +253,9 @@ TEST_CASE("drive: an order between two calls of advance() is obeyed from then on
 
 TEST_CASE("drive: bad numbers are refused", "[property]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto order = std::make_shared<DriveOrder>(0, limits);
+    const auto command = std::make_shared<DriveCommand>(0, limits);
     const auto change = [&](double stiffness, double damping, double sense) {
-        ElasticDrive drive = drive_on({}, order, sense);
+        ElasticDrive drive = drive_on({}, command, sense);
         drive.stiffness = stiffness;
         drive.damping = damping;
         (void)drive_force(drive);
@@ -261,9 +263,9 @@ TEST_CASE("drive: bad numbers are refused", "[property]") {
     check_refused([&] { change(-1, 0, 1); }, {"pitch drive: stiffness = -1; allowed: finite and >= 0"});
     check_refused([&] { change(1, nan, 1); }, {"pitch drive: damping = nan"});
     check_refused([&] { change(1, 0, 2); }, {"pitch drive: sense = 2; allowed: 1 or -1"});
-    check_refused([] { (void)drive_force(drive_on({}, nullptr)); }, {"pitch drive: order = none"});
-    check_refused([&] { DriveOrder(nan, limits); }, {"position = nan"});
-    check_refused([] { DriveOrder(0, {0, 1}); }, {"order of a drive: largest rate = 0"});
-    check_refused([] { DriveOrder(0, {1, 0}); }, {"order of a drive: largest acceleration = 0"});
-    check_refused([&] { DriveOrder(0, limits).move_to(nan, 0); }, {"target = nan"});
+    check_refused([] { (void)drive_force(drive_on({}, nullptr)); }, {"pitch drive: command = none"});
+    check_refused([&] { DriveCommand(nan, limits); }, {"position = nan"});
+    check_refused([] { DriveCommand(0, {0, 1}); }, {"command of a drive: largest rate = 0"});
+    check_refused([] { DriveCommand(0, {1, 0}); }, {"command of a drive: largest acceleration = 0"});
+    check_refused([&] { DriveCommand(0, limits).move_to(nan, 0); }, {"target = nan"});
 }

@@ -31,7 +31,7 @@ System stopped(const Shaft& shaft, const EndStop& stop) {
 
 }  // namespace
 
-TEST_CASE("end stop: nothing before the limit, a square within the depth, the full spring beyond", "[analytic]") {
+TEST_CASE("end stop: no force before the limit, quadratic within the depth, the full spring beyond", "[analytic]") {
     const System system = stopped({}, stop_on({}, true, 50));
     for (double q : {-2.0, 0.0, 0.3}) {
         const OneForce f = evaluate(system, 0, q, 3);

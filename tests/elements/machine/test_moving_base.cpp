@@ -1,5 +1,6 @@
 // A base on six coordinates: pose, velocity and acceleration against rotation matrices written out; bad input.
 #include "elements/machine/moving_base.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/system/joint_loads.hpp"
 #include "mbs/system/system.hpp"
@@ -57,8 +58,7 @@ struct Motion {
     // In the order of the model.
     Vector in(const Float& f, const Vector& values) const {
         Vector sorted(6);
-        for (std::size_t i = 0; i < 6; ++i)
-            sorted(f.system.model.index(f.base.coordinates.at(i))) = values(static_cast<Eigen::Index>(i));
+        for (Eigen::Index i = 0; i < 6; ++i) sorted(f.system.model.index(entry(f.base.coordinates, i))) = values(i);
         return sorted;
     }
 };
@@ -151,7 +151,7 @@ TEST_CASE("moving base: oblique directions are axes of translation and rotation"
     Workspace workspace(f.system.model);
     for (BaseCoordinate which : all) {
         const int a = f.system.model.index(f.base.coordinate(which));
-        const Vec3 along = options.directions.at(static_cast<std::size_t>(which));
+        const Vec3 along = entry(options.directions, which);
         Vector q = Vector::Zero(6);
         q(a) = 0.4;
         const Pose<double> at = pose(kinematics(f.system.model, q, workspace), f.base.frame);

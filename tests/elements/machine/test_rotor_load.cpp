@@ -1,5 +1,6 @@
 // The prescribed load on a rotor: its curve at the points that define it, exact derivatives, the wrench it stands for.
 #include "elements/machine/rotor_load.hpp"
+#include "mbs/base/entry.hpp"
 #include "tests/elements/machine/shaft.hpp"
 #include "tests/mbs/system/forced_tree.hpp"
 #include "tests/support/allocations.hpp"
@@ -79,7 +80,7 @@ TEST_CASE("rotor load: the derivatives of torque and thrust are those of the com
                 for (int i = 0; i < 3; ++i) {
                     const auto at = [&](Complex own) {
                         std::array<Complex, 3> y{x[0], x[1], x[2]};
-                        y[static_cast<std::size_t>(i)] = own;
+                        entry(y, i) = own;
                         return y;
                     };
                     const auto torque = [&](Complex own) {

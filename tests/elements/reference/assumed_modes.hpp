@@ -3,6 +3,7 @@
 #pragma once
 
 #include "elements/reference/assumed_modes_blade.hpp"
+#include "mbs/base/entry.hpp"
 
 namespace cardan::testing {
 
@@ -26,8 +27,7 @@ inline std::vector<double> of_kind(const AssumedModesBlade& blade, const HubMoti
     const AssumedModesMatrices matrices = blade.at(motion);
     std::vector<double> found;
     for (const AssumedMode& mode : natural_modes(matrices))
-        if (energy_shares(blade, matrices, mode.shape).at(static_cast<std::size_t>(kind)) > 0.5)
-            found.push_back(2 * pi * mode.hz);
+        if (entry(energy_shares(blade, matrices, mode.shape), kind) > 0.5) found.push_back(2 * pi * mode.hz);
     return found;
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("assumed modes: static tips under weight, Euler's force and a pull alo
 }
 
 TEST_CASE("assumed modes: under steady loads the root load balances the elastic one", "[analytic]") {
-    // Of the hub on the blade about y: EI w'' at the root, from the one-sided difference.
+    // Moment of the hub on the blade about y: EI w'' at the root, from the one-sided difference.
     const AssumedModesBlade beam(uniform_beam(1, slender()), {.basis = one_piece(9)});
     const HubMotion motion = spinning(2, 0.3).moved({0, 0, 0}, {}, {0, 0, -5});
     const AssumedModesMatrices m = beam.at(motion);
@@ -169,7 +169,7 @@ TEST_CASE("assumed modes: under steady loads the root load balances the elastic 
     CHECK(load.moment.y() == Approx(curvature).epsilon(1e-3));
 }
 
-TEST_CASE("assumed modes: a spinning rod is drawn out as in the closed form and keeps its mass", "[analytic]") {
+TEST_CASE("assumed modes: a spinning rod is stretched as in the closed form and keeps its mass", "[analytic]") {
     EngineeringSection s = slender();
     s.EA = 500, s.GJ = 2;
     BeamLine line = uniform_beam(1, s);

@@ -2,6 +2,7 @@
 // matrices, bad input.
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/elements/reference/assumed_modes.hpp"
 #include "tests/oracles/rotating_blade.hpp"
@@ -71,9 +72,9 @@ TEST_CASE("assumed modes: a tapered, twisted blade with offsets rotates like the
         const auto exact = rod.modes(speed, 6, oracles::RotatingBlade::About::undeflected).frequency;
         const AssumedModesMatrices m = blade.at(spinning(speed, 1.5));
         const auto modes = solvers::modes({m.M, m.G, m.K, m.K_elastic, {}, -1});
-        for (std::size_t k = 0; k < 6; ++k) {
+        for (Eigen::Index k = 0; k < 6; ++k) {
             CAPTURE(speed, k);
-            CHECK(modes.at(k).natural_hz() == Approx(exact(static_cast<Eigen::Index>(k))).epsilon(1e-6));
+            CHECK(entry(modes, k).natural_hz() == Approx(exact(k)).epsilon(1e-6));
         }
     }
 }
@@ -104,7 +105,7 @@ TEST_CASE("assumed modes: in a frame that falls freely there is neither load nor
     CHECK(m.K == m.K_elastic);
 }
 
-TEST_CASE("assumed modes: a steady velocity of the rotating frame is not felt, unless dB/dt is left out",
+TEST_CASE("assumed modes: a steady velocity of the rotating frame has no effect, unless dB/dt is left out",
           "[property]") {
     const AssumedModesBlade blade = general_blade();
     const auto at = [&](double heave) {
@@ -142,7 +143,7 @@ TEST_CASE("assumed modes: in its own natural modes a blade is the same", "[prope
     const AssumedModesBlade blade = general_blade();
     const auto modes = natural_modes(blade.at({}));
     Matrix columns(blade.size(), blade.size());
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = modes[static_cast<std::size_t>(k)].shape;
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) = entry(modes, k).shape;
     const AssumedModesBlade same = blade.reduced(columns);
     CHECK(max_abs(same.at({}).M - Matrix::Identity(blade.size(), blade.size())) < 1e-9);
     CHECK(same.deflection(0) == Deflection::mixed);
@@ -160,7 +161,7 @@ TEST_CASE("assumed modes: in its own natural modes a blade is the same", "[prope
     CHECK((a.moment - b.moment).norm() < 1e-11 * a.moment.norm());
 }
 
-TEST_CASE("assumed modes: what the theory does not have is refused", "[property]") {
+TEST_CASE("assumed modes: what the theory does not cover is refused", "[property]") {
     const auto with = [](auto change) {
         EngineeringSection s = slender();
         s.GJ = s.EA = 1, s.j_flap = s.j_edge = 0.1;

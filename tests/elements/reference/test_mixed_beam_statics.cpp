@@ -203,7 +203,7 @@ TEST_CASE("mixed beam: derivatives by the motion of the root equal the complex s
 
 TEST_CASE("mixed beam: a spinning beam solves the equations at any angle to root axes at rest",
           "[elements][mixed][property]") {
-    // The same motion seen from axes that do not turn: now the rates of u and theta carry it.
+    // That motion seen from axes that do not turn: now the rates of u and theta carry it.
     EngineeringSection s = slender(1, 1);
     s.EA = 5;
     const MixedBeam beam(uniform_beam(1, s), 4);

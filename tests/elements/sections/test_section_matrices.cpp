@@ -26,8 +26,8 @@ Mat6 random_stiffness(Random& random) {
     return d.asDiagonal() * Mat6(A * A.transpose() + 0.2 * Mat6::Identity()) * d.asDiagonal();
 }
 
-// The same changed by factors 0.5 ... 2 along six random directions: the sections in between stay analytic in x over a
-// wide strip, so that Gauss quadrature resolves their compliance to the last digits.
+// The stiffness changed by factors 0.5 ... 2 along six random directions: the sections in between stay analytic in x
+// over a wide strip, so that Gauss quadrature resolves their compliance to the last digits.
 Mat6 tapered(Random& random, const Mat6& stiffness) {
     const Mat6 root = stiffness.llt().matrixL();
     const Mat6 A = Mat6::NullaryExpr([&] { return uniform(random, -1, 1); });
@@ -240,7 +240,7 @@ TEST_CASE("matrix line: a bend-twist entry in BeamDyn's axes turns the tip the o
     CHECK(C(3, 4) == Approx(+1e7 / (4e7 * 9e7 - 1e14)).epsilon(1e-12));
 }
 
-TEST_CASE("engineering form: a section of engineering constants is found again, rigid directions too", "[property]") {
+TEST_CASE("engineering form: a section of engineering constants is recovered, rigid directions too", "[property]") {
     Random random(17);
     for (int i = 0; i < 60; ++i) {
         EngineeringSection e = random_engineering(random);
@@ -350,7 +350,7 @@ TEST_CASE("section matrices: a bad stiffness is refused with station, place and 
     check_matrices_refused([](M6& K, M6&) { K(1, 1) = 0; }, {"diagonal entry 2 = 0; allowed: > 0"});
 }
 
-TEST_CASE("section matrices: a mass matrix that is none of a plane section is refused", "[property]") {
+TEST_CASE("section matrices: a mass matrix that is not that of a plane section is refused", "[property]") {
     check_matrices_refused([](M6&, M6& M) { M(3, 5) = infinite; }, {"6 x 6 mass", "inf", "finite"});
     check_matrices_refused([](M6&, M6& M) { M(0, 4) += 1; }, {"6 x 6 mass", "symmetric"});
     check_matrices_refused([](M6&, M6& M) { M = -M; }, {"mass per length [kg/m] = -", "allowed: >= 0"});
@@ -367,8 +367,7 @@ TEST_CASE("section matrices: a mass matrix that is none of a plane section is re
         {"entry (2, 6) [kg]", "the mass centre lies in the section"});
 }
 
-TEST_CASE("matrix line: too few stations, the same twice, axes that are none; a rigid section has no matrices",
-          "[property]") {
+TEST_CASE("matrix line: bad stations and axes are refused; a rigid section has no matrices", "[property]") {
     Random random(20);
     const SectionMatrices m = random_matrices(random);
     const auto make = [](std::vector<double> x, std::vector<SectionMatrices> sections, Mat3 axes = vabs_axes()) {

@@ -57,7 +57,7 @@ TEST_CASE("monotone cubic: two points are a straight line, three of a parabola t
     CHECK(ends.at(4).slope == Approx(8));
 }
 
-TEST_CASE("monotone cubic: points that make no curve are refused", "[property]") {
+TEST_CASE("monotone cubic: bad points are refused", "[property]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH(MonotoneCubic({1}, {1}, Ends::level), Catch::Contains("number of points = 1"));
     CHECK_THROWS_WITH(MonotoneCubic({1, 2}, {1}, Ends::level), Catch::Contains("number of values = 1"));

@@ -1,4 +1,4 @@
-// Every public door of the kernels, knocked at with vectors, matrices, indices and models that do not fit: an error
+// Every public function of the kernels, called with vectors, matrices, indices and models that do not fit: an error
 // that names the argument, and nothing written anywhere.
 #include "mbs/batch/batch.hpp"
 #include "mbs/geometry/change_of_chart.hpp"
@@ -214,7 +214,7 @@ TEST_CASE("sizes: matrices of any other shape are refused by every function that
     }
 }
 
-TEST_CASE("sizes: indices that there are not are refused by every function that takes one", "[property]") {
+TEST_CASE("sizes: indices out of range are refused by every function that takes one", "[property]") {
     Fixture f;
     for (const int bad : {-1, f.n, f.n + 1, 1 << 20, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()})
         check_all_refused(doors_of_indices(f, bad), text(bad));

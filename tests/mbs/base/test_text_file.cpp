@@ -1,4 +1,4 @@
-// Which bytes are a text, against the decoder of the C library; files that are none.
+// Which bytes are text, against the decoder of the C library; files that are not text.
 #include "mbs/base/text_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"

@@ -1,4 +1,4 @@
-// The way of a drive within limits of rate and acceleration: closed forms, limits, turning back.
+// Travel of a drive within limits of rate and acceleration: closed forms, limits, turning back.
 #include "mbs/base/travel.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -24,7 +24,7 @@ double slope(double t, Value&& value) {
 
 }  // namespace
 
-TEST_CASE("travel: a long way takes way over rate and one and a half times the time to the rate, a short one less",
+TEST_CASE("travel: a long one takes distance over rate and 1.5 times the time to that rate, a short one less",
           "[analytic]") {
     const TravelLimits limits{0.2, 0.5};
     const Travel far(3, {1, 0, 0}, 2, limits);
@@ -33,7 +33,7 @@ TEST_CASE("travel: a long way takes way over rate and one and a half times the t
     CHECK(far.at((3 + far.arrival()) / 2).rate == Approx(0.2).epsilon(1e-14));
     CHECK(default_jerk(limits) == Approx(2.5).epsilon(1e-15));
     CHECK(far.at(3 + 0.2 / 0.5 * 0.75).acceleration == Approx(0.5).epsilon(1e-14));
-    // Too short for the largest acceleration: four phases of jerk of equal length T, way = 2 j T^3.
+    // Too short for the largest acceleration: four phases of jerk of equal length T, distance = 2 j T^3.
     const Travel near(0, {0, 0, 0}, -0.03, limits);
     const double T = std::cbrt(0.03 / (2 * 2.5));
     CHECK(near.arrival() == Approx(4 * T).epsilon(1e-12));
@@ -82,7 +82,7 @@ TEST_CASE("travel: from any state it comes to rest at the target, smoothly, with
     }
 }
 
-TEST_CASE("travel: from any state on the way the travel is the rest of the first one", "[property]") {
+TEST_CASE("travel: restarted from any of its states it is the remainder of the first one", "[property]") {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(-1, 1);
     for (int i = 0; i < 100; ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("travel: from any state on the way the travel is the rest of the first
                          later = t + whole.arrival() * (40 - k) / 40 * (u(random) + 1) / 2;
             const Travel rest(t, whole.at(t), to, limits);
             CAPTURE(i, k);
-            // Where it stops is known to the last digit only; a way of 1e-16 takes (1e-16 / jerk)^(1/3) s.
+            // Where it stops is known to the last digit only; a distance of 1e-16 takes (1e-16 / jerk)^(1/3) s.
             REQUIRE(rest.arrival() == Approx(whole.arrival()).margin(1e-4));
             REQUIRE(rest.at(later).position == Approx(whole.at(later).position).margin(1e-12));
             REQUIRE(rest.at(later).rate == Approx(whole.at(later).rate).margin(1e-8));

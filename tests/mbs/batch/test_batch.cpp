@@ -1,4 +1,5 @@
 // Many states on several threads: the same numbers to the last bit, whatever the threads do.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/batch/batch.hpp"
 #include "mbs/kernels/dynamics.hpp"
@@ -79,9 +80,9 @@ TEST_CASE("batch: every index is called once; a workspace serves one thread at a
     std::vector<std::atomic<int>> calls(1000), in_use(4);
     std::atomic<bool> shared = false;
     batch.for_each(1000, [&](int index, Workspace& workspace) {
-        std::atomic<int>& place = in_use[static_cast<std::size_t>(batch.slot(workspace))];
+        std::atomic<int>& place = entry(in_use, batch.slot(workspace));
         if (place.fetch_add(1) != 0) shared = true;
-        ++calls[static_cast<std::size_t>(index)];
+        ++entry(calls, index);
         // Parallel work inside a call: the thread may wait, but gets no other state meanwhile.
         tbb::parallel_for(0, 8, [](int) { std::this_thread::yield(); });
         place.fetch_sub(1);
@@ -122,7 +123,7 @@ TEST_CASE("batch: the exception of the lowest index is thrown, whichever comes f
             std::vector<std::atomic<int>> calls(400);
             const int lowest = 7 * round % 400;
             const auto call = [&](int index, Workspace&) {
-                ++calls[static_cast<std::size_t>(index)];
+                ++entry(calls, index);
                 if (index < lowest || (index - lowest) % 11 != 0) return;
                 if (index == lowest) std::this_thread::sleep_for(std::chrono::microseconds(200));
                 throw NumericalError(text("state ", index));
@@ -136,7 +137,7 @@ TEST_CASE("batch: the exception of the lowest index is thrown, whichever comes f
             }
             REQUIRE(batch.failed() == lowest);
             for (int i = 0; i < 400; ++i) {
-                const int made = calls[static_cast<std::size_t>(i)];
+                const int made = entry(calls, i);
                 if (i <= lowest) REQUIRE(made == 1);
                 REQUIRE(made <= 1);
             }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/lagrange.hpp"
 
 namespace cardan::testing {
@@ -21,9 +22,7 @@ public:
             shifted.push_back(second_kind(z));
         }
         const auto gamma = [&](int a, int b, int c) { return here[index(a, b, c)].real(); };
-        const auto d = [&](int e, int a, int b, int c) {
-            return shifted[static_cast<std::size_t>(e)][index(a, b, c)].imag() / h;
-        };
+        const auto d = [&](int e, int a, int b, int c) { return entry(shifted, e)[index(a, b, c)].imag() / h; };
         // R^a_bcd = d_c Gamma^a_bd - d_d Gamma^a_bc + Gamma^a_ce Gamma^e_bd - Gamma^a_de Gamma^e_bc
         std::vector<double> mixed(static_cast<std::size_t>(n_ * n_ * n_ * n_));
         for (int a = 0; a < n_; ++a)
@@ -60,13 +59,13 @@ private:
     std::vector<Complex> second_kind(const ComplexVector& q) {
         WorkspaceT<Complex> workspace(model_);
         const KinematicsT<Complex> kin = kinematics<Complex>(model_, q, workspace);
-        const auto at = [&](int a) { return at_[static_cast<std::size_t>(a)]; };
         ComplexMatrix g(n_, n_), first(n_, n_ * n_);
         for (int a = 0; a < n_; ++a)
             for (int b = 0; b < n_; ++b) {
-                g(a, b) = lagrange::metric(kin, at(a), at(b));
+                g(a, b) = lagrange::metric(kin, entry(at_, a), entry(at_, b));
                 for (int c = 0; c < n_; ++c)
-                    first(a, b * n_ + c) = lagrange::christoffel_first_kind(kin, at(a), at(b), at(c));
+                    first(a, b * n_ + c) =
+                        lagrange::christoffel_first_kind(kin, entry(at_, a), entry(at_, b), entry(at_, c));
             }
         g_ = g.real();
         const ComplexMatrix second = g.partialPivLu().solve(first);

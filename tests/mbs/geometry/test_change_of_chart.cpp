@@ -1,4 +1,5 @@
-// The same bodies in other coordinates.
+// Change of chart: one set of bodies in other coordinates.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/geometry/change_of_chart.hpp"
 #include "tests/support/catch.hpp"
@@ -26,7 +27,7 @@ Tree floating(const std::string& chart, const std::array<int, 3>& axes, unsigned
     for (int axis = 0; axis < 3; ++axis)
         at = add_joint(tree, {text("translation ", axis), at, JointKind::prismatic, Vec3::Unit(axis)}).axes;
     for (int i = 0; i < 3; ++i) {
-        const int axis = axes[static_cast<std::size_t>(i)];
+        const int axis = entry(axes, i);
         at = add_joint(tree, {text(chart, " rotation ", i), at, JointKind::revolute, Vec3::Unit(axis)}).axes;
     }
     const FrameId body = tree.add_frame(at, {}, "body");
@@ -57,8 +58,7 @@ ChartState random_motion(Random& random, const Model& model) {
 
 }  // namespace
 
-TEST_CASE("change of chart: the bodies stay where they are and move as they did, and there is a way back",
-          "[property]") {
+TEST_CASE("change of chart: the bodies stay where they are and move as they did, and back again", "[property]") {
     Random random(71);
     for (unsigned seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);
@@ -121,7 +121,7 @@ TEST_CASE("change of chart: several frames, and a chain whose frame hangs from k
             FrameId at =
                 tree.add_frame(table.axes, Placement::translation({1.0 + arm, 2, -40.0 * arm}), text("shoulder ", arm));
             for (int i = 0; i < 3; ++i) {
-                const int axis = axes[static_cast<std::size_t>(i)];
+                const int axis = entry(axes, i);
                 Joint joint{text(chart, " arm ", arm, " joint ", i), at, JointKind::revolute, Vec3::Unit(axis)};
                 if (i == 2) joint.inertia = {2, {0, 0, 1}, Mat3::Identity()};
                 at = add_joint(tree, joint).axes;

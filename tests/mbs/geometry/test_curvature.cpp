@@ -1,5 +1,6 @@
 // Connection and curvature of random trees against their definitions.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/geometry/curvature.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 double quadrilinear(const RiemannOracle& R, const std::vector<int>& at, const Vector& x, const Vector& y,
                     const Vector& z, const Vector& w) {
-    const auto v = [&](const Vector& u, int i) { return u(at[static_cast<std::size_t>(i)]); };
+    const auto v = [&](const Vector& u, int i) { return u(entry(at, i)); };
     double sum = 0;
     for (int a = 0; a < R.size(); ++a)
         for (int b = 0; b < R.size(); ++b)
@@ -38,7 +39,7 @@ TEST_CASE("curvature: Gauss' equation gives the tensor of its definition, with a
         Curvature curvature(s.model, driven);
         REQUIRE(curvature.update(s.kin).ok());
         double worst = 0;
-        const auto unit = [&](int i) { return Vector(Vector::Unit(s.n, free[static_cast<std::size_t>(i)])); };
+        const auto unit = [&](int i) { return Vector(Vector::Unit(s.n, entry(free, i))); };
         for (int a = 0; a < R.size(); ++a)
             for (int b = 0; b < R.size(); ++b)
                 for (int c = 0; c < R.size(); ++c)
@@ -52,7 +53,7 @@ TEST_CASE("curvature: Gauss' equation gives the tensor of its definition, with a
         curvature.contract(y, z, w, contracted);
         for (int k = 0; k < s.n; ++k) {
             const Vector e = Vector::Unit(s.n, k);
-            const double expected = driven[static_cast<std::size_t>(k)] ? 0 : quadrilinear(R, free, e, y, z, w);
+            const double expected = entry(driven, k) ? 0 : quadrilinear(R, free, e, y, z, w);
             REQUIRE(std::abs(contracted(k) - expected) < 1e-10 * (1 + R.largest()));
         }
     }
@@ -66,7 +67,7 @@ TEST_CASE("curvature: the matrix from composite bodies equals its columns and th
         SampledTree s(seed, {.bodies = 6 + static_cast<int>(seed % 9), .armatures = seed % 2 == 0});
         const std::vector<bool> driven = s.some_driven(seed % 3 == 0 ? 0.3 : 0.0);
         for (int k = 0; k < s.n; ++k)
-            if (driven[static_cast<std::size_t>(k)]) s.qd(k) = 0;
+            if (entry(driven, k)) s.qd(k) = 0;
         Curvature curvature(s.model, driven);
         REQUIRE(curvature.update(s.kin).ok());
         Matrix R(s.n, s.n), columns(s.n, s.n);

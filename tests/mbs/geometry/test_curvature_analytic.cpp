@@ -18,7 +18,7 @@ struct Space {
         REQUIRE(curvature.update(kinematics(model, q, workspace)).ok());
     }
     double sectional(const Vector& x, const Vector& y) { return curvature.sectional(x, y); }
-    // Of a space with two coordinates, where one plane is all there is.
+    // For a space with two coordinates, which has one plane only.
     double gaussian() { return sectional(Vector::Unit(2, 0), Vector::Unit(2, 1)); }
     double component(int a, int b, int c, int d) {
         const auto e = [&](int i) { return Vector(Vector::Unit(q.size(), i)); };

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/model.hpp"
 #include "tests/support/numbers.hpp"
@@ -117,7 +118,7 @@ VectorT<S> inverse_dynamics(const Model& model, const VectorT<S>& q, const Vecto
     const auto tree = joints<S>(model, q);
     Columns<S> v(6, n), a(6, n), f(6, n);
     for (int i = 0; i < n; ++i) {
-        const auto& [X, axis, I] = tree[static_cast<std::size_t>(i)];
+        const auto& [X, axis, I] = entry(tree, i);
         const int parent = model.body(i).parent;
         const Vec6T<S> v_joint = axis * qd(i);
         v.col(i) = X * of_parent<S>(v, parent) + v_joint;
@@ -126,7 +127,7 @@ VectorT<S> inverse_dynamics(const Model& model, const VectorT<S>& q, const Vecto
     }
     VectorT<S> tau = armature_metric(model).cast<S>() * qdd;
     for (int i = n - 1; i >= 0; --i) {
-        const auto& [X, axis, I] = tree[static_cast<std::size_t>(i)];
+        const auto& [X, axis, I] = entry(tree, i);
         const int parent = model.body(i).parent;
         tau(i) += (axis.transpose() * f.col(i)).value();
         if (parent >= 0) f.col(parent) += X.transpose() * f.col(i);
@@ -174,7 +175,7 @@ struct ArticulatedBody {
     /// Velocities, and the bodies alone.
     void first_pass(const VectorT<S>& qd) {
         for (int i = 0; i < model.size(); ++i) {
-            const auto& [X, axis, I] = tree[static_cast<std::size_t>(i)];
+            const auto& [X, axis, I] = entry(tree, i);
             const Vec6T<S> v_joint = axis * qd(i);
             v.col(i) = X * of_parent<S>(v, model.body(i).parent) + v_joint;
             c.col(i) = cross_motion<S>(v.col(i)) * v_joint;
@@ -188,17 +189,17 @@ struct ArticulatedBody {
     void second_pass(const std::vector<bool>& driven, const VectorT<S>& Q, const VectorT<S>& qdd) {
         const Vector armature = armature_metric(model).diagonal();
         for (int i = model.size() - 1; i >= 0; --i) {
-            const auto& [X, axis, I] = tree[static_cast<std::size_t>(i)];
-            Mat6T<S> Ia = IA[static_cast<std::size_t>(i)];
+            const auto& [X, axis, I] = entry(tree, i);
+            Mat6T<S> Ia = entry(IA, i);
             U.col(i) = Ia * axis;
             D(i) = (axis.transpose() * U.col(i)).value() + armature(i);
             u(i) = Q(i) - (axis.transpose() * pA.col(i)).value();
-            const bool held = driven[static_cast<std::size_t>(i)];
+            const bool held = entry(driven, i);
             if (!held) Ia -= U.col(i) * U.col(i).transpose() / D(i);
             const Vec6T<S> pa = pA.col(i) + Ia * c.col(i) + U.col(i) * (held ? qdd(i) : S(u(i) / D(i)));
             const int parent = model.body(i).parent;
             if (parent < 0) continue;
-            IA[static_cast<std::size_t>(parent)] += X.transpose() * Ia * X;
+            entry(IA, parent) += X.transpose() * Ia * X;
             pA.col(parent) += X.transpose() * pa;
         }
     }
@@ -207,10 +208,10 @@ struct ArticulatedBody {
     Motion<S> third_pass(const std::vector<bool>& driven, VectorT<S> qdd) {
         VectorT<S> actuator = VectorT<S>::Zero(model.size());
         for (int i = 0; i < model.size(); ++i) {
-            const auto& [X, axis, I] = tree[static_cast<std::size_t>(i)];
+            const auto& [X, axis, I] = entry(tree, i);
             a.col(i) = X * of_parent<S>(a, model.body(i).parent) + c.col(i);
             const S load = u(i) - (U.col(i).transpose() * a.col(i)).value();
-            if (driven[static_cast<std::size_t>(i)])
+            if (entry(driven, i))
                 actuator(i) = D(i) * qdd(i) - load;
             else
                 qdd(i) = load / D(i);
@@ -235,14 +236,14 @@ Motion<S> forward_dynamics(const Model& model, const std::vector<bool>& driven, 
     return algorithm.third_pass(driven, qdd);
 }
 
-/// The same with any armatures: g_ff qdd_f = Q_f - tau_f, where tau are the forces at qdd_f = 0, by dense elimination.
+/// Likewise with any armatures: g_ff qdd_f = Q_f - tau_f, where tau are the forces at qdd_f = 0, by dense elimination.
 template <class S>
 Motion<S> forward_dynamics_by_metric(const Model& model, const std::vector<bool>& driven, const VectorT<S>& q,
                                      const VectorT<S>& qd, const VectorT<S>& Q, VectorT<S> qdd) {
     const int n = model.size();
     std::vector<int> free;
     for (int i = 0; i < n; ++i)
-        if (!driven[static_cast<std::size_t>(i)]) free.push_back(i);
+        if (!entry(driven, i)) free.push_back(i);
     for (const int i : free) qdd(i) = S(0);
     if (!free.empty()) {
         const VectorT<S> load = (Q - inverse_dynamics<S>(model, q, qd, qdd))(free);

@@ -1,4 +1,5 @@
 // Tops on three revolute joints with massless bodies between them, against closed forms.
+#include "mbs/base/entry.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/torque_free_top.hpp"
 #include "tests/support/catch.hpp"
@@ -17,8 +18,11 @@ Tree on_three_axes(const Mat3& start, const std::array<int, 3>& axes, const Rigi
     Tree tree;
     FrameId at = tree.add_frame(Tree::base(), Placement::rotation(start), "start");
     for (int i = 0; i < 3; ++i) {
-        const std::size_t k = static_cast<std::size_t>(i);
-        Joint joint{.name = i == 2 ? "body" : i == 1 ? "middle" : "outer", .inboard = at, .axis = Vec3::Unit(axes[k])};
+        Joint joint{.name = i == 2   ? "body"
+                            : i == 1 ? "middle"
+                                     : "outer",
+                    .inboard = at,
+                    .axis = Vec3::Unit(entry(axes, i))};
         if (i == 2) joint.inertia = body;
         at = add_joint(tree, joint).axes;
     }
@@ -66,7 +70,7 @@ TEST_CASE("free asymmetric top: angular velocity by Jacobi's functions on both s
         const std::array<int, 3> axes = about_3 ? std::array{0, 1, 2} : std::array{1, 2, 0};
         const System system(on_three_axes(Mat3::Identity(), axes, centred(moments)), {});
         Vector qd = Vector::Zero(3);
-        for (int i = 0; i < 3; ++i) qd(i) = Vec3(omega1, 0, omega3)(axes[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < 3; ++i) qd(i) = Vec3(omega1, 0, omega3)(entry(axes, i));
         Simulation motion(system, Vector::Zero(3), qd);
         const FrameId body = system.model.frame("body axes");
         for (int i = 0; i < 5; ++i) {

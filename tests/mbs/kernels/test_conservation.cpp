@@ -1,4 +1,5 @@
 // Conservation laws and symmetries of space and time: energy, momentum, moving bases, gravity as acceleration.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
@@ -75,7 +76,7 @@ TEST_CASE("energy: kinetic energy grows by the power that all force elements rep
     }
 }
 
-TEST_CASE("energy: what dampers dissipate is missing, integral of qd D qd", "[property]") {
+TEST_CASE("energy: dampers dissipate the integral of qd D qd", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
         Random random(seed);
@@ -148,7 +149,7 @@ TEST_CASE("momentum: a floating tree with springs and dampers inside keeps linea
     }
 }
 
-TEST_CASE("momentum: a floating tree falls like a stone, its angular momentum about its centre is kept", "[property]") {
+TEST_CASE("momentum: a floating tree falls freely, its angular momentum about its centre is kept", "[property]") {
     const Vec3 gravity(0.3, -0.2, -9.81);
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
@@ -183,7 +184,7 @@ struct OnMovingBase {
         for (int k = 0; k < 8; ++k) {
             const double stiffness = uniform(random, 1, 5);
             at_rest.add_spring(text("spring ", k), BodyId{k}, stiffness, 0.3);
-            on_base.add_spring(text("spring ", k), bodies[static_cast<std::size_t>(k)], stiffness, 0.3);
+            on_base.add_spring(text("spring ", k), entry(bodies, k), stiffness, 0.3);
         }
         q = random_state(random, 8), qd = random_state(random, 8);
     }
@@ -192,7 +193,7 @@ struct OnMovingBase {
         const System system(source, at_rest);
         return Simulation(system, q, qd).response().qdd;
     }
-    // The same on the moving base, in the order of the tree at rest; `reaction` is what the base drives must exert.
+    // Likewise on the moving base, in the order of the tree at rest; `reaction` is what the base drives must exert.
     Vector qdd_on_base(const Vec3& position, const Vec3& velocity, const Vec3& acceleration, Vec3* reaction = nullptr) {
         const System system(moving, on_base);
         const Model model(source);
@@ -200,9 +201,7 @@ struct OnMovingBase {
         Vector q_all(n), qd_all(n);
         for (int axis = 0; axis < 3; ++axis) q_all(axis) = position(axis), qd_all(axis) = velocity(axis);
         std::vector<int> to(8);
-        for (int k = 0; k < 8; ++k)
-            to[static_cast<std::size_t>(model.index(BodyId{k}))] =
-                system.model.index(bodies[static_cast<std::size_t>(k)]);
+        for (int k = 0; k < 8; ++k) entry(to, model.index(BodyId{k})) = system.model.index(entry(bodies, k));
         q_all(to) = q, qd_all(to) = qd;
         Simulation motion(system, q_all, qd_all, [&](double, int axis) { return acceleration(axis); });
         const Simulation::Response response = motion.response();
@@ -239,10 +238,9 @@ TEST_CASE("galilei: the motion of a tree on a steadily moving base is the motion
         const Vec3 velocity(7, -5, 3);
         qd << velocity, 0.3 * s.qd;
         std::vector<int> to(11);
-        for (int k = 0; k < 3; ++k) to[static_cast<std::size_t>(k)] = k;
+        for (int k = 0; k < 3; ++k) entry(to, k) = k;
         for (int k = 0; k < 8; ++k)
-            to[static_cast<std::size_t>(3 + at_rest.model.index(BodyId{k}))] =
-                on_base.model.index(s.bodies[static_cast<std::size_t>(k)]);
+            entry(to, 3 + at_rest.model.index(BodyId{k})) = on_base.model.index(entry(s.bodies, k));
         Vector q_all(11), qd_all(11);
         q_all(to) = q, qd_all(to) = qd;
         Simulation b(on_base, q_all, qd_all);
@@ -304,7 +302,7 @@ TEST_CASE("equivalence: Newton-Euler on a base accelerated by -g gives minus the
     }
 }
 
-TEST_CASE("energy: drives of driven coordinates feed what the tree gains", "[property]") {
+TEST_CASE("energy: drives of driven coordinates supply what the tree gains", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
         Random random(seed);

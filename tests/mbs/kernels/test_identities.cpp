@@ -1,5 +1,6 @@
 // Identities that hold on every tree, on hundreds of random branched trees with prismatic joints and massless bodies.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "mbs/kernels/dynamics.hpp"
@@ -70,7 +71,7 @@ TEST_CASE("christoffel: the packed table, eq. (9) summed over bodies and the com
         const Kinematics& kin = s.kin;
         christoffel_first_kind(kin, gamma);
         const std::vector<Matrix> dg = metric_derivatives(s.model, s.q);
-        const auto d = [&](int c, int a, int b) { return dg[static_cast<std::size_t>(c)](a, b); };
+        const auto d = [&](int c, int a, int b) { return entry(dg, c)(a, b); };
         double scale = 1, from_metric = 0, from_sum = 0;
         for (int a = 0; a < s.n; ++a)
             for (int b = 0; b < s.n; ++b)
@@ -102,7 +103,7 @@ TEST_CASE("christoffel: contraction and Coriolis matrix equal the O(n) recursion
         REQUIRE(scaled(C * s.qd - recursion, recursion) < 1e-12);
         Matrix gdot = Matrix::Zero(s.n, s.n);
         const std::vector<Matrix> dg = metric_derivatives(s.model, s.q);
-        for (int c = 0; c < s.n; ++c) gdot += dg[static_cast<std::size_t>(c)] * s.qd(c);
+        for (int c = 0; c < s.n; ++c) gdot += entry(dg, c) * s.qd(c);
         REQUIRE(scaled(gdot - C - C.transpose(), gdot) < 1e-12);
     }
 }
@@ -132,7 +133,7 @@ TEST_CASE("forward dynamics: inverse of the inverse dynamics, with armatures and
         inverse_dynamics<double>(kin, s.qd, s.qdd, tau);
         Q = tau;
         for (int k = 0; k < s.n; ++k) {
-            if (driven[static_cast<std::size_t>(k)])
+            if (entry(driven, k))
                 Q(k) = uniform(s.random, -1, 1);
             else
                 qdd(k) = 99;  // must be overwritten

@@ -129,7 +129,7 @@ TEST_CASE("metric factor: a pivot that is not positive is reported with the name
     MetricFactor factor(model);
     Matrix g = Matrix::Identity(3, 3);
     CHECK(factor.factorise(g).ok());
-    CHECK(factor.factorise(g).message() == "positive definite");
+    CHECK(factor.factorise(g).message().empty());
 
     // Elimination starts at the tip, so the pivot of "nacelle" is 1 - 2 * 2 / 2.
     g << 3, 0, 0, 0, 1, 2, 0, 2, 2;

@@ -1,4 +1,5 @@
 // Six Denavit-Hartenberg parameters per joint: poses to parameters and back, and trees described by them.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/dynamics.hpp"
@@ -35,7 +36,7 @@ TEST_CASE("dh: six parameters and back give the same pose, parallel and antipara
     Random random(1);
     std::array<double, 5> worst{};
     for (int i = 0; i < 2000; ++i) {
-        const std::size_t kind = static_cast<std::size_t>(i % 5);
+        const int kind = i % 5;
         Placement pose = random_placement(random);
         const Mat3 turn = rot_z(uniform(random, -pi, pi));
         const Mat3 half_turn = Vec3(1, -1, -1).asDiagonal();
@@ -48,7 +49,7 @@ TEST_CASE("dh: six parameters and back give the same pose, parallel and antipara
         const double sine = std::hypot(pose.R(0, 2), pose.R(1, 2));
         // b and r0 are of the size |p| / sine: so much cancels.
         const double loss = kind == 0 ? 1 + 1 / sine : 1.0;
-        worst[kind] = std::max({worst[kind], max_abs(back.R - pose.R), max_abs(back.p - pose.p) / loss});
+        entry(worst, kind) = std::max({entry(worst, kind), max_abs(back.R - pose.R), max_abs(back.p - pose.p) / loss});
         REQUIRE(dh.alpha >= 0);
         REQUIRE(dh.alpha <= pi);
         if (sine == 0) {
@@ -215,7 +216,7 @@ TEST_CASE("dh: the chain of a beam element by parameters is the same chain by pl
     const Vector zero = Vector::Zero(n);
     const Kinematics straight = kinematics(a, zero, work_a);
     for (int k = 0; k < n; ++k) {
-        const Placement& at = expected[static_cast<std::size_t>(k)];
+        const Placement& at = entry(expected, k);
         const Pose<double> actual = pose(straight, a.frame(a.body(k).name));
         REQUIRE(max_abs(actual.R - at.R) < 4e-15);
         REQUIRE(max_abs(actual.p - at.p) < 2e-14);

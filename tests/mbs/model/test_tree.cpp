@@ -1,4 +1,5 @@
 // Trees and models: welding, frames, order, and what must not change the mechanics.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/dynamics.hpp"
@@ -43,8 +44,7 @@ void require_same(const Mechanics& a, const Mechanics& b, const std::vector<int>
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
             for (int k = 0; k < n; ++k) {
-                const auto at = [&](int x) { return to[static_cast<std::size_t>(x)]; };
-                worst = std::max(worst, std::abs(a.gamma(i, j, k) - b.gamma(at(i), at(j), at(k))));
+                worst = std::max(worst, std::abs(a.gamma(i, j, k) - b.gamma(entry(to, i), entry(to, j), entry(to, k))));
                 scale = std::max(scale, std::abs(a.gamma(i, j, k)));
             }
     REQUIRE(worst < tolerance * scale);
@@ -58,7 +58,7 @@ std::vector<int> identity_map(int n) {
 
 Vector permuted(const Vector& x, const std::vector<int>& to) {
     Vector y(x.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i) y(to[static_cast<std::size_t>(i)]) = x(i);
+    for (Eigen::Index i = 0; i < x.size(); ++i) y(entry(to, i)) = x(i);
     return y;
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("tree: a frame on a frame moves with the body, a frame of the base sta
     Random random(5);
     Tree tree;
     const FrameId ground = tree.add_frame(Tree::base(), random_placement(random), "ground");
-    const Placement ground_at = tree.frames()[static_cast<std::size_t>(ground.index)].in_body;
+    const Placement ground_at = entry(tree.frames(), ground.index).in_body;
     const Placement joint = random_placement(random), first = random_placement(random),
                     second = random_placement(random);
     const BodyId body =
@@ -146,7 +146,7 @@ TEST_CASE("model: bodies are sorted depth first, siblings in the order they were
     for (std::size_t i = 0; i < order.size(); ++i) {
         const int k = static_cast<int>(i);
         CHECK(model.index(order[i]) == k);
-        CHECK(model.body(k).name == tree.bodies()[static_cast<std::size_t>(order[i].index)].spec.name);
+        CHECK(model.body(k).name == entry(tree.bodies(), order[i].index).spec.name);
         CHECK(model.index(model.body(k).name) == k);
         CHECK(model.body(k).parent == parents[i]);
         CHECK(model.body(k).subtree_end == ends[i]);
@@ -163,17 +163,17 @@ TEST_CASE("model: subtree ranges and precedence agree with the parents on random
         for (int b = 0; b < n; ++b) {
             std::vector<bool> on_path(static_cast<std::size_t>(n), false);
             int depth = 0;
-            for (int a = b; a >= 0; a = model.body(a).parent, ++depth) on_path[static_cast<std::size_t>(a)] = true;
+            for (int a = b; a >= 0; a = model.body(a).parent, ++depth) entry(on_path, a) = true;
             REQUIRE(model.body(b).parent < b);
             REQUIRE(model.body(b).depth == depth);
             for (int a = 0; a < n; ++a) {
-                const bool precedes = on_path[static_cast<std::size_t>(a)];
+                const bool precedes = entry(on_path, a);
                 REQUIRE(model.precedes(a, b) == precedes);
                 REQUIRE((b >= a && b < model.body(a).subtree_end) == precedes);
             }
         }
         for (int k = 0; k < n; ++k) {
-            const Tree::Body& source = tree.bodies()[static_cast<std::size_t>(k)];
+            const Tree::Body& source = entry(tree.bodies(), k);
             const int at = model.index(BodyId{k});
             REQUIRE(model.body(at).name == source.spec.name);
             const int parent = model.body(at).parent;
@@ -218,20 +218,18 @@ TEST_CASE("model: the numbering of bodies changes neither g nor Gamma nor tau", 
         while (order.size() < 11) {
             ready.clear();
             for (int k = 0; k < 11; ++k) {
-                const int parent = tree.bodies()[static_cast<std::size_t>(k)].parent;
-                if (!done[static_cast<std::size_t>(k)] && (parent < 0 || done[static_cast<std::size_t>(parent)]))
-                    ready.push_back(k);
+                const int parent = entry(tree.bodies(), k).parent;
+                if (!entry(done, k) && (parent < 0 || entry(done, parent))) ready.push_back(k);
             }
             const std::size_t pick = std::uniform_int_distribution<std::size_t>(0, ready.size() - 1)(random);
             order.push_back(ready[pick]);
-            done[static_cast<std::size_t>(ready[pick])] = true;
+            entry(done, ready[pick]) = true;
         }
         Tree shuffled;
         const std::vector<BodyId> bodies = transplant(shuffled, Tree::base(), tree, order);
         const Model a(tree), b(shuffled);
         std::vector<int> to(11);
-        for (int k = 0; k < 11; ++k)
-            to[static_cast<std::size_t>(a.index(BodyId{k}))] = b.index(bodies[static_cast<std::size_t>(k)]);
+        for (int k = 0; k < 11; ++k) entry(to, a.index(BodyId{k})) = b.index(entry(bodies, k));
         const Vector q = random_state(random, 11), qd = random_state(random, 11), qdd = random_state(random, 11);
         require_same(Mechanics(a, q, qd, qdd), Mechanics(b, permuted(q, to), permuted(qd, to), permuted(qdd, to)), to,
                      1e-13);
@@ -244,7 +242,7 @@ TEST_CASE("model: the form of input changes nothing: placements, parameters, joi
         const Tree tree = random_tree(random);
         Tree by_parameters, by_frames;
         for (int k = 0; k < static_cast<int>(tree.bodies().size()); ++k) {
-            const Tree::Body& body = tree.bodies()[static_cast<std::size_t>(k)];
+            const Tree::Body& body = entry(tree.bodies(), k);
             BodySpec spec = body.spec;
             spec.inboard = body.parent < 0 ? Tree::base() : by_parameters.frame_of(BodyId{body.parent});
             by_parameters.add_body(spec, dh_parameters(body.in_parent));
@@ -273,14 +271,14 @@ TEST_CASE("model: the zero of a coordinate and the origin on the axis of a revol
         Tree moved;
         std::vector<Placement> old_in_new;  // where the old body frame lies in the new one
         for (int k = 0; k < n; ++k) {
-            const Tree::Body& body = tree.bodies()[static_cast<std::size_t>(k)];
+            const Tree::Body& body = entry(tree.bodies(), k);
             BodySpec spec = body.spec;
             const bool revolute = spec.joint == JointKind::revolute;
             const Placement slide = Placement::translation(shift(k) * Vec3::UnitZ());
             const Placement advance =
                 revolute ? Placement::rotation(rot_z(offset(k))) : Placement::translation(offset(k) * Vec3::UnitZ());
             // new joint frame = old one, turned or slid to the offset, its origin shifted along the axis
-            const Placement parent = body.parent < 0 ? Placement{} : old_in_new[static_cast<std::size_t>(body.parent)];
+            const Placement parent = body.parent < 0 ? Placement{} : entry(old_in_new, body.parent);
             spec.inboard = body.parent < 0 ? Tree::base() : moved.frame_of(BodyId{body.parent});
             spec.placement = parent * body.in_parent * advance * slide;
             old_in_new.push_back(slide.inverse());

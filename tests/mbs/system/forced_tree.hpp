@@ -1,6 +1,7 @@
 // A random tree under forces of one's choice, at a random state.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/system/system.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
@@ -34,7 +35,7 @@ public:
         int deepest = 0, most = 0;
         for (int k = 0; k < n; ++k) {
             int depth = 0;
-            for (int a = k; a >= 0; a = tree.bodies()[static_cast<std::size_t>(a)].parent) ++depth;
+            for (int a = k; a >= 0; a = entry(tree.bodies(), a).parent) ++depth;
             if (depth > most) most = depth, deepest = k;
         }
         return tree.add_frame(frame(deepest), random_placement(random), "tip");

@@ -1,4 +1,5 @@
 // Every force element: generalised force against its energy, its power, virtual work, and Lagrange's eq. (7).
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/lagrange.hpp"
 #include "tests/mbs/system/forced_tree.hpp"
@@ -160,8 +161,7 @@ TEST_CASE("forces: eq. (7) with the weight of every body is the gravity element"
         const Kinematics kin = s.kin();
         for (int k = 0; k < s.n; ++k) {
             const Mat3 E = kin.rotation(k);
-            loads[static_cast<std::size_t>(k)].force =
-                s.model().body(k).inertia.mass * (E.transpose() * s.forces().gravity());
+            entry(loads, k).force = s.model().body(k).inertia.mass * (E.transpose() * s.forces().gravity());
         }
         Vector sum(s.n);
         for (int a = 0; a < s.n; ++a) sum(a) = lagrange::generalised_force(kin, loads, a);
@@ -187,13 +187,13 @@ TEST_CASE("forces: eq. (7) with wrenches carried over to the centres of mass is 
         const Vector Q = s.Q();
         const Kinematics kin = s.kin();
         for (const FrameLoad& load : placed) {
-            const std::size_t k = static_cast<std::size_t>(s.model().frame(load.frame).body);
+            const int k = s.model().frame(load.frame).body;
             const Pose<double> at = pose(kin, load.frame);
             const Mat3 to_base = load.axes == WrenchAxes::frame ? at.R : Mat3(Mat3::Identity());
             const Vec3 force = to_base * load.wrench.force, moment = to_base * load.wrench.moment;
-            const Mat3 to_body = kin.rotation(static_cast<int>(k)).transpose();
-            loads[k].force += to_body * force;
-            loads[k].moment += to_body * (moment + (at.p - kin.centre_of_mass(static_cast<int>(k))).cross(force));
+            const Mat3 to_body = kin.rotation(k).transpose();
+            entry(loads, k).force += to_body * force;
+            entry(loads, k).moment += to_body * (moment + (at.p - kin.centre_of_mass(k)).cross(force));
         }
         Vector sum(s.n);
         for (int a = 0; a < s.n; ++a) sum(a) = lagrange::generalised_force(kin, loads, a);

@@ -1,6 +1,7 @@
 // Derivatives of the forward dynamics. Oracle: the complex step through the dense equation g_ff qdd_f = Q_f - tau_f,
 // solved by Eigen in complex numbers.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/system/forward_derivatives.hpp"
 #include "tests/mbs/sampled_tree.hpp"
@@ -92,7 +93,7 @@ Columns differentiate(const DenseOracle& oracle, const Case& s, int argument) {
     for (int j = 0; j < s.n; ++j) {
         std::array<ComplexVector, 4> x{s.q.cast<Complex>(), s.qd.cast<Complex>(), s.Q.cast<Complex>(),
                                        s.prescribed.cast<Complex>()};
-        x[static_cast<std::size_t>(argument)](j) += Complex(0, complex_step);
+        entry(x, argument)(j) += Complex(0, complex_step);
         const Accelerations result = oracle(x[0], x[1], x[2], x[3]);
         out.acceleration.col(j) = result.qdd.imag() / complex_step;
         out.actuator.col(j) = result.actuator.imag() / complex_step;

@@ -14,7 +14,7 @@ const std::string ground_link = link_tag("ground", "");
 void refused(const std::string& xml, std::initializer_list<std::string> parts) {
     check_refused([&] { (void)parse_urdf(xml, "arm.urdf"); }, parts);
 }
-// Of one moving link with this in it, in line 3; its joint is in line 4.
+// A robot of one moving link with this in it, in line 3; its joint is in line 4.
 void refused_link(const std::string& inside, std::initializer_list<std::string> parts) {
     refused(robot(ground_link + link_tag("arm", inside) + joint_tag("hinge", "continuous", "ground", "arm")), parts);
 }
@@ -83,7 +83,7 @@ TEST_CASE("urdf bad input: impossible inertias", "[property]") {
     refused(robot(link_tag("ground", inertial("-1", "0.4"))), {"arm.urdf:2: link 'ground': mass"});
 }
 
-TEST_CASE("urdf bad input: values that are no finite numbers", "[property]") {
+TEST_CASE("urdf bad input: values that are not finite numbers", "[property]") {
     for (const std::string bad : {"nan", "inf", "-inf", "1e999", "one", "1,5", "0x10", "1 2", "", "1.0kg", "+"}) {
         CAPTURE(bad);
         refused_link(inertial(bad, "0.4"), {"arm.urdf:3: link 'arm': <mass>: value = \"" + bad, "a finite number"});

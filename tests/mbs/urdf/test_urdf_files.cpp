@@ -52,7 +52,7 @@ TEST_CASE("urdf files: a missing file or a folder is a FileError with path and r
     CHECK(message_of([&] { (void)read_urdf(folder.path); }).find("is a folder, not a file") != std::string::npos);
 }
 
-TEST_CASE("urdf files: a place that cannot be written is a FileError, and nothing is left behind", "[property]") {
+TEST_CASE("urdf files: a path that cannot be written is a FileError, and nothing is left behind", "[property]") {
     const Folder folder;
     const Tree tree = small_tree();
     for (const std::string& path : {folder / "no/such/x.urdf", std::string("/dev/null"), folder.path.string(),

@@ -1,4 +1,5 @@
 // Mass, centre of mass and inertia of URDF links in the bodies of a tree.
+#include "mbs/base/entry.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/mbs/urdf/urdf_texts.hpp"
 
@@ -16,8 +17,8 @@ std::string box_inertial(const std::string& origin) {
 
 // The inertia of the only body in the axes of the link.
 RigidInertia in_link_axes(const Tree& tree, const std::string& name) {
-    const Tree::Frame& frame = tree.frames().at(static_cast<std::size_t>(tree.frame(name).index));
-    return tree.bodies().at(static_cast<std::size_t>(frame.body)).spec.inertia.in(frame.in_body.inverse());
+    const Tree::Frame& frame = entry(tree.frames(), tree.frame(name).index);
+    return entry(tree.bodies(), frame.body).spec.inertia.in(frame.in_body.inverse());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Joints of URDF as coordinates of a tree: forward kinematics against products of elementary motions.
+#include "mbs/base/entry.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/mbs/urdf/urdf_texts.hpp"
 
@@ -25,7 +26,7 @@ TEST_CASE("urdf: rpy are angles about the fixed axes x, y, z in this order", "[a
     const UrdfModel model =
         one_joint("fixed", R"(<origin xyz="0 0 0" rpy="1.5707963267948966 0 1.5707963267948966"/>)");
     const Tree& tree = model.tree;
-    const Mat3& R = tree.frames().at(static_cast<std::size_t>(tree.frame("arm").index)).in_body.R;
+    const Mat3& R = entry(tree.frames(), tree.frame("arm").index).in_body.R;
     CHECK(max_abs(R.col(0) - Vec3::UnitY()) < 1e-15);
     CHECK(max_abs(R.col(1) - Vec3::UnitZ()) < 1e-15);
     CHECK(max_abs(R.col(2) - Vec3::UnitX()) < 1e-15);
@@ -35,7 +36,7 @@ TEST_CASE("urdf: rpy are angles about the fixed axes x, y, z in this order", "[a
         const Vector a = random_state(random, 3, 3);
         const std::string origin = text("<origin rpy=\"", a(0), " ", a(1), " ", a(2), "\"/>");
         const Tree fixed = one_joint("fixed", origin).tree;
-        const Placement& at = fixed.frames().at(static_cast<std::size_t>(fixed.frame("arm").index)).in_body;
+        const Placement& at = entry(fixed.frames(), fixed.frame("arm").index).in_body;
         REQUIRE(max_abs(at.R - rpy(a(0), a(1), a(2)).linear()) < 1e-9);  // text() prints ten digits
         REQUIRE(at.p == Vec3::Zero());
     }

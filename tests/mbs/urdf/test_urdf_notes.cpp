@@ -83,7 +83,7 @@ TEST_CASE("urdf notes: safety controllers, calibration, and data of joints witho
                                                   R"(<axis xyz="0 0 1"/><dynamics damping="1"/>)")))
                            .notes,
                        "its limits, dynamics and mimic are ignored"));
-    // Of a continuous joint.
+    // Data of a continuous joint.
     CHECK(has_note(notes_of("", R"(<limit lower="1" upper="-1" effort="1" velocity="1"/>)"),
                    "a continuous joint has no lower and upper limits; 1 and -1 are left out"));
     CHECK(notes_of("", R"(<limit effort="1" velocity="1"/>)").empty());

@@ -1,4 +1,5 @@
 // Optimal assignment of rows to columns.
+#include "mbs/base/entry.hpp"
 #include "solvers/algebra/assignment.hpp"
 #include "tests/support/catch.hpp"
 
@@ -20,7 +21,7 @@ double best_by_enumeration(const Matrix& score) {
     double best = -std::numeric_limits<double>::infinity();
     do {
         double sum = 0;
-        for (Eigen::Index i = 0; i < wide.rows(); ++i) sum += wide(i, columns[static_cast<std::size_t>(i)]);
+        for (Eigen::Index i = 0; i < wide.rows(); ++i) sum += wide(i, entry(columns, i));
         best = std::max(best, sum);
     } while (std::next_permutation(columns.begin(), columns.end()));
     return best;
@@ -32,12 +33,13 @@ double checked_sum(const Matrix& score, const std::vector<int>& column_of) {
     std::vector<int> uses(static_cast<std::size_t>(score.cols()), 0);
     double sum = 0;
     Eigen::Index assigned = 0;
-    for (std::size_t i = 0; i < column_of.size(); ++i) {
-        REQUIRE(column_of[i] >= -1);
-        REQUIRE(column_of[i] < score.cols());
-        if (column_of[i] < 0) continue;
-        REQUIRE(++uses[static_cast<std::size_t>(column_of[i])] == 1);
-        sum += score(static_cast<Eigen::Index>(i), column_of[i]);
+    for (Eigen::Index i = 0; i < score.rows(); ++i) {
+        const int column = entry(column_of, i);
+        REQUIRE(column >= -1);
+        REQUIRE(column < score.cols());
+        if (column < 0) continue;
+        REQUIRE(++entry(uses, column) == 1);
+        sum += score(i, column);
         ++assigned;
     }
     REQUIRE(assigned == std::min(score.rows(), score.cols()));

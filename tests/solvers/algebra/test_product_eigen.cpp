@@ -1,6 +1,7 @@
 // Eigenvalues and vectors of products: against the multiplied-out matrix where that is accurate, against factors built
 // with known ones where it is not.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/algebra/product_eigen.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
@@ -89,7 +90,7 @@ TEST_CASE("product eigenvalues: right and left vectors go round, and belong toge
             const ProductEigen::Vectors v = eigen.vectors(i);
             Complex mu = 1;
             for (Index k = 0; k < count; ++k) {
-                const Matrix& F = factors[static_cast<std::size_t>(k)];
+                const Matrix& F = entry(factors, k);
                 const Index next = (k + 1) % count;
                 CAPTURE(count, i, k, v.condition);
                 const double size = F.norm() * v.right.col(k).norm();
@@ -121,8 +122,7 @@ TEST_CASE("product eigenvalues: of 1e-90 beside others of 1 to all digits, where
         Vector d = level;
         for (Index i = 0; i < n; ++i) d(i) *= 1 + 0.2 * numbers.next();
         expected += d.array().log().matrix();
-        const auto next = static_cast<std::size_t>((k + 1) % count);
-        factors.emplace_back(bases[next] * d.asDiagonal() * bases[static_cast<std::size_t>(k)].transpose());
+        factors.emplace_back(entry(bases, (k + 1) % count) * d.asDiagonal() * entry(bases, k).transpose());
     }
     std::sort(expected.data(), expected.data() + n, std::greater<>());
     ProductEigen eigen;
@@ -137,8 +137,8 @@ TEST_CASE("product eigenvalues: of 1e-90 beside others of 1 to all digits, where
     for (Index i = 0; i < n; ++i) {
         // Rounding beside the norm of every factor, over its own entry.
         const double tolerance = 1e-14 * count / level(i);
-        CAPTURE(i, own[static_cast<std::size_t>(i)], expected(i));
-        CHECK(std::abs(own[static_cast<std::size_t>(i)] - expected(i)) < tolerance);
+        CAPTURE(i, entry(own, i), expected(i));
+        CHECK(std::abs(entry(own, i) - expected(i)) < tolerance);
     }
     const std::vector<Complex> lost = values_of(product_of(factors));
     CHECK(std::log(std::abs(lost.back())) > expected(n - 1) + 50);
@@ -159,8 +159,7 @@ TEST_CASE("product eigenvalues: complex pairs are found where their product is f
             D.block<2, 2>(2 * i, 2 * i) << level * std::cos(angle), -level * std::sin(angle), level * std::sin(angle),
                 level * std::cos(angle);
         }
-        const auto next = static_cast<std::size_t>((k + 1) % count);
-        factors.emplace_back(bases[next] * D * bases[static_cast<std::size_t>(k)].transpose());
+        factors.emplace_back(entry(bases, (k + 1) % count) * D * entry(bases, k).transpose());
     }
     ProductEigen eigen;
     REQUIRE(eigen.compute(factors));
@@ -176,7 +175,7 @@ TEST_CASE("product eigenvalues: complex pairs are found where their product is f
         }
 }
 
-TEST_CASE("product eigenvalues: singular factors leave zeros that are told from the rest", "[property]") {
+TEST_CASE("product eigenvalues: singular factors leave zeros that are distinguished from the rest", "[property]") {
     Numbers numbers(4);
     for (const Index rank : {1, 4, 9}) {
         const Index n = 10;
@@ -222,7 +221,7 @@ TEST_CASE("product eigenvalues: a defective pair has a large condition number, t
     CHECK(defective == 2);
 }
 
-TEST_CASE("product eigenvalues: what is no product is refused", "[property]") {
+TEST_CASE("product eigenvalues: bad factors are refused", "[property]") {
     ProductEigen eigen;
     check_refused([&] { (void)eigen.compute({}); }, {"number of factors", "0"});
     check_refused(

@@ -1,4 +1,5 @@
 // Campbell diagrams of a rotor on a rigid hub, whose frequencies are known in closed form; input that is refused.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -44,7 +45,7 @@ TEST_CASE("rpm_range: counts from first to last in rad/s and keeps the last", "[
     CHECK(rpm_range(5, 6, 100).size() == 1);
 }
 
-TEST_CASE("rpm_range: what is no range is refused with the range as given", "[property]") {
+TEST_CASE("rpm_range: a bad range is refused with the range as given", "[property]") {
     check_refused([] { (void)rpm_range(0, 10, 0); }, {"0:10:0", "STEP > 0"});
     check_refused([] { (void)rpm_range(0, 10, -1); }, {"0:10:-1", "STEP > 0"});
     check_refused([] { (void)rpm_range(10, 0, 1); }, {"10:0:1", "FIRST <= LAST"});
@@ -104,7 +105,7 @@ TEST_CASE("campbell: crossings lie where a branch meets a multiple of the rotor 
             expected.emplace_back(name, n);
             CAPTURE(name, n);
             const auto found = std::find_if(d.crossings.begin(), d.crossings.end(), [&](const Crossing& c) {
-                return c.multiple == n && d.branches[static_cast<std::size_t>(c.branch)].name == name;
+                return c.multiple == n && entry(d.branches, c.branch).name == name;
             });
             REQUIRE(found != d.crossings.end());
             CHECK(found->rotor_speed == Approx(Omega).epsilon(1e-5));
@@ -206,7 +207,7 @@ TEST_CASE("campbell: the tip of blade 1 moves as the mode's shape says", "[analy
     CHECK((d.frame_positions[1] - Vec3(e + l, 0, 0)).norm() < 1e-12);
     const Branch& branch = d.branch("blade flap (collective)");
     const std::vector<FrameMotion> motion = d.motion(branch, 0);
-    const ComplexVector& shape = d.points[0].modes[static_cast<std::size_t>(branch.mode[0])].mode.shape;
+    const ComplexVector& shape = entry(d.points[0].modes, branch.mode[0]).mode.shape;
     REQUIRE(motion.size() == 6);
     // Flap by angle beta lifts the tip by l beta; at azimuth 0 beta = collective / sqrt 3.
     CHECK(std::abs(motion[1].motion(5) - l * shape(1) / std::sqrt(3.0)) < 1e-12 * std::abs(shape(1)));

@@ -17,7 +17,7 @@ void require_no_allocation_by_stage(const System& system, const RotorMap& map, c
     SteadySolver steady_solver(system, map.spin);
     Lineariser lineariser(system);
     const ColemanTransform coleman(map, unknowns);
-    ModeSolver mode_solver(static_cast<Eigen::Index>(unknowns.size()));
+    ModeSolver mode_solver(std::ssize(unknowns));
     std::optional<EnergyShares> energy_shares;
     SteadyOptions options;
     SteadyState steady;

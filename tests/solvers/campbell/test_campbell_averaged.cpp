@@ -57,7 +57,7 @@ TEST_CASE("campbell averaged: gravity on equal blades is no difference between t
     CHECK(diagram_by(rotor, {3.0}, CampbellMethod::averaged, RotorSpin::prescribed).warning.empty());
 }
 
-TEST_CASE("campbell: a mode that is at home in one blade has a pattern beyond doubt in none", "[property]") {
+TEST_CASE("campbell: a mode localised in one blade is doubtful whatever its pattern", "[property]") {
     const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000, 3500}});
     const Campbell d = diagram_by(rotor, {3.0}, CampbellMethod::floquet, RotorSpin::prescribed);
     REQUIRE(d.branches.size() == 3);

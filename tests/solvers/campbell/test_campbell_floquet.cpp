@@ -1,5 +1,6 @@
 // Campbell diagrams by Floquet's theory on small rotors: against Coleman's, closed forms, floquet() in blade
 // coordinates, the multi-blade linear model; input that is refused.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/control/multi_blade_model.hpp"
@@ -64,7 +65,7 @@ TEST_CASE("campbell by Floquet: an isotropic rotor without gravity has the diagr
                     CHECK(std::abs(a.mode.eigenvalue - b.mode.eigenvalue) < 1e-9);
                     if (!single) continue;
                     CHECK((a.row_shares - b.row_shares).cwiseAbs().maxCoeff() < 1e-7);
-                    // The same shape but for a phase.
+                    // Equal shapes but for a phase.
                     const Complex product = a.mode.shape.dot(b.mode.shape);
                     CHECK((a.mode.shape * (product / std::abs(product)) - b.mode.shape).norm() <
                           1e-7 * a.mode.shape.norm());
@@ -202,9 +203,9 @@ TEST_CASE("campbell by Floquet: the tips move as the sum of all harmonics says",
             return std::find(d.rows.begin(), d.rows.end(), name) - d.rows.begin();
         };
         const auto frame = std::find(d.frames.begin(), d.frames.end(), "lag 1") - d.frames.begin();
-        REQUIRE(frame < static_cast<std::ptrdiff_t>(d.frames.size()));
+        REQUIRE(frame < std::ssize(d.frames));
         const Complex lag = (shape(row("lag 1 (collective)")) + shape(row("lag 1 (differential)"))) / std::sqrt(2.0);
-        const Complex turned = motion[static_cast<std::size_t>(frame)].motion(2);
+        const Complex turned = entry(motion, frame).motion(2);
         CAPTURE(branch.name, l);
         CHECK(std::abs(turned - (lag + shape(row("spin")))) < 1e-9 * shape.norm());
     }
@@ -223,7 +224,7 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     options.floquet.per_period = -1;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"per revolution", "-1", ">= 0"});
     options = by(CampbellMethod::floquet);
-    options.floquet.most_steps = -2;
+    options.floquet.max_steps = -2;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"limit of steps", "-2"});
     options = by(CampbellMethod::floquet);
     options.floquet.harmonics = -1;
@@ -236,9 +237,9 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"mean is held = 99"});
 }
 
-TEST_CASE("campbell by Floquet: few steps are said to be too few", "[property]") {
+TEST_CASE("campbell by Floquet: too few steps give a warning", "[property]") {
     CampbellOptions options = by(CampbellMethod::floquet);
-    options.floquet.most_steps = 1;
+    options.floquet.max_steps = 1;
     options.floquet.tolerance = 1e-14;
     const Campbell d = diagram_of(whirling(2), {0.5}, options);
     CHECK_THAT(d.warning, Catch::Contains("rpm") && Catch::Contains("less accurate than wanted"));

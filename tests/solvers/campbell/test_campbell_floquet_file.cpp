@@ -52,9 +52,9 @@ SmallRotor whirling_pair() {
 // Sums and differences of the blades over sqrt 2 in the places of blades 1 and 2; of the unknowns without the spin.
 Matrix sums_and_differences(const SmallRotor& rotor) {
     const std::vector<int> unknowns = rotor.unknowns();
-    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const auto row = [&](int coordinate) {
-        return static_cast<Eigen::Index>(std::find(unknowns.begin(), unknowns.end(), coordinate) - unknowns.begin());
+        return std::find(unknowns.begin(), unknowns.end(), coordinate) - unknowns.begin();
     };
     Matrix T = Matrix::Identity(n, n);
     for (std::size_t i = 0; i < rotor.map.blades[0].size(); ++i) {

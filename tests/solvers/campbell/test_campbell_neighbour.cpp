@@ -1,4 +1,5 @@
 // Names of modes that are continued from the Campbell diagram of a neighbouring variant; what is marked doubtful.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -67,7 +68,7 @@ TEST_CASE("campbell neighbour: names are those of the same modes there, whatever
         for (const Branch& branch : now.branches) {
             CAPTURE(now.method, branch.name);
             CHECK(before.branch(branch.name).family == branch.family);
-            CHECK(now.components[static_cast<std::size_t>(branch.component)].family == branch.family);
+            CHECK(entry(now.components, branch.component).family == branch.family);
             CHECK(never_doubtful(branch));
         }
         const Branch& flap = now.branch("blade flap (collective)");
@@ -121,8 +122,8 @@ TEST_CASE("campbell neighbour: two candidates for a name are doubtful both", "[a
     Campbell before = variant_diagram(rotor);
     const Branch &flap = before.branch("blade flap (collective)"), &lag = before.branch("blade lag (collective)");
     for (std::size_t i = 0; i < before.points.size(); ++i) {
-        Mode& a = before.points[i].modes[static_cast<std::size_t>(flap.mode[i])].mode;
-        Mode& b = before.points[i].modes[static_cast<std::size_t>(lag.mode[i])].mode;
+        Mode& a = entry(before.points[i].modes, flap.mode[i]).mode;
+        Mode& b = entry(before.points[i].modes, lag.mode[i]).mode;
         const ComplexVector x = a.shape, y = b.shape;
         a.shape = (x + y) / std::sqrt(2.0);
         b.shape = (x - y) / std::sqrt(2.0);

@@ -1,5 +1,6 @@
 // Modes over another parameter than the rotor speed: branches against closed forms, machines that change the order of
 // their component modes, input that is refused, what is kept of a sweep that was ended.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double mass = 3, arm = 4, offset = 0.5, inertia = mass * arm * arm;
 
-// The same rotor for several values of a parameter.
+// One rotor for several values of a parameter.
 struct Machines {
     std::vector<SmallRotor> rotors;
     std::vector<double> parameters;
@@ -136,7 +137,7 @@ TEST_CASE("campbell over a parameter: shares belong to the components of the fir
         for (const std::string family : {"blade flap", "blade lag"})
             for (const char* pattern : {" (symmetric)", " (antisymmetric)"}) {
                 const Branch& branch = d.branch(family + pattern);
-                CHECK(d.components[static_cast<std::size_t>(branch.component)].family == family);
+                CHECK(entry(d.components, branch.component).family == family);
                 for (std::size_t i = 0; i < d.points.size(); ++i) {
                     CAPTURE(rising, branch.name, d.parameters[i]);
                     CHECK(share_of(d, *d.mode(branch, i), family) == Approx(1).epsilon(1e-9));

@@ -1,4 +1,4 @@
-// Likeness of motions with periodic shapes, tracks by it.
+// MAC of motions with periodic shapes, and tracking by it.
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/floquet_mac.hpp"
 #include "solvers/campbell/tracking.hpp"
@@ -41,7 +41,7 @@ CampbellMode motion(Random& random, Complex exponent, FloquetKind kind = Floquet
     return mode;
 }
 
-// The same motion with another of its harmonics as the principal one.
+// A motion with another of its harmonics as the principal one.
 CampbellMode seen_from(CampbellMode mode, int harmonic) {
     mode.floquet->exponent += Complex(0, 2 * pi / period * harmonic);
     mode.floquet->first_harmonic -= harmonic;
@@ -80,8 +80,7 @@ TEST_CASE("periodic MAC: one for a motion and itself in any phase and size, with
     CHECK(mac(system, one, other) == Approx(mac(system, other, one)).epsilon(1e-12));
 }
 
-TEST_CASE("periodic likeness: where two motions exchange a harmonic the branches keep their principal ones",
-          "[property]") {
+TEST_CASE("periodic MAC: where two motions exchange a harmonic the branches keep their principal ones", "[property]") {
     // Unit matrices: a and b hold their energy in one harmonic each, at frequencies that differ by one period.
     SecondOrderSystem system;
     system.M = system.K_elastic = Matrix::Identity(n, n);
@@ -131,7 +130,7 @@ TEST_CASE("periodic MAC: rigid motions are compared by shape, and only with moti
     CHECK(mac(system, rigid, elastic) > 0);
 }
 
-TEST_CASE("tracking: with a likeness of one's own the tracks follow it", "[property]") {
+TEST_CASE("tracking: tracks follow a score supplied by the caller", "[property]") {
     CampbellPoint point;
     for (const double frequency : {1.0, 2.0}) {
         CampbellMode& mode = point.modes.emplace_back();

@@ -1,4 +1,5 @@
 // Linear models in files and back: HDF5, MATLAB, OpenFAST's text format.
+#include "mbs/base/entry.hpp"
 #include "solvers/control/lin_file.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
@@ -35,8 +36,8 @@ struct Example {
             LinearInput::moment("nacelle moment", rotor.map.hub, Vec3::UnitX(), WrenchAxes::base)};
         ChannelGroup group;
         for (int b = 1; b <= 3; ++b) {
-            inputs.push_back(LinearInput::generalised_force(
-                text("blade ", b, " flap moment"), {{rotor.map.blades[static_cast<std::size_t>(b - 1)][0], 1.0}}));
+            inputs.push_back(LinearInput::generalised_force(text("blade ", b, " flap moment"),
+                                                            {{entry(rotor.map.blades, b - 1)[0], 1.0}}));
             group.channels.push_back(
                 {text("blade ", b, " acceleration"), "rad s-2", "flap", {}, {}, text("FlapAcc", b)});
         }
@@ -137,11 +138,11 @@ TEST_CASE("linear model files: OpenFAST's text format gives back what was writte
     const auto& states = file.tables.at("continuous states");
     const auto& derivatives = file.tables.at("continuous state derivatives");
     const std::size_t half = states.size() / 2;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        CHECK(states[i].value == sample.x(static_cast<Eigen::Index>(i)));
-        CHECK(derivatives[i].value == sample.xdot(static_cast<Eigen::Index>(i)));
-        CHECK(states[i].order == 2);
-        CHECK(states[i].rotating == (e.model.states[i].blade > 0 ? "T" : "F"));
+    for (Eigen::Index i = 0; i < std::ssize(states); ++i) {
+        CHECK(entry(states, i).value == sample.x(i));
+        CHECK(entry(derivatives, i).value == sample.xdot(i));
+        CHECK(entry(states, i).order == 2);
+        CHECK(entry(states, i).rotating == (entry(e.model.states, i).blade > 0 ? "T" : "F"));
     }
     CHECK(states[0].description == "Cardan tilt, rad");
     CHECK(states[half].description == "Cardan First time derivative of tilt, rad/s");
@@ -206,11 +207,11 @@ TEST_CASE("linear model files: the text files give MBC3 the modes of the multi-b
         const LinFile file(path.string());
         const double omega = file.head.at("Rotor Speed"), psi = file.head.at("Azimuth");
         const auto& states = file.tables.at("continuous states");
-        const auto half = static_cast<Eigen::Index>(states.size() / 2);
+        const auto half = std::ssize(states) / 2;
         // Rows in the rotating frame that differ in the number only.
         std::map<std::string, std::vector<Eigen::Index>> sets;
         for (Eigen::Index i = 0; i < half; ++i) {
-            const auto& row = states[static_cast<std::size_t>(i)];
+            const auto& row = entry(states, i);
             if (row.rotating != "T") continue;
             std::string key = row.description;
             key.erase(key.find_first_of("123"), 1);
@@ -224,7 +225,7 @@ TEST_CASE("linear model files: the text files give MBC3 the modes of the multi-b
                 const double at = psi + 2 * pi * static_cast<double>(k) / 3, c = std::cos(at), s = std::sin(at);
                 const Eigen::Index row = set.second[k];
                 const auto put = [&](Matrix& M, const Vec3& values) {
-                    for (Eigen::Index j = 0; j < 3; ++j) M(row, set.second[static_cast<std::size_t>(j)]) = values(j);
+                    for (Eigen::Index j = 0; j < 3; ++j) M(row, entry(set.second, j)) = values(j);
                 };
                 put(T, {1, c, s});
                 put(by_psi, {0, -s, c});
@@ -277,7 +278,7 @@ TEST_CASE("linear model files: a model without inputs and outputs can be written
     CHECK(lin.lines[4] == bare.machine);
 }
 
-TEST_CASE("linear model files: what cannot be written is said and leaves nothing", "[property]") {
+TEST_CASE("linear model files: what cannot be written is an error and leaves no file", "[property]") {
     const Example& e = example();
     const Folder folder;
     CHECK_THROWS_AS(write_lin(e.model, folder / "no/m"), FileError);

@@ -160,7 +160,7 @@ TEST_CASE("balanced truncation: Hankel values of one state by hand, static gain 
     one.C = Matrix::Constant(1, 1, 5);
     one.D = Matrix::Zero(1, 1);
     CHECK(balanced_truncation(one).hankel(0) == Approx(3.0 * 5 / (2 * 2)).epsilon(1e-13));
-    // Of 1 in a unit that is ten times as large; the model itself comes back in its own units.
+    // Scaled to an input ten times as large; the model itself comes back in its own units.
     BalancedOptions scaled;
     scaled.input_size = Vector::Constant(1, 10);
     const BalancedModel same = balanced_truncation(one, scaled);
@@ -181,7 +181,7 @@ TEST_CASE("balanced truncation: Hankel values of one state by hand, static gain 
 }
 
 TEST_CASE("modal truncation: a limit at a natural frequency keeps or leaves both poles of the pair", "[property]") {
-    // Of the two computed magnitudes either may be the larger one by rounding.
+    // Either of the two computed magnitudes may be the larger one by rounding.
     for (unsigned seed = 1; seed <= 60; ++seed) {
         const ConstantModel model = flexible(seed, 4, 0, 1, 1, 1);
         const std::vector<Complex> poles = model.poles();

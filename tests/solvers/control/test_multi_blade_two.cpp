@@ -54,7 +54,7 @@ TEST_CASE("multi-blade model: a model and a machine with different numbers of bl
     CHECK_NOTHROW(multi_blade(of_three, three.map));
 }
 
-TEST_CASE("multi-blade model: why two blades are refused: the mean over the azimuth is another machine",
+TEST_CASE("multi-blade model: why two blades are refused: their mean over the azimuth has other eigenvalues",
           "[crosscheck]") {
     // Eigenvalues of the mean of A in sums and differences of the blades lie far from the exponents of the machine;
     // with three blades they are the exponents.

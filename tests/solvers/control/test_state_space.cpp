@@ -1,6 +1,7 @@
 // Linear models with inputs and outputs: systems of one or two coordinates by hand, what follows from the matrices of
 // the linearised equations, Fourier series, bad input.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/periodic/periodic_system.hpp"
@@ -47,11 +48,11 @@ struct SlidingMass {
                           {"rail force", "N", "along the arm on the mass"},
                           {"mass acceleration", "m s-2", "along the arm"},
                           {"arm angle", "rad", "wrapped", {}, {}, "ArmAng"}};
-        group.sample = [arm = arm, body = static_cast<std::size_t>(slider)](const ChannelInput& in, double* values) {
+        group.sample = [arm = arm, body = slider](const ChannelInput& in, double* values) {
             const Vec3 along = in.kinematics.rotation(arm) * Vec3::UnitX();
             values[0] = in.actuator(arm);
-            values[1] = along.dot(in.loads.joint[body].force);
-            values[2] = along.dot(in.loads.motion[body].acceleration);
+            values[1] = along.dot(entry(in.loads.joint, body).force);
+            values[2] = along.dot(entry(in.loads.motion, body).acceleration);
             values[3] = in.q(arm) - 2 * pi * std::floor(in.q(arm) / (2 * pi));
         };
         return {group};

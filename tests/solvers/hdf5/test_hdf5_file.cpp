@@ -252,7 +252,7 @@ TEST_CASE("hdf5: a file that cannot be read is an error that says why") {
     CHECK_THAT(reason(folder / "b.h5.partial"), Contains("unable to lock file"));
 }
 
-TEST_CASE("hdf5: two writers of one file are not let in") {
+TEST_CASE("hdf5: a second writer of a file is refused") {
     const Folder folder;
     Hdf5File first = Hdf5File::create(folder / "a.h5");
     first.write("x", ramp(2), {2}, {"m", "x"});
@@ -290,7 +290,7 @@ TEST_CASE("hdf5: reading what is not there, or is something else, names the file
     CHECK(message_of([&] { (void)file.read_strings("x"); }) == path + ": x: holds no texts");
     CHECK(message_of([&] { (void)file.read_complex("x"); }) == path + ": x: holds no complex numbers {r, i}");
     CHECK(message_of([&] { (void)file.children("x"); }) == path + ": x: is not a group");
-    CHECK_NOTHROW(file.finish());  // a failed question does no harm to what is being written
+    CHECK_NOTHROW(file.finish());  // a failed query does no harm to what is being written
 }
 
 TEST_CASE("hdf5: misuse is refused and leaves the file as it was") {

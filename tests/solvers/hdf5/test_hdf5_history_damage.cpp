@@ -1,4 +1,4 @@
-// Files of histories that cannot be written, are there already, are none, or are damaged.
+// Files of histories that cannot be written, exist already, are not histories, or are damaged.
 #include "mbs/base/error.hpp"
 #include "solvers/hdf5/file.hpp"
 #include "solvers/hdf5/history.hpp"
@@ -15,7 +15,7 @@ using namespace cardan::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-TEST_CASE("history: a place that cannot be written is an error that says why") {
+TEST_CASE("history: a path that cannot be written is an error that says why") {
     const Folder folder;
     const auto reason = [&](const std::string& path) {
         CHECK_THROWS_AS(HistoryWriter::create(path, some_channels()), FileError);
@@ -49,7 +49,7 @@ TEST_CASE("history: an existing file is replaced on purpose only, and not before
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("history: files that are none, or are damaged, are an error that says so") {
+TEST_CASE("history: files that are not histories, or are damaged, are an error that says so") {
     const Folder folder;
     const auto reason = [&](const std::string& path) {
         CHECK_THROWS_AS(read_history(path), FileError);

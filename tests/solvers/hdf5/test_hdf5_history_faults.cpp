@@ -185,7 +185,7 @@ TEST_CASE("history: killed at any write, in the middle of it too, all flushed ro
     CHECK(journals > 3);
 }
 
-TEST_CASE("history: of programs that begin the same file at once the first has it, the others say who", "[property]") {
+TEST_CASE("history: of programs that begin one file at once the first gets it, the others say who", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     for (int round = 0; round < 10; ++round) {

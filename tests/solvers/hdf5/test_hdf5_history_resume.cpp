@@ -119,7 +119,7 @@ TEST_CASE("history: a run that was broken off and resumed equals the uninterrupt
     CHECK(difference(run.uninterrupted(), resumed) == 0);
 }
 
-TEST_CASE("history: resumed with a method of one step it is the uninterrupted run bit for bit, counters included",
+TEST_CASE("history: resumed with a one-step method it is the uninterrupted run bit for bit, counters included",
           "[property]") {
     const Folder folder;
     const System system = chain();
@@ -187,7 +187,7 @@ TEST_CASE("history: a run whose process is killed is resumed by another one", "[
     CHECK(difference(run.uninterrupted(), read_history(path)) == 0);
 }
 
-TEST_CASE("history: a run that was finished is prolonged", "[property]") {
+TEST_CASE("history: a finished run is extended", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     Run run;

@@ -1,5 +1,6 @@
 // Multi-blade transformation against its definition, finite differences, Floquet theory and closed forms.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/energy_shares.hpp"
 #include "solvers/linear/coleman.hpp"
@@ -109,7 +110,7 @@ TEST_CASE("coleman: one unit of each multi-blade coordinate moves the blades as 
         CHECK(multi_blade_name(T.rows()[0]).empty());
         std::vector<std::string> names;
         for (int j = 0; j < blades; ++j) {
-            const MultiBladeRow& row = T.rows()[static_cast<std::size_t>(2 + j)];
+            const MultiBladeRow& row = entry(T.rows(), 2 + j);
             names.push_back(multi_blade_name(row));
             CHECK(row.blade_coordinate == 0);
             for (int k = 0; k < blades; ++k) {
@@ -159,7 +160,7 @@ TEST_CASE("coleman: the fixed-frame eigenvalues give the Floquet multipliers of 
     // Floquet: exp(lambda T) are the eigenvalues of the monodromy matrix of the periodic system, integrated here.
     const SmallRotor rotor = rotor_of(3, true);
     const double Omega = 5, period = 2 * pi / Omega;
-    const Eigen::Index n = static_cast<Eigen::Index>(rotor.unknowns().size());
+    const Eigen::Index n = std::ssize(rotor.unknowns());
     const int steps = 1500;
     std::vector<Matrix> A;  // at every half step
     for (int i = 0; i <= 2 * steps; ++i) {
@@ -174,10 +175,8 @@ TEST_CASE("coleman: the fixed-frame eigenvalues give the Floquet multipliers of 
     for (Eigen::Index c = 0; c < 2 * n; ++c)
         monodromy.col(c) = runge_kutta(
             Vector::Unit(2 * n, c),
-            [&](double t, const Vector& x) -> Vector {
-                return A[static_cast<std::size_t>(std::lround(2 * steps * t / period))] * x;
-            },
-            0, period, steps);
+            [&](double t, const Vector& x) -> Vector { return entry(A, std::lround(2 * steps * t / period)) * x; }, 0,
+            period, steps);
     Eigen::VectorXcd multipliers = monodromy.eigenvalues();
 
     const ColemanTransform T(rotor.map, rotor.unknowns());

@@ -1,4 +1,5 @@
 // Linearisation against numerical differentiation of the recursions, and the structure of the gyroscopic part.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "solvers/linear/linearise.hpp"
@@ -168,7 +169,7 @@ TEST_CASE("linearise: a selection of coordinates marks a spin that no force depe
     CHECK(part.cyclic == -1);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            const int a = some[static_cast<std::size_t>(i)], b = some[static_cast<std::size_t>(j)];
+            const int a = entry(some, i), b = entry(some, j);
             CHECK(part.M(i, j) == lin.mass(a, b));
             CHECK(part.C(i, j) == Approx(lin.damping(a, b) + lin.gyroscopic(a, b)));
             CHECK(part.K(i, j) ==

@@ -1,5 +1,6 @@
 // Complex modes of second-order systems against closed forms.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/support/catch.hpp"
@@ -189,8 +190,7 @@ TEST_CASE("modes: undamped frequencies equal those of the symmetric generalised 
         const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> oracle(K, M, Eigen::EigenvaluesOnly);
         REQUIRE(found.size() == static_cast<std::size_t>(n));
         for (Eigen::Index i = 0; i < n; ++i)
-            REQUIRE(std::abs(found[static_cast<std::size_t>(i)].eigenvalue) ==
-                    Approx(std::sqrt(oracle.eigenvalues()(i))).epsilon(1e-10));
+            REQUIRE(std::abs(entry(found, i).eigenvalue) == Approx(std::sqrt(oracle.eigenvalues()(i))).epsilon(1e-10));
     }
 }
 

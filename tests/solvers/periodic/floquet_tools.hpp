@@ -54,7 +54,7 @@ inline double distance(const std::vector<Complex>& a, const std::vector<Complex>
     return largest;
 }
 
-/// Of M q'' + C q' + K q = 0.
+/// Exponents of M q'' + C q' + K q = 0.
 inline std::vector<Complex> eigenvalues(const Matrix& M, const Matrix& C, const Matrix& K) {
     const Eigen::Index n = M.rows();
     Matrix S = Matrix::Zero(2 * n, 2 * n);

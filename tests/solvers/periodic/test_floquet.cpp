@@ -1,4 +1,5 @@
 // Floquet's theory on small systems whose multipliers or exponents are known in closed form.
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/hill.hpp"
 #include "tests/oracles/mathieu.hpp"
@@ -85,7 +86,7 @@ TEST_CASE("Floquet: exponents of Mathieu's equation are those of Hill's determin
                 const Complex expected = oracles::mathieu_exponent(a - c * c / 4, q) - c / 2;
                 const Floquet integrated = floquet(system), balanced = hill(system);
                 CAPTURE(c, q, a, expected);
-                CHECK(integrated.message.empty());
+                CHECK(integrated.note.empty());
                 for (const Floquet* result : {&integrated, &balanced}) {
                     REQUIRE(!result->modes.empty());
                     const FloquetMode* fastest = &result->modes[0];
@@ -221,25 +222,25 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
     for (const int stages : {2, 3, 5})
         for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
             const Floquet result =
-                floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .most_steps = 3000});
+                floquet(system, {.transition = {.stages = stages}, .tolerance = tolerance, .max_steps = 3000});
             REQUIRE(result.modes.size() == 3);
             CAPTURE(stages, tolerance, result.steps);
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto k = static_cast<Index>(i);
+            for (Index k = 0; k < 3; ++k) {
+                const FloquetMode& mode = entry(result.modes, k);
                 const Complex expected(-zeta(k) * omega(k), omega(k) * std::sqrt(1 - zeta(k) * zeta(k)));
-                const double error = std::abs(result.modes[i].exponent - expected);
-                CHECK(error <= result.modes[i].error + 1e-14 * omega(k));
-                if (result.message.empty()) CHECK(result.modes[i].error <= tolerance);
+                const double error = std::abs(mode.exponent - expected);
+                CHECK(error <= mode.error + 1e-14 * omega(k));
+                if (result.note.empty()) CHECK(mode.error <= tolerance);
             }
         }
-    const Floquet rough = floquet(system, {.transition = {.stages = 2}, .most_steps = 200});
-    CHECK(rough.message.find("less accurate than wanted") != std::string::npos);
+    const Floquet rough = floquet(system, {.transition = {.stages = 2}, .max_steps = 200});
+    CHECK(rough.note.find("less accurate than wanted") != std::string::npos);
 }
 
-TEST_CASE("Floquet: motions too fast for the samples are told from the others", "[analytic]") {
+TEST_CASE("Floquet: motions too fast for the samples are distinguished from the others", "[analytic]") {
     const Vector omega = (Vector(2) << 0.7, 3000.3).finished(), zeta = Vector::Zero(2);
     const Floquet result = floquet(oscillators(omega, zeta));
-    CHECK(result.message.empty());
+    CHECK(result.note.empty());
     REQUIRE(result.modes.size() == 1);
     CHECK(std::abs(result.modes[0].exponent - Complex(0, 0.7)) < 1e-9);
     CHECK(result.damped_out + static_cast<int>(result.unresolved.size()) >= 1);
@@ -260,12 +261,13 @@ TEST_CASE("Floquet: the scheme of eq. 19 maps the frequency f to (N / pi) atan(p
         const Floquet result = floquet(oscillators(f, Vector::Zero(4)), options);
         REQUIRE(result.modes.size() == 4);
         CHECK(result.steps == N);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const double own = f(static_cast<Index>(i)), mapped = N / pi * std::atan(pi * own / N);
+        for (Index i = 0; i < 4; ++i) {
+            const FloquetMode& mode = entry(result.modes, i);
+            const double own = f(i), mapped = N / pi * std::atan(pi * own / N);
             CAPTURE(N, own);
-            CHECK(result.modes[i].per_period() == Approx(mapped).epsilon(1e-11));
-            CHECK(std::abs(result.modes[i].growth()) < 1e-12 * own);
-            CHECK(std::isnan(result.modes[i].error));
+            CHECK(mode.per_period() == Approx(mapped).epsilon(1e-11));
+            CHECK(std::abs(mode.growth()) < 1e-12 * own);
+            CHECK(std::isnan(mode.error));
         }
     }
     // With damping: mu = ((1 + lambda h / 2) / (1 - lambda h / 2))^N.
@@ -331,7 +333,7 @@ TEST_CASE("Floquet: bad options are refused with the value and the limit", "[pro
     check_refused([&] { (void)floquet(system, {.steps = -1}); }, {"steps per period", "-1"});
     check_refused([&] { (void)floquet(system, {.per_period = -1}); }, {"frequency per period", "-1"});
     check_refused([&] { (void)floquet(system, {.tolerance = 0}); }, {"tolerance", "0"});
-    check_refused([&] { (void)floquet(system, {.most_steps = 0}); }, {"limit of steps", "0"});
+    check_refused([&] { (void)floquet(system, {.max_steps = 0}); }, {"limit of steps", "0"});
     check_refused([&] { (void)floquet(system, {.factors = 0}); }, {"number of factors", "0"});
     const auto refused = [](const PeriodicSystem& of, const BladeSymmetry& symmetry, const Matrix& weight,
                             std::initializer_list<std::string> parts) {

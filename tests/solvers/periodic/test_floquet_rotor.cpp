@@ -1,5 +1,6 @@
 // Floquet's theory and Hill's method on rotors: against the multi-blade transformation, closed forms and equations
 // derived by hand.
+#include "mbs/base/entry.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/periodic/hill.hpp"
@@ -37,8 +38,8 @@ TEST_CASE("Floquet: an isotropic three-bladed rotor has the modes of the multi-b
         CHECK(asymmetry(system, blades) < 1e-12);
         const Floquet whole = floquet(system), third = floquet(system, {.symmetry = blades}),
                       balanced = hill(system, {.harmonics = 5});
-        CHECK(whole.message.empty());
-        CHECK(third.message.empty());
+        CHECK(whole.note.empty());
+        CHECK(third.note.empty());
         for (const Floquet* result : {&whole, &third, &balanced}) {
             CHECK(2 * result->modes.size() == expected.size());
             CHECK(distance(exponents(*result), expected, Omega) < 1e-10);
@@ -165,15 +166,15 @@ TEST_CASE("Floquet: the monodromy matrix about a periodic state is the derivativ
     const PeriodicSystem periodic = linearised(rotor.system, state);
     const Matrix Phi = monodromy(periodic, 120);
 
-    const auto n = static_cast<Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const OperatingPoint start = state.at(0);
     IntegrationOptions integration;
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};
-    integration.works = false;
+    integration.integrate_work = false;
     const auto after_a_turn = [&](Index column, double step) {
         Vector q = start.q, qd = start.qd;
-        (column < n ? q : qd)(unknowns[static_cast<std::size_t>(column % n)]) += step;
+        (column < n ? q : qd)(entry(unknowns, column % n)) += step;
         Integrator integrator(rotor.system, {{rotor.map.spin, Motion::constant_rate(0, Omega)}}, 0, q, qd, integration);
         REQUIRE(integrator.advance(2 * pi / Omega).reached());
         Vector x(2 * n);
@@ -212,7 +213,7 @@ TEST_CASE("Floquet: two blades: nacelle and sum of the blades in harmonics of on
         double sizes[2][2] = {{0, 0}, {0, 0}};  // [nacelle and sum, difference][even, odd]
         for (Index i = 0; i < mode.harmonics.cols(); ++i) {
             const auto c = mode.harmonics.col(i);
-            const auto parity = static_cast<std::size_t>(std::abs(mode.first_harmonic + static_cast<int>(i)) % 2);
+            const auto parity = std::abs(mode.first_harmonic + i) % 2;
             sizes[0][parity] += std::norm(c(tilt)) + std::norm(c(yaw)) + std::norm(c(first) + c(second));
             sizes[1][parity] += std::norm(c(first) - c(second));
         }

@@ -161,7 +161,7 @@ TEST_CASE("periodic state: harmonic balance, shooting and integration in time ag
     IntegrationOptions integration;
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};
-    integration.works = false;
+    integration.integrate_work = false;
     const OperatingPoint start = balanced.at(0);
     Integrator integrator(rotor.system, {{rotor.map.spin, Motion::constant_rate(0, Omega)}}, 0, start.q, start.qd,
                           integration);
@@ -279,7 +279,7 @@ TEST_CASE("periodic state: a mean that nothing holds stays where it started, and
     CHECK(held.note.empty());
 }
 
-TEST_CASE("periodic state: resonance without damping has none, and the reason is told", "[property]") {
+TEST_CASE("periodic state: resonance without damping has none, and the reason is given", "[property]") {
     Slider undamped;
     undamped.k = 9;
     undamped.c = 0;

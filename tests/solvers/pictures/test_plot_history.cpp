@@ -148,7 +148,7 @@ TEST_CASE("panels: channels with the same shown units share one, up to the numbe
     CHECK(panels[3].channels == std::vector<std::string>{"pitch rate"});   // deg/s
     CHECK(panels_by_units(h, {"rotor speed", "pitch rate"}, AngleUnits::radians).size() == 1);
     CHECK(panels_by_units(h, std::vector<std::string>(15, "tip flap")).size() == 3);
-    CHECK(panels_one_each({"a", "b"}).size() == 2);
+    CHECK(one_panel_each({"a", "b"}).size() == 2);
     check_refused([&] { (void)panels_by_units(h, {"nothing"}); }, {"'nothing'", "'tip flap'"});
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("history pictures: a million samples make a small file in which the pe
         h.values[0].push_back(i == 654321 ? 10 : std::sin(0.37 * i));
     }
     plot(h, {{{"a"}}}, folder.path / "long.svg");
-    // The same range of values with the peak among a few samples only.
+    // This range of values with the peak among a few samples only.
     const History few{"few", {{"a", "m", "a"}}, {0, 300, 654.321, 700, 999.999}, {{-1, 0, 10, 0, -1}}};
     plot(few, {{{"a"}}}, folder.path / "few.svg");
     const std::string all = bytes_of(folder / "long.svg");
@@ -211,7 +211,7 @@ TEST_CASE("history pictures: constants, gaps, channels without a finite value an
     add("tiny", "K", {0, 3e-7, 1e-7, 0});
     std::vector<std::string> names;
     for (const Channel& channel : h.channels) names.push_back(channel.name);
-    plot(h, panels_one_each(names), folder.path / "odd.svg");
+    plot(h, one_panel_each(names), folder.path / "odd.svg");
     CHECK_THAT(bytes_of(folder / "odd.svg"), Contains("10⁶ K") && Contains("10⁻⁹ K") && Contains("10⁻⁶ K above 300<"));
 }
 
@@ -266,7 +266,7 @@ TEST_CASE("history pictures: bad input is refused with place, value and limit") 
     options = {};
     options.width = 300;
     check_refused([&] { plot(h, {{{"tip flap"}}}, path, options); }, {"width in pixels = 300", "400 to 20000"});
-    check_refused([&] { plot(h, panels_one_each(std::vector<std::string>(150, "order")), path); },
+    check_refused([&] { plot(h, one_panel_each(std::vector<std::string>(150, "order")), path); },
                   {"panels = 150", "20000"});
     SpectrumPlotOptions spectra;
     spectra.blades = -1;

@@ -43,7 +43,7 @@ inline solvers::Checkpoint checkpoint_of(std::size_t row) {
     checkpoint.time = time_of(row);
     checkpoint.q = Vector::Constant(2, x);
     checkpoint.qd = Vector::Constant(2, -x);
-    checkpoint.works = {x + 1, x + 2, x + 3};
+    checkpoint.work = {x + 1, x + 2, x + 3};
     checkpoint.kinetic_at_start = 5;
     checkpoint.potential_at_start = 6;
     checkpoint.notes = {{"grid contact", x}, {"pitch from [s]", -x}};
@@ -57,7 +57,7 @@ inline void append_rows(solvers::HistoryWriter& writer, std::size_t from, std::s
     for (std::size_t row = from; row < to; ++row) writer.append(time_of(row), values_of(writer.channels().size(), row));
 }
 
-inline const solvers::HistoryAbout about{"gust", "BDF", "line 1\nline 2 \xC2\xB5", "test"};
+inline const solvers::HistoryMetadata about{"gust", "BDF", "line 1\nline 2 \xC2\xB5", "test"};
 
 /// A finished file of some_channels().
 inline void write_rows(const std::string& path, std::size_t rows,
@@ -88,8 +88,8 @@ inline bool whole(const solvers::HistoryInfo& info) {
     const solvers::Checkpoint expected = checkpoint_of(info.checkpoint_rows - 1);
     const solvers::Checkpoint& c = *info.checkpoint;
     return c.time == expected.time && c.q == expected.q && c.qd == expected.qd &&
-           c.works.forces == expected.works.forces && c.works.dissipation == expected.works.dissipation &&
-           c.works.drives == expected.works.drives && c.notes == expected.notes &&
+           c.work.forces == expected.work.forces && c.work.dissipation == expected.work.dissipation &&
+           c.work.drives == expected.work.drives && c.notes == expected.notes &&
            c.kinetic_at_start == expected.kinetic_at_start && c.potential_at_start == expected.potential_at_start &&
            c.statistics.steps == expected.statistics.steps && c.statistics.order == expected.statistics.order &&
            c.statistics.last_step == expected.statistics.last_step;

@@ -1,3 +1,4 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/base/types.hpp"
 #include "solvers/signals/envelope.hpp"
 #include "solvers/signals/sampling.hpp"
@@ -40,7 +41,7 @@ double sine_error(int pairs, double ratio, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("time steps: equal ones are told from others, rounding and printed digits are not held against them") {
+TEST_CASE("time steps: equal ones are recognised despite rounding and printed digits") {
     std::vector<double> time;
     for (int i = 0; i <= 10000; ++i) time.push_back(100 + 0.01 * i);
     TimeSteps steps = time_steps(time);
@@ -143,7 +144,7 @@ TEST_CASE("envelope: every column keeps its first, smallest, largest and last va
             std::vector<std::pair<double, double>> found(columns + 1, {2, -2});
             for (std::size_t i = 0; i < xs.size(); ++i) {
                 const double place = (xs[i] - x.front()) * (static_cast<double>(columns) / (x.back() - x.front()));
-                auto& [low, high] = found[static_cast<std::size_t>(place)];
+                auto& [low, high] = entry(found, place);
                 low = std::min(low, ys[i]);
                 high = std::max(high, ys[i]);
             }
@@ -164,7 +165,7 @@ TEST_CASE("envelope: of a million values the one peak survives exactly, gaps sta
     CHECK(curve.x.size() < 4010);
     const auto peak = std::find(curve.y.begin(), curve.y.end(), 17.25);
     REQUIRE(peak != curve.y.end());
-    CHECK(curve.x[static_cast<std::size_t>(peak - curve.y.begin())] == x[654321]);
+    CHECK(entry(curve.x, peak - curve.y.begin()) == x[654321]);
     CHECK(std::count(curve.y.begin(), curve.y.end(), -3.5) == 1);
     CHECK(std::count_if(curve.y.begin(), curve.y.end(), [](double v) { return !std::isfinite(v); }) == 1);
     for (std::size_t i = 0; i < curve.x.size(); ++i)

@@ -234,7 +234,7 @@ TEST_CASE("spectrum: segments overlap, average and keep to the part of the histo
     CHECK(spectrum(s.time, s.values, options).segments == 1);
 }
 
-// Of a long sinusoid d steps beside a frequency the Hann window leaves sinc(d)/(1 - d^2) of the amplitude.
+// The Hann window leaves sinc(d)/(1 - d^2) of the amplitude of a long sinusoid, d steps away from its frequency.
 TEST_CASE("peaks: parabolas find frequency and amplitude with the known bias of the Hann window", "[analytic]") {
     const auto lobe = [](double d) {
         if (std::abs(d) < 1e-12) return 1.0;

@@ -15,7 +15,7 @@ using namespace solvers;
 inline constexpr Method methods[] = {Method::bdf, Method::adams, Method::dirk, Method::erk, Method::generalised_alpha};
 
 inline Vector vector(std::initializer_list<double> values) {
-    Vector v(static_cast<Eigen::Index>(values.size()));
+    Vector v(std::ssize(values));
     std::copy(values.begin(), values.end(), v.data());
     return v;
 }

@@ -55,7 +55,7 @@ struct Carousels {
 
 }  // namespace
 
-TEST_CASE("atlas: motions of drives, dissipation and the balance of energy go on from chart to chart",
+TEST_CASE("atlas: motions of drives, dissipation and the balance of energy continue from chart to chart",
           "[solvers][atlas][property]") {
     const Carousels c;
     AtlasIntegrator atlas({c.chart(c.xyz), c.chart(c.yxz)}, "body", 0, c.q, c.qd);
@@ -67,7 +67,7 @@ TEST_CASE("atlas: motions of drives, dissipation and the balance of energy go on
     CHECK(std::abs(balance.drives) > 0.01);
     CHECK(std::abs(balance.error) < 1e-7);
     CHECK(std::abs(balance.loads) < 1e-7);
-    // The same wheel, the same pendulum as in one chart alone with short steps past its singularity.
+    // Wheel and pendulum as in one chart alone with short steps past its singularity.
     Integrator alone(c.xyz, c.chart(c.xyz).drives, 0, c.q, c.qd, c.chart(c.xyz, 1e-11).options);
     REQUIRE(alone.advance(12).reached());
     for (const char* name : {"wheel", "pendulum"}) {
@@ -85,7 +85,7 @@ TEST_CASE("atlas: where no other chart is better it stays", "[solvers][atlas]") 
     CHECK(atlas.chart() == 0);
 }
 
-TEST_CASE("atlas: the user's own events and cancellation are heard in every chart", "[solvers][atlas]") {
+TEST_CASE("atlas: the user's own events and cancellation work in every chart", "[solvers][atlas]") {
     const Carousels c;
     int asked = 0;
     Chart first = c.chart(c.xyz), second = c.chart(c.yxz);
@@ -99,7 +99,7 @@ TEST_CASE("atlas: the user's own events and cancellation are heard in every char
     AtlasIntegrator atlas({first, second}, "body", 0, c.q, c.qd);
     Advance advance = atlas.advance(100);
     CHECK(advance.end == Advance::End::event);
-    CHECK(advance.message == "pendulum rises");
+    CHECK(advance.event == "pendulum rises");
     while (advance.end == Advance::End::event) advance = atlas.advance(100);
     CHECK(advance.end == Advance::End::cancelled);
     CHECK(atlas.chart() == 1);
@@ -113,7 +113,7 @@ TEST_CASE("atlas: bad input is refused", "[solvers][atlas]") {
     };
     check_refused([&] { make({c.chart(c.xyz)}, "body"); }, {"atlas of charts", "number of charts", "1", ">= 2"});
     check_refused([&] { make({c.chart(c.xyz), {}}, "body"); }, {"system of chart 1", "none"});
-    check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "body", 1); }, {"least quality", "1"});
+    check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "body", 1); }, {"minimum quality", "1"});
     check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "nobody"); }, {"nobody"});
     check_refused([&] { make({c.chart(c.xyz), c.chart(c.xyz)}, "body"); }, {"number of coordinates", "0"});
     check_refused([&] { make({c.chart(c.xyz), c.chart(c.yxz)}, "base"); }, {"'base'", "one that moves it"});

@@ -22,7 +22,8 @@ TEST_CASE("integrate: events are found where they happen, in their direction", "
         Integrator rising(system, {}, 0, vector({1.2}), vector({0}), options);
         Advance advance = rising.advance(10);
         CHECK(advance.end == Advance::End::event);
-        CHECK(advance.message == "upwards");
+        CHECK(advance.event == "upwards");
+        CHECK(advance.message.empty());
         CHECK(std::abs(advance.time - 3 * quarter) < 10 * allowed(method));
         CHECK(std::abs(rising.state().q(0)) < 1e-9);
         advance = rising.advance(10);
@@ -31,7 +32,7 @@ TEST_CASE("integrate: events are found where they happen, in their direction", "
         int passed = 0;
         options.events = {{.name = "bottom", .function = angle, .action = [&](Integrator&) {
                                ++passed;
-                               return AfterEvent::go_on;
+                               return AfterEvent::proceed;
                            }}};
         Integrator both(system, {}, 0, vector({1.2}), vector({0}), options);
         CHECK(both.advance(8.5 * quarter).reached());
@@ -154,7 +155,7 @@ TEST_CASE("integrate: an output may follow a break at any distance", "[solvers][
     }
 }
 
-TEST_CASE("integrate: from a checkpoint it goes on as if it had not stopped", "[solvers][integrate][property]") {
+TEST_CASE("integrate: from a checkpoint it continues as if it had not stopped", "[solvers][integrate][property]") {
     const System system = chain(0.4, CoordinateRole::driven);
     const std::vector<Drive> drives{{0, Motion::harmonic(0, 0.3, 1.5)}};
     const Vector q = vector({0, 0.5, -0.4}), qd = vector({0.3, 0, 0});

@@ -1,4 +1,4 @@
-// Forces that change while a motion is integrated, calls where none are allowed, steps that lead nowhere, and going on
+// Forces that change while a motion is integrated, calls where none are allowed, steps that lead nowhere, continuation
 // bit for bit.
 #include "solvers/time/recorder.hpp"
 #include "tests/solvers/time/integrated_systems.hpp"
@@ -80,7 +80,7 @@ TEST_CASE("integrate: an action that changes a force and says that nothing has c
                            .action =
                                [f = pushed.force](Integrator&) {
                                    *f = 40;
-                                   return AfterEvent::go_on;
+                                   return AfterEvent::proceed;
                                }}};
         Integrator integrator(pushed.system, {}, 0, vector({0.3}), vector({0}), options);
         REQUIRE(integrator.advance(3).reached());
@@ -88,7 +88,7 @@ TEST_CASE("integrate: an action that changes a force and says that nothing has c
     }
 }
 
-TEST_CASE("integrate: restart() throws away what was computed beyond the present time", "[solvers][integrate]") {
+TEST_CASE("integrate: restart() discards what was computed beyond the present time", "[solvers][integrate]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
@@ -101,13 +101,13 @@ TEST_CASE("integrate: restart() throws away what was computed beyond the present
     }
 }
 
-TEST_CASE("integrate: to look for changed forces costs two evaluations per output and one per step",
+TEST_CASE("integrate: looking for changed forces costs two evaluations per output and one per step",
           "[solvers][integrate]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
         IntegrationOptions options = with(method, 1e-6, 1e-8);
-        options.works = false;
+        options.integrate_work = false;
         Integrator integrator(pushed.system, {}, 0, vector({0.3}), vector({0}), options);
         REQUIRE(integrator.advance(0.5).reached());
         const long before = *pushed.asked;
@@ -150,7 +150,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
                            .action =
                                [&](Integrator&) {
                                    call(4);
-                                   return AfterEvent::go_on;
+                                   return AfterEvent::proceed;
                                }}};
         for (int here = 0; here < 5; ++here) {
             CAPTURE(here);
@@ -188,7 +188,7 @@ TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate
     }
 }
 
-TEST_CASE("integrate: steps shorter than the clock can tell are refused", "[solvers][integrate]") {
+TEST_CASE("integrate: steps below the resolution of the time are refused", "[solvers][integrate]") {
     const System system = Oscillator{}.system();
     const auto make = [&](double time, const IntegrationOptions& options) {
         Integrator(system, {}, time, vector({0.3}), vector({0}), options);
@@ -202,7 +202,7 @@ TEST_CASE("integrate: steps shorter than the clock can tell are refused", "[solv
     }
 }
 
-TEST_CASE("integrate: forces of any size come to an end", "[solvers][integrate]") {
+TEST_CASE("integrate: with forces of any size it ends, with a reason", "[solvers][integrate]") {
     for (Method method : methods) {
         for (double stiffness : {1e30, 1e100}) {
             CAPTURE(static_cast<int>(method), stiffness);
@@ -223,7 +223,7 @@ TEST_CASE("integrate: forces of any size come to an end", "[solvers][integrate]"
     }
 }
 
-TEST_CASE("integrate: a method of one step goes on from any checkpoint bit for bit", "[solvers][integrate][property]") {
+TEST_CASE("integrate: a one-step method continues from any checkpoint bit for bit", "[solvers][integrate][property]") {
     const System system = chain(0.4, CoordinateRole::driven);
     const std::vector<Drive> moved{{0, Motion::travel(Travel(1.3, {0, 0, 0}, 0.5, {0.3, 0.9}))}};
     const Vector q = vector({0, 0.5, -0.4});
@@ -250,9 +250,9 @@ TEST_CASE("integrate: a method of one step goes on from any checkpoint bit for b
                     CAPTURE(k, checkpoints[k].time, checkpoints[k].method.steps);
                     CHECK(now.q == end.q);
                     CHECK(now.qd == end.qd);
-                    CHECK(now.works.forces == end.works.forces);
-                    CHECK(now.works.dissipation == end.works.dissipation);
-                    CHECK(now.works.drives == end.works.drives);
+                    CHECK(now.work.forces == end.work.forces);
+                    CHECK(now.work.dissipation == end.work.dissipation);
+                    CHECK(now.work.drives == end.work.drives);
                     CHECK(now.statistics.steps == end.statistics.steps);
                     CHECK(now.statistics.evaluations == end.statistics.evaluations);
                     CHECK(now.statistics.factorisations == end.statistics.factorisations);
@@ -263,7 +263,7 @@ TEST_CASE("integrate: a method of one step goes on from any checkpoint bit for b
             }
 }
 
-TEST_CASE("integrate: a checkpoint under other forces or options is gone on from anew",
+TEST_CASE("integrate: from a checkpoint under other forces or options the method restarts",
           "[solvers][integrate][analytic]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));

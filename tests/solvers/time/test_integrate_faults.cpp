@@ -1,4 +1,4 @@
-// What stands after exceptions and cancellation, and events at awkward places.
+// State after exceptions and cancellation, and events at awkward times.
 #include "solvers/time/recorder.hpp"
 #include "tests/solvers/time/integrated_systems.hpp"
 #include "tests/support/catch.hpp"
@@ -22,7 +22,7 @@ System throws_once(const std::shared_ptr<bool>& armed) {
 
 }  // namespace
 
-TEST_CASE("integrate: after an exception the last state stands, belongs to its time, and can be gone on from",
+TEST_CASE("integrate: after an exception the last state is kept, belongs to its time, and can be continued",
           "[solvers][integrate][analytic]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
@@ -133,7 +133,7 @@ TEST_CASE("recorder: a time that comes twice is recorded once, falling times are
     CHECK(history.time.size() == 3);
 }
 
-TEST_CASE("history: an unknown channel is told with those that resemble it", "[solvers][recorder]") {
+TEST_CASE("history: an unknown channel is named with those that resemble it", "[solvers][recorder]") {
     History history;
     history.title = "run";
     for (int i = 0; i < 30; ++i)

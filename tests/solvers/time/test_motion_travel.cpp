@@ -1,4 +1,4 @@
-// Motions that obey orders: a prescribed drive.
+// Motions that follow commands: a prescribed drive.
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -23,7 +23,7 @@ TEST_CASE("motion: a travel is the motion it describes", "[solvers][motion][prop
     }
 }
 
-TEST_CASE("motion: an event gives a driven arm a new order in mid-travel; its drive supplies the change of energy",
+TEST_CASE("motion: an event gives a driven arm a new command in mid-travel; its drive supplies the change of energy",
           "[solvers][motion][analytic]") {
     // A flywheel on a driven joint, and a pendulum far away to have something to integrate.
     constexpr double J = 3;
@@ -38,15 +38,15 @@ TEST_CASE("motion: an event gives a driven arm a new order in mid-travel; its dr
     const int i = system.model.index(wheel.body), pendulum = 1 - i;
     const TravelLimits limits{0.5, 0.8};
     IntegrationOptions options;
-    Event order{.name = "new order", .direction = 1};
-    order.function = [](const ForceInput& in) { return in.time - 1.3; };
-    order.action = [&](Integrator& integrator) {
+    Event command{.name = "new command", .direction = 1};
+    command.function = [](const ForceInput& in) { return in.time - 1.3; };
+    command.action = [&](Integrator& integrator) {
         const DynamicState& now = integrator.state();
         const Travel back(now.time, {now.q(i), now.qd(i), 0}, -0.5, limits);
         integrator.set_motion(i, Motion::travel(back));
         return AfterEvent::restart;
     };
-    options.events = {order};
+    options.events = {command};
     Vector q = Vector::Zero(2);
     q(pendulum) = 0.1;
     const Travel forth(0, {0, 0, 0}, 2, limits);
@@ -54,10 +54,10 @@ TEST_CASE("motion: an event gives a driven arm a new order in mid-travel; its dr
     REQUIRE(integrator.advance(1).reached());
     const double rate = forth.at(1).rate;
     CHECK(integrator.state().qd(i) == rate);
-    CHECK(integrator.works().drives == Approx(J * rate * rate / 2).epsilon(1e-5));
+    CHECK(integrator.work().drives == Approx(J * rate * rate / 2).epsilon(1e-5));
     REQUIRE(integrator.advance(9).reached());
     CHECK(integrator.state().q(i) == -0.5);
     CHECK(integrator.state().qd(i) == 0);
-    CHECK(integrator.works().drives == Approx(0).margin(1e-5));
+    CHECK(integrator.work().drives == Approx(0).margin(1e-5));
     CHECK(integrator.statistics().restarts >= 1);
 }

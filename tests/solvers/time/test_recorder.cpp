@@ -43,7 +43,7 @@ TEST_CASE("recorder: names, units and values of states, energies and the user's 
     CHECK(history.channels[history.index("hinge 1 drive")].units == "N m");
 }
 
-TEST_CASE("recorder: a run that stops leaves what it reached, and can be gone on with", "[solvers][recorder]") {
+TEST_CASE("recorder: a run that stops leaves what it reached, and can be continued", "[solvers][recorder]") {
     const System system = pendulum();
     const std::vector<double> times = sample_times(0, 2, 0.1);
     IntegrationOptions options;

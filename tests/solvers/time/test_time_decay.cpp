@@ -18,7 +18,7 @@ namespace {
 
 IntegrationOptions without_works(Method method, double tolerance) {
     IntegrationOptions options = equal_tolerances(method, tolerance);
-    options.works = false;
+    options.integrate_work = false;
     return options;
 }
 
@@ -86,7 +86,7 @@ struct Cantilever {
 TEST_CASE("time: a damped beam let go in a mode decays with its eigenvalue, with every method",
           "[solvers][time][crosscheck]") {
     const Cantilever beam;
-    // Of dirk the error follows the tolerance but roughly: its iteration ends early while matrices are used again.
+    // With dirk the error follows the tolerance only roughly: its iteration ends early while matrices are used again.
     for (const Case& c :
          {Case{Method::bdf, 1e-10, 5e-6}, Case{Method::adams, 1e-10, 2e-6}, Case{Method::dirk, 1e-10, 5e-4},
           Case{Method::erk, 1e-10, 2e-6}, Case{Method::generalised_alpha, 1e-9, 2e-4}})

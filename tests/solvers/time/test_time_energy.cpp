@@ -52,7 +52,7 @@ System spinning_beam() {
 
 // The largest change of kinetic and potential energy at 400 times of 100 s, over the largest kinetic energy.
 double drift(const System& system, const Vector& q, const Vector& qd, IntegrationOptions options) {
-    options.works = false;
+    options.integrate_work = false;
     Integrator integrator(system, {}, 0, q, qd, options);
     Workspace workspace(system.model);
     double kinetic = 0, most = 0, change = 0, start = 0;

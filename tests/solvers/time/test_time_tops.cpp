@@ -130,7 +130,7 @@ TEST_CASE("time: near the singularity of the joints the top keeps attitude, ener
     }
 }
 
-TEST_CASE("time: aimed at the singularity, the steps pass it and the balance of energy tells what was lost",
+TEST_CASE("time: aimed at the singularity, the steps pass it and the balance of energy shows what was lost",
           "[solvers][time][analytic]") {
     const oracles::FreeAsymmetricTop& top = about_3;
     const double meeting = 1.3 * top.period();

@@ -75,7 +75,7 @@ TEST_CASE("campbell: carries the description of the machine and how it was assem
         CHECK_THAT(d.source, Catch::Contains(expected));
 }
 
-TEST_CASE("campbell: an unstable equilibrium is warned about", "[property]") {
+TEST_CASE("campbell: an unstable equilibrium gives a warning", "[property]") {
     // Thirty times gravity: the tower buckles.
     const turbines::Turbine turbine = turbines::wt600({.gravity = Vec3(0, 0, -300)});
     const std::vector<double> standstill{0.0};

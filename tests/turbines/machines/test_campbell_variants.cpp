@@ -21,7 +21,7 @@ Campbell with_yaw_stiffness(double factor, std::span<const double> speeds, const
     return campbell(turbine.system(), turbine.rotor(), speeds, options);
 }
 
-// Of a mode in two variants, by its shape alone, unweighted: not what names are continued by.
+// MAC of a mode in two variants by its shape alone, unweighted: not the one that names are continued by.
 double shape_correlation(const CampbellMode& a, const CampbellMode& b) {
     const ComplexVector &x = a.mode.shape, &y = b.mode.shape;
     return std::norm(x.dot(y)) / (x.squaredNorm() * y.squaredNorm());

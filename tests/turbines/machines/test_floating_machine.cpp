@@ -1,5 +1,6 @@
 // The 600 kW machine on a platform that is free: against the rigid machine put together by hand, the same machine held,
 // on the ground, and driven through the same motion; free decay against the linear model.
+#include "mbs/base/entry.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell/mode_names.hpp"
 #include "solvers/time/integrate.hpp"
@@ -166,7 +167,7 @@ TEST_CASE("floating machine: on ever stiffer moorings its modes become those on 
     CHECK(soft / stiff == Approx(100).epsilon(0.05));
 }
 
-TEST_CASE("floating machine: that nothing holds moves as a rigid body without elastic force, and vibrates free-free",
+TEST_CASE("floating machine: unmoored, it moves as a rigid body without elastic force, and vibrates free-free",
           "[analytic]") {
     PlatformDescription raft = some_platform();
     raft.hydrostatic.setZero();
@@ -176,7 +177,7 @@ TEST_CASE("floating machine: that nothing holds moves as a rigid body without el
     const solvers::SecondOrderSystem system =
         solvers::restrict_to(solvers::linearise(turbine.system(), at_rest(turbine)), all_but_spin(turbine));
     for (Eigen::Index i = 0; i < system.K.rows(); ++i)
-        if (turbine.system().model.coordinates()[system.coordinates[static_cast<std::size_t>(i)]].part == "platform") {
+        if (turbine.system().model.coordinates()[entry(system.coordinates, i)].part == "platform") {
             CHECK(system.K.row(i).isZero(0));
             CHECK(system.K.col(i).isZero(0));
         }
@@ -242,7 +243,7 @@ TEST_CASE("floating machine: a steady drift changes nothing where no mooring and
     const auto accelerations = [&](const Vec3& drift) {
         Vector qd = state.qd, Q(model.size()), qdd = Vector::Zero(model.size()), actuator = qdd;
         const std::vector<int> rows = platform_rows(turbine);
-        for (Eigen::Index i = 0; i < 3; ++i) qd(rows[static_cast<std::size_t>(i)]) += drift(i);
+        for (Eigen::Index i = 0; i < 3; ++i) qd(entry(rows, i)) += drift(i);
         Workspace workspace(model);
         const Kinematics kin = kinematics(model, state.q, workspace);
         turbine.system().forces.generalised_forces(kin, 0, state.q, qd, Q);
@@ -253,8 +254,8 @@ TEST_CASE("floating machine: a steady drift changes nothing where no mooring and
     CHECK((drifting - at_rest).cwiseAbs().maxCoeff() < 1e-10 * at_rest.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("floating machine: total momentum changes by outer forces alone", "[analytic]") {
-    // Of the bodies, by the accelerations of their mass centres; of the water that moves with them, A x''.
+TEST_CASE("floating machine: total momentum changes by external forces alone", "[analytic]") {
+    // Rate of the momentum of the bodies, by the accelerations of their mass centres; of the water, A x''.
     const PlatformDescription platform = balanced();
     const Turbine turbine = floating(platform);
     const Model& model = turbine.system().model;
@@ -270,13 +271,13 @@ TEST_CASE("floating machine: total momentum changes by outer forces alone", "[an
     for (int i = 0; i < model.size(); ++i) {
         const double m = model.body(i).inertia.mass;
         if (m == 0) continue;
-        rate += m * loads.motion[static_cast<std::size_t>(i)].at(kin.centre_of_mass(i));
+        rate += m * entry(loads.motion, i).at(kin.centre_of_mass(i));
         outer += m * earth_gravity;
     }
     Vec6 x, xd, xdd;
     const std::vector<int> rows = platform_rows(turbine);
     for (Eigen::Index i = 0; i < 6; ++i) {
-        const int row = rows[static_cast<std::size_t>(i)];
+        const int row = entry(rows, i);
         x(i) = state.q(row), xd(i) = state.qd(row), xdd(i) = state.qdd(row);
     }
     rate += (platform.added_mass * xdd).head<3>();
@@ -299,7 +300,7 @@ TEST_CASE("floating machine: in equilibrium it pitches by the overhang of nacell
     const Vec6 expected = hand.K.inverse() * load;
     Vector q = Vector::Zero(turbine.system().model.size());
     const std::vector<int> rows = platform_rows(turbine);
-    for (Eigen::Index i = 0; i < 6; ++i) q(rows[static_cast<std::size_t>(i)]) = expected(i);
+    for (Eigen::Index i = 0; i < 6; ++i) q(entry(rows, i)) = expected(i);
     Workspace workspace(turbine.system().model);
     const Kinematics kin = kinematics(turbine.system().model, q, workspace);
     Vector Q(q.size());
@@ -329,9 +330,8 @@ TEST_CASE("floating machine: let go in the shape of a mode it decays as the line
     const std::vector<int> rows = platform_rows(turbine);
     for (const int which : {2, 4}) {  // heave, pitch
         CAPTURE(which);
-        const auto row = static_cast<Eigen::Index>(
-            std::find(linear.coordinates.begin(), linear.coordinates.end(), rows[static_cast<std::size_t>(which)]) -
-            linear.coordinates.begin());
+        const auto row = std::find(linear.coordinates.begin(), linear.coordinates.end(), entry(rows, which)) -
+                         linear.coordinates.begin();
         // The one of the lowest six in which this coordinate is largest, by its share of the kinetic energy.
         const auto mode = std::max_element(modes.begin(), modes.begin() + 6, [&](const auto& a, const auto& b) {
             return std::norm(a.eigenvalue * a.shape(row)) < std::norm(b.eigenvalue * b.shape(row));
@@ -339,10 +339,11 @@ TEST_CASE("floating machine: let go in the shape of a mode it decays as the line
         constexpr double size = 1e-4;
         const Complex scale = size / mode->shape(row);
         Vector q = steady.at.q, qd = Vector::Zero(q.size());
-        for (std::size_t i = 0; i < linear.coordinates.size(); ++i) {
-            const Complex x = scale * mode->shape(static_cast<Eigen::Index>(i));
-            q(linear.coordinates[i]) += x.real();
-            qd(linear.coordinates[i]) += (mode->eigenvalue * x).real();
+        for (Eigen::Index i = 0; i < mode->shape.size(); ++i) {
+            const int coordinate = entry(linear.coordinates, i);
+            const Complex x = scale * mode->shape(i);
+            q(coordinate) += x.real();
+            qd(coordinate) += (mode->eigenvalue * x).real();
         }
         solvers::IntegrationOptions options;
         options.tolerances = {1e-7, 1e-11, 1e-11, 1e-11, 1e-11};
@@ -352,8 +353,8 @@ TEST_CASE("floating machine: let go in the shape of a mode it decays as the line
         for (double t = 2; t < 60; t += 2) {
             REQUIRE(integrator.advance(t).reached());
             const double expected = size * std::exp(mode->eigenvalue * t).real();
-            largest = std::max(largest, std::abs(integrator.state().q(rows[static_cast<std::size_t>(which)]) -
-                                                 steady.at.q(rows[static_cast<std::size_t>(which)]) - expected));
+            largest = std::max(largest, std::abs(integrator.state().q(entry(rows, which)) -
+                                                 steady.at.q(entry(rows, which)) - expected));
         }
         CAPTURE(mode->damped_hz(), largest / size);
         // Second order in the size, and what the integration leaves.
@@ -368,7 +369,7 @@ TEST_CASE("floating machine: channels of the platform are its displacement and i
     MachineState state(turbine);
     const std::vector<int> rows = platform_rows(turbine);
     const Vec6 x = (Vec6() << 3, -2, 1, 0.2, -0.3, 0.4).finished();
-    for (Eigen::Index i = 0; i < 6; ++i) state.q(rows[static_cast<std::size_t>(i)]) = x(i);
+    for (Eigen::Index i = 0; i < 6; ++i) state.q(entry(rows, i)) = x(i);
     const Sampled now(turbine, state);
     const char* aliases[] = {"PtfmSurge", "PtfmSway", "PtfmHeave", "PtfmRoll", "PtfmPitch", "PtfmYaw"};
     for (Eigen::Index i = 0; i < 6; ++i) CHECK(now[aliases[i]] == Approx(x(i)).epsilon(1e-13));

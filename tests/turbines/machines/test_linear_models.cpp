@@ -1,6 +1,7 @@
 // Linear models of the 600 kW machine for control: against the Campbell diagram, forward dynamics, integration in time,
 // and a drive-train damper that is designed on the reduced model and tried in the nonlinear simulation.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/dynamics.hpp"
@@ -102,7 +103,7 @@ public:
         Eigen::Index count = 0;
         for (const ChannelGroup& group : groups_) {
             group.sample({at.time, at.q, at.qd, qdd, actuator, kin, system.forces, loads}, values.data() + count);
-            count += static_cast<Eigen::Index>(group.channels.size());
+            count += std::ssize(group.channels);
         }
         return values.head(count);
     }
@@ -115,7 +116,7 @@ private:
 IntegrationOptions accurate() {
     IntegrationOptions options;
     options.tolerances = {1e-9, 1e-12, 1e-12, 1e-11, 1e-11};
-    options.works = false;
+    options.integrate_work = false;
     return options;
 }
 
@@ -124,10 +125,10 @@ struct Start {
     Vector q, qd;
     Start(const LinearModel& model, const Vector& z) : q(steady().q), qd(steady().qd) {
         const Vector x = multi_blade_states(model, machine().rotor(), 0) * z;
-        const auto half = static_cast<Eigen::Index>(model.coordinates.size());
+        const auto half = std::ssize(model.coordinates);
         for (Eigen::Index i = 0; i < half; ++i) {
-            q(model.coordinates[static_cast<std::size_t>(i)]) += x(i);
-            qd(model.coordinates[static_cast<std::size_t>(i)]) += x(half + i);
+            q(entry(model.coordinates, i)) += x(i);
+            qd(entry(model.coordinates, i)) += x(half + i);
         }
     }
 };
@@ -135,7 +136,7 @@ struct Start {
 // Multi-blade states of a motion, deviations from the steady state that turns at Omega.
 Vector deviation(const LinearModel& model, const DynamicState& state) {
     const OperatingPoint& at = steady();
-    const auto half = static_cast<Eigen::Index>(model.coordinates.size());
+    const auto half = std::ssize(model.coordinates);
     Vector x(2 * half);
     x << (state.q - at.q)(model.coordinates), (state.qd - at.qd)(model.coordinates);
     const auto row = std::ranges::find(model.coordinates, spin()) - model.coordinates.begin();
@@ -158,7 +159,7 @@ UserForce generator_torque(std::function<double(double time, double speed)> torq
     return force;
 }
 
-// The same model by way of a MATLAB file.
+// The model read back from a MATLAB file.
 ConstantModel exported(const ConstantModel& model, const LinearModel& periodic) {
     const test::Folder folder;
     write_mat(periodic, {{"plant", model}}, folder / "plant.mat");
@@ -172,7 +173,7 @@ ConstantModel exported(const ConstantModel& model, const LinearModel& periodic) 
 }
 
 const CampbellMode& campbell_mode(const Campbell& diagram, const char* branch) {
-    return diagram.points[0].modes[static_cast<std::size_t>(diagram.branch(branch).mode[0])];
+    return entry(diagram.points[0].modes, diagram.branch(branch).mode[0]);
 }
 
 }  // namespace
@@ -214,7 +215,7 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
         const Model& m = machine().system().model;
         std::vector<bool> driven = m.coordinates().driven();
         if (pitch_moves)
-            for (BodyId pitch : machine().layout().pitch) driven[static_cast<std::size_t>(m.index(pitch))] = true;
+            for (BodyId pitch : machine().layout().pitch) entry(driven, m.index(pitch)) = true;
         Nonlinear channels(driven);
         OperatingPoint at = steady();
         at.q(spin()) = sample.azimuth;
@@ -230,14 +231,14 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
             const Vector found = slope(1e-5, [&](double h) {
                 OperatingPoint moved = at;
                 for (Eigen::Index i = 0; i < half; ++i) {
-                    moved.q(model.coordinates[static_cast<std::size_t>(i)]) += h * x(i);
-                    moved.qd(model.coordinates[static_cast<std::size_t>(i)]) += h * x(half + i);
+                    moved.q(entry(model.coordinates, i)) += h * x(i);
+                    moved.qd(entry(model.coordinates, i)) += h * x(half + i);
                 }
                 return channels(moved, none, nullptr);
             });
             const Vector difference = (found - sample.C * x).cwiseAbs();
             for (Eigen::Index i = 0; i < found.size(); ++i) {
-                INFO(model.outputs[static_cast<std::size_t>(i)].name << " " << found(i) << " " << difference(i));
+                INFO(entry(model.outputs, i).name << " " << found(i) << " " << difference(i));
                 CHECK(difference(i) <= 1e-6 * C_size(i) + 1e-9);
             }
         }
@@ -245,7 +246,7 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
         for (const LinearInput& input : list) {
             const bool motion = input.kind() == LinearInput::Kind::motion;
             for (int derivative = 0; derivative < (motion ? 3 : 1); ++derivative, ++column) {
-                // Large enough beside the loads that are there, whose rounding is seen otherwise.
+                // Large beside the loads that are there, whose rounding would show otherwise.
                 const double step = !motion ? 1e3 : derivative == 0 ? 1e-4 : derivative == 1 ? 1e-2 : 10;
                 const double rounding = 1e-13 * sample.y.cwiseAbs().maxCoeff() / step;
                 const Vector found = slope(step, [&](double h) {
@@ -265,9 +266,8 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
                 });
                 const Vector expected = sample.D.col(column);
                 for (Eigen::Index i = 0; i < found.size(); ++i) {
-                    INFO(model.inputs[static_cast<std::size_t>(column)].name
-                         << " to " << model.outputs[static_cast<std::size_t>(i)].name << " " << found(i) << " "
-                         << expected(i));
+                    INFO(entry(model.inputs, column).name << " to " << entry(model.outputs, i).name << " " << found(i)
+                                                          << " " << expected(i));
                     CHECK(std::abs(found(i) - expected(i)) <=
                           1e-6 * std::abs(expected(i)) + 1e-9 * expected.cwiseAbs().maxCoeff() + rounding);
                 }
@@ -304,18 +304,18 @@ TEST_CASE("linear model: transfer functions of the generator torque are the nonl
         const double period = 1 / hertz;
         REQUIRE(record(integrator, recorder, sample_times(0, 2 * period, period / 16), history).reached());
         const Vector at_rest = model.samples[0].y;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto row = static_cast<Eigen::Index>(i);
-            const std::vector<double>& values = history[names[i]];
+        for (Eigen::Index row = 0; row < 4; ++row) {
+            const std::string& name = entry(names, row);
+            const std::vector<double>& values = history[name];
             double error = 0;
             for (std::size_t t = 0; t < history.time.size(); ++t) {
                 const double expected = (y(row) * std::exp(s * history.time[t])).imag();
                 error = std::max(error, std::abs(values[t] - at_rest(row) - expected));
             }
-            INFO(names[i] << " at " << hertz << " Hz: " << std::abs(y(row)) << ", off by " << error);
+            INFO(name << " at " << hertz << " Hz: " << std::abs(y(row)) << ", off by " << error);
             CHECK(error < 1e-3 * std::abs(y(row)));
         }
-        // Of the blades the mean is the collective.
+        // The mean of the blades is the collective.
         REQUIRE(fixed.outputs[4].name == "blade root moment x (collective)");
         const double mean = (at_rest(4) + at_rest(5) + at_rest(6)) / 3;
         double error = 0;

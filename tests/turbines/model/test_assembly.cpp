@@ -1,4 +1,5 @@
 // What the assembly of a turbine may be asked for: elements, blades, generator, damping, gravity.
+#include "mbs/base/entry.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
@@ -83,7 +84,7 @@ TEST_CASE("assembly: blades have corresponding coordinates, one blade after the 
     for (int k = 0; k < 4; ++k)
         for (std::size_t i = 0; i < machine.rotor().blades[0].size(); ++i) {
             const std::string first = table[machine.rotor().blades[0][i]].name,
-                              own = table[machine.rotor().blades[static_cast<std::size_t>(k)][i]].name;
+                              own = table[entry(machine.rotor().blades, k)[i]].name;
             CHECK(own == text("blade ", k + 1, first.substr(std::string("blade 1").size())));
         }
 }
@@ -238,7 +239,7 @@ TEST_CASE("assembly: a positive cone puts the blade tips downwind of the hub", "
     }
 }
 
-TEST_CASE("assembly: a turbine keeps the text of its data and tells its masses by part", "[property]") {
+TEST_CASE("assembly: a turbine keeps the text of its data and gives its masses by part", "[property]") {
     const turbines::Turbine machine = turbines::wt600();
     CHECK_THAT(machine.source(),
                Catch::Matchers::Contains("quantity,unit,value") && Catch::Matchers::Contains("span_fraction[-]"));

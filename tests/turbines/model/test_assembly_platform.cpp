@@ -1,5 +1,6 @@
 // The 600 kW machine on a moving platform: invariances (Galilei, equivalence of acceleration and gravity), loads at the
 // foot against the rate of change of momentum and against the forces of the drives, a free platform.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/support/catch.hpp"
@@ -64,8 +65,7 @@ struct Moving {
         accelerate();
     }
     int platform(int coordinate) const {
-        return turbine.system().model.index(
-            turbine.layout().platform->coordinates.at(static_cast<std::size_t>(coordinate)));
+        return turbine.system().model.index(entry(turbine.layout().platform->coordinates, coordinate));
     }
 
 private:
@@ -76,7 +76,7 @@ private:
             state.qdd(platform(i)) = motion.qdd(i);
         }
     }
-    // Of the free coordinates, under the machine's forces; with the forces of the drives.
+    // Accelerations of the free coordinates under the machine's forces, and the forces of the drives.
     void accelerate() {
         const Model& model = turbine.system().model;
         Workspace workspace(model);
@@ -88,7 +88,7 @@ private:
     }
 };
 
-// What a channel of these units is compared with: the weight of the machine, its moment, a length, a rate, the largest
+// Scale of a channel with these units: the weight of the machine, its moment, a length, a rate, the largest
 // acceleration of a coordinate.
 double size_of(const std::string& units, double acceleration) {
     return units == "N"         ? 1e6
@@ -150,7 +150,7 @@ VectorT<S> momentum(const Turbine& turbine, const VectorT<S>& q, const VectorT<S
     return sum;
 }
 
-// Its rate along the motion, by a complex step: exact.
+// Rate of the momentum along the motion, by a complex step: exact.
 Vec6 momentum_rate(const Moving& m, const Vec3& about, bool with_platform) {
     constexpr double h = 1e-40;
     const Complex step(0, h);
@@ -294,7 +294,7 @@ TEST_CASE("machine on a platform: two seconds held, in steady motion, or in surg
     const Motion surge = Motion::function([](double t) { return MotionState{a * t * t / 2, a * t, a}; });
     const solvers::History accelerated = simulate(on_platform(earth_gravity, 1), {{BaseCoordinate::surge, surge}});
     check_same(accelerated, simulate(on_ground(earth_gravity - a * Vec3::UnitX(), 1), {}));
-    // Which is no trifle: the tower bends upwind by some centimetres.
+    // The effect is not small: the tower bends upwind by some centimetres.
     CHECK(mean(accelerated["TTDspFA"]) < mean(fixed["TTDspFA"]) - 0.02);
 }
 
@@ -328,7 +328,7 @@ TEST_CASE("machine on a platform: the drives carry what the foot and the platfor
     }
 }
 
-TEST_CASE("machine on a free platform: it falls as a whole, and no momentum is lost or won in the air", "[analytic]") {
+TEST_CASE("machine on a free platform: it falls as a whole; without gravity its momentum is conserved", "[analytic]") {
     AssemblyOptions options = on_platform(earth_gravity);
     options.platform->coordinates.role = CoordinateRole::free;
     options.platform->inertia = {2e5, Vec3(0, 0, -10), Vec3(4e7, 4e7, 2e7).asDiagonal()};
@@ -358,24 +358,22 @@ TEST_CASE("machine on a moored platform: it has modes of the platform, at the fr
     AssemblyOptions options = on_platform(Vec3::Zero());
     options.platform->coordinates.role = CoordinateRole::free;
     const Turbine bare = wt600(options);
-    const double M = mass(bare);
     ForceSet forces = bare.forces();
     const auto& coordinates = bare.layout().platform->coordinates;
-    const auto stiffness = [&](double hz) { return M * (2 * pi * hz) * (2 * pi * hz); };
-    forces.add_spring("mooring x", coordinates[0], stiffness(0.01), 0);
-    forces.add_spring("mooring y", coordinates[1], stiffness(0.015), 0);
-    forces.add_spring("mooring z", coordinates[2], stiffness(0.02), 0);
-    for (std::size_t i : {3u, 4u, 5u}) forces.add_spring(text("mooring ", i), coordinates[i], 1e13, 0);
+    const std::array<std::string, 3> name{"surge", "sway", "heave"};
+    const std::array<double, 3> hz{0.01, 0.015, 0.02};
+    for (std::size_t i : {0u, 1u, 2u})
+        forces.add_spring(name[i], coordinates[i], mass(bare) * std::pow(2 * pi * hz[i], 2));
+    for (std::size_t i : {3u, 4u, 5u}) forces.add_spring(text("mooring ", i), coordinates[i], 1e13);
     const Turbine moored = bare.with_forces(forces);
     const solvers::Campbell d = solvers::campbell(moored.system(), moored.rotor(), solvers::rpm_range(0, 0, 1));
     // The machine on top gives way a little: (0.02 Hz / 0.7 Hz)^2.
-    CHECK(d.natural_hz(d.branch("platform surge"), 0) == Approx(0.01).epsilon(1e-3));
-    CHECK(d.natural_hz(d.branch("platform sway"), 0) == Approx(0.015).epsilon(1e-3));
-    CHECK(d.natural_hz(d.branch("platform heave"), 0) == Approx(0.02).epsilon(1e-3));
+    for (std::size_t i : {0u, 1u, 2u})
+        CHECK(d.natural_hz(d.branch("platform " + name[i]), 0) == Approx(hz[i]).epsilon(1e-3));
     CHECK(d.natural_hz(d.branch("1st tower fore-aft"), 0) > 0.7);
 }
 
-TEST_CASE("machine on a platform: what was added is named and told", "[property]") {
+TEST_CASE("machine on a platform: its coordinates are named and the description mentions it", "[property]") {
     CHECK_FALSE(wt600().layout().platform);
     CHECK_FALSE(isolated_blade(wt600_description(), on_platform(earth_gravity)).layout().platform);
     AssemblyOptions options = on_platform(earth_gravity);

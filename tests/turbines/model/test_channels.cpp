@@ -304,7 +304,7 @@ solvers::Integrator integrator_at_rest(const System& system) {
 
 }  // namespace
 
-TEST_CASE("channels: names and aliases are unique, complete, and told to a recorder with units", "[property]") {
+TEST_CASE("channels: names and aliases are unique and complete, and a recorder gets them with units", "[property]") {
     for (int blades : {3, 4}) {
         TurbineDescription d = wt600_description();
         d.blades = blades;

@@ -23,7 +23,7 @@ constexpr double gear_ratio = 50;
 struct ThreeInertias {
     double rotor = 0, slip = 0;  // kg m^2; N m s/rad on the generator
 
-    // Of the slowest oscillation: natural frequency in Hz and damping ratio. Locked: the generator stands.
+    // Slowest oscillation: natural frequency in Hz and damping ratio. Locked: the generator stands.
     std::array<double, 2> torsion(bool locked) const {
         constexpr double squared = gear_ratio * gear_ratio;
         constexpr double k1 = 1.2e5 * squared, c1 = 50 * squared, k2 = 6e7, c2 = 1e5;

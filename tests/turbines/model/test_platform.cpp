@@ -2,6 +2,7 @@
 // kinematics: the frames written out vector by vector, their time derivatives by Taylor series.
 #include "elements/cardan_beam/section_loads.hpp"
 #include "elements/sections/quadrature.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "tests/oracles/jet.hpp"
 #include "tests/oracles/platform_frames.hpp"
@@ -138,7 +139,7 @@ TEST_CASE("platform: blade roots move as the frames written out say, with veloci
             frame_jacobian<double>(kin, layout.blades[k].nodes.front(), J);
             const Vec3 velocity = (J * s.qd).tail<3>();
             CHECK((velocity - rate(exact.root)).norm() < 1e-12 * 100);
-            const BodyMotion& moved = loads.motion[static_cast<std::size_t>(s.model.index(layout.pitch[k]))];
+            const BodyMotion& moved = entry(loads.motion, s.model.index(layout.pitch[k]));
             CHECK((moved.acceleration - acceleration(exact.root)).norm() < 1e-12 * 300);
         }
         const Pose<double> apex = pose(kin, m.layout().rotor_centre);
@@ -183,7 +184,7 @@ TEST_CASE("platform: blade pitch setting turns the leading edge upwind, the coor
 
 TEST_CASE("platform: root loads of the undeformed blade are weight and inertia of the line, whatever moves",
           "[analytic]") {
-    // Of the blade flexible in shear (GA = 20 EA) the elements keep products of inertia with the axis to order h^2
+    // For the blade flexible in shear (GA = 20 EA) the elements keep products of inertia with the axis to order h^2
     // only.
     turbines::Nrel5mwBladeOptions shear_rigid;
     shear_rigid.shear_ratio = std::numeric_limits<double>::infinity();
@@ -198,8 +199,7 @@ TEST_CASE("platform: root loads of the undeformed blade are weight and inertia o
                 const Vec6 exact = rigid_blade_loads(blade, motion.frames(), {0, 0, -9.80665});
                 for (int i = 0; i < 6; ++i) {
                     CAPTURE(elements, seed, i);
-                    CHECK(std::abs(values[static_cast<std::size_t>(3 + i)] - exact(i)) <
-                          error * exact.segment<3>(i < 3 ? 0 : 3).norm());
+                    CHECK(std::abs(entry(values, 3 + i) - exact(i)) < error * exact.segment<3>(i < 3 ? 0 : 3).norm());
                 }
                 for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(values[i]) < 1e-12);
             }
@@ -245,8 +245,7 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
         const Kinematics kin = s.kin();
         const JointLoads loads = joint_loads(kin, m.system().forces, s.qd, s.qdd);
         const SectionLoads section = equilibrium_loads(m.layout().blades[0], kin, m.system().forces, loads, 0);
-        for (int i = 0; i < 6; ++i)
-            CHECK(std::abs(section.values(i) + values[static_cast<std::size_t>(3 + i)]) < scale * arm);
+        for (int i = 0; i < 6; ++i) CHECK(std::abs(section.values(i) + entry(values, 3 + i)) < scale * arm);
     }
 }
 

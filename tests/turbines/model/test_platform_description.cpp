@@ -244,7 +244,7 @@ TEST_CASE("platform: bad descriptions are refused with their name, the quantity,
     CHECK_NOTHROW(Afloat(driven));
 }
 
-TEST_CASE("platform: a lift that does not carry the weight is told", "[property]") {
+TEST_CASE("platform: a lift that does not carry the weight gives a warning", "[property]") {
     PlatformDescription p = neutrally_buoyant();
     CHECK(Afloat(p).warnings.empty());
     p.buoyancy *= 1.5;

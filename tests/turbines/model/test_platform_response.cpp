@@ -87,7 +87,7 @@ private:
         options.method = Method::bdf;
         options.max_order = 2;
         options.tolerances = {t, t / 100, t / 100, t / 10, t / 10};
-        options.works = false;
+        options.integrate_work = false;
         return options;
     }
     static RecorderOptions channels_only() {

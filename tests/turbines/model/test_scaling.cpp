@@ -50,13 +50,13 @@ TEST_CASE("scaling: the 15 MW machine has the frequencies of the 5 MW machine ov
 }
 
 TEST_CASE("scaling: joints with springs in rotation and translation scale along, on the 600 kW machine", "[analytic]") {
-    // It has all joints, offsets of shear centres, and damping that is told by first modes.
+    // It has all joints, offsets of shear centres, and damping that is given by first modes.
     const turbines::TurbineDescription d = turbines::wt600_description();
     const turbines::Turbine a = turbines::assemble(d), b = turbines::assemble(turbines::scaled(d, length_ratio));
     for (double speed : {0.0, 27 * rpm}) check_same(a, b, speed, 1e-9);
 }
 
-TEST_CASE("scaling: there and back again, and factors that are none", "[property]") {
+TEST_CASE("scaling: there and back again, and bad factors", "[property]") {
     const turbines::TurbineDescription d = turbines::nrel5mw_description();
     const auto back = turbines::scaled(turbines::scaled(d, length_ratio), 1 / length_ratio);
     const BeamSection one = d.blade.line.section(30), other = back.blade.line.section(30);

@@ -184,7 +184,7 @@ TEST_CASE("openfast: with CompElast = 2 the blades come from BeamDyn", "[propert
                            read_beamdyn(test::data_file("openfast/small_BeamDyn.dat")).beam.line) == 0);
 }
 
-TEST_CASE("beamdyn: files that make no blade are refused with the line", "[property]") {
+TEST_CASE("beamdyn: files that do not describe a blade are refused with the line", "[property]") {
     const auto message = [](const char* file, const char* old_text, const char* new_text) {
         const test::ModelFolder model("openfast");
         model.replace(file, old_text, new_text);

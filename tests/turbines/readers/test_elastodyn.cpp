@@ -174,7 +174,7 @@ TEST_CASE("elastodyn: everything that is not in the description is noted, with f
     }
 }
 
-TEST_CASE("elastodyn: freedoms that are switched off in the file are taken from the machine", "[property]") {
+TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from the machine", "[property]") {
     const auto changed = [](std::initializer_list<const char*> off, const char* main = "small_ElastoDyn.dat") {
         const test::ModelFolder model("openfast");
         for (const char* keyword : off)
@@ -183,26 +183,26 @@ TEST_CASE("elastodyn: freedoms that are switched off in the file are taken from 
         return read_openfast(model / main);
     };
     const TurbineFile as_it_is = changed({}, "small.fst");
-    CHECK(as_it_is.freedoms.generator);
-    CHECK(as_it_is.freedoms.tower_fore_aft);
-    CHECK(as_it_is.freedoms.tower_side_side);  // one of two
-    CHECK(as_it_is.freedoms.blades);
+    CHECK(as_it_is.dofs.generator);
+    CHECK(as_it_is.dofs.tower_fore_aft);
+    CHECK(as_it_is.dofs.tower_side_side);  // one of two
+    CHECK(as_it_is.dofs.blades);
     CHECK(as_it_is.yaw_drive.stiffness == 2e7);
-    CHECK(!changed({"GenDOF"}).freedoms.generator);
+    CHECK(!changed({"GenDOF"}).dofs.generator);
     CHECK(changed({"DrTrDOF"}).description.drive_train.main_shaft.is_rigid());
     const TurbineFile yaw = changed({"YawDOF"}, "small.fst");
     CHECK(yaw.description.yaw.rotation.is_rigid());
     CHECK(yaw.yaw_drive.stiffness == 2e7);  // for who wants it free
     const TurbineFile one = changed({"TwFADOF2"});
-    CHECK(one.freedoms.tower_fore_aft);
+    CHECK(one.dofs.tower_fore_aft);
     CHECK(test::has_note(one.notes, "TwFADOF2", "one mode cannot be switched off"));
     const TurbineFile fore_aft = changed({"TwFADOF1", "TwFADOF2"});
-    CHECK(!fore_aft.freedoms.tower_fore_aft);
-    CHECK(fore_aft.freedoms.tower_side_side);
+    CHECK(!fore_aft.dofs.tower_fore_aft);
+    CHECK(fore_aft.dofs.tower_side_side);
     CHECK(!test::has_note(fore_aft.notes, "TwFADOF", ""));
-    CHECK(!changed({"TwSSDOF1"}).freedoms.tower_side_side);
-    CHECK(changed({"FlapDOF1", "FlapDOF2"}).freedoms.blades);
-    CHECK(!changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).freedoms.blades);
+    CHECK(!changed({"TwSSDOF1"}).dofs.tower_side_side);
+    CHECK(changed({"FlapDOF1", "FlapDOF2"}).dofs.blades);
+    CHECK(!changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).dofs.blades);
 }
 
 TEST_CASE("beams that are held in bending: the machine moves as with an infinitely stiff one", "[crosscheck]") {
@@ -269,7 +269,7 @@ TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring ho
                Contains("CompElast = 15; allowed: 1 ... 2"));
 }
 
-TEST_CASE("elastodyn: figures that make no machine are refused with the line", "[property]") {
+TEST_CASE("elastodyn: numbers that do not describe a machine are refused with the line", "[property]") {
     const auto message = [](const char* file, const char* old_text, const char* new_text) {
         const test::ModelFolder model("openfast");
         model.replace(file, old_text, new_text);

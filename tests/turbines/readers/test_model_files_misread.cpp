@@ -86,7 +86,7 @@ TEST_CASE("beamdyn: members and few key points are noted", "[property]") {
     CHECK_THAT(message_of([&] { (void)notes("1   member_total", "5   member_total"); }), Contains("allowed: 1 ... 4"));
 }
 
-TEST_CASE("openfast: numbers that belong to no keyword or no column do not vanish", "[property]") {
+TEST_CASE("openfast: numbers that belong to no keyword or column are not dropped silently", "[property]") {
     CHECK(has_note(with(elastodyn_file, elastodyn_file, "             0   TipMass(1)", "  5000 - tip brake").notes,
                    "line without a keyword", "without effect"));
     CHECK_THAT(message_of([] {
@@ -115,7 +115,7 @@ TEST_CASE("elastodyn: a column of FAST 7 that is all zeros is as good as none", 
     CHECK(has_note(given.notes, "GJStff", "columns of FAST 7"));
 }
 
-TEST_CASE("openfast: files that are something else, or not there, are told where they are named", "[property]") {
+TEST_CASE("openfast: files of another kind, or missing, are reported where they are named", "[property]") {
     CHECK_THAT(message_of([] { (void)read_openfast(test::data_file("openfast/small_Blade.dat")); }),
                Contains("small_Blade.dat:1: neither a main file of OpenFAST") && Contains("nor one of ElastoDyn"));
     CHECK_THAT(message_of([] { (void)with(elastodyn_file, elastodyn_file, "\"small_Tower.dat\"", "\"no.dat\""); }),
@@ -131,7 +131,7 @@ TEST_CASE("openfast: files that are something else, or not there, are told where
           test::state(read_openfast(test::data_file("openfast/small_BeamDyn.fst"))));
 }
 
-TEST_CASE("windio: a downwind rotor is refused, and so is what stands nowhere", "[property]") {
+TEST_CASE("windio: a downwind rotor is refused, and so is one of unknown orientation", "[property]") {
     const auto side = [](const char* word) {
         return message_of([&] {
             (void)windio_with("small_v2.yaml", "rotor_orientation: upwind", text("rotor_orientation: ", word));

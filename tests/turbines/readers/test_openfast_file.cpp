@@ -50,7 +50,7 @@ TEST_CASE("openfast file: headings, output lists and what follows END hold no en
     CHECK(f.number("Entry") == 4);
 }
 
-TEST_CASE("openfast file: what is wrong is told with file, line and what was expected", "[property]") {
+TEST_CASE("openfast file: errors give file, line and what was expected", "[property]") {
     const auto message = [](const std::string& lines, const auto& action) {
         return message_of([&] {
             OpenFastFile f = file(lines);

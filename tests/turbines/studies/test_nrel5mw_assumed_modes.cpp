@@ -1,5 +1,6 @@
 // The NREL 5 MW blade by assumed modes: the tables of the paper of 2018 by its own functions,
 // converged frequencies, response to gravity and platform motion, and the joint chain beside it.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/modes.hpp"
@@ -74,7 +75,7 @@ struct Motions {
 AssumedModesBlade in_natural_modes(const AssumedModesBlade& blade, Eigen::Index count) {
     const auto modes = natural_modes(blade.at(nrel5mw_spinning_hub(rated)));
     Matrix shapes(blade.size(), count);
-    for (Eigen::Index k = 0; k < count; ++k) shapes.col(k) = modes[static_cast<std::size_t>(k)].shape;
+    for (Eigen::Index k = 0; k < count; ++k) shapes.col(k) = entry(modes, k).shape;
     return blade.reduced(shapes);
 }
 
@@ -94,7 +95,7 @@ solvers::ForcedResponse response(const Motions& motions) {
         system, [&](double time) { return blade.at(motions.at(time)).f; }, 7);
 }
 
-// Of the tip, m: amplitude and phase (of the cosine, deg) of harmonic k.
+// Deflection of the tip, m: amplitude and phase (of the cosine, deg) of harmonic k.
 struct Harmonic {
     double amplitude, phase;
 };
@@ -107,12 +108,12 @@ Harmonic tip(const solvers::ForcedResponse& q, Direction direction, Eigen::Index
 
 }  // namespace
 
-TEST_CASE("paper of 2018: its functions give its Table 1, bending, to 0.052 %", "[published]") {
+TEST_CASE("paper of 2018: its functions give its Table 1, bending, to 0.052 %", "[published][discrete]") {
     const AssumedModesBlade blade = nrel5mw_blade_of_2018();
     CHECK(blade.mass() == Approx(17608.83).margin(0.005));
     CHECK(blade.size() == 13);
     const Named found = named(blade, 0);
-    // Another program by the same functions: 0.6822 1.0924 1.9911 4.0452 Hz.
+    // Another program with the same functions: 0.6822 1.0924 1.9911 4.0452 Hz.
     constexpr std::array<double, 4> recomputed{0.6822, 1.0924, 1.9911, 4.0452};
     for (std::size_t k = 0; k < 4; ++k) {
         CAPTURE(k, found.bending.at(k));
@@ -122,7 +123,7 @@ TEST_CASE("paper of 2018: its functions give its Table 1, bending, to 0.052 %", 
 }
 
 TEST_CASE("paper of 2018: its functions give its Table 2 to 0.052 % if the tension is integrated from the wrong end",
-          "[published]") {
+          "[published][discrete]") {
     const AssumedModesBlade blade = nrel5mw_blade_of_2018(TensionIntegral::wrong_end);
     for (std::size_t i = 1; i < printed.size(); ++i) {
         const Named found = named(blade, 3.0 * static_cast<double>(i) * rpm);
@@ -131,7 +132,7 @@ TEST_CASE("paper of 2018: its functions give its Table 2 to 0.052 % if the tensi
             CHECK(found.bending.at(k) == Approx(printed.at(i).at(k)).epsilon(5.2e-4));
         }
     }
-    // Of another program by the same functions: 0.8979 and, with the right tension, 0.7591 Hz.
+    // Another program with the same functions: 0.8979 and, with the right tension, 0.7591 Hz.
     CHECK(named(blade, 15 * rpm).bending[0] == Approx(0.8979).margin(6e-5));
     CHECK(named(nrel5mw_blade_of_2018(), 15 * rpm).bending[0] == Approx(0.7591).margin(6e-5));
 }
@@ -222,7 +223,7 @@ Vector gyroscopic(const AssumedModesBlade& full, double speed, Eigen::Index coun
     const AssumedModesMatrices m = in_natural_modes(full, 60).at(motion);
     const auto modes = solvers::modes({m.M, m.G, m.K, m.K_elastic, {}, -1});
     Vector hz(count);
-    for (Eigen::Index k = 0; k < count; ++k) hz(k) = modes[static_cast<std::size_t>(k)].natural_hz();
+    for (Eigen::Index k = 0; k < count; ++k) hz(k) = entry(modes, k).natural_hz();
     return hz;
 }
 
@@ -337,7 +338,7 @@ TEST_CASE("NREL 5 MW assumed modes: from rest under all motions of the platform 
     REQUIRE(solvers::record(integrator, recorder, solvers::sample_times(0, revolution, revolution / rows), chain)
                 .reached());
 
-    // The same by Runge and Kutta's method of order 4 for the assumed modes. M is the unit matrix in natural modes.
+    // Runge and Kutta's method of order 4 for the assumed modes. M is the unit matrix in natural modes.
     const AssumedModesBlade& blade = on_platform();
     const Eigen::Index n = blade.size();
     const auto f = [&](double time, const Vector& y) {

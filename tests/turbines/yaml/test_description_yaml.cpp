@@ -12,7 +12,7 @@ using test::message_of;
 
 namespace {
 
-// The same bits, section by section, at places that are stations and at others.
+// Equal bits, section by section, at places that are stations and at others.
 void check_same_bits(const BeamLine& a, const BeamLine& b) {
     REQUIRE(a.length == b.length);
     CHECK(a.breaks == b.breaks);
@@ -113,7 +113,7 @@ TEST_CASE("description yaml: lines that are functions are refused, sampled ones 
                 CHECK(d.tower.line.section(at).mass == Approx(tower.section(at).mass).epsilon(1e-4));
 }
 
-TEST_CASE("description yaml: what the format does not have is refused with file, line and what is allowed",
+TEST_CASE("description yaml: what the format does not define is refused with file, line and what is allowed",
           "[property]") {
     CHECK_THAT(message_after("cardan_turbine: 2", "cardan_turbine: 3"),
                Contains("machine.yaml:2:17: cardan_turbine: version 3; allowed: 1, 2"));
@@ -160,5 +160,5 @@ TEST_CASE("description yaml: the record of a machine that was assembled is that 
     CHECK(recorded(isolated_blade(d).rotor().description).blade.cone == d.blade.cone);
     CHECK(recorded(isolated_tower(d).rotor().description).yaw.rotation.stiffness == d.yaw.rotation.stiffness);
     const TurbineDescription tables = read_openfast(test::data_file("openfast/small.fst")).description;
-    CHECK(as_computed(tables) == to_yaml(tables));
+    CHECK(description_text(tables) == to_yaml(tables));
 }

@@ -178,7 +178,7 @@ TEST_CASE("windio: the blade is that of a BeamDyn file with the same figures", "
     }
 }
 
-TEST_CASE("windio: what cannot be read is told with file, line and place", "[property]") {
+TEST_CASE("windio: what cannot be read is reported with file, line and place", "[property]") {
     CHECK_THAT(message_after("small_v2.yaml", "windIO_version: \"2.0\"", "windIO_version: \"3.0\""),
                Contains("version 3.0; allowed: 1.x and 2.x"));
     CHECK_THAT(message_after("small_v2.yaml", "cone_angle", "cone"), Contains("no components.hub.cone_angle"));

@@ -69,7 +69,7 @@ std::string confined(rlim_t room, Action action) {
 
 }  // namespace
 
-TEST_CASE("yaml limits: what is no text never reaches the parser") {
+TEST_CASE("yaml limits: what is not text never reaches the parser") {
     // The parser takes the first for UTF-32 and its characters for lengths: it asks for memory without end.
     constexpr rlim_t room = rlim_t{256} << 20;
     const std::string utf32 = std::string(",\0\0\0\xDA", 5) + "x";

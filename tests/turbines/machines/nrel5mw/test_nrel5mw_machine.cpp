@@ -1,6 +1,7 @@
 // The whole NREL 5 MW machine: masses and places, what is in it and what is not, hand computations.
 #include "tests/turbines/machines/nrel5mw/test_nrel5mw_machine.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -52,7 +53,7 @@ TEST_CASE("NREL 5 MW machine: masses are those of the report", "[published]") {
     CHECK(moment / machine.layout().tower->mass == Approx(38.234).epsilon(0.002));
 }
 
-TEST_CASE("NREL 5 MW machine: inertia and mass of the rotor as OpenFAST's ElastoDyn sums them up", "[published]") {
+TEST_CASE("NREL 5 MW machine: inertia and mass of the rotor are those of OpenFAST's ElastoDyn", "[discrete]") {
     // 38677040.613 kg m^2, 109389.842 kg with its 17 stations per blade: summary file of 5MW_Land_DLL_WTurb, r-test.
     const turbines::Turbine machine = turbines::nrel5mw(Nrel5mwVariant::fast);
     const int twist = machine.system().model.index("main shaft twist");
@@ -90,7 +91,7 @@ ElastodynBlade elastodyn_blade(int elements) {
         Eigen::Matrix<double, 2, 3> curvature;  // out of and in the plane of rotation
         Vec3 own;                               // across the chord, across it, along it
         for (int s = 0; s < 3; ++s) {
-            const auto& p = turbines::elastodyn_blade_polynomials.at(static_cast<std::size_t>(s));
+            const auto& p = entry(turbines::elastodyn_blade_polynomials, s);
             own(s) = 0;
             for (std::size_t j = 0; j < p.size(); ++j) {
                 const auto n = static_cast<double>(j + 2);
@@ -117,7 +118,7 @@ solvers::SecondOrderSystem linearised_at_rest(const System& system) {
     return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
 }
 
-// The same three shapes on Cardan's elements.
+// Those three shapes on Cardan's elements.
 Vec3 limited_blade(int elements) {
     const turbines::TurbineDescription d =
         turbines::nrel5mw_description(turbines::nrel5mw_options(Nrel5mwVariant::fast));
@@ -140,7 +141,7 @@ Vec3 limited_blade(int elements) {
 
 TEST_CASE(
     "NREL 5 MW machine: ElastoDyn's sums over 17 elements make its blades softer than integrals of the same shapes",
-    "[published]") {
+    "[discrete]") {
     const ElastodynBlade sums = elastodyn_blade(17);
     // 109389.842 kg and 38677040.613 kg m^2 in its summary file, hub included, cone 2.5 deg: these are its elements.
     CHECK(56780 + 3 * sums.mass == Approx(109389.842).margin(1e-3));
@@ -160,6 +161,7 @@ TEST_CASE(
 }
 
 TEST_CASE("NREL 5 MW machine: hub 90 m above ground and 5 m upwind, tips upwind of the rotor plane", "[published]") {
+    // NREL/TP-500-38060, table 1-1.
     const turbines::Turbine machine = turbines::nrel5mw();
     const Model& model = machine.system().model;
     Workspace workspace(model);
@@ -178,7 +180,7 @@ TEST_CASE("NREL 5 MW machine: hub 90 m above ground and 5 m upwind, tips upwind 
     }
 }
 
-TEST_CASE("NREL 5 MW machine: what it does not have is left out", "[property]") {
+TEST_CASE("NREL 5 MW machine: coordinates that it does not have are left out", "[property]") {
     const turbines::Turbine report = turbines::nrel5mw(Nrel5mwVariant::report, 8, 6);
     // Tower 6 x 5, yaw, generator, shaft, blades 3 x 8 x 6.
     CHECK(report.system().model.size() == 30 + 3 + 144);

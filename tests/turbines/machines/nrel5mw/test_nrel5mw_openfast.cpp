@@ -1,6 +1,7 @@
 // The whole NREL 5 MW machine beside OpenFAST 5.0.0: linearisation with multi-blade transformation, gravity on, no
 // aerodynamics, generator and yaw bearing locked. A peer's numbers with idealisations of their own, which an
 // independent model of ElastoDyn has as well. [docs/nrel5mw.md]
+#include "mbs/base/entry.hpp"
 #include "tests/oracles/elastodyn_turbine.hpp"
 #include "tests/oracles/polynomial_blade.hpp"
 #include "tests/support/catch.hpp"
@@ -115,8 +116,7 @@ Row limited_row(std::size_t at, int blade_elements, int tower_elements) {
     average.harmonics = 3;
     const auto mean = solvers::azimuth_average(machine.system(), machine.rotor(), average);
     const auto modes = nrel5mw_campbell::limited_modes(machine, mean, Limited::tower_and_blades);
-    return by_name([&](std::ptrdiff_t k) { return modes.at(static_cast<std::size_t>(k)).natural_hz(); },
-                   elastodyn.at(at));
+    return by_name([&](std::ptrdiff_t k) { return entry(modes, k).natural_hz(); }, elastodyn.at(at));
 }
 
 // Under gravity, at 0, 6 and 12.1 rpm, the yaw bearing locked; names by the diagram without gravity.
@@ -138,8 +138,7 @@ std::array<Row, 3> computed(Nrel5mwVariant variant, Limited limited, int blade_e
         for (std::size_t k = 0; k < names.size(); ++k) {
             const int mode = d.branch(names.at(k)).mode.at(i);
             REQUIRE(mode >= 0);
-            const auto nearest =
-                solvers::nearest_mode(mean.system, modes, d.points[i].modes[static_cast<std::size_t>(mode)].mode);
+            const auto nearest = solvers::nearest_mode(mean.system, modes, entry(d.points[i].modes, mode).mode);
             all.at(i).at(k) = modes[nearest.index].natural_hz();
         }
     }

@@ -121,7 +121,7 @@ TEST_CASE("NREL 5 MW tower: with a rigid top it is the limit of a machine with s
         CHECK(hz(tower, mode) == Approx(hz(whole, mode)).epsilon(1e-4));
 }
 
-TEST_CASE("NREL 5 MW tower: a platform under the machine is no part of it, a rotor it has not", "[property]") {
+TEST_CASE("NREL 5 MW tower: it includes neither a platform under the machine nor a rotor", "[property]") {
     AssemblyOptions options = undamped(Nrel5mwVariant::report, 2, 2);
     const double on_ground =
         hz(diagram(isolated_tower(nrel5mw_description(), options, true), {0}), "1st tower fore-aft");

@@ -5,6 +5,7 @@
 
 #include "elements/reference/mixed_beam.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 
 #include <Eigen/SparseLU>
 
@@ -21,14 +22,14 @@ public:
         : speed_(rotor_speed), harmonics_(harmonics) {
         constexpr int samples = 5;  // as many as coefficients, so a polynomial of second degree is met exactly
         std::array<DescriptorPencil, samples> sampled;
-        for (int i = 0; i < samples; ++i) sampled[static_cast<std::size_t>(i)] = at(2 * pi * i / samples);
+        for (int i = 0; i < samples; ++i) entry(sampled, i) = at(2 * pi * i / samples);
         size_ = sampled[0].E.rows();
         for (int k = -2; k <= 2; ++k) {
             ComplexMatrix E = ComplexMatrix::Zero(size_, size_), A = E;
             for (int i = 0; i < samples; ++i) {
                 const Complex factor = std::exp(Complex(0, -2 * pi * i * k / samples)) / double(samples);
-                E += factor * sampled[static_cast<std::size_t>(i)].E;
-                A += factor * sampled[static_cast<std::size_t>(i)].A;
+                E += factor * entry(sampled, i).E;
+                A += factor * entry(sampled, i).A;
             }
             coefficients_.push_back({k, E, A});
         }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/linear/linearise.hpp"
 
@@ -112,12 +113,12 @@ inline PeriodicMode principal(const ComplexMatrix& z, const ComplexMatrix& rate,
         for (Eigen::Index i = 0; i < samples; ++i)
             c += p.col(i) * std::exp(Complex(0, -k * pi * static_cast<double>(i) / static_cast<double>(samples)));
         for (Eigen::Index row = 0; row < n; ++row)
-            c(row) *= by.odd[static_cast<std::size_t>(row)] == (k % 2 != 0) ? 1 / static_cast<double>(samples) : 0;
+            c(row) *= entry(by.odd, row) == (k % 2 != 0) ? 1 / static_cast<double>(samples) : 0;
         std::vector<std::pair<std::string, double>> families;
         const ComplexVector force = K * c;
         double all = 0;
         for (Eigen::Index row = 0; row < n; ++row) {
-            const std::string& name = by.family[static_cast<std::size_t>(row)];
+            const std::string& name = entry(by.family, row);
             auto at = std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.first == name; });
             if (at == families.end()) at = families.insert(at, {name, 0.0});
             const double e = (std::conj(c(row)) * force(row)).real() / energy;
@@ -153,7 +154,7 @@ inline HalfTurnFloquet half_turn_floquet(const PeriodicSystem& at, double rotor_
     T.topLeftCorner(n, n) = T.bottomRightCorner(n, n) = by.T;
     Matrix shifted = T * x * T.transpose();
     for (Eigen::Index row = 0; row < n; ++row)
-        if (by.odd[static_cast<std::size_t>(row)]) shifted.row(row) *= -1, shifted.row(n + row) *= -1;
+        if (entry(by.odd, row)) shifted.row(row) *= -1, shifted.row(n + row) *= -1;
     const Eigen::EigenSolver<Matrix> solver(shifted);
 
     HalfTurnFloquet result;
@@ -166,7 +167,7 @@ inline HalfTurnFloquet half_turn_floquet(const PeriodicSystem& at, double rotor_
         if (rigid || std::abs(mu) < weakest) continue;
         ComplexMatrix z(n, samples), rate(n, samples);
         for (Eigen::Index i = 0; i < samples; ++i) {
-            const ComplexVector state = sampled[static_cast<std::size_t>(i)] * shapes.col(m);
+            const ComplexVector state = entry(sampled, i) * shapes.col(m);
             z.col(i) = by.T * state.head(n);
             rate.col(i) = by.T * state.tail(n) / rotor_speed;
         }

@@ -31,7 +31,7 @@ inline turbines::TurbineDescription general_description() {
 /// the blades, sums, differences.
 inline HalfTurnCoordinates half_turn_coordinates(const turbines::Turbine& machine, const std::vector<int>& unknowns) {
     const CoordinateTable& table = machine.system().model.coordinates();
-    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const auto column = [&](int coordinate) {
         return std::find(unknowns.begin(), unknowns.end(), coordinate) - unknowns.begin();
     };
@@ -41,7 +41,7 @@ inline HalfTurnCoordinates half_turn_coordinates(const turbines::Turbine& machin
         const CoordinateInfo& info = table[i];
         if (info.blade > 0) continue;
         z.T(row++, column(i)) = 1;
-        const auto& odd = machine.rotor().odd;
+        const auto& odd = machine.rotor().odd_coordinates;
         z.odd.push_back(std::find(odd.begin(), odd.end(), i) != odd.end());
         z.family.push_back(info.part != "tower"               ? info.part
                            : contains(info.name, "bending y") ? "tower lateral"

@@ -1,5 +1,6 @@
 // The two-bladed teetered machine of Lee, Hodges and Patil (2002), Table I: masses, frames, joint axes, symmetry, what
 // its assembly may be asked for.
+#include "mbs/base/entry.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/model/summary.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -114,7 +115,7 @@ TEST_CASE("teetered machine: coordinates in order, spin prescribed, two blades i
     CHECK(rotor.spin == 31);
     CHECK(table[31].role == CoordinateRole::driven);
     CHECK(table.free().size() == 92);
-    CHECK(machine.rotor().odd == std::vector<int>{32});
+    CHECK(machine.rotor().odd_coordinates == std::vector<int>{32});
     REQUIRE(rotor.blades.size() == 2);
     for (std::size_t i = 0; i < 30; ++i) {
         const std::string first = table[rotor.blades[0][i]].name, second = table[rotor.blades[1][i]].name;
@@ -191,7 +192,7 @@ TEST_CASE("teetered machine: half a revolution on, blades exchanged and teeter r
         Vector y = x;
         const auto& blades = machine.rotor().blades;
         for (std::size_t i = 0; i < blades[0].size(); ++i) std::swap(y(blades[0][i]), y(blades[1][i]));
-        for (int odd : machine.rotor().odd) y(odd) *= -1;
+        for (int odd : machine.rotor().odd_coordinates) y(odd) *= -1;
         return y;
     };
     const auto left_side = [&](const Vector& q, const Vector& qd, const Vector& qdd) {
@@ -254,8 +255,7 @@ TEST_CASE("teetered machine: a rigid tower has no coordinates, its mass stays in
     const Turbine machine = assemble(teetered_description(), options);
     CHECK(machine.system().model.size() == 3 + 2 * 30);
     CHECK(machine.system().model.coordinates().of_part("tower").empty());
-    const Vec3 top =
-        machine.tree().frames().at(static_cast<std::size_t>(machine.tree().frame("tower top").index)).in_body.p;
+    const Vec3 top = entry(machine.tree().frames(), machine.tree().frame("tower top").index).in_body.p;
     CHECK(top == Vec3(0, 0, 27));
     const auto parts = masses_by_part(machine.tree());
     CHECK(parts.front().part == "tower");
@@ -277,7 +277,7 @@ TEST_CASE("teetered machine: elements, extension and torsion of tower and blades
     const auto blade = turbines::isolated_blade(d, options);
     CHECK(blade.system().model.size() == 1 + 18);
     CHECK(blade.rotor().blades.size() == 1);
-    CHECK(blade.rotor().odd.empty());
+    CHECK(blade.rotor().odd_coordinates.empty());
 }
 
 TEST_CASE("teetered machine: straight it is its own steady state; coned, both blades flap alike and it does not teeter",

@@ -1,5 +1,6 @@
 // The blade of the two-bladed teetered machine, clamped to a rigid hub, at rest and at 6.02 rad/s.
 #include "elements/reference/mixed_beam.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/teetered_rotor.hpp"
@@ -28,7 +29,7 @@ BladeFrequencies blade_frequencies(const AssemblyOptions& options, double rotor_
     for (const solvers::Mode& mode : solvers::modes(system)) {
         Eigen::Index most = 0;
         solvers::energy_by_row(system, mode).maxCoeff(&most);
-        const std::string& name = model.coordinates()[system.coordinates[static_cast<std::size_t>(most)]].name;
+        const std::string& name = model.coordinates()[entry(system.coordinates, most)].name;
         const auto is = [&](const char* what) { return name.find(what) != std::string::npos; };
         (is("bending y")   ? found.flap
          : is("bending z") ? found.lag
@@ -66,7 +67,7 @@ TEST_CASE("teetered machine's blade: torsion is that of the discrete rod, stiffe
                     const double s = std::sin((2 * k - 1) * pi / (4 * n));
                     const double spring = std::pow(2 * n * c / 8.42 * s, 2);
                     const double squared = (spring + 0.99996 * rotor_speed * rotor_speed) / (1 + 4 * a * s * s);
-                    CHECK(torsion[static_cast<std::size_t>(k - 1)] == Approx(std::sqrt(squared)).epsilon(1e-9));
+                    CHECK(entry(torsion, k - 1) == Approx(std::sqrt(squared)).epsilon(1e-9));
                 }
             }
 }

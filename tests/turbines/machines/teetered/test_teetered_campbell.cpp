@@ -140,7 +140,7 @@ TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in
     for (const bool locked : {false, true}) {
         if (locked) description.hub.teeter->bearing = turbines::rigid_joint;
         const Turbine machine = turbines::assemble(description, options);
-        CHECK(machine.rotor().odd.size() == (locked ? 0U : 1U));
+        CHECK(machine.rotor().odd_coordinates.size() == (locked ? 0U : 1U));
         const Campbell d = diagram_of(machine, {5.0, teetered_speed}, 8);
         CHECK(std::count(d.rows.begin(), d.rows.end(), "teeter") == (locked ? 0 : 1));
         for (const solvers::CampbellPoint& point : d.points) {

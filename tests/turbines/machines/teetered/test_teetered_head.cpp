@@ -31,7 +31,7 @@ turbines::TurbineDescription offset_machine() {
     return d;
 }
 
-// The same for Kane's equations: blades as rigid bodies are part of the hub, so they hand no forces to it.
+// Likewise for Kane's equations: blades as rigid bodies are part of the hub, so they hand no forces to it.
 TeeteredHead head_of(const turbines::TurbineDescription& d, double rotor_speed) {
     TeeteredHead head;
     head.c_n = -d.nacelle.inertia.com.x();

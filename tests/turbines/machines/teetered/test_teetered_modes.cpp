@@ -1,6 +1,7 @@
 // The two-bladed teetered machine by the library's own solvers: periodic steady state, Floquet's theory over whole and
 // half revolutions, Hill's method. Against each other, against the independent computation of test_teetered_floquet.cpp
 // and against converged frequencies.
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/hill.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
@@ -28,8 +29,8 @@ struct Periodic {
     explicit Periodic(const Turbine& machine, int harmonics = 8)
         : state(solvers::harmonic_balance(machine.system(), machine.rotor().spin, options(harmonics))),
           system(solvers::linearised(machine.system(), state)),
-          half_turn(
-              solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), teetered_speed, machine.rotor().odd)) {}
+          half_turn(solvers::blade_symmetry(machine.rotor(), unknowns_of(machine), teetered_speed,
+                                            machine.rotor().odd_coordinates)) {}
 
     static solvers::PeriodicOptions options(int harmonics) {
         solvers::PeriodicOptions options;
@@ -94,7 +95,7 @@ std::map<std::string, std::vector<Complex>> by_family(const Turbine& machine, co
         const ComplexVector force = z.T * (at.K_elastic * c), motion = z.T * c;
         std::map<std::string, double> energy;
         for (Eigen::Index i = 0; i < motion.size(); ++i)
-            energy[z.family[static_cast<std::size_t>(i)]] += (std::conj(motion(i)) * force(i)).real();
+            energy[entry(z.family, i)] += (std::conj(motion(i)) * force(i)).real();
         const auto most = std::max_element(energy.begin(), energy.end(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
         found[most->first].push_back(mode.exponent / teetered_speed);
@@ -146,15 +147,15 @@ TEST_CASE(
     CHECK(solvers::asymmetry(periodic.system, periodic.half_turn) < 1e-13);
     const solvers::Floquet whole = periodic.modes(16, false), half = periodic.modes(16, true),
                            balanced = solvers::hill(periodic.system, {.harmonics = 9});
-    CHECK(whole.message.empty());
-    CHECK(half.message.empty());
+    CHECK(whole.note.empty());
+    CHECK(half.note.empty());
     CHECK(up_to(16, half).size() == 12);
     check_close(up_to(16, half), up_to(16, whole), {1e-9, 1e-7});
     check_close(up_to(16, half), up_to(16, balanced), {1e-7, 1e-5});
     check_rigid_motions(half, 0.04525);
     check_rigid_motions(balanced, 0.04525);
 
-    // Of fifth order, with steps of a quarter of a degree.
+    // A method of fifth order, with steps of a quarter of a degree.
     const HalfTurnFloquet independent = floquet(machine, teetered_speed, 700);
     const auto families = by_family(machine, periodic, half);
     int compared = 0;
@@ -173,7 +174,7 @@ TEST_CASE("modes of the teetered machine: three elements per part give the first
     const Turbine machine = teetered_machine(3);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(11, true);
-    CHECK(half.message.empty());
+    CHECK(half.note.empty());
     check_rigid_motions(half, 0.04525);
     const auto found = by_family(machine, periodic, half);
     for (const TeeteredRow& row : teetered_ratio_100) {
@@ -200,7 +201,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 
     // Teeter changes sign in half a revolution, the blades exchange, tower and yaw repeat.
     const auto& rotor = machine.rotor();
-    const int teeter = machine.rotor().odd[0];
+    const int teeter = machine.rotor().odd_coordinates[0];
     for (int j = 0; j <= 16; ++j) {
         const Eigen::Index from = j == 0 ? 0 : 2 * j - 1, count = j == 0 ? 1 : 2;
         const auto of = [&](int row) { return periodic.state.coefficients.row(row).segment(from, count); };
@@ -224,7 +225,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on the rigid tow
     const Turbine machine = teetered_machine(6, true);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
-    CHECK(half.message.empty());
+    CHECK(half.note.empty());
     check_rows(by_family(machine, periodic, half), teetered_rigid, 140);
     check_rigid_motions(half, 0.04525);
 }
@@ -234,7 +235,7 @@ TEST_CASE("modes of the teetered machine: six elements per part on a tower of a 
     const Turbine machine = teetered_machine(6);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(140, true);
-    CHECK(half.message.empty());
+    CHECK(half.note.empty());
     check_rows(by_family(machine, periodic, half), teetered_ratio_100, 140);
     check_rigid_motions(half, 0.04525);
     // Modulus of the growing multiplier over a whole revolution.

@@ -1,6 +1,7 @@
 // What Lee, Hodges and Patil (2002) say in words about the modes of their two-bladed machine (their section "Results"),
 // on the modes that Cardan finds for the data of their Table I: three elements per part, tower of a hundred times the
 // blades' rigidity, 6.02 rad/s, Floquet's theory over half a revolution.
+#include "mbs/base/entry.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/periodic_system.hpp"
 #include "tests/oracles/teetered_rotor.hpp"
@@ -15,7 +16,7 @@ using namespace cardan::testing;
 
 namespace {
 
-// Of one mode: the largest row of every family (sums and differences of the blades, tower, yaw, teeter) in every
+// For one mode: the largest row of every family (sums and differences of the blades, tower, yaw, teeter) in every
 // harmonic, over the largest of all rows in all harmonics. Angles and lengths have the same weight.
 class Rows {
 public:
@@ -24,8 +25,7 @@ public:
         const double largest = rows.cwiseAbs().maxCoeff();
         for (Eigen::Index i = 0; i < rows.rows(); ++i)
             for (Eigen::Index j = 0; j < rows.cols(); ++j) {
-                double& here =
-                    part_[{z.family[static_cast<std::size_t>(i)], static_cast<int>(j) + mode.first_harmonic}];
+                double& here = part_[{entry(z.family, i), static_cast<int>(j) + mode.first_harmonic}];
                 here = std::max(here, std::abs(rows(i, j)) / largest);
             }
     }
@@ -74,7 +74,8 @@ struct Modes {
         solvers::FloquetOptions wanted;
         wanted.per_period = per_period;
         wanted.tolerance = 1e-7;
-        wanted.symmetry = solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.rotor().odd);
+        wanted.symmetry =
+            solvers::blade_symmetry(machine.rotor(), unknowns, teetered_speed, machine.rotor().odd_coordinates);
         result = solvers::floquet(solvers::linearised(machine.system(), state), wanted);
         z = half_turn_coordinates(machine, unknowns);
     }
@@ -142,7 +143,7 @@ TEST_CASE("teetered machine, statements: antisymmetric lag has yaw most at one p
     CHECK(first.of("yaw", 1) == Approx(0.25).margin(0.01));
 }
 
-TEST_CASE("teetered machine, statements: symmetric lag is not purely one of the blades, against the paper's words",
+TEST_CASE("teetered machine, statements: symmetric lag is not a mode of the blades alone, contrary to the paper",
           "[property]") {
     // The torques about the shaft add up, and with the rotor speed prescribed they bend the elastic tower sideways.
     const Rows rows = modes().at(3.09);
@@ -152,7 +153,7 @@ TEST_CASE("teetered machine, statements: symmetric lag is not purely one of the 
 }
 
 TEST_CASE("teetered machine: yaw and teeter grow by 0.04525 per revolution, whether blades and tower are rigid or not",
-          "[analytic]") {
+          "[analytic][discrete]") {
     const double slender = 2 * 67.5772 * (std::pow(10.22, 3) - std::pow(1.8, 3)) / 3, both = 2 * 8.42;
     const oracles::RigidTeeteredRotor rigid{.spanwise = 50 + both * 5,
                                             .teeter = 50 + slender + both * 1e-4,

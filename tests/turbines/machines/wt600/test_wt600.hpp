@@ -2,6 +2,7 @@
 /// What the tests of the 600 kW machine share: its undamped model, its computed Campbell diagrams, shares and motions.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
@@ -78,7 +79,7 @@ inline double hz(const solvers::Campbell& d, const char* branch, int point) {
 inline const solvers::Share& share(const solvers::Campbell& d, const solvers::CampbellMode& mode, const char* family,
                                    int ordinal = 1) {
     for (const solvers::Share& s : mode.shares) {
-        const solvers::Component& c = d.components[static_cast<std::size_t>(s.component)];
+        const solvers::Component& c = entry(d.components, s.component);
         if (c.family == family && c.ordinal == ordinal) return s;
     }
     throw Error(text("no component ", ordinal, " of family ", family));
@@ -107,7 +108,7 @@ inline auto branch_hz(const solvers::Campbell& d, const char* branch) {
 inline double pattern_hz(const solvers::Campbell& d, int point, const char* family, int ordinal,
                          solvers::RotorPattern pattern, double low, double high) {
     double weight = 0, sum = 0;
-    for (const solvers::CampbellMode& mode : d.points[static_cast<std::size_t>(point)].modes) {
+    for (const solvers::CampbellMode& mode : entry(d.points, point).modes) {
         const double f = mode.mode.natural_hz(), e = share(d, mode, family, ordinal).of(pattern);
         if (f < low || f > high) continue;
         weight += e;
@@ -120,9 +121,7 @@ inline double pattern_hz(const solvers::Campbell& d, int point, const char* fami
 inline Vec6T<Complex> motion_of(const solvers::Campbell& d, const char* branch, int point, const std::string& frame) {
     const auto found = std::find(d.frames.begin(), d.frames.end(), frame);
     if (found == d.frames.end()) throw Error(text("no frame ", frame));
-    return d
-        .motion(d.branch(branch), static_cast<std::size_t>(point))[static_cast<std::size_t>(found - d.frames.begin())]
-        .motion;
+    return entry(d.motion(d.branch(branch), static_cast<std::size_t>(point)), found - d.frames.begin()).motion;
 }
 
 /// Displacement of the tip of a blade of three elements along the shaft (downwind), relative to the rigid hub.
@@ -130,8 +129,7 @@ inline Complex flap_of_tip(const solvers::Campbell& d, const char* branch, int p
     const std::string tip_name = text("blade ", blade, " node 3");
     const Vec6T<Complex> tip = motion_of(d, branch, point, tip_name), hub = motion_of(d, branch, point, "hub");
     const auto place = [&](const std::string& name) {
-        return d.frame_positions[static_cast<std::size_t>(std::find(d.frames.begin(), d.frames.end(), name) -
-                                                          d.frames.begin())];
+        return entry(d.frame_positions, std::find(d.frames.begin(), d.frames.end(), name) - d.frames.begin());
     };
     const Vec3T<Complex> arm = (place(tip_name) - place("hub")).cast<Complex>();
     const Vec3T<Complex> carried = hub.tail<3>() + cross<Complex>(hub.head<3>(), arm);

@@ -1,4 +1,5 @@
 // docs/wt600.md and docs/conventions.md say what the programs and the code say.
+#include "mbs/base/entry.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -56,8 +57,7 @@ TEST_CASE("docs/wt600.md: its table of frequencies is what the machine has with 
         const std::vector<double> printed = table_row(page, row);
         REQUIRE(printed.size() == 6);
         for (const auto& [column, point] : {std::pair{0, 0}, std::pair{2, 9}, std::pair{4, 11}})
-            CHECK(printed.at(static_cast<std::size_t>(column)) ==
-                  Approx(hz(d, branch, point)).margin(1.01e-5).epsilon(0));
+            CHECK(entry(printed, column) == Approx(hz(d, branch, point)).margin(1.01e-5).epsilon(0));
     }
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("docs/wt600.md: as many channels are recorded as it says", "[property]
     CHECK_THAT(document("wt600.md"), Catch::Matchers::Contains(text("recording ", channels, " channels")));
 }
 
-TEST_CASE("docs/conventions.md: what it calls members of a workspace are some", "[property]") {
+TEST_CASE("docs/conventions.md: the members of a workspace that it names exist", "[property]") {
     const std::string header = test::bytes_of(text(CARDAN_SOURCE_DIR, "/mbs/kernels/workspace.hpp"));
     const std::string page = document("conventions.md");
     const std::regex mention("`ws\\.(\\w+)(\\[\\w\\]\\.(\\w+))?`");

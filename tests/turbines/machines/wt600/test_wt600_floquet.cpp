@@ -1,10 +1,13 @@
 // Coleman's transformation against Floquet's theory on the untransformed machine: equations linearised at every azimuth
 // in blade coordinates, integrated over a third of a revolution.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/teetered/periodic_modes.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
+
+#include <numeric>
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -24,7 +27,7 @@ Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector
         at.q(rotor.spin) = psi;
         return solvers::restrict_to(solvers::linearise(machine.system(), at), unknowns, rotor.spin);
     };
-    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    const auto n = std::ssize(unknowns);
     const double third = 2 * pi / (3 * rotor_speed), h = third / steps;
     const Radau radau;
     Matrix x = Matrix::Identity(2 * n, 2 * n);
@@ -32,15 +35,15 @@ Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector
         radau.step(
             h, [&](Eigen::Index s) { return at_azimuth(rotor_speed * (i + radau.c(s)) * h); }, x);
     std::vector<Eigen::Index> from(static_cast<std::size_t>(2 * n));
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<Eigen::Index>(i);
+    std::iota(from.begin(), from.end(), Eigen::Index{0});
     const auto row = [&](int coordinate) {
         return std::find(unknowns.begin(), unknowns.end(), coordinate) - unknowns.begin();
     };
     for (std::size_t i = 0; i < rotor.blades[0].size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             const auto to = row(rotor.blades[(k + 1) % 3][i]), source = row(rotor.blades[k][i]);
-            from[static_cast<std::size_t>(to)] = source;
-            from[static_cast<std::size_t>(to + n)] = source + n;
+            entry(from, to) = source;
+            entry(from, to + n) = source + n;
         }
     const Matrix shifted = x(from, Eigen::all);
     return Eigen::EigenSolver<Matrix>(shifted, false).eigenvalues();

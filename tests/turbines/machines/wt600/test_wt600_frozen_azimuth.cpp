@@ -101,7 +101,7 @@ TEST_CASE("frozen azimuth, statements 4 and 5: longitudinal tower modes, yaw and
 }
 
 TEST_CASE("rotating axes, statement 1 in operation: the two differential lags are close together there as well",
-          "[published]") {
+          "[published][discrete]") {
     // What whirls forward or backward in the fixed frame has one rotor speed less or more in rotating axes.
     for (int point = 1; point <= 20; ++point) {
         const double turn = point / 60.0;
@@ -116,7 +116,8 @@ TEST_CASE("rotating axes, statement 1 in operation: the two differential lags ar
     CHECK(hz(diagram(), lag_forward, 20) - 20 / 60.0 == Approx(3.6409).margin(2e-4));
 }
 
-TEST_CASE("rotating axes, statement 2: of the two differential flaps one rises and one falls", "[published]") {
+TEST_CASE("rotating axes, statement 2: of the two differential flaps one rises and one falls", "[property]") {
+    // Contrary to the statement: a rotor speed is more than what they change by in the fixed frame.
     for (int point = 0; point < 20; ++point) {
         const double turn = point / 60.0, next = (point + 1) / 60.0;
         CHECK(hz(diagram(), flap_backward, point + 1) + next > hz(diagram(), flap_backward, point) + turn);

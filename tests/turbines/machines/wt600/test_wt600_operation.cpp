@@ -105,7 +105,7 @@ TEST_CASE("wt600 operation: without grid, brake and wind it is the machine with 
     CHECK(more.norm() < 1e-9 * b.damping.norm());
 }
 
-TEST_CASE("wt600 operation: an order turns all blades toward feather, against their coordinates", "[property]") {
+TEST_CASE("wt600 operation: a command turns all blades toward feather, against their coordinates", "[property]") {
     const Wt600Operation machine = wt600_operation({.pitch = 0.3});
     const Model& model = machine.turbine.system().model;
     Vector q = Vector::Zero(model.size());

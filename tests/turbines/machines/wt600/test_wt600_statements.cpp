@@ -2,6 +2,7 @@
 // diagram computed with our data set: 0 to 40 rpm, damped, generator free, natural frequencies in the fixed frame
 // (Coleman). Two of the statements hold only for eigenvalues at a frozen azimuth: test_wt600_frozen_azimuth.cpp. The
 // paper prints curves without numbers, so the bounds below are ours.
+#include "mbs/base/entry.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
 
@@ -274,7 +275,7 @@ TEST_CASE("statement 8: crossings with 1P, 2P, 3P ... lie on branch and line, an
     std::map<int, int> per_multiple;
     for (const solvers::Crossing& crossing : d.crossings) {
         CHECK(crossing.frequency_hz == Approx(crossing.multiple * crossing.rotor_speed * to_hz).epsilon(1e-12));
-        const auto& branch = d.branches[static_cast<std::size_t>(crossing.branch)];
+        const auto& branch = entry(d.branches, crossing.branch);
         const auto i = static_cast<std::size_t>(crossing.rotor_speed / (2 * rpm));
         const double low = d.damped_hz(branch, i), high = d.damped_hz(branch, i + 1);
         CHECK(crossing.frequency_hz >= std::min(low, high));
