@@ -13,6 +13,7 @@ namespace cardan::solvers {
 namespace {
 
 constexpr double sure_pattern = 0.4;  // of the energy in its component: below it the pattern is doubtful
+constexpr double sure_blade = 0.8;    // of the energy of all blades in one of them: from there on it alone moves
 constexpr double least_share = 0.05;  // of the energy on average: below it a branch is not named so
 
 // What a branch may be named after: a component mode with a pattern, or a coordinate (several branches may be).
@@ -23,7 +24,8 @@ struct Label {
     int row = -1;
 };
 
-std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whirl) {
+// @param unequal_blades  their number, if one of them may move alone
+std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whirl, int unequal_blades) {
     std::vector<Label> labels;
     const auto& components = energy_shares.components();
     const RotorPattern first = whirl ? RotorPattern::backward : RotorPattern::cosine,
@@ -39,6 +41,7 @@ std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whir
             labels.push_back({c, RotorPattern::none});
             continue;
         }
+        for (int blade = 1; blade <= unequal_blades; ++blade) labels.push_back({c, RotorPattern::single, blade});
         if (energy_shares.two_blades()) {
             for (const RotorPattern pattern : {RotorPattern::symmetric, RotorPattern::antisymmetric})
                 labels.push_back({c, pattern});
@@ -54,10 +57,26 @@ std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whir
     return labels;
 }
 
+// Number of the blades if they differ.
+int unequal_blades(const std::vector<CampbellPoint>& points) {
+    Eigen::Index most = 0;
+    for (const CampbellPoint& point : points)
+        for (const CampbellMode& mode : point.modes) most = std::max(most, mode.blade_shares.size());
+    return static_cast<int>(most);
+}
+
+// Part of the blades' energy that is in one of them, if it alone moves.
+double alone(const CampbellMode& mode, int blade) {
+    const double own = blade <= mode.blade_shares.size() ? mode.blade_shares(blade - 1) : 0;
+    return own >= sure_blade ? own : 0;
+}
+
 // Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
 double part(const CampbellMode& mode, const Label& label) {
     if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
-    return entry(mode.shares, label.component).of(label.pattern, label.harmonic);
+    const Share& share = entry(mode.shares, label.component);
+    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic) * share.total();
+    return share.of(label.pattern, label.harmonic);
 }
 
 // Nothing whirls at standstill: a name there holds the energy of its pair.
@@ -87,7 +106,7 @@ public:
           energy_shares_(energy_shares),
           rows_(rows),
           neighbour_(neighbour),
-          labels_(component_labels(energy_shares, whirl)) {}
+          labels_(component_labels(energy_shares, whirl, unequal_blades(points))) {}
 
     std::vector<Branch> name(std::vector<Branch> branches) {
         for (const Branch& branch : branches)
@@ -247,6 +266,7 @@ std::string Naming::label_name(const Label& label, const CampbellMode& mode) con
 // localised in one blade of three has a third of each.
 double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
+    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic);
     const Share& share = entry(mode.shares, label.component);
     const double total = share.total();
     return total > 0 ? share.of(label.pattern, label.harmonic) / total : 1;

@@ -76,6 +76,9 @@ struct CampbellMode {
     Mode mode;
     std::vector<Share> shares;  ///< of the elastic energy, by component (sum over the harmonics)
     Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
+    /// Of the elastic energy of all blades, the part of each, averaged over the revolution; empty unless the method is
+    /// Floquet's and the blades differ.
+    Vector blade_shares = {};
     /// For a motion (almost) without elastic energy, the row with most kinetic energy, after which it is named: yaw,
     /// teeter. -1: named after its elastic energy.
     int row = -1;
@@ -106,7 +109,8 @@ struct Branch {
     int component = -1;  ///< of Campbell::components; -1: named after a coordinate
     int row = -1;        ///< of Campbell::rows, for motions without elastic energy
     RotorPattern pattern = RotorPattern::none;
-    int harmonic = 1;         ///< of the azimuth, for whirling patterns (2 and more with five and more blades)
+    int harmonic = 1;         ///< of the azimuth, for whirling patterns (2 and more with five and more blades); of
+                              ///< RotorPattern::single the place of the blade in RotorMap::blades, from 1
     std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
     std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
     /// True where the mode was tracked with a MAC below `min_reliable_mac`, another name clearly holds more energy, the

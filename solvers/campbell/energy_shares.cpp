@@ -90,6 +90,7 @@ double WhirlShare::of(RotorPattern pattern) const {
 double Share::of(RotorPattern pattern, int harmonic) const {
     if (pattern == RotorPattern::none || pattern == RotorPattern::collective || pattern == RotorPattern::symmetric)
         return collective;
+    if (pattern == RotorPattern::single) return 0;  // no combination of the blades
     if (pattern == RotorPattern::differential || pattern == RotorPattern::antisymmetric) return differential;
     if (harmonic == 1) return WhirlShare{cosine, sine, whirl}.of(pattern);
     const auto at = static_cast<std::size_t>(harmonic - 2);
@@ -109,6 +110,8 @@ EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const R
     require_count("energy shares", "rows", rows.size(), coordinates.size());
     require_size("energy shares", "elastic stiffness", lin.elastic, model.size(), model.size());
     for (const int coordinate : coordinates) require_index("energy shares", "coordinate", coordinate, model.size());
+    for (const std::vector<int>& blade : rotor.blades)
+        blade_numbers_.push_back(blade.empty() ? 0 : model.coordinates()[blade.front()].blade);
     for (const PartAxes& part : rotor.parts) {
         Block block{}, shaft{};
         std::vector<int> own_plane;  // of rotating pairs: the one plane tells the component modes of both
@@ -275,6 +278,7 @@ std::string EnergyShares::name(int component, RotorPattern pattern, int harmonic
         name = ordinal ? text(ordinal, " ") : text(c.ordinal, "th ");
     }
     name += c.family;
+    if (pattern == RotorPattern::single) return text(name, " (blade ", entry(blade_numbers_, harmonic - 1), ")");
     return pattern == RotorPattern::none
                ? name
                : text(name, " (", pattern_name(pattern), harmonic > 1 ? text(", ", harmonic) : "", ")");
@@ -300,6 +304,8 @@ const char* pattern_name(RotorPattern pattern) {
             return "symmetric";
         case RotorPattern::antisymmetric:
             return "antisymmetric";
+        case RotorPattern::single:
+            return "single";
     }
     return "";
 }

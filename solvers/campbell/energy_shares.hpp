@@ -24,7 +24,8 @@ enum class RotorPattern : std::uint8_t {
     sine,
     differential,
     symmetric,
-    antisymmetric
+    antisymmetric,
+    single  ///< one blade moves, of several that differ
 };
 
 /// "none", "collective", "backward" ...
@@ -76,6 +77,7 @@ public:
     /// sign): their energies are added up.
     std::vector<Share> shares(std::span<const Mode> harmonics) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
+    /// @param harmonic  for RotorPattern::single the place of the blade in RotorMap::blades, from 1
     std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
     /// Largest harmonic of the azimuth: 1 for three and four blades, 2 for five and six.
     int harmonics() const { return harmonics_; }
@@ -100,6 +102,7 @@ private:
 
     int harmonics_ = 1;
     bool two_blades_ = false;
+    std::vector<int> blade_numbers_;
     std::vector<Component> components_;
     std::vector<Block> blocks_;
 };

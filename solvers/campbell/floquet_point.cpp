@@ -69,6 +69,24 @@ void leave_out_ends(FloquetMode& mode) {
     mode.first_harmonic += static_cast<int>(first);
 }
 
+// Sum of the harmonics at an azimuth; a factor of all of them, exp(exponent t), is left out.
+ComplexVector shape_at(const FloquetMode& mode, double psi) {
+    ComplexVector sum = ComplexVector::Zero(mode.harmonics.rows());
+    for (Index i = 0; i < mode.harmonics.cols(); ++i)
+        sum += std::polar(1.0, static_cast<double>(mode.first_harmonic + i) * psi) * mode.harmonics.col(i);
+    return sum;
+}
+
+// Places of some coordinates among the unknowns, as far as they are there.
+std::vector<int> rows_among(const std::vector<int>& unknowns, const std::vector<int>& coordinates) {
+    std::vector<int> rows;
+    for (int coordinate : coordinates) {
+        const auto at = std::find(unknowns.begin(), unknowns.end(), coordinate);
+        if (at != unknowns.end()) rows.push_back(static_cast<int>(at - unknowns.begin()));
+    }
+    return rows;
+}
+
 double lowest_elastic(const CampbellPoint& point) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const CampbellMode& m : point.modes)
@@ -207,7 +225,8 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
 }
 
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
-    Floquet result = floquet(periodic, floquet_options(periodic));
+    const FloquetOptions options = floquet_options(periodic);
+    Floquet result = floquet(periodic, options);
     if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
     for (FloquetMode& mode : result.modes) {
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
@@ -219,6 +238,31 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
     std::stable_sort(point.modes.begin(), point.modes.end(), [](const CampbellMode& a, const CampbellMode& b) {
         return a.mode.natural_hz() < b.mode.natural_hz();
     });
+    if (options.symmetry.parts == 1 && rotor_.blades.size() > 1) set_blade_shares(point);
+}
+
+// Of blades that differ one may move alone. Multi-blade coordinates spread its motion over all patterns; back in the
+// blades' own coordinates, their elastic energies over the revolution tell.
+void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
+    constexpr int azimuths = 32;
+    const ColemanTransform& T = *standstill_.coleman();
+    const Matrix K = restrict_to(linearise(system_, point.at), unknowns()).K_elastic;
+    std::vector<std::vector<int>> rows;
+    for (const std::vector<int>& blade : rotor_.blades) rows.push_back(rows_among(unknowns(), blade));
+    for (CampbellMode& m : point.modes) m.blade_shares = Vector::Zero(std::ssize(rows));
+    for (int i = 0; i < azimuths; ++i) {
+        const double psi = 2 * pi * i / azimuths;
+        const Matrix at = T.matrix(psi);
+        for (CampbellMode& m : point.modes) {
+            const ComplexVector x = at * shape_at(*m.floquet, psi);
+            for (Eigen::Index k = 0; k < m.blade_shares.size(); ++k) {
+                const std::vector<int>& own = entry(rows, k);
+                m.blade_shares(k) += hermitian_form(Matrix(K(own, own)), ComplexVector(x(own)));
+            }
+        }
+    }
+    for (CampbellMode& m : point.modes)
+        if (const double sum = m.blade_shares.sum(); sum > 0) m.blade_shares /= sum;
 }
 
 CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {

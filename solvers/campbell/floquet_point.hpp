@@ -38,6 +38,7 @@ private:
     void set_mean_modes(CampbellPoint& point) const;
     void leave_out_free_spin(double scale, CampbellPoint& point) const;
     CampbellMode make(FloquetMode&& found) const;
+    void set_blade_shares(CampbellPoint& point) const;
     void warn(const std::string& what);
 
     const System& system_;

@@ -12,8 +12,7 @@ namespace cardan::solvers {
 namespace {
 
 // Empty: constant in multi-blade coordinates, and there is a constant steady state.
-std::string periodic_because(const System& system, const RotorMap& rotor, double rotor_speed,
-                             CampbellOptions options) {
+std::string periodic_because(const System& system, const RotorMap& rotor, double rotor_speed, CampbellOptions options) {
     options.method = CampbellMethod::coleman;
     try {
         PointSolver solver(system, rotor, options);
