@@ -1,5 +1,6 @@
 // Elastic drives and the orders they obey.
 #include "elements/machine/drive.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/time/motion.hpp"
 #include "tests/elements/machine/shaft.hpp"
 #include "tests/support/refusal.hpp"
@@ -49,7 +50,7 @@ TEST_CASE("drive: a new order starts from where the last one has come to, withou
 }
 
 TEST_CASE("drive: an order that is repeated at any rate is the one order", "[analytic]") {
-    constexpr double degree = pi / 180, target = 20 * degree, rate = 8 * degree, acceleration = 15 * degree;
+    constexpr double target = 20 * units::degree, rate = 8 * units::degree, acceleration = 15 * units::degree;
     const TravelLimits pitch{rate, acceleration};
     // Up and down to the largest rate take 3/2 rate / acceleration each, and half the way of that at the full rate.
     const double arrival = target / rate + 1.5 * rate / acceleration;

@@ -1,3 +1,4 @@
+#include "mbs/base/units.hpp"
 #include "solvers/time/equations_of_motion.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -27,7 +28,7 @@ System arm() {
         at = tree.add_frame(link.axes, Placement::translation({0.2, 0.1, -0.7}), text("end ", i));
     }
     forces.add_wrench({"load", at, {{3, -2, 1}, {0.5, 0, 0.2}}, WrenchAxes::frame});
-    forces.set_gravity({0, 0, -9.81});
+    forces.set_gravity({0, 0, -units::standard_gravity});
     return {tree, forces};
 }
 

@@ -1,4 +1,5 @@
 // Tops in time: closed forms along the whole motion, near and through the singularity of the joint coordinates.
+#include "mbs/base/units.hpp"
 #include "solvers/time/atlas.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/torque_free_top.hpp"
@@ -197,7 +198,8 @@ namespace {
 // Heavy top in Euler angles: psi about the vertical, theta about x, phi about its own axis. The model is made at an
 // inclination: at q = 0 the metric must be regular.
 struct HeavyTop {
-    static constexpr double mass = 1.5, height = 0.3, transverse = 0.4, axial = 0.35, gravity = 9.81, inclined = 0.7;
+    static constexpr double mass = 1.5, height = 0.3, transverse = 0.4, axial = 0.35, gravity = units::standard_gravity,
+                            inclined = 0.7;
     oracles::HeavySymmetricTop oracle{transverse + mass * height * height, axial, mass* gravity* height};
 
     System system() const {
