@@ -207,7 +207,7 @@ TEST_CASE("history: a run that was finished is prolonged", "[property]") {
     CHECK(difference(run.uninterrupted(), read_history(path)) == 0);
 }
 
-TEST_CASE("history: an exception out of a user's function costs no rows") {
+TEST_CASE("history: an exception out of a user's function costs no rows", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     Run run;
@@ -223,7 +223,7 @@ TEST_CASE("history: an exception out of a user's function costs no rows") {
     CHECK(difference(run.uninterrupted(), read_history(path)) == 0);
 }
 
-TEST_CASE("history: a recorder with other channels than the file is refused") {
+TEST_CASE("history: a recorder with other channels than the file is refused", "[property]") {
     const Folder folder;
     Run run;
     Integrator integrator = run.fresh();

@@ -103,7 +103,7 @@ TEST_CASE("equations of motion: the power of all forces is the rate of kinetic e
     CHECK(power.dissipation == Approx(damper_power));
 }
 
-TEST_CASE("equations of motion: what is not finite is named", "[solvers][integrate]") {
+TEST_CASE("equations of motion: what is not finite is named", "[solvers][integrate][property]") {
     const System system = arm();
     EquationsOfMotion equations = driven_arm(system);
     Vector x = Vector::Zero(6), qdd(3);

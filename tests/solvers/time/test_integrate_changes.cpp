@@ -88,7 +88,8 @@ TEST_CASE("integrate: an action that changes a force and says that nothing has c
     }
 }
 
-TEST_CASE("integrate: restart() throws away what was computed beyond the present time", "[solvers][integrate]") {
+TEST_CASE("integrate: restart() throws away what was computed beyond the present time",
+          "[solvers][integrate][property]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
@@ -102,7 +103,7 @@ TEST_CASE("integrate: restart() throws away what was computed beyond the present
 }
 
 TEST_CASE("integrate: to look for changed forces costs two evaluations per output and one per step",
-          "[solvers][integrate]") {
+          "[solvers][integrate][property]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
@@ -123,7 +124,8 @@ TEST_CASE("integrate: to look for changed forces costs two evaluations per outpu
     }
 }
 
-TEST_CASE("integrate: advance() within advance() is refused, wherever it is called from", "[solvers][integrate]") {
+TEST_CASE("integrate: advance() within advance() is refused, wherever it is called from",
+          "[solvers][integrate][property]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         Integrator* running = nullptr;
@@ -170,7 +172,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
     }
 }
 
-TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate]") {
+TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate][property]") {
     const System system = Oscillator{}.system();
     for (int what = 0; what < 5; ++what) {
         Integrator* running = nullptr;
@@ -188,7 +190,7 @@ TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate
     }
 }
 
-TEST_CASE("integrate: steps shorter than the clock can tell are refused", "[solvers][integrate]") {
+TEST_CASE("integrate: steps shorter than the clock can tell are refused", "[solvers][integrate][property]") {
     const System system = Oscillator{}.system();
     const auto make = [&](double time, const IntegrationOptions& options) {
         Integrator(system, {}, time, vector({0.3}), vector({0}), options);
@@ -202,7 +204,7 @@ TEST_CASE("integrate: steps shorter than the clock can tell are refused", "[solv
     }
 }
 
-TEST_CASE("integrate: forces of any size come to an end", "[solvers][integrate]") {
+TEST_CASE("integrate: forces of any size come to an end", "[solvers][integrate][property]") {
     for (Method method : methods) {
         for (double stiffness : {1e30, 1e100}) {
             CAPTURE(static_cast<int>(method), stiffness);
@@ -282,7 +284,7 @@ TEST_CASE("integrate: a checkpoint under other forces or options is gone on from
     }
 }
 
-TEST_CASE("recorder: empty functions are refused", "[solvers][recorder]") {
+TEST_CASE("recorder: empty functions are refused", "[solvers][recorder][property]") {
     const System system = pendulum();
     Integrator integrator(system, {}, 0, vector({0.5}), vector({0}));
     Recorder recorder(integrator);

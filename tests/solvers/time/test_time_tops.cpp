@@ -149,7 +149,8 @@ TEST_CASE("time: aimed at the singularity, the steps pass it and the balance of 
     }
 }
 
-TEST_CASE("time: in the singularity implicit methods refuse to start and name the coordinate", "[solvers][time]") {
+TEST_CASE("time: in the singularity implicit methods refuse to start and name the coordinate",
+          "[solvers][time][property]") {
     const System system = on_three_axes(Mat3::Identity(), {0, 1, 2}, tumbling_body);
     const Vector q = Vec3(0.2, pi / 2, 0.1);
     for (const Vec3& rates : {Vec3(0, 0, 0), Vec3(0.3, 0.4, 0.5)})
