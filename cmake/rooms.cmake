@@ -24,7 +24,8 @@ room(solvers/campbell SEES solvers/periodic) # Campbell diagrams: points, names,
 room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
 room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
 room(solvers/time SEES solvers/signals mbs/geometry USES sundials) # time integration
-room(solvers/hdf5 SEES solvers/campbell solvers/control solvers/time USES hdf5) # diagrams, models, histories as files
+room(solvers/hdf5 SEES solvers/campbell solvers/time USES hdf5) # diagrams and histories as files
+room(solvers/hdf5_models SEES solvers/hdf5 solvers/control) # linear models as HDF5 files
 room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB files
 room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 
@@ -34,7 +35,7 @@ room(turbines/yaml SEES turbines/readers USES yaml_cpp) # our own files, windIO'
 room(turbines/machines SEES turbines/readers) # 600 kW, teetered, NREL 5 MW
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 
-room(examples SEES turbines/studies turbines/yaml solvers/hdf5 solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples SEES turbines/studies turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
 room(examples/shared SEES examples USES cli11) # what programs and studies have in common
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods
