@@ -23,7 +23,8 @@ room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Fl
 room(solvers/campbell SEES solvers/periodic) # Campbell diagrams: points, names, tracking, tables
 room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
 room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
-room(solvers/time SEES solvers/signals mbs/geometry USES sundials) # time integration
+room(solvers/time SEES solvers/signals USES sundials) # time integration
+room(solvers/atlas SEES solvers/time mbs/geometry) # time integration in several charts
 room(solvers/hdf5 SEES solvers/campbell solvers/time USES hdf5) # diagrams and histories as files
 room(solvers/hdf5_models SEES solvers/hdf5 solvers/control) # linear models as HDF5 files
 room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB files

@@ -4,7 +4,7 @@
 // is held against Ritz's method for the geometrically exact rod (oracles/planar_rod).
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/time/atlas.hpp"
+#include "solvers/atlas/atlas.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/planar_rod.hpp"
 #include "tests/support/catch.hpp"
