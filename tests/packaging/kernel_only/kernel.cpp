@@ -1,5 +1,6 @@
 // A program that needs the kernel only: a pendulum's generalised force.
 #include <cardan/mbs/system/system.hpp>
+
 #include <cmath>
 #include <iostream>
 
