@@ -41,15 +41,16 @@ room(examples/shared SEES examples USES cli11) # what programs and studies have 
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods
 
-# Headers of libraries that only some rooms may include.
-library(sundials "(sundials|cvode|cvodes|ida|idas|arkode|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/")
-library(hdf5 "(hdf5|H5)")
-library(matio "matio")
-library(yaml_cpp "yaml-cpp/")
-library(boost "boost/")
-library(tbb "(tbb|oneapi)/")
-library(urdfdom "(urdf|tinyxml|console_bridge)")
-library(fft "unsupported/")
-library(cli11 "CLI/")
-library(decompositions "Eigen/(Cholesky|Dense|Eigenvalues|LU|QR|SVD)$") # all others: mbs/base/decompositions.hpp
-library(inverses "Eigen/LU$") # of small matrices
+# Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)
+library(sundials sundials/ cvode/ cvodes/ ida/ idas/ arkode/ kinsol/ nvector/ sunmatrix/ sunlinsol/ sunnonlinsol/)
+library(hdf5 hdf5 H5)
+library(matio matio)
+library(yaml_cpp yaml-cpp/)
+library(boost boost/)
+library(tbb tbb/ oneapi/)
+library(urdfdom urdf tinyxml console_bridge)
+library(fft unsupported/)
+library(cli11 CLI/)
+# All others: mbs/base/decompositions.hpp.
+library(decompositions Eigen/Cholesky Eigen/Dense Eigen/Eigenvalues Eigen/LU Eigen/QR Eigen/SVD)
+library(inverses Eigen/LU) # of small matrices
