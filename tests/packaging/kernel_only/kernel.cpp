@@ -1,6 +1,7 @@
 // A program that needs the kernel only: a pendulum's generalised force.
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/mbs/system/system.hpp>
+
 #include <cmath>
 #include <iostream>
 

@@ -1,6 +1,6 @@
 // Tops in time: closed forms along the whole motion, near and through the singularity of the joint coordinates.
 #include "mbs/base/units.hpp"
-#include "solvers/time/atlas.hpp"
+#include "solvers/atlas/atlas.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/torque_free_top.hpp"
 #include "tests/solvers/time/integrated_systems.hpp"

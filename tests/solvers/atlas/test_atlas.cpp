@@ -1,6 +1,6 @@
 // Integration in several charts: what is handed over and what is refused. The tops are in test_time_tops.cpp.
 #include "mbs/base/error.hpp"
-#include "solvers/time/atlas.hpp"
+#include "solvers/atlas/atlas.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
