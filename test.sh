@@ -7,9 +7,9 @@ usage() {
 usage: ./test.sh [--full] [--keep-going] [--help]
 
   (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
-  --full     the same, then the reference, clang-tidy, clang's build and all tests under its address and
-             undefined-behaviour sanitizers, two sweeps at once under the thread sanitizer, one minute of fuzzing for
-             each reader, and the slow tests
+  --full     the same, then each header by itself, the reference, clang-tidy, clang's build and all tests under its
+             address and undefined-behaviour sanitizers, two sweeps at once under the thread sanitizer, one minute of
+             fuzzing for each reader, and the slow tests
   --keep-going
              a step that fails does not end the run; the failed ones are named at its end
 
@@ -88,6 +88,8 @@ check_package() {
         "$prefix/bin/cardan-wt600-campbell" --help >/dev/null
 }
 
+check_headers() { cmake --build build/packaging/consumer --target consumer_headers --parallel "$jobs"; }
+
 check_tidy() {
     # The library and the programs, as joined sources: their headers are read once for twelve sources. Hence the check of
     # included .cpp files makes no sense, and those are "headers" to report.
@@ -109,6 +111,7 @@ step "Build with GCC, release" build release
 step "Installed package" check_package
 step "Tests, GCC release" ctest --preset release --parallel "$jobs"
 if ((full)); then
+    step "Headers, each by itself" check_headers
     step "Reference" cmake --build --preset release --target reference
     step "clang-tidy" check_tidy
     step "Build with clang and sanitizers" build sanitize

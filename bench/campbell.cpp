@@ -1,5 +1,6 @@
 // Campbell sweeps of the 600 kW and the NREL 5 MW machine against their dense eigenvalue solutions alone: the ratio of
 // the two times is what the linearisation, the steady states, the identification and the tracking cost on top.
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/point.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/wt600.hpp"
@@ -65,7 +66,7 @@ BENCHMARK_CAPTURE(campbell_sweep, nrel5mw_10_speeds, large_machine, solvers::rpm
 
 // One point by stage, at 20 rpm, in memory that exists.
 struct Stages {
-    static constexpr double speed = 20 * pi / 30;
+    static constexpr double speed = 20 * units::rpm;
     const System& system = machine().system();
     const RotorMap& rotor = machine().rotor();
     std::vector<int> unknowns = system.model.coordinates().free();
@@ -80,7 +81,7 @@ struct Stages {
 
     Stages() {
         // From the state of the speed before, as in a sweep.
-        steady_solver.solve({.rotor_speed = 19 * pi / 30}, steady);
+        steady_solver.solve({.rotor_speed = 19 * units::rpm}, steady);
         options.initial = steady.at.q;
         run();
     }
@@ -142,7 +143,7 @@ void point_whole(benchmark::State& state) {
     solvers::PointSolver solver(machine().system(), machine().rotor());
     solvers::CampbellPoint point;
     double rpm = 19;
-    for (auto _ : state) solver.solve((rpm = 39 - rpm) * pi / 30, point);
+    for (auto _ : state) solver.solve((rpm = 39 - rpm) * units::rpm, point);
 }
 BENCHMARK(point_whole)->Unit(benchmark::kMicrosecond);
 

@@ -28,7 +28,7 @@ struct Run {
     Run(turbines::Turbine machine, double rpm, solvers::Method method) : turbine(std::move(machine)) {
         const System& system = turbine.system();
         const int spin = turbine.rotor().spin;
-        const double speed = rpm * pi / 30;
+        const double speed = rpm * units::rpm;
         Vector q = solvers::steady_state(system, spin).at.q, qd = Vector::Zero(system.model.size());
         qd(spin) = speed;
         solvers::IntegrationOptions how;

@@ -1,6 +1,7 @@
 # `cpack` in the build folder makes one Debian package of all that is installed; .ci/package tries it on a clean Debian.
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The Cardan authors")
+# The form that Debian asks for; who distributes the package gives an address: cpack -D CPACK_PACKAGE_CONTACT="... <...>".
+set(CPACK_PACKAGE_CONTACT "The Cardan authors <cardan@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT) # cardan_<version>_<architecture>.deb
 set(CPACK_DEBIAN_PACKAGE_SECTION science)

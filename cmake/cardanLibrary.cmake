@@ -24,6 +24,14 @@ function(cardan_precompile target)
     endif()
 endfunction()
 
+# cardan_link_headers(<from> <to> <folders>...): what is in <from>/<folder> is also <to>/cardan/<folder>, as installed.
+function(cardan_link_headers from to)
+    file(MAKE_DIRECTORY ${to}/cardan)
+    foreach(folder IN LISTS ARGN)
+        file(CREATE_LINK ${from}/${folder} ${to}/cardan/${folder} SYMBOLIC)
+    endforeach()
+endfunction()
+
 # cardan_rooms(<out> <room>...): the sources of rooms, which are folders below the current one; detail/ is what is inside.
 function(cardan_rooms out)
     set(sources "")
@@ -37,8 +45,8 @@ endfunction()
 # cardan_add_library(<name> [ROOMS <folders>] [SOURCES <files>] [PUBLIC <targets>] [PRIVATE <targets>])
 #
 # Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms. Without any it is a
-# name for several libraries. Headers are included as "<folder>/<room>/<file>.hpp": from the root of the source tree, or
-# from include/cardan installed; there also as <cardan/<folder>/<room>/<file>.hpp>.
+# name for several libraries. Users include headers as <cardan/<folder>/<room>/<file>.hpp>, from include/ installed or from
+# links in generated/include; sources and tests of our own as "<folder>/<room>/<file>.hpp".
 function(cardan_add_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;SOURCES;PUBLIC;PRIVATE")
     set(target cardan_${name})
@@ -62,6 +70,7 @@ function(cardan_add_library name)
     target_compile_features(${target} ${public} cxx_std_20)
     target_include_directories(
         ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+        $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated/include>
         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cardan> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_libraries(${target} ${public} ${arg_PUBLIC})
     set_property(GLOBAL APPEND PROPERTY CARDAN_LIBRARIES ${target})

@@ -23,8 +23,10 @@ room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Fl
 room(solvers/campbell SEES solvers/periodic) # Campbell diagrams: points, names, tracking, tables
 room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
 room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
-room(solvers/time SEES solvers/signals mbs/geometry USES sundials) # time integration
-room(solvers/hdf5 SEES solvers/campbell solvers/control solvers/time USES hdf5) # diagrams, models, histories as files
+room(solvers/time SEES solvers/signals USES sundials) # time integration
+room(solvers/atlas SEES solvers/time mbs/geometry) # time integration in several charts
+room(solvers/hdf5 SEES solvers/campbell solvers/time USES hdf5) # diagrams and histories as files
+room(solvers/hdf5_models SEES solvers/hdf5 solvers/control) # linear models as HDF5 files
 room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB files
 room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 
@@ -34,20 +36,21 @@ room(turbines/yaml SEES turbines/readers USES yaml_cpp) # our own files, windIO'
 room(turbines/machines SEES turbines/readers) # 600 kW, teetered, NREL 5 MW
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 
-room(examples SEES turbines/studies turbines/yaml solvers/hdf5 solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples SEES turbines/studies turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
 room(examples/shared SEES examples USES cli11) # what programs and studies have in common
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods
 
-# Headers of libraries that only some rooms may include.
-library(sundials "(sundials|cvode|cvodes|ida|idas|arkode|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/")
-library(hdf5 "(hdf5|H5)")
-library(matio "matio")
-library(yaml_cpp "yaml-cpp/")
-library(boost "boost/")
-library(tbb "(tbb|oneapi)/")
-library(urdfdom "(urdf|tinyxml|console_bridge)")
-library(fft "unsupported/")
-library(cli11 "CLI/")
-library(decompositions "Eigen/(Cholesky|Dense|Eigenvalues|LU|QR|SVD)$") # all others: mbs/base/decompositions.hpp
-library(inverses "Eigen/LU$") # of small matrices
+# Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)
+library(sundials sundials/ cvode/ cvodes/ ida/ idas/ arkode/ kinsol/ nvector/ sunmatrix/ sunlinsol/ sunnonlinsol/)
+library(hdf5 hdf5 H5)
+library(matio matio)
+library(yaml_cpp yaml-cpp/)
+library(boost boost/)
+library(tbb tbb/ oneapi/)
+library(urdfdom urdf tinyxml console_bridge)
+library(fft unsupported/)
+library(cli11 CLI/)
+# All others: mbs/base/decompositions.hpp.
+library(decompositions Eigen/Cholesky Eigen/Dense Eigen/Eigenvalues Eigen/LU Eigen/QR Eigen/SVD)
+library(inverses Eigen/LU) # of small matrices

@@ -1,6 +1,6 @@
 // A steel cantilever of cardanic joint beam elements: natural frequencies beside Euler and Bernoulli's.
-#include "elements/cardan_beam/single_beam.hpp"
-#include "solvers/equilibrium/natural_modes.hpp"
+#include <cardan/elements/cardan_beam/single_beam.hpp>
+#include <cardan/solvers/equilibrium/natural_modes.hpp>
 
 #include <array>
 #include <cstdio>

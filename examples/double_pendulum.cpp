@@ -1,11 +1,11 @@
 // A double pendulum: metric g, Christoffel symbols Gamma and forces Q of its equations of motion
 //     g_ab q''^b + Gamma_abc q'^b q'^c = Q_a
 // beside the formulas of the textbook, and the accelerations q''.
-#include "elements/machine/joints.hpp"
-#include "mbs/base/units.hpp"
-#include "mbs/kernels/christoffel.hpp"
-#include "mbs/kernels/dynamics.hpp"
-#include "mbs/system/system.hpp"
+#include <cardan/elements/machine/joints.hpp>
+#include <cardan/mbs/base/units.hpp>
+#include <cardan/mbs/kernels/christoffel.hpp>
+#include <cardan/mbs/kernels/dynamics.hpp>
+#include <cardan/mbs/system/system.hpp>
 
 #include <cstdio>
 

@@ -1,8 +1,8 @@
 // The script of the README: a Campbell diagram in a few lines, and what happens with a stiffer yaw drive.
-#include "mbs/base/error.hpp"
-#include "solvers/hdf5/campbell.hpp"
-#include "solvers/pictures/campbell.hpp"
-#include "turbines/machines/wt600.hpp"
+#include <cardan/mbs/base/error.hpp>
+#include <cardan/solvers/hdf5/campbell.hpp>
+#include <cardan/solvers/pictures/campbell.hpp>
+#include <cardan/turbines/machines/wt600.hpp>
 
 #include <iostream>
 

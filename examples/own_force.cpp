@@ -1,8 +1,8 @@
 // A user-defined force: a spring that hardens, Q = -k q - c q^3, with its energy and its derivatives. The period of
 // the oscillation depends on the amplitude; it is known in closed form (Duffing's equation without damping).
-#include "elements/machine/joints.hpp"
-#include "mbs/base/units.hpp"
-#include "solvers/time/integrate.hpp"
+#include <cardan/elements/machine/joints.hpp>
+#include <cardan/mbs/base/units.hpp>
+#include <cardan/solvers/time/integrate.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // Your own turbine from a YAML file: examples/data/own_turbine.yaml, or the file named on the command line.
-#include "mbs/base/error.hpp"
-#include "solvers/campbell/diagram.hpp"
-#include "turbines/model/assembly.hpp"
-#include "turbines/yaml/description.hpp"
+#include <cardan/mbs/base/error.hpp>
+#include <cardan/solvers/campbell/diagram.hpp>
+#include <cardan/turbines/model/assembly.hpp>
+#include <cardan/turbines/yaml/description.hpp>
 
 #include <cstdio>
 #include <iostream>

@@ -1,8 +1,8 @@
 // A robot arm from URDF: torques that its drives need against gravity, and how it vibrates on the drives as springs.
-#include "mbs/base/error.hpp"
-#include "mbs/base/units.hpp"
-#include "mbs/urdf/urdf.hpp"
-#include "solvers/linear/modes.hpp"
+#include <cardan/mbs/base/error.hpp>
+#include <cardan/mbs/base/units.hpp>
+#include <cardan/mbs/urdf/urdf.hpp>
+#include <cardan/solvers/linear/modes.hpp>
 
 #include <cstdio>
 #include <iostream>

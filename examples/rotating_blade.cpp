@@ -1,6 +1,6 @@
 // A uniform blade that rotates: the centrifugal force stiffens it, in flap more than in lag; flap^2 - lag^2 = speed^2.
-#include "elements/cardan_beam/single_beam.hpp"
-#include "solvers/equilibrium/natural_modes.hpp"
+#include <cardan/elements/cardan_beam/single_beam.hpp>
+#include <cardan/solvers/equilibrium/natural_modes.hpp>
 
 #include <cstdio>
 #include <utility>

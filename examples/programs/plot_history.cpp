@@ -4,6 +4,7 @@
 // speed[rad s-1] ...
 #include "mbs/base/error.hpp"
 #include "mbs/base/types.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/signals/sampling.hpp"
@@ -192,7 +193,7 @@ void print_peaks(const solvers::History& history, const std::vector<std::string>
         if (found.empty()) std::cout << ": none";
         for (const solvers::Peak& peak : found) {
             std::cout << (&peak == found.data() ? " " : ", ") << peak.frequency << " Hz";
-            if (a.rpm > 0) std::cout << " = " << std::setprecision(3) << peak.frequency * 60 / a.rpm << "P";
+            if (a.rpm > 0) std::cout << " = " << std::setprecision(3) << peak.frequency * units::minute / a.rpm << "P";
             std::cout << std::setprecision(4) << " (" << shown.factor * peak.amplitude << unit(shown) << ")";
         }
         std::cout << "\n";
@@ -220,7 +221,7 @@ void draw_spectra(const solvers::History& history, const std::vector<std::string
     options.spectrum.to = a.to;
     options.density = a.density;
     options.max_frequency_hz = a.max_frequency;
-    options.rotor_frequency_hz = a.rpm / 60;
+    options.rotor_frequency_hz = a.rpm / units::minute;
     options.blades = a.blades;
     const solvers::Spectrum first = solvers::spectrum(even, names.front(), options.spectrum);
     draw(a, "_spectrum",

@@ -14,7 +14,7 @@
 #include "solvers/control/model_reduction.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
-#include "solvers/hdf5/state_space.hpp"
+#include "solvers/hdf5_models/state_space.hpp"
 #include "solvers/linear/problem_size.hpp"
 #include "solvers/matlab/state_space.hpp"
 #include "turbines/machines/wt600.hpp"

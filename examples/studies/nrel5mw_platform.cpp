@@ -87,7 +87,7 @@ int parse(int argc, char** argv, Arguments& a) {
 
 std::optional<double> revolution(const Arguments& a) {
     require_not_negative("--rpm", "value", a.rpm);
-    return a.rpm > 0 ? std::optional(60 / a.rpm) : std::nullopt;
+    return a.rpm > 0 ? std::optional(units::minute / a.rpm) : std::nullopt;
 }
 
 using Motions = std::array<std::optional<program::MotionOption>, names.size()>;

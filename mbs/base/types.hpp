@@ -10,6 +10,7 @@
 
 #include <compare>
 #include <complex>
+#include <numbers>
 #include <type_traits>
 #include <vector>
 
@@ -64,6 +65,6 @@ struct FrameId {
     auto operator<=>(const FrameId&) const = default;
 };
 
-inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double pi = std::numbers::pi;
 
 }  // namespace cardan

@@ -1,3 +1,5 @@
+/// @file
+/// Units of angles, speeds and times, and the standard acceleration of free fall.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -8,6 +10,7 @@ namespace cardan::units {
 
 inline constexpr double degree = pi / 180;      ///< rad
 inline constexpr double rpm = pi / 30;          ///< one revolution per minute, rad/s
+inline constexpr double minute = 60;            ///< s; a speed in rev/min over it is a frequency in Hz
 inline constexpr double to_degrees = 180 / pi;  ///< deg / rad
 inline constexpr double to_rpm = 30 / pi;       ///< rev/min / (rad/s)
 

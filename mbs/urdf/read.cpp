@@ -55,7 +55,7 @@ RigidInertia rigid_inertia(const urdf::Inertial& from, const std::string& where)
     return inertia;
 }
 
-// The largest double stands for "none" in files that have to write a number (urdf_write.cpp does).
+// The largest double stands for "none" in files that have to write a number (write.cpp does).
 double limit_of(double value) {
     return std::abs(value) >= std::numeric_limits<double>::max()
                ? std::copysign(std::numeric_limits<double>::infinity(), value)

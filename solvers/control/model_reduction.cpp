@@ -2,7 +2,7 @@
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/algebra/shifted_schur.hpp"
+#include "solvers/control/detail/shifted_schur.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/pictures/detail/campbell_style.hpp"
 
 #include <algorithm>
@@ -154,7 +155,9 @@ private:
         return text("set xlabel ", gnuplot_text(abscissa_label(d_)), "\nset format x '%g'\n");
     }
     // The rotor frequency in Hz as an expression in x; over another parameter that of the first point.
-    std::string per_rev() const { return d_.parameters.empty() ? "x/60.0" : text(d_.points[0].rotor_speed / (2 * pi)); }
+    std::string per_rev() const {
+        return d_.parameters.empty() ? text("x/", units::minute) : text(d_.points[0].rotor_speed / (2 * pi));
+    }
 
     std::string multiples_labels() const {
         std::string labels;
@@ -167,8 +170,9 @@ private:
                                    " left offset 0.3,0 font ',9' tc rgb '#666666'\n");
                 continue;
             }
-            const bool leaves_on_top = n * x_max / 60 > f_max_;
-            const double x = leaves_on_top ? f_max_ * 60 / n : x_max, y = leaves_on_top ? f_max_ : n * x_max / 60;
+            const bool leaves_on_top = n * x_max / units::minute > f_max_;
+            const double x = leaves_on_top ? f_max_ * units::minute / n : x_max,
+                         y = leaves_on_top ? f_max_ : n * x_max / units::minute;
             if (x <= rpm_.front()) continue;
             labels +=
                 text("set label '", n, "P' at ", x, ",", y,

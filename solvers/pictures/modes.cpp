@@ -82,7 +82,7 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
     std::string script = lines_data(diagram, "rest", motion, 0, 0) +
                          lines_data(diagram, "now", motion, scale, largest.phase) +
                          lines_data(diagram, "quarter", motion, scale, largest.phase + pi / 2);
-    const double rpm = std::round(3e3 * diagram.points[point].rotor_speed / pi) / 100;
+    const double rpm = std::round(100 * diagram.points[point].rotor_speed * units::to_rpm) / 100;
     const char* about = diagram.mode(branch, point)->floquet ? " rpm, shape at azimuth 0 (displacements enlarged)"
                                                              : " rpm (displacements enlarged)";
     const std::string doubt =

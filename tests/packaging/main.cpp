@@ -1,13 +1,13 @@
 // Uses the installed headers and libraries as a stranger would: a description is changed, modes are computed, a file
 // and a picture are written.
-#include "mbs/base/error.hpp"
-#include "mbs/base/version.hpp"
-#include "mbs/batch/batch.hpp"
-#include "solvers/control/state_space.hpp"
-#include "solvers/hdf5/campbell.hpp"
-#include "solvers/matlab/state_space.hpp"
-#include "solvers/pictures/campbell.hpp"
-#include "turbines/machines/wt600.hpp"
+#include <cardan/mbs/base/error.hpp>
+#include <cardan/mbs/base/version.hpp>
+#include <cardan/mbs/batch/batch.hpp>
+#include <cardan/solvers/control/state_space.hpp>
+#include <cardan/solvers/hdf5/campbell.hpp>
+#include <cardan/solvers/matlab/state_space.hpp>
+#include <cardan/solvers/pictures/campbell.hpp>
+#include <cardan/turbines/machines/wt600.hpp>
 
 #include <cmath>
 #include <iostream>

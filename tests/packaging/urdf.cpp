@@ -1,5 +1,5 @@
 // A program that reads a robot: what it links comes with cardan::urdf.
-#include "mbs/urdf/urdf.hpp"
+#include <cardan/mbs/urdf/urdf.hpp>
 
 #include <iostream>
 

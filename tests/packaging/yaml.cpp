@@ -1,7 +1,7 @@
 // Models of machines as YAML, from the installed package.
-#include "mbs/base/error.hpp"
-#include "turbines/yaml/description.hpp"
-#include "turbines/yaml/windio.hpp"
+#include <cardan/mbs/base/error.hpp>
+#include <cardan/turbines/yaml/description.hpp>
+#include <cardan/turbines/yaml/windio.hpp>
 
 #include <iostream>
 

@@ -1,4 +1,5 @@
 // Solvers that are used again give what fresh ones give: nothing is kept from one call to the next but memory.
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/point.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
@@ -79,7 +80,7 @@ TEST_CASE("reuse: a steady solver gives the states of fresh ones, in any order a
 }
 
 TEST_CASE("reuse: a steady solver goes on after an exception from a force and after a periodic state", "[property]") {
-    SmallRotor rotor = rotor_on_elastic_support({0, -9.81, 0});
+    SmallRotor rotor = rotor_on_elastic_support({0, -units::standard_gravity, 0});
     SteadySolver solver(rotor.system, rotor.map.spin);
     SteadyState state;
     for (int round = 0; round < 2; ++round) {
@@ -91,7 +92,7 @@ TEST_CASE("reuse: a steady solver goes on after an exception from a force and af
 }
 
 TEST_CASE("reuse: lineariser, restriction and transformation give what fresh ones give", "[property]") {
-    const SmallRotor rotor = rotor_on_elastic_support({0, 0, -9.81});
+    const SmallRotor rotor = rotor_on_elastic_support({0, 0, -units::standard_gravity});
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
     Lineariser lineariser(rotor.system);
     Linearisation lin;

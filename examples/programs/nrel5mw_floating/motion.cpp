@@ -56,7 +56,7 @@ struct Case {
 std::vector<Case> cases(const MotionOptions& options) {
     std::vector<Case> all(1);
     all[0].name = "still";
-    std::optional<double> revolution(options.rpm > 0 ? 60 / options.rpm : 0);
+    std::optional<double> revolution(options.rpm > 0 ? units::minute / options.rpm : 0);
     if (*revolution == 0) revolution.reset();
     Case together;
     for (std::size_t i = 0; i < 6; ++i)
@@ -87,7 +87,7 @@ void check_range(const Case& one, double duration) {
 
 // Before anything runs: can the stretch that is looked at tell the motions' frequencies from those beside them?
 void check_window(const Case& one, const MotionOptions& o, double window) {
-    const double rotor = o.rpm / 60;
+    const double rotor = o.rpm / units::minute;
     const Resolution needed = needed_resolution(one.frequencies(), rotor);
     if (window < (1 - 1e-9) * needed.window)
         throw InputError(text("--periods (", one.words, ")"), "stretch that is looked at [s]", window,
@@ -237,8 +237,8 @@ void print_case(const solvers::History& still, const solvers::History& moving, c
     const auto late = [&](const std::vector<double>& values) {
         return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(range.first), values.end());
     };
-    const LineFit fit(late(moving.time),
-                      response_lines(one.frequencies(), study.options.rpm / 60, study.duration - study.settle));
+    const LineFit fit(late(moving.time), response_lines(one.frequencies(), study.options.rpm / units::minute,
+                                                        study.duration - study.settle));
     for (const char* name : studied) {
         const std::vector<double> difference = less(moving[name], still[name]);
         const Swing before = swing(still[name], range);

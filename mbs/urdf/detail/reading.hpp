@@ -1,7 +1,7 @@
 /// @file
 /// The steps of reading URDF. Internal to cardan::urdf.
 ///
-///   text --outline--> links, joints, notes, tidy text --urdfdom--> values --(urdf_read.cpp)--> Tree
+///   text --outline--> links, joints, notes, tidy text --urdfdom--> values --(read.cpp)--> Tree
 ///                          |
 ///                       structure: is it a tree? in which order?
 #pragma once

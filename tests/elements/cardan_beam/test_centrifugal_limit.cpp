@@ -1,6 +1,7 @@
 // The rotor speed at which the centrifugal force softens a beam of mean differences, against its eigenvalues.
 #include "elements/cardan_beam/centrifugal_limit.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/elements/cardan_beam/rotating_cantilever.hpp"
 #include "tests/oracles/wt600_stations.hpp"
 
@@ -9,7 +10,7 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr double rated = 27 * pi / 30;  // of the 600 kW machine, rad/s
+constexpr double rated = 27 * units::rpm;  // of the 600 kW machine, rad/s
 
 CardanBeamOptions bending_at_gauss(int elements, Partition partition = Partition::mean_difference) {
     return bending_only(elements, delta_gauss, partition);

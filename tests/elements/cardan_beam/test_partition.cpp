@@ -126,7 +126,7 @@ TEST_CASE(
 TEST_CASE(
     "shear flexibility: products of inertia with the axis change by what the halves of elements do not cancel, "
     "h^2 in a beam",
-    "[convergence]") {
+    "[property]") {
     const BeamLine rigid = tapered_with_offsets(), flexible = flexible_in_shear(rigid, 1, 10);
     const auto change = [&](int elements) {
         double xy = 0;

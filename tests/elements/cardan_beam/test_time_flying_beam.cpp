@@ -5,7 +5,7 @@
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/time/atlas.hpp"
+#include "solvers/atlas/atlas.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/planar_rod.hpp"
 #include "tests/support/catch.hpp"

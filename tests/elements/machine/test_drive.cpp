@@ -1,5 +1,6 @@
 // Elastic drives and the commands they follow.
 #include "elements/machine/drive.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/time/motion.hpp"
 #include "tests/elements/machine/shaft.hpp"
 #include "tests/support/refusal.hpp"
@@ -49,7 +50,7 @@ TEST_CASE("drive: a new command starts from where the last one has come to, with
 }
 
 TEST_CASE("drive: a command repeated at any sampling rate acts as one command", "[analytic]") {
-    constexpr double degree = pi / 180, target = 20 * degree, rate = 8 * degree, acceleration = 15 * degree;
+    constexpr double target = 20 * units::degree, rate = 8 * units::degree, acceleration = 15 * units::degree;
     const TravelLimits pitch{rate, acceleration};
     // Up and down to the largest rate take 3/2 rate / acceleration each, and half the distance of that at the full
     // rate.

@@ -56,7 +56,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("pending file: what another program writes is refused, with its number, and left alone") {
+TEST_CASE("pending file: what another program writes is refused, with its number, and left alone", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.csv";
     {
@@ -77,7 +77,7 @@ TEST_CASE("pending file: what another program writes is refused, with its number
     CHECK(bytes_of(path) == "mine");
 }
 
-TEST_CASE("pending file: a file under its name that somebody is writing is not replaced") {
+TEST_CASE("pending file: a file under its name that somebody is writing is not replaced", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     const PendingFile early(path);
@@ -99,7 +99,7 @@ TEST_CASE("pending file: a file under its name that somebody is writing is not r
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("pending file: what a killed program has left behind is known and can be written") {
+TEST_CASE("pending file: what a killed program has left behind is known and can be written", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.csv";
     {
@@ -112,7 +112,7 @@ TEST_CASE("pending file: what a killed program has left behind is known and can 
     CHECK(folder.files() == 0);
 }
 
-TEST_CASE("pending file: a lock that was handed over protects the file from being discarded by others") {
+TEST_CASE("pending file: a lock that was handed over protects the file from being discarded by others", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     const PendingFile mine(path);

@@ -62,7 +62,7 @@ TEST_CASE("text: UTF-8 ends where the C library's decoder says so", "[crosscheck
     CHECK(different == 0);
 }
 
-TEST_CASE("text: NUL and bytes that are not UTF-8 are refused with file, line and character column") {
+TEST_CASE("text: NUL and bytes that are not UTF-8 are refused with file, line and character column", "[property]") {
     CHECK_NOTHROW(require_text("a\n\tb\r\n\xC3\xA4\xE2\x82\xAC\xF0\x9F\x8C\x80", "a.csv"));
     CHECK_THROWS_WITH(require_text(std::string("ab\nc\xC3\xA4\0d", 8), "a.csv"),
                       Contains("a.csv:2:3: is no text: the character NUL"));
@@ -74,7 +74,7 @@ TEST_CASE("text: NUL and bytes that are not UTF-8 are refused with file, line an
     CHECK_THROWS_WITH(require_text(std::string(longest_text + 1, ' '), "a.csv"), Contains("allowed: 64 MiB"));
 }
 
-TEST_CASE("text: a file without an end is not read to the end") {
+TEST_CASE("text: a file without an end is not read to the end", "[property]") {
     CHECK_THROWS_WITH(text_file("/dev/zero"), Contains("/dev/zero: is longer than 64 MiB"));
     CHECK_THROWS_WITH(text_file("/"), Contains("is a folder"));
     const test::Folder folder;

@@ -1,6 +1,7 @@
 // Sliding masses, oscillators, gears and drives against equations solved by hand.
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/simulation.hpp"
@@ -123,7 +124,7 @@ TEST_CASE("oscillator: a damped spring swings about its rest position in closed 
 }
 
 TEST_CASE("oscillator: a hanging mass swings about its static sag m g / k", "[analytic]") {
-    const double m = 1.8, k = 45, gravity = 9.81, omega = std::sqrt(k / m);
+    const double m = 1.8, k = 45, gravity = units::standard_gravity, omega = std::sqrt(k / m);
     Tree tree;
     const Link link = add_joint(tree, {.name = "hoist", .kind = JointKind::prismatic, .inertia = mass_of(m)});
     ForceSet set;
@@ -252,7 +253,7 @@ TEST_CASE("gears: a driven twist loads the hub through the armature, its drive e
 }
 
 TEST_CASE("drive: an unbalanced rotor with prescribed angle needs J psi'' + m g s cos psi", "[analytic]") {
-    const double m = 3, s = 0.2, J = 0.5, gravity = 9.81, omega = 2, alpha = 0.7;
+    const double m = 3, s = 0.2, J = 0.5, gravity = units::standard_gravity, omega = 2, alpha = 0.7;
     Tree tree;
     RigidInertia rotor = wheel(m, {J, J, J});
     rotor.com = Vec3(s, 0, 0);

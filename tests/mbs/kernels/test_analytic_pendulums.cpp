@@ -1,5 +1,6 @@
 // Pendulums against elliptic functions and equations written out.
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/pendulum.hpp"
 #include "tests/support/catch.hpp"
@@ -12,7 +13,7 @@ namespace cardan::testing::pendulums {
 
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double gravity = units::standard_gravity;
 
 ForceSet weight() {
     ForceSet set;

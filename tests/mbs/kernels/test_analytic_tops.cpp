@@ -1,5 +1,6 @@
 // Tops on three revolute joints with massless bodies between them, against closed forms.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/oracles/heavy_top.hpp"
 #include "tests/oracles/torque_free_top.hpp"
 #include "tests/support/catch.hpp"
@@ -102,7 +103,7 @@ struct HeavyTop {
     Simulation start(double psi_dot, double theta_dot) const {
         return {system, Vector::Zero(3), Vec3(psi_dot, theta_dot, omega3 - psi_dot * std::cos(theta))};
     }
-    static constexpr double mass = 1.5, height = 0.3, transverse = 0.4, axial = 0.35, gravity = 9.81;
+    static constexpr double mass = 1.5, height = 0.3, transverse = 0.4, axial = 0.35, gravity = units::standard_gravity;
     double theta, omega3;
     System system;
 };

@@ -1,6 +1,7 @@
 // Conservation laws and symmetries of space and time: energy, momentum, moving bases, gravity as acceleration.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
@@ -150,7 +151,7 @@ TEST_CASE("momentum: a floating tree with springs and dampers inside keeps linea
 }
 
 TEST_CASE("momentum: a floating tree falls freely, its angular momentum about its centre is kept", "[property]") {
-    const Vec3 gravity(0.3, -0.2, -9.81);
+    const Vec3 gravity(0.3, -0.2, -units::standard_gravity);
     for (unsigned seed = 0; seed < 10; ++seed) {
         CAPTURE(seed);
         Floating floating(seed, gravity);
@@ -269,7 +270,7 @@ TEST_CASE("equivalence: an accelerated base acts like gravity of opposite sign",
 TEST_CASE("equivalence: a freely falling base feels no gravity and needs no force but the tree's own", "[property]") {
     for (unsigned seed = 0; seed < 20; ++seed) {
         OnMovingBase s(seed);
-        const Vec3 gravity(0, 0, -9.81);
+        const Vec3 gravity(0, 0, -units::standard_gravity);
         Vec3 free_reaction, fall_reaction;
         const Vector expected = s.qdd_on_base(Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), &free_reaction);
         s.on_base.set_gravity(gravity);

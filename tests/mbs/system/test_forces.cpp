@@ -1,6 +1,7 @@
 // Every force element: generalised force against its energy, its power, virtual work, and Lagrange's eq. (7).
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/kernels/lagrange.hpp"
 #include "tests/mbs/system/forced_tree.hpp"
 #include "tests/support/catch.hpp"
@@ -58,7 +59,7 @@ TEST_CASE("forces: energies are those written down by hand", "[analytic]") {
         set.add_spring("spring", BodyId{2}, 4, 0, 0.5);
         set.add_law({"block", {BodyId{5}, BodyId{0}}, (Matrix(2, 2) << 3, 1, 1, 2).finished()});
         set.add_wrench({"dead force", at.frame(7), {Vec3(1, 2, 3), {0, 0, 0}}});
-        set.set_gravity(Vec3(0, 0, -9.81));
+        set.set_gravity(Vec3(0, 0, -units::standard_gravity));
     });
     const std::vector<ForceReport> report = s.report();
     REQUIRE(report.size() == 4);
@@ -75,7 +76,7 @@ TEST_CASE("forces: energies are those written down by hand", "[analytic]") {
         height += body.inertia.mass * (at.p + at.R * body.inertia.com)(2);
     }
     CHECK(report[2].name == "gravity");
-    CHECK(*report[2].energy == Approx(9.81 * height).epsilon(1e-13));
+    CHECK(*report[2].energy == Approx(units::standard_gravity * height).epsilon(1e-13));
     CHECK(report[3].name == "dead force");
     CHECK(*report[3].energy == Approx(-Vec3(1, 2, 3).dot(pose(s.kin(), s.frame(7)).p)).epsilon(1e-13));
 }

@@ -1,6 +1,7 @@
 // Campbell diagrams of a rotor on a rigid hub, whose frequencies are known in closed form; input that is refused.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
@@ -40,8 +41,8 @@ TEST_CASE("rpm_range: counts from first to last in rad/s and keeps the last", "[
     for (std::size_t i = 0; i < 5; ++i) CHECK(speeds[i] == Approx(10.0 * static_cast<double>(i) * 2 * pi / 60));
     CHECK(rpm_range(0, 1, 0.1).size() == 11);  // 0.1 is no binary fraction
     CHECK(rpm_range(0, 10, 3).size() == 4);
-    CHECK(rpm_range(0, 10, 3).back() == Approx(9 * pi / 30));
-    CHECK(rpm_range(5, 5, 1) == std::vector<double>{5 * pi / 30});
+    CHECK(rpm_range(0, 10, 3).back() == Approx(9 * units::rpm));
+    CHECK(rpm_range(5, 5, 1) == std::vector<double>{5 * units::rpm});
     CHECK(rpm_range(5, 6, 100).size() == 1);
 }
 
@@ -100,7 +101,7 @@ TEST_CASE("campbell: crossings lie where a branch meets a multiple of the rotor 
         for (int n : {1, 2, 3, 6, 9, 12}) {  // drawn and listed for three blades
             const double square = (n + shift) * (n + shift) - 1 - e / l;
             const double Omega = square > 0 ? w0 / std::sqrt(square) : 0;
-            if (Omega < 10 * pi / 30 || Omega > 40 * pi / 30) continue;
+            if (Omega < 10 * units::rpm || Omega > 40 * units::rpm) continue;
             const std::string name = text("blade flap (", pattern, ")");
             expected.emplace_back(name, n);
             CAPTURE(name, n);
@@ -271,7 +272,7 @@ TEST_CASE("campbell: what has no diagram is refused", "[property]") {
 
 TEST_CASE("campbell: without a constant steady state there is no diagram", "[property]") {
     // Gravity in the rotor plane pulls at the lag hinges once per revolution.
-    const SmallRotor rotor = make_rotor({.hinges = BladeHinges::lag, .gravity = {0, -9.81, 0}});
+    const SmallRotor rotor = make_rotor({.hinges = BladeHinges::lag, .gravity = {0, -units::standard_gravity, 0}});
     std::string message;
     try {
         (void)diagram_of(rotor, {2.0});

@@ -1,5 +1,6 @@
 // Where the mean over the azimuth is no motion of the machine, and what has no pattern over the blades.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
@@ -52,8 +53,8 @@ TEST_CASE("campbell averaged: with blades that differ it has frequencies of no m
 }
 
 TEST_CASE("campbell averaged: gravity on equal blades is no difference between them", "[property]") {
-    const SmallRotor rotor =
-        small_rotor({.hinges = BladeHinges::flap_and_lag, .elastic_support = true, .gravity = {0, -9.81, 0}});
+    const SmallRotor rotor = small_rotor(
+        {.hinges = BladeHinges::flap_and_lag, .elastic_support = true, .gravity = {0, -units::standard_gravity, 0}});
     CHECK(diagram_by(rotor, {3.0}, CampbellMethod::averaged, RotorSpin::prescribed).warning.empty());
 }
 

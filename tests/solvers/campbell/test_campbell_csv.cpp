@@ -1,6 +1,7 @@
 // The CSV table of a Campbell diagram, read by a reader of its own (RFC 4180): names with commas, quotation
 // marks and line ends, kinds of motion, another parameter, missing modes.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
@@ -105,7 +106,7 @@ TEST_CASE("campbell table: whirl of the second harmonic has a comma in its name 
                                                                        : 0;
             const double expected = (w + n * Omega) / (2 * pi);
             CAPTURE(branch.name, Omega);
-            CHECK(std::stod(line[0]) == Approx(Omega * 30 / pi).epsilon(1e-9));
+            CHECK(std::stod(line[0]) == Approx(Omega * units::to_rpm).epsilon(1e-9));
             CHECK(std::stod(line[3]) == Approx(expected).epsilon(1e-9));
             CHECK(std::stod(line[2]) == Approx(std::hypot(expected, decay / (2 * pi))).epsilon(1e-9));
             CHECK(std::stod(line[4]) == Approx(decay / std::hypot(2 * pi * expected, decay)).epsilon(1e-8));

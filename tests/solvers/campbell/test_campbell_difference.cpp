@@ -226,7 +226,7 @@ TEST_CASE("campbell difference: the table has the frequencies in Hz and the diff
     CHECK_THAT(difference_table(still, still), Catch::Contains("0.0 rpm") && Catch::Contains("1.0000"));
 }
 
-TEST_CASE("campbell difference: pictures have both panels, units, and the modes that differ") {
+TEST_CASE("campbell difference: pictures have both panels, units, and the modes that differ", "[property]") {
     const test::Folder folder;
     const Campbell a = by_hand({5, 10}, {{"1st tower", {{1, -0.01}, {1.1, -0.02}}},
                                          {"2nd tower", {{2, 0}, {2.001, 0}}},

@@ -2,6 +2,7 @@
 // coordinates, the multi-blade linear model; input that is refused.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
@@ -119,7 +120,7 @@ TEST_CASE("campbell by Floquet: two hinged blades on a rigid hub flap together a
 TEST_CASE("campbell by Floquet: in gravity the exponents are those of the machine in blade coordinates",
           "[crosscheck]") {
     for (const int blades : {1, 2, 3}) {
-        const SmallRotor rotor = whirling(blades, {0, -9.81, -1});
+        const SmallRotor rotor = whirling(blades, {0, -units::standard_gravity, -1});
         CampbellOptions options = by(CampbellMethod::floquet);
         options.spin = RotorSpin::prescribed;
         options.floquet.harmonics = 12;
@@ -151,7 +152,7 @@ TEST_CASE("campbell by Floquet: in gravity the exponents are those of the machin
 }
 
 TEST_CASE("campbell: the mean over the azimuth has the poles of the multi-blade linear model", "[crosscheck]") {
-    const SmallRotor rotor = whirling(3, {0, -9.81, -1});
+    const SmallRotor rotor = whirling(3, {0, -units::standard_gravity, -1});
     CampbellOptions options = by(CampbellMethod::averaged);
     options.spin = RotorSpin::prescribed;
     const double speed[] = {2.0};

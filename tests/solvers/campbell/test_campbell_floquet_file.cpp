@@ -1,6 +1,7 @@
 // What Floquet's theory adds to the HDF5 file of a Campbell diagram: participation of harmonics, errors, the periodic
 // steady state, kinds, stability margin, another parameter; with units and dimension scales.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/hdf5/file.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -45,7 +46,7 @@ SmallRotor whirling_pair() {
     spec.hinges = BladeHinges::flap_and_lag;
     spec.lag_damping = 60;
     spec.elastic_support = true;
-    spec.gravity = {0, -9.81, -1};
+    spec.gravity = {0, -units::standard_gravity, -1};
     return small_rotor(spec);
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("campbell: speeds may stand in the call; a branch is found by its name
     CHECK_THROWS_AS(d.branch("17th blade flap"), InputError);
 }
 
-TEST_CASE("campbell file: holds what the diagram holds, with names, units and dimension scales") {
+TEST_CASE("campbell file: holds what the diagram holds, with names, units and dimension scales", "[property]") {
     const test::Folder folder;
     const auto path = folder.path / "c.h5";
     const Campbell& d = diagram();
@@ -74,7 +74,7 @@ TEST_CASE("campbell file: holds what the diagram holds, with names, units and di
     CHECK(file.read_strings("coordinates/unit").at(0) == "rad");
 }
 
-TEST_CASE("campbell table: one line per rotor speed and mode, units in the header") {
+TEST_CASE("campbell table: one line per rotor speed and mode, units in the header", "[property]") {
     const test::Folder folder;
     write_csv(diagram(), folder.path / "c.csv");
     const std::string table = test::bytes_of(folder.path / "c.csv");
@@ -87,7 +87,7 @@ TEST_CASE("campbell table: one line per rotor speed and mode, units in the heade
     CHECK(table.find("\n10,1st tower fore-aft,0.7") != std::string::npos);
 }
 
-TEST_CASE("campbell pictures: axes with units, legend, nP lines and every mode by name") {
+TEST_CASE("campbell pictures: axes with units, legend, nP lines and every mode by name", "[property]") {
     const test::Folder folder;
     plot(diagram(), folder.path / "c.svg");
     const std::string svg = test::bytes_of(folder.path / "c.svg");
@@ -106,7 +106,7 @@ TEST_CASE("campbell pictures: axes with units, legend, nP lines and every mode b
     CHECK(panels.find("rotor tilt") == std::string::npos);
 }
 
-TEST_CASE("mode shape pictures: drawn at standstill and in rotation; unknown points are refused") {
+TEST_CASE("mode shape pictures: drawn at standstill and in rotation; unknown points are refused", "[property]") {
     const test::Folder folder;
     const Branch& branch = diagram().branch("1st tower fore-aft");
     plot_mode(diagram(), branch, 2, folder.path / "m.svg");
@@ -119,7 +119,7 @@ TEST_CASE("mode shape pictures: drawn at standstill and in rotation; unknown poi
     CHECK_THROWS_WITH(diagram().branch("3rd tail rotor"), Catch::Contains("1st tower fore-aft"));
 }
 
-TEST_CASE("campbell outputs: an unwritable path and an empty diagram are clear errors") {
+TEST_CASE("campbell outputs: an unwritable path and an empty diagram are clear errors", "[property]") {
     const auto nowhere = std::filesystem::path("/no/such/folder");
     CHECK_THROWS_AS(write_hdf5(diagram(), nowhere / "c.h5"), FileError);
     CHECK_THROWS_AS(write_csv(diagram(), nowhere / "c.csv"), FileError);
@@ -129,7 +129,7 @@ TEST_CASE("campbell outputs: an unwritable path and an empty diagram are clear e
     CHECK_THROWS_WITH(plot(diagram(), folder.path / "c.bmp"), Catch::Contains(".svg"));
 }
 
-TEST_CASE("campbell outputs: a full disk leaves no file that poses as complete") {
+TEST_CASE("campbell outputs: a full disk leaves no file that poses as complete", "[property]") {
     const test::Folder folder;
     {
         const test::SizeLimit full(4096);

@@ -4,7 +4,7 @@
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/hdf5/file.hpp"
-#include "solvers/hdf5/state_space.hpp"
+#include "solvers/hdf5_models/state_space.hpp"
 #include "solvers/matlab/state_space.hpp"
 #include "tests/solvers/control/lin_file.hpp"
 #include "tests/solvers/small_rotor.hpp"

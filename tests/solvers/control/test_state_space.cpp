@@ -2,6 +2,7 @@
 // the linearised equations, Fourier series, bad input.
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/periodic/periodic_system.hpp"
@@ -15,7 +16,7 @@ using namespace solvers;
 
 namespace {
 
-constexpr double m = 3, J = 7, k = 40, c = 1.5, R = 2, g = 9.81;
+constexpr double m = 3, J = 7, k = 40, c = 1.5, R = 2, g = units::standard_gravity;
 
 // An arm that turns about the level axis z, angle a, with a mass that slides along it at R + r on spring and damper.
 struct SlidingMass {
@@ -92,7 +93,7 @@ SmallRotor heavy_rotor() {
                         .hinges = BladeHinges::flap_and_lag,
                         .lag_damping = 30,
                         .elastic_support = true,
-                        .gravity = 9.81 * Vec3(0, -1, -0.1)});
+                        .gravity = units::standard_gravity * Vec3(0, -1, -0.1)});
 }
 
 ChannelGroup positions(const Model& model) {

@@ -1,5 +1,6 @@
 // Load stepping on systems of one degree of freedom against balances by hand.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/equilibrium/load_path.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
@@ -17,7 +18,7 @@ using oracles::bisect;
 
 namespace {
 
-constexpr double m = 2, length = 1.5, g = 9.81;
+constexpr double m = 2, length = 1.5, g = units::standard_gravity;
 
 // A pendulum about y with a spring, gravity along -z and loads at its end; it hangs or stands.
 struct Pendulum {

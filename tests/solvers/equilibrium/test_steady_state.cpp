@@ -1,5 +1,6 @@
 // Equilibrium at standstill and in steady rotation against force balances by hand.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/root_finding.hpp"
@@ -49,7 +50,7 @@ System pendulum(double k, double moment, double m = 2, double length = 1.5, bool
         tree,
         {.name = "hinge", .axis = Vec3::UnitY(), .inertia = point_mass(m, {0, 0, upside_down ? length : -length})});
     if (k > 0) forces.add_spring("spring", link.body, k);
-    forces.set_gravity({0, 0, -9.81});
+    forces.set_gravity({0, 0, -units::standard_gravity});
     forces.add_wrench({"moment", link.axes, {Vec3::Zero(), {0, moment, 0}}, WrenchAxes::base});
     return System(tree, forces);
 }
@@ -100,7 +101,7 @@ TEST_CASE("steady state: a spinning hinged bar takes the angle where spring and 
 
 TEST_CASE("steady state: gravity along the rotor axis leaves a constant state (centrifugal governor)", "[analytic]") {
     HingedBar bar;
-    bar.gravity = {0, 0, -9.81};
+    bar.gravity = {0, 0, -units::standard_gravity};
     bar.rest = 0;
     const SteadyState state = steady_state(bar.system(), 0, {.rotor_speed = 4});
     const double expected = bisect([&](double flap) { return bar.balance(flap, 4); }, -1.5, 1);
@@ -175,7 +176,7 @@ TEST_CASE("steady state: a cantilever sags by q L^4 / (8 EI) under a small weigh
 
 TEST_CASE("steady state: gravity across the rotor axis in rotation is refused as periodic", "[analytic]") {
     HingedBar bar;
-    bar.gravity = {0, -9.81, 0};
+    bar.gravity = {0, -units::standard_gravity, 0};
     // Gravity in the rotor plane has no moment about the hinge of a bar that lies in it, but a bent bar feels it.
     const System system = bar.system();
     CHECK(contains(numerical_error([&] { (void)steady_state(system, 0, {.rotor_speed = 2}); }), "periodic"));
@@ -198,7 +199,8 @@ TEST_CASE("steady state: where several equilibria exist the starting point decid
     // Upside down on a weak spring: k q = m g l sin q besides q = 0.
     const double k = 20, m = 2, length = 1.5;
     const System system = pendulum(k, 0, m, length, true);
-    const double expected = bisect([&](double q) { return k * q - m * 9.81 * length * std::sin(q); }, 0.5, 3);
+    const double expected =
+        bisect([&](double q) { return k * q - m * units::standard_gravity * length * std::sin(q); }, 0.5, 3);
     for (const double side : {1.0, -1.0}) {
         const SteadyState state = steady_state(system, -1, {.initial = Vector::Constant(1, side)});
         REQUIRE(state.converged);
@@ -209,7 +211,7 @@ TEST_CASE("steady state: where several equilibria exist the starting point decid
 
 TEST_CASE("steady state: a load that no equilibrium can carry is reported with the last iterate", "[analytic]") {
     // m g l sin q = M has a solution up to M = m g l = 29.4 N m only.
-    const double limit = 2 * 9.81 * 1.5;
+    const double limit = 2 * units::standard_gravity * 1.5;
     const SteadyState below = steady_state(pendulum(0, 0.9 * limit), -1);
     REQUIRE(below.converged);
     CHECK(std::abs(below.at.q(0)) == Approx(std::asin(0.9)).epsilon(1e-10));

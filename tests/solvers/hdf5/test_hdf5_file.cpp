@@ -184,7 +184,7 @@ TEST_CASE("hdf5: the same data give the same bytes", "[property]") {
     CHECK(bytes_of(folder / "a.h5") == bytes_of(folder / "b.h5"));
 }
 
-TEST_CASE("hdf5: the file has its name only after finish") {
+TEST_CASE("hdf5: the file has its name only after finish", "[property]") {
     const Folder folder;
     std::ofstream(folder / "a.h5") << "older file";
     {
@@ -204,7 +204,7 @@ TEST_CASE("hdf5: the file has its name only after finish") {
     CHECK(file.path() == folder / "a.h5");
 }
 
-TEST_CASE("hdf5: what was flushed can be read although the writer is killed") {
+TEST_CASE("hdf5: what was flushed can be read although the writer is killed", "[property]") {
     const Folder folder;
     const pid_t child = ::fork();
     if (child == 0) {
@@ -221,7 +221,7 @@ TEST_CASE("hdf5: what was flushed can be read although the writer is killed") {
     CHECK(Hdf5File::open(folder / "a.h5.partial").read_doubles("x") == ramp(50'000));
 }
 
-TEST_CASE("hdf5: a path that cannot be written is an error that says why") {
+TEST_CASE("hdf5: a path that cannot be written is an error that says why", "[property]") {
     const Folder folder;
     const auto reason = [](const std::string& path) { return message_of([&] { (void)Hdf5File::create(path); }); };
     CHECK(reason(folder / "none/a.h5") ==
@@ -239,7 +239,7 @@ TEST_CASE("hdf5: a path that cannot be written is an error that says why") {
     }
 }
 
-TEST_CASE("hdf5: a file that cannot be read is an error that says why") {
+TEST_CASE("hdf5: a file that cannot be read is an error that says why", "[property]") {
     const Folder folder;
     const auto reason = [](const std::string& path) { return message_of([&] { (void)Hdf5File::open(path); }); };
     CHECK(reason(folder / "a.h5") == (folder / "a.h5") + ": cannot be opened: No such file or directory");
@@ -252,7 +252,7 @@ TEST_CASE("hdf5: a file that cannot be read is an error that says why") {
     CHECK_THAT(reason(folder / "b.h5.partial"), Contains("unable to lock file"));
 }
 
-TEST_CASE("hdf5: a second writer of a file is refused") {
+TEST_CASE("hdf5: a second writer of a file is refused", "[property]") {
     const Folder folder;
     Hdf5File first = Hdf5File::create(folder / "a.h5");
     first.write("x", ramp(2), {2}, {"m", "x"});
@@ -261,7 +261,7 @@ TEST_CASE("hdf5: a second writer of a file is refused") {
     CHECK(Hdf5File::open(folder / "a.h5").read_doubles("x") == ramp(2));
 }
 
-TEST_CASE("hdf5: damage is noticed when reading") {
+TEST_CASE("hdf5: damage is noticed when reading", "[property]") {
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     file.write("x", ramp(100'000), {100'000}, {"m", "x"});
@@ -277,7 +277,7 @@ TEST_CASE("hdf5: damage is noticed when reading") {
     CHECK_THROWS_AS(Hdf5File::open(folder / "a.h5"), FileError);
 }
 
-TEST_CASE("hdf5: reading what is not there, or is something else, names the file and the data set") {
+TEST_CASE("hdf5: reading what is not there, or is something else, names the file and the data set", "[property]") {
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     file.write("x", ramp(2), {2}, {"m", "x"});
@@ -293,7 +293,7 @@ TEST_CASE("hdf5: reading what is not there, or is something else, names the file
     CHECK_NOTHROW(file.finish());  // a failed query does no harm to what is being written
 }
 
-TEST_CASE("hdf5: misuse is refused and leaves the file as it was") {
+TEST_CASE("hdf5: misuse is refused and leaves the file as it was", "[property]") {
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     file.write("x", ramp(4), {4}, {"m", "x"});
@@ -356,7 +356,7 @@ TEST_CASE("hdf5: misuse is refused and leaves the file as it was") {
     CHECK(moved.children().size() == 2);
 }
 
-TEST_CASE("hdf5: a full disk is an error, the program goes on, and no broken file gets the name") {
+TEST_CASE("hdf5: a full disk is an error, the program goes on, and no broken file gets the name", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     SECTION("from the first byte on") {

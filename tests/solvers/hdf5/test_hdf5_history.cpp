@@ -146,7 +146,7 @@ TEST_CASE("history: names of channels become names of variables", "[property]") 
     if (has_program("ncdump")) CHECK_NOTHROW(output_of("ncdump -h " + folder / "a.h5", folder / "out"));
 }
 
-TEST_CASE("history: netCDF's own program reads it") {
+TEST_CASE("history: netCDF's own program reads it", "[property]") {
     if (!has_program("ncdump")) {
         WARN("not tested: there is no ncdump");
         return;
@@ -188,7 +188,7 @@ TEST_CASE("history: chosen channels and a range of time are read", "[property]")
     CHECK_THROWS_WITH(read_history(path, {{"channel 9"}}), Contains("'channel 9'") && Contains("'channel 1'"));
 }
 
-TEST_CASE("history: rows are flushed when a chunk is full, when asked, and after an interval") {
+TEST_CASE("history: rows are flushed when a chunk is full, when asked, and after an interval", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     {
@@ -269,7 +269,7 @@ TEST_CASE("history: appending goes on after the checkpoint, or after the last ro
     CHECK(read_history_info(path).finished);
 }
 
-TEST_CASE("history: only the same channels are appended") {
+TEST_CASE("history: only the same channels are appended", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     write_rows(path, 20);
@@ -289,7 +289,7 @@ TEST_CASE("history: only the same channels are appended") {
     CHECK(bytes_of(path) == before);
 }
 
-TEST_CASE("history: wrong rows and checkpoints are refused and do no harm") {
+TEST_CASE("history: wrong rows and checkpoints are refused and do no harm", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     HistoryWriter writer = HistoryWriter::create(path, some_channels());
@@ -327,7 +327,7 @@ TEST_CASE("history: wrong rows and checkpoints are refused and do no harm") {
     CHECK(moved.path() == path);
 }
 
-TEST_CASE("history: wrong channels and options are refused") {
+TEST_CASE("history: wrong channels and options are refused", "[property]") {
     const Folder folder;
     const auto refused = [&](const std::vector<Channel>& channels, const HistoryStorage& storage = {}) {
         const auto action = [&] { (void)HistoryWriter::create(folder / "a.h5", channels, {}, storage); };

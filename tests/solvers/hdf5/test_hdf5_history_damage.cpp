@@ -15,7 +15,7 @@ using namespace cardan::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-TEST_CASE("history: a path that cannot be written is an error that says why") {
+TEST_CASE("history: a path that cannot be written is an error that says why", "[property]") {
     const Folder folder;
     const auto reason = [&](const std::string& path) {
         CHECK_THROWS_AS(HistoryWriter::create(path, some_channels()), FileError);
@@ -35,7 +35,8 @@ TEST_CASE("history: a path that cannot be written is an error that says why") {
     }
 }
 
-TEST_CASE("history: an existing file is replaced on purpose only, and not before the new one can be read") {
+TEST_CASE("history: an existing file is replaced on purpose only, and not before the new one can be read",
+          "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     write_rows(path, 20);
@@ -49,7 +50,7 @@ TEST_CASE("history: an existing file is replaced on purpose only, and not before
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("history: files that are not histories, or are damaged, are an error that says so") {
+TEST_CASE("history: files that are not histories, or are damaged, are an error that says so", "[property]") {
     const Folder folder;
     const auto reason = [&](const std::string& path) {
         CHECK_THROWS_AS(read_history(path), FileError);
@@ -103,7 +104,7 @@ TEST_CASE("history: damaged values are noticed, and the other channels can be re
     CHECK(noticed == 1);
 }
 
-TEST_CASE("history: repair leaves an intact file as it is, and cuts off what does not belong to it") {
+TEST_CASE("history: repair leaves an intact file as it is, and cuts off what does not belong to it", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     write_rows(path, 40);

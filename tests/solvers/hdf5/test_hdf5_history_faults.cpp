@@ -277,7 +277,7 @@ TEST_CASE("history: a disk that is full at any write is an error, and all flushe
     }
 }
 
-TEST_CASE("history: a disk that is full when a history begins or ends") {
+TEST_CASE("history: a disk that is full when a history begins or ends", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     SECTION("begins") {
@@ -334,7 +334,7 @@ TEST_CASE("history: a small file system that fills up", "[property]") {
     CHECK(readable_by_others(path));
 }
 
-TEST_CASE("history: what was flushed can be read while it is written, and nothing changes by that") {
+TEST_CASE("history: what was flushed can be read while it is written, and nothing changes by that", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     HistoryWriter writer = HistoryWriter::create(path, some_channels(), {}, small_chunks);

@@ -1,5 +1,6 @@
 // Integrations that are recorded into files, broken off and resumed.
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "tests/solvers/hdf5/write_hook.hpp"
 #include "tests/solvers/signals/history_rows.hpp"
@@ -34,7 +35,7 @@ System chain() {
         at = tree.add_frame(link.axes, Placement::translation({0, 0, -1}), text("end ", i + 1));
         forces.add_spring(text("spring ", i + 1), link.body, 5, 0.3);
     }
-    forces.set_gravity({0, 0, -9.81});
+    forces.set_gravity({0, 0, -units::standard_gravity});
     return {tree, forces};
 }
 
@@ -206,7 +207,7 @@ TEST_CASE("history: a finished run is extended", "[property]") {
     CHECK(difference(run.uninterrupted(), read_history(path)) == 0);
 }
 
-TEST_CASE("history: an exception out of a user's function costs no rows") {
+TEST_CASE("history: an exception out of a user's function costs no rows", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
     Run run;
@@ -222,7 +223,7 @@ TEST_CASE("history: an exception out of a user's function costs no rows") {
     CHECK(difference(run.uninterrupted(), read_history(path)) == 0);
 }
 
-TEST_CASE("history: a recorder with other channels than the file is refused") {
+TEST_CASE("history: a recorder with other channels than the file is refused", "[property]") {
     const Folder folder;
     Run run;
     Integrator integrator = run.fresh();

@@ -167,7 +167,7 @@ TEST_CASE("journal: a disk that fails at any call leaves the last commit or the 
     }
 }
 
-TEST_CASE("journal: one writer; a reader without a writer keeps writers out") {
+TEST_CASE("journal: one writer; a reader without a writer keeps writers out", "[property]") {
     const Folder folder;
     const std::string path = folder / "a";
     JournaledFile writer, other, reader;
@@ -185,7 +185,7 @@ TEST_CASE("journal: one writer; a reader without a writer keeps writers out") {
     CHECK(nothing.open((folder / "none").c_str(), Mode::read) == ENOENT);
 }
 
-TEST_CASE("journal: a file that was removed or cut off is no place to commit to") {
+TEST_CASE("journal: a file that was removed or cut off is no place to commit to", "[property]") {
     const Folder folder;
     const std::string path = folder / "a";
     for (const bool removed : {true, false}) {
@@ -204,7 +204,7 @@ TEST_CASE("journal: a file that was removed or cut off is no place to commit to"
     }
 }
 
-TEST_CASE("journal: a writer waits for a reader, but not for ever", "[slow]") {
+TEST_CASE("journal: a writer waits for a reader, but not for ever", "[property][slow]") {
     const Folder folder;
     const std::string path = folder / "a";
     JournaledFile writer, reader;

@@ -5,7 +5,7 @@
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/hdf5/file.hpp"
 #include "solvers/hdf5/history.hpp"
-#include "solvers/hdf5/state_space.hpp"
+#include "solvers/hdf5_models/state_space.hpp"
 #include "tests/solvers/signals/history_rows.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/read_back.hpp"

@@ -1,5 +1,6 @@
 // Linearisation against numerical differentiation of the recursions, and the structure of the gyroscopic part.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "solvers/linear/linearise.hpp"
@@ -154,11 +155,11 @@ TEST_CASE("linearise: a selection of coordinates marks a spin that no force depe
         at.qd << 3, 0;
         return restrict_to(linearise(system, at), {1, 0}, 0);
     };
-    const SecondOrderSystem along = restricted({0, 0, -9.81}, 0, 0.4);
+    const SecondOrderSystem along = restricted({0, 0, -units::standard_gravity}, 0, 0.4);
     CHECK(along.cyclic == 1);
     CHECK(along.K.col(1).isZero(0));
     CHECK(along.coordinates == std::vector<int>{1, 0});
-    CHECK(restricted({0, -9.81, 0}, 0, 0.4).cyclic == -1);
+    CHECK(restricted({0, -units::standard_gravity, 0}, 0, 0.4).cyclic == -1);
     CHECK(restricted({0, 0, 0}, 5, 0.4).cyclic == -1);
 
     // Rows and columns are picked from the whole.

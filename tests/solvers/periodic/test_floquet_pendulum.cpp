@@ -1,5 +1,6 @@
 // A pendulum on a support that shakes: vertically Mathieu's equation, horizontally a motion about which Hill's equation
 // holds.
+#include "mbs/base/units.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "tests/oracles/mathieu.hpp"
 #include "tests/solvers/periodic/floquet_tools.hpp"
@@ -12,7 +13,7 @@ using namespace solvers;
 
 namespace {
 
-constexpr double mass = 2, length = 0.4, g = 9.81, damping = 0.03;
+constexpr double mass = 2, length = 0.4, g = units::standard_gravity, damping = 0.03;
 
 // Hanging on a driven support, beside a wheel that carries the azimuth.
 struct Shaken {

@@ -1,6 +1,7 @@
 // Floquet's theory and Hill's method on rotors: against the multi-blade transformation, closed forms and equations
 // derived by hand.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/periodic/hill.hpp"
@@ -115,7 +116,7 @@ TEST_CASE("Floquet: a pendulum upside down on a support that moves up and down f
           "[analytic]") {
     // m l^2 theta'' + c theta' - m l (g - A Omega^2 cos psi) theta = 0: with tau = psi / 2 Mathieu's equation with
     // a = -4 g / (l Omega^2), q = -2 A / l.
-    const double m = 2, l = 0.4, g = 9.81, A = 0.05, damping = 0.03;
+    const double m = 2, l = 0.4, g = units::standard_gravity, A = 0.05, damping = 0.03;
     Tree tree;
     ForceSet forces;
     forces.set_gravity({0, 0, -g});
@@ -155,7 +156,7 @@ TEST_CASE("Floquet: the monodromy matrix about a periodic state is the derivativ
                                           .hinges = BladeHinges::flap_and_lag,
                                           .lag_damping = 30,
                                           .elastic_support = true,
-                                          .gravity = {0, -9.81, -1}});
+                                          .gravity = {0, -units::standard_gravity, -1}});
     const double Omega = 4;
     PeriodicOptions options;
     options.rotor_speed = Omega;

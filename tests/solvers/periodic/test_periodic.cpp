@@ -1,5 +1,6 @@
 // Periodic steady states: closed forms, a manufactured solution, harmonic balance against shooting and against
 // integration in time.
+#include "mbs/base/units.hpp"
 #include "solvers/periodic/steady_state.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -61,7 +62,7 @@ struct Jeffcott {
 };
 
 // Two soft blades with flap and lag hinges on a nacelle that tilts and yaws, the shaft nearly level.
-SmallRotor heavy_rotor(double gravity = 9.81) {
+SmallRotor heavy_rotor(double gravity = units::standard_gravity) {
     return small_rotor({.stiffness = {500, 500},
                         .damping = 20,
                         .hinges = BladeHinges::flap_and_lag,
@@ -195,7 +196,7 @@ TEST_CASE("periodic state: after half a turn two blades have changed places, so 
 
 TEST_CASE("periodic state: without what makes it periodic it is the constant one", "[crosscheck]") {
     const SmallRotor rotor = heavy_rotor(0);
-    const SmallRotor coned = small_rotor({.stiffness = {500, 500, 500}, .gravity = {0, 0, -9.81}});
+    const SmallRotor coned = small_rotor({.stiffness = {500, 500, 500}, .gravity = {0, 0, -units::standard_gravity}});
     for (const SmallRotor* machine : {&rotor, &coned}) {
         SteadyOptions steady;
         steady.rotor_speed = 3;

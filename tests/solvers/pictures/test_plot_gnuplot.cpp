@@ -49,7 +49,7 @@ std::string two_lines() {
 
 }  // namespace
 
-TEST_CASE("gnuplot: a picture is a complete SVG, PNG or PDF by the ending of its name") {
+TEST_CASE("gnuplot: a picture is a complete SVG, PNG or PDF by the ending of its name", "[property]") {
     const Folder folder;
     const Gnuplot gnuplot;
     for (const char* name : {"a.svg", "a.png", "A.PNG", "a.pdf"}) {
@@ -67,7 +67,7 @@ TEST_CASE("gnuplot: a picture is a complete SVG, PNG or PDF by the ending of its
     CHECK(folder.files() == 4);                                                         // nothing else is left
 }
 
-TEST_CASE("gnuplot: a picture has the size asked for") {
+TEST_CASE("gnuplot: a picture has the size asked for", "[property]") {
     const Folder folder;
     (void)Gnuplot().write_picture(folder / "a.png", two_lines(), {640, 480});
     const std::string png = bytes_of(folder / "a.png");
@@ -83,7 +83,7 @@ TEST_CASE("gnuplot: a picture has the size asked for") {
                       Contains("size = 0 x 480; allowed: 50 to 20000 pixels"));
 }
 
-TEST_CASE("gnuplot: any text is shown as it is and runs nothing") {
+TEST_CASE("gnuplot: any text is shown as it is and runs nothing", "[property]") {
     const Folder folder;
     const std::string trap = folder / "trap";
     const std::string nasty = "it's a_b^{c} & @d ~e \\n `touch " + trap + "` \"\nsystem 'touch " + trap + "'\n";
@@ -93,7 +93,7 @@ TEST_CASE("gnuplot: any text is shown as it is and runs nothing") {
     CHECK(gnuplot_text("a_'\n") == "'a\\_'' '");
 }
 
-TEST_CASE("gnuplot: a path may contain quotes, blanks and bars and runs nothing") {
+TEST_CASE("gnuplot: a path may contain quotes, blanks and bars and runs nothing", "[property]") {
     const Folder folder;
     const fs::path before = fs::current_path();
     fs::current_path(folder.path);
@@ -118,7 +118,7 @@ TEST_CASE("gnuplot: data keep every digit, and gaps are NaN", "[property]") {
     CHECK(Gnuplot().run(columns("d", {{third}}) + "stats $d using 1 nooutput\nprint STATS_max - 1.0/3.0 == 0") == "1");
 }
 
-TEST_CASE("gnuplot: a script returns what it prints, however much that is") {
+TEST_CASE("gnuplot: a script returns what it prints, however much that is", "[property]") {
     CHECK(Gnuplot().run("print 6*7").ends_with("42"));
     CHECK(Gnuplot().run("").empty());
     CHECK(Gnuplot().run("do for [k=1:20000] { print 'a line to fill a pipe' }").size() > 400'000);
@@ -126,7 +126,7 @@ TEST_CASE("gnuplot: a script returns what it prints, however much that is") {
     CHECK(Gnuplot().run(many + "\nprint 1") == "1");
 }
 
-TEST_CASE("gnuplot: a script that fails stops there and is an error with gnuplot's message") {
+TEST_CASE("gnuplot: a script that fails stops there and is an error with gnuplot's message", "[property]") {
     const std::string message = message_of([] { (void)Gnuplot().run("x = 1\nbogus x\nprint 'still running'"); });
     CHECK_THAT(message, StartsWith("gnuplot: failed:\n"));
     CHECK_THAT(message, Contains("bogus x") && Contains("\"script\" line 2: invalid command"));
@@ -141,7 +141,7 @@ TEST_CASE("gnuplot: a script that fails stops there and is an error with gnuplot
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("gnuplot: a missing or broken program is an error that says what to do") {
+TEST_CASE("gnuplot: a missing or broken program is an error that says what to do", "[property]") {
     CHECK(message_of([] { (void)Gnuplot("no-such-gnuplot").run("plot x"); }) ==
           "no-such-gnuplot: not found; pictures need gnuplot (Debian: apt install gnuplot-nox)");
     CHECK_THROWS_AS(Gnuplot("no-such-gnuplot").run("plot x"), FileError);
@@ -156,7 +156,7 @@ TEST_CASE("gnuplot: a missing or broken program is an error that says what to do
     CHECK_THROWS_WITH(Gnuplot(folder / "dies").run("plot x"), Contains("dies: ended by signal 9"));
 }
 
-TEST_CASE("gnuplot: a missing folder for temporary files is an error") {
+TEST_CASE("gnuplot: a missing folder for temporary files is an error", "[property]") {
     const char* const set = std::getenv("TMPDIR");
     const std::string before = set == nullptr ? "" : set;
     ::setenv("TMPDIR", "/no/such/folder", 1);
@@ -165,7 +165,7 @@ TEST_CASE("gnuplot: a missing folder for temporary files is an error") {
     CHECK_THAT(message, Contains("TMPDIR"));
 }
 
-TEST_CASE("gnuplot: a path that cannot be written is an error before anything runs") {
+TEST_CASE("gnuplot: a path that cannot be written is an error before anything runs", "[property]") {
     const Folder folder;
     const Gnuplot never("no-such-gnuplot");
     const auto reason = [&](const std::string& path) {
@@ -189,7 +189,7 @@ TEST_CASE("gnuplot: a path that cannot be written is an error before anything ru
     }
 }
 
-TEST_CASE("gnuplot: a full disk is an error although gnuplot does not notice") {
+TEST_CASE("gnuplot: a full disk is an error although gnuplot does not notice", "[property]") {
     const Folder folder;
     for (const char* name : {"a.svg", "a.png", "a.pdf"}) {
         {
@@ -205,7 +205,7 @@ TEST_CASE("gnuplot: a full disk is an error although gnuplot does not notice") {
     CHECK_THROWS_WITH(Gnuplot().run(two_lines()), Contains("cannot be written: File too large"));
 }
 
-TEST_CASE("gnuplot: the palette has distinct names and colours and begins again after the last") {
+TEST_CASE("gnuplot: the palette has distinct names and colours and begins again after the last", "[property]") {
     using cardan::solvers::colour;
     using cardan::solvers::palette;
     std::set<std::string_view> seen;

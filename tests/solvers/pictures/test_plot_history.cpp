@@ -118,7 +118,7 @@ TEST_CASE("shown units: prefixes keep numbers between 1 and 1000, where the unit
     check("N", std::numeric_limits<double>::infinity(), 1, "N");
 }
 
-TEST_CASE("shown units: products and powers are written as people write them") {
+TEST_CASE("shown units: products and powers are written as people write them", "[property]") {
     const std::pair<const char*, const char*> pairs[] = {{"m", "m"},
                                                          {"m s-2", "m/s²"},
                                                          {"N m rad-1", "N m/rad"},
@@ -138,7 +138,8 @@ TEST_CASE("shown units: products and powers are written as people write them") {
     CHECK(density_text("1") == "1/Hz");
 }
 
-TEST_CASE("panels: channels with the same shown units share one, up to the number of colours; numbers stay alone") {
+TEST_CASE("panels: channels with the same shown units share one, up to the number of colours; numbers stay alone",
+          "[property]") {
     const History h = history();
     const auto panels = panels_by_units(
         h, {"tip flap", "rotor speed", "blade pitch", "tip edge", "pitch rate", "RootMyb1", "steps", "order"});
@@ -152,7 +153,8 @@ TEST_CASE("panels: channels with the same shown units share one, up to the numbe
     check_refused([&] { (void)panels_by_units(h, {"nothing"}); }, {"'nothing'", "'tip flap'"});
 }
 
-TEST_CASE("history pictures: long names, units, marks and the title are in them; the ending says the kind") {
+TEST_CASE("history pictures: long names, units, marks and the title are in them; the ending says the kind",
+          "[property]") {
     const Folder folder;
     HistoryPlotOptions options;
     options.marks = {{5, "gust begins"}, {5.1, "and_rises"}, {19.9, "near the end"}, {77, "outside"}};
@@ -194,7 +196,8 @@ TEST_CASE("history pictures: a million samples make a small file in which the pe
     CHECK(highest_blue(all, legend) < 120);
 }
 
-TEST_CASE("history pictures: constants, gaps, channels without a finite value and huge or tiny numbers are drawn") {
+TEST_CASE("history pictures: constants, gaps, channels without a finite value and huge or tiny numbers are drawn",
+          "[property]") {
     const Folder folder;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     History h{"odd", {}, {0, 1, 2, 3}, {}};
@@ -215,7 +218,7 @@ TEST_CASE("history pictures: constants, gaps, channels without a finite value an
     CHECK_THAT(bytes_of(folder / "odd.svg"), Contains("10⁶ K") && Contains("10⁻⁹ K") && Contains("10⁻⁶ K above 300<"));
 }
 
-TEST_CASE("energy pictures: the error has a panel of its own; missing energies are named") {
+TEST_CASE("energy pictures: the error has a panel of its own; missing energies are named", "[property]") {
     const Folder folder;
     History h = energies();
     plot_energies(h, folder.path / "e.svg");
@@ -229,7 +232,7 @@ TEST_CASE("energy pictures: the error has a panel of its own; missing energies a
     check_refused([&] { plot_energies(h, folder.path / "f.svg"); }, {"history 'start'", "'energy error'"});
 }
 
-TEST_CASE("spectrum pictures: units of amplitudes and densities, nP lines where they have room") {
+TEST_CASE("spectrum pictures: units of amplitudes and densities, nP lines where they have room", "[property]") {
     const Folder folder;
     SpectrumPlotOptions options;
     options.rotor_frequency_hz = 0.2;
@@ -247,7 +250,7 @@ TEST_CASE("spectrum pictures: units of amplitudes and densities, nP lines where 
     CHECK(svg.find(">1P<") == std::string::npos);
 }
 
-TEST_CASE("history pictures: bad input is refused with place, value and limit") {
+TEST_CASE("history pictures: bad input is refused with place, value and limit", "[property]") {
     const Folder folder;
     const auto path = folder.path / "a.svg";
     History h = history();

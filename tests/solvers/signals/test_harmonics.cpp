@@ -87,7 +87,7 @@ TEST_CASE("harmonics: other frequencies and an earlier transient have no part in
     CHECK(h.rest == Approx(0.5 / std::sqrt(2)).epsilon(1e-12));
 }
 
-TEST_CASE("harmonics: bad input is refused with place, value and limit") {
+TEST_CASE("harmonics: bad input is refused with place, value and limit", "[property]") {
     std::vector<double> time = steps(0, 0.1, 100), values = values_at(time, periodic);
     const auto refused = [&](double base, int count, std::initializer_list<std::string> parts) {
         check_refused([&] { (void)harmonics(time, values, base, count); }, parts);

@@ -41,7 +41,7 @@ double sine_error(int pairs, double ratio, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("time steps: equal ones are recognised despite rounding and printed digits") {
+TEST_CASE("time steps: equal ones are recognised despite rounding and printed digits", "[property]") {
     std::vector<double> time;
     for (int i = 0; i <= 10000; ++i) time.push_back(100 + 0.01 * i);
     TimeSteps steps = time_steps(time);
@@ -63,7 +63,7 @@ TEST_CASE("time steps: equal ones are recognised despite rounding and printed di
     check_refused([] { (void)time_steps(std::vector<double>{0, not_a_number}); }, {"time of sample 1 = nan", "finite"});
 }
 
-TEST_CASE("samples between: both ends belong to the part, also when they are rounded") {
+TEST_CASE("samples between: both ends belong to the part, also when they are rounded", "[property]") {
     std::vector<double> time;
     for (int i = 0; i <= 100; ++i) time.push_back(0.1 * i);
     const SampleRange all = samples_between(time, -infinite, infinite);
@@ -103,7 +103,7 @@ TEST_CASE("resampling: the error is of the third order in the steps, in equal on
           Approx(std::sqrt(3) / 108 * h * h * h * largest_third_derivative).epsilon(0.01));
 }
 
-TEST_CASE("resampling: a history gets equal steps in all channels, from the first time on") {
+TEST_CASE("resampling: a history gets equal steps in all channels, from the first time on", "[property]") {
     History history{"run", {{"a", "m", "a"}, {"b", "1", "b"}}, {1, 1.25, 2, 2.1, 3.2}, {}};
     history.values = {history.time, {1, 1, 1, 1, 1}};
     const History even = resample(history, 0.5);
@@ -154,7 +154,8 @@ TEST_CASE("envelope: every column keeps its first, smallest, largest and last va
     }
 }
 
-TEST_CASE("envelope: of a million values the one peak survives exactly, gaps stay open, short curves stay whole") {
+TEST_CASE("envelope: of a million values the one peak survives exactly, gaps stay open, short curves stay whole",
+          "[property]") {
     std::vector<double> x, y;
     for (int i = 0; i < 1000000; ++i) {
         x.push_back(1e-3 * i);

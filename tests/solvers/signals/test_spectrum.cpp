@@ -213,7 +213,7 @@ TEST_CASE("spectrum: means and lines are taken out where asked for", "[analytic]
     CHECK(spectrum(line.time, line.values, with(Window::hann, Detrend::mean)).variance() > 1);
 }
 
-TEST_CASE("spectrum: segments overlap, average and keep to the part of the history asked for") {
+TEST_CASE("spectrum: segments overlap, average and keep to the part of the history asked for", "[property]") {
     // 4 Hz until 30 s, 6 Hz after; both have whole periods in each segment of 5 s.
     const auto s = sampled(6001, 0.01, [](double t) { return std::sin(2 * pi * (t < 29.995 ? 4 : 6) * t); });
     SpectrumOptions options;
@@ -292,7 +292,7 @@ TEST_CASE("peaks: the largest come first, side lobes and rounding do not come", 
     check_refused([&] { (void)peaks(result, 3, -0.1); }, {"threshold = -0.1", "0 <= threshold <= 1"});
 }
 
-TEST_CASE("spectrum: bad input is refused with place, value and limit") {
+TEST_CASE("spectrum: bad input is refused with place, value and limit", "[property]") {
     auto s = sampled(101, 0.1, [](double t) { return t; });
     const auto refused = [&](const SpectrumOptions& options, std::initializer_list<std::string> parts) {
         check_refused([&] { (void)spectrum(s.time, s.values, options); }, parts);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/oracles/pendulum.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -60,7 +61,7 @@ struct Oscillator {
     }
 };
 
-inline constexpr double pendulum_gravity = 9.81;
+inline constexpr double pendulum_gravity = units::standard_gravity;
 
 // A point mass on an arm of 1.5 m.
 inline System pendulum() {

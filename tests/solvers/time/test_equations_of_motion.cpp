@@ -1,3 +1,4 @@
+#include "mbs/base/units.hpp"
 #include "solvers/time/equations_of_motion.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -27,7 +28,7 @@ System arm() {
         at = tree.add_frame(link.axes, Placement::translation({0.2, 0.1, -0.7}), text("end ", i));
     }
     forces.add_wrench({"load", at, {{3, -2, 1}, {0.5, 0, 0.2}}, WrenchAxes::frame});
-    forces.set_gravity({0, 0, -9.81});
+    forces.set_gravity({0, 0, -units::standard_gravity});
     return {tree, forces};
 }
 
@@ -102,7 +103,7 @@ TEST_CASE("equations of motion: the power of all forces is the rate of kinetic e
     CHECK(power.dissipation == Approx(damper_power));
 }
 
-TEST_CASE("equations of motion: what is not finite is named", "[solvers][integrate]") {
+TEST_CASE("equations of motion: what is not finite is named", "[solvers][integrate][property]") {
     const System system = arm();
     EquationsOfMotion equations = driven_arm(system);
     Vector x = Vector::Zero(6), qdd(3);

@@ -40,7 +40,8 @@ TEST_CASE("integrate: events are found where they happen, in their direction", "
     }
 }
 
-TEST_CASE("integrate: of events at the same time each acts, in the order of the list", "[solvers][integrate]") {
+TEST_CASE("integrate: of events at the same time each acts, in the order of the list",
+          "[solvers][integrate][property]") {
     const System system = pendulum();
     std::string seen;
     const auto event = [&](const char* name, int direction) {
@@ -79,7 +80,7 @@ TEST_CASE("integrate: an event may change a motion, and the cart brakes", "[solv
     CHECK_THROWS_AS(integrator.set_motion(1, Motion::constant(7)), InputError);
 }
 
-TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers][integrate]") {
+TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers][integrate][property]") {
     // x'' = x^3 with x = sqrt(2) / (1 - t) ends in infinity at t = 1.
     const System system = Oscillator{.m = 1, .k = 0}.system(
         {{.name = "explosion",
@@ -96,7 +97,8 @@ TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers]
     }
 }
 
-TEST_CASE("integrate: exceptions of user forces pass through, and it can be cancelled", "[solvers][integrate]") {
+TEST_CASE("integrate: exceptions of user forces pass through, and it can be cancelled",
+          "[solvers][integrate][property]") {
     const System system = Oscillator{}.system({{.name = "thrower", .force = [](const ForceInput& at, VectorOut) {
                                                     if (at.time > 1) throw std::runtime_error("thrown by the force");
                                                 }}});
@@ -143,7 +145,7 @@ TEST_CASE("integrate: steps of a large system allocate nothing either", "[solver
     }
 }
 
-TEST_CASE("integrate: an output may follow a break at any distance", "[solvers][integrate]") {
+TEST_CASE("integrate: an output may follow a break at any distance", "[solvers][integrate][property]") {
     const System system = Oscillator{}.system();
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
@@ -198,7 +200,7 @@ TEST_CASE("integrate: notes of events come with the checkpoint", "[solvers][inte
         check_refused([&] { integrator.note(name, 1); }, {"name of a note", text("'", name, "'")});
 }
 
-TEST_CASE("integrate: bad input is refused", "[solvers][integrate]") {
+TEST_CASE("integrate: bad input is refused", "[solvers][integrate][property]") {
     const System system = Shaker().system();
     const Vector zero = vector({0, 0});
     const auto make = [&](std::vector<Drive> drives, const Vector& q, IntegrationOptions options = {}) {

@@ -88,7 +88,7 @@ TEST_CASE("integrate: an action that changes a force and says that nothing has c
     }
 }
 
-TEST_CASE("integrate: restart() discards what was computed beyond the present time", "[solvers][integrate]") {
+TEST_CASE("integrate: restart() discards what was computed beyond the present time", "[solvers][integrate][property]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
@@ -102,7 +102,7 @@ TEST_CASE("integrate: restart() discards what was computed beyond the present ti
 }
 
 TEST_CASE("integrate: looking for changed forces costs two evaluations per output and one per step",
-          "[solvers][integrate]") {
+          "[solvers][integrate][property]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const Pushed pushed;
@@ -123,7 +123,8 @@ TEST_CASE("integrate: looking for changed forces costs two evaluations per outpu
     }
 }
 
-TEST_CASE("integrate: advance() within advance() is refused, wherever it is called from", "[solvers][integrate]") {
+TEST_CASE("integrate: advance() within advance() is refused, wherever it is called from",
+          "[solvers][integrate][property]") {
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         Integrator* running = nullptr;
@@ -170,7 +171,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
     }
 }
 
-TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate]") {
+TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate][property]") {
     const System system = Oscillator{}.system();
     for (int what = 0; what < 5; ++what) {
         Integrator* running = nullptr;
@@ -188,7 +189,7 @@ TEST_CASE("integrate: changes are made between steps only", "[solvers][integrate
     }
 }
 
-TEST_CASE("integrate: steps below the resolution of the time are refused", "[solvers][integrate]") {
+TEST_CASE("integrate: steps below the resolution of the time are refused", "[solvers][integrate][property]") {
     const System system = Oscillator{}.system();
     const auto make = [&](double time, const IntegrationOptions& options) {
         Integrator(system, {}, time, vector({0.3}), vector({0}), options);
@@ -202,7 +203,7 @@ TEST_CASE("integrate: steps below the resolution of the time are refused", "[sol
     }
 }
 
-TEST_CASE("integrate: with forces of any size it ends, with a reason", "[solvers][integrate]") {
+TEST_CASE("integrate: with forces of any size it ends, with a reason", "[solvers][integrate][property]") {
     for (Method method : methods) {
         for (double stiffness : {1e30, 1e100}) {
             CAPTURE(static_cast<int>(method), stiffness);
@@ -282,7 +283,7 @@ TEST_CASE("integrate: from a checkpoint under other forces or options the method
     }
 }
 
-TEST_CASE("recorder: empty functions are refused", "[solvers][recorder]") {
+TEST_CASE("recorder: empty functions are refused", "[solvers][recorder][property]") {
     const System system = pendulum();
     Integrator integrator(system, {}, 0, vector({0.5}), vector({0}));
     Recorder recorder(integrator);

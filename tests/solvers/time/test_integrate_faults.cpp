@@ -64,7 +64,7 @@ TEST_CASE("integrate: checkpoints taken while it runs belong to their time", "[s
     }
 }
 
-TEST_CASE("integrate: outputs may follow breaks by the last digit of the clock", "[solvers][integrate]") {
+TEST_CASE("integrate: outputs may follow breaks by the last digit of the clock", "[solvers][integrate][analytic]") {
     const System system = Oscillator{}.system();
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
@@ -77,7 +77,7 @@ TEST_CASE("integrate: outputs may follow breaks by the last digit of the clock",
 }
 
 TEST_CASE("integrate: a function that comes to zero happens once, whether it stays there, turns back or goes on",
-          "[solvers][integrate]") {
+          "[solvers][integrate][property]") {
     const System system = pendulum();
     const double quarter = oracles::SwingingPendulum(pendulum_omega, 0.5).period() / 4;
     const auto happens = [&](const std::function<double(const ForceInput&)>& function, double until) {
@@ -98,7 +98,7 @@ TEST_CASE("integrate: a function that comes to zero happens once, whether it sta
     CHECK(happens([](const ForceInput& at) { return at.q(0); }, 2.5 * quarter) == 1);
 }
 
-TEST_CASE("integrate: the action of an event that throws is due again", "[solvers][integrate]") {
+TEST_CASE("integrate: the action of an event that throws is due again", "[solvers][integrate][property]") {
     const System system = pendulum();
     for (Method method : methods) {
         int tries = 0, done = 0;
@@ -122,7 +122,8 @@ TEST_CASE("integrate: the action of an event that throws is due again", "[solver
     }
 }
 
-TEST_CASE("recorder: a time that comes twice is recorded once, falling times are refused", "[solvers][recorder]") {
+TEST_CASE("recorder: a time that comes twice is recorded once, falling times are refused",
+          "[solvers][recorder][property]") {
     const System system = pendulum();
     Integrator integrator(system, {}, 0, vector({0.5}), vector({0}));
     Recorder recorder(integrator);
@@ -133,7 +134,7 @@ TEST_CASE("recorder: a time that comes twice is recorded once, falling times are
     CHECK(history.time.size() == 3);
 }
 
-TEST_CASE("history: an unknown channel is named with those that resemble it", "[solvers][recorder]") {
+TEST_CASE("history: an unknown channel is named with those that resemble it", "[solvers][recorder][property]") {
     History history;
     history.title = "run";
     for (int i = 0; i < 30; ++i)

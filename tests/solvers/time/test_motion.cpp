@@ -75,7 +75,7 @@ TEST_CASE("motion: a table passes through its points, is monotone between them a
     for (double t : {-1.0, 0.3, 2.0, 4.2, 6.0}) CHECK(line.at(t).position == Approx(1 + 2 * t));
 }
 
-TEST_CASE("motion: bad values are refused", "[solvers][motion]") {
+TEST_CASE("motion: bad values are refused", "[solvers][motion][property]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     check_refused([&] { Motion::constant(nan); }, {"constant motion", "nan", "finite"});
     check_refused([] { Motion::ramp(0, 1, 2, 2); }, {"ramp", "time 2", "> 2"});

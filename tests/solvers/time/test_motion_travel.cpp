@@ -1,4 +1,5 @@
 // Motions that follow commands: a prescribed drive.
+#include "mbs/base/units.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -33,7 +34,7 @@ TEST_CASE("motion: an event gives a driven arm a new command in mid-travel; its 
         tree,
         {.name = "wheel", .inertia = {1, Vec3::Zero(), Vec3(J, J, J).asDiagonal()}, .role = CoordinateRole::driven});
     add_joint(tree, {.name = "pendulum", .axis = Vec3::UnitY(), .inertia = {1, Vec3(0, 0, -1), Mat3::Zero()}});
-    forces.set_gravity({0, 0, -9.81});
+    forces.set_gravity({0, 0, -units::standard_gravity});
     const System system(tree, forces);
     const int i = system.model.index(wheel.body), pendulum = 1 - i;
     const TravelLimits limits{0.5, 0.8};

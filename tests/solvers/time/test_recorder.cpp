@@ -17,7 +17,8 @@ ChannelGroup height_of_mass(const char* name = "height", const char* alias = "Pt
 
 }  // namespace
 
-TEST_CASE("recorder: names, units and values of states, energies and the user's channels", "[solvers][recorder]") {
+TEST_CASE("recorder: names, units and values of states, energies and the user's channels",
+          "[solvers][recorder][property]") {
     const System system = chain(0.4, CoordinateRole::driven);
     Integrator integrator(system, {{0, Motion::harmonic(0, 0.3, 1.5)}}, 0, vector({0, 0.5, -0.4}), vector({0, 0, 0}));
     Recorder recorder(integrator, {height_of_mass()}, {.accelerations = true});
@@ -43,7 +44,7 @@ TEST_CASE("recorder: names, units and values of states, energies and the user's 
     CHECK(history.channels[history.index("hinge 1 drive")].units == "N m");
 }
 
-TEST_CASE("recorder: a run that stops leaves what it reached, and can be continued", "[solvers][recorder]") {
+TEST_CASE("recorder: a run that stops leaves what it reached, and can be continued", "[solvers][recorder][property]") {
     const System system = pendulum();
     const std::vector<double> times = sample_times(0, 2, 0.1);
     IntegrationOptions options;
@@ -59,7 +60,7 @@ TEST_CASE("recorder: a run that stops leaves what it reached, and can be continu
     CHECK(history.time.size() == rows + 1);
 }
 
-TEST_CASE("recorder: bad input is refused", "[solvers][recorder]") {
+TEST_CASE("recorder: bad input is refused", "[solvers][recorder][property]") {
     const System system = pendulum();
     Integrator integrator(system, {}, 0, vector({0.5}), vector({0}));
     check_refused([&] { Recorder(integrator, {height_of_mass(), height_of_mass("other")}); }, {"PtfmHeave", "twice"});

@@ -2,6 +2,7 @@
 // flexible appendages.
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/solvers/time/integrated_systems.hpp"
 #include "tests/support/catch.hpp"
@@ -26,7 +27,7 @@ System pendulums() {
             tree, {.name = text("hinge ", i + 1), .inboard = at, .axis = Vec3::UnitY(), .inertia = rod});
         at = tree.add_frame(link.axes, Placement::translation({0, 0, -1}), text("end ", i + 1));
     }
-    forces.set_gravity({0, 0, -9.81});
+    forces.set_gravity({0, 0, -units::standard_gravity});
     return {tree, forces};
 }
 
@@ -46,7 +47,7 @@ System spinning_beam() {
     const FrameId root = tree.add_frame(hub.axes, Placement::rotation(rot_y(pi / 2)), "root");
     add_cardan_beam(tree, forces, root, uniform_beam(6, soft_section()), "beam", {"beam"},
                     {.elements = 2, .torsion = false});
-    forces.set_gravity({0.5, 0, -9.81});
+    forces.set_gravity({0.5, 0, -units::standard_gravity});
     return {tree, forces};
 }
 

@@ -1,4 +1,5 @@
 // Mean of the multi-blade system over the azimuth, about the periodic steady state under gravity.
+#include "mbs/base/units.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/periodic/azimuth_average.hpp"
@@ -73,7 +74,7 @@ TEST_CASE("azimuth average: under gravity its modes are the poles of the average
         }
         return largest;
     };
-    const double full = difference(9.80665), half = difference(9.80665 / 2);
+    const double full = difference(units::standard_gravity), half = difference(units::standard_gravity / 2);
     CHECK(full < 6e-3);
     CHECK(half / full == Approx(0.25).epsilon(0.1));
 }

@@ -1,6 +1,7 @@
 // The 600 kW machine on a platform that is free: against the rigid machine put together by hand, the same machine held,
 // on the ground, and driven through the same motion; free decay against the linear model.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell/mode_names.hpp"
 #include "solvers/time/integrate.hpp"
@@ -72,7 +73,7 @@ struct ByHand {
         M = whole.M + p.added_mass;
         B = p.damping;
         K = p.hydrostatic + p.mooring;
-        const double righting = 9.80665 * -whole.first.z() + p.buoyancy * p.buoyancy_centre.z();
+        const double righting = units::standard_gravity * -whole.first.z() + p.buoyancy * p.buoyancy_centre.z();
         K(3, 3) += righting;
         K(4, 4) += righting;
     }
@@ -154,7 +155,8 @@ TEST_CASE("floating machine: on ever stiffer moorings its modes become those on 
     const auto difference = [&](double factor) {
         PlatformDescription stiff;
         stiff.mooring.diagonal() << Vec3::Constant(1e9 * factor), Vec3::Constant(1e12 * factor);
-        stiff.mooring_pull.z() = 9.80665 * RigidWhole(wt600(on_ground())).mass;  // or it would sink a little
+        stiff.mooring_pull.z() =
+            units::standard_gravity * RigidWhole(wt600(on_ground())).mass;  // or it would sink a little
         const std::vector<double> free = frequencies(floating(stiff));
         REQUIRE(free.size() == ground.size());
         double largest = 0;
@@ -295,8 +297,8 @@ TEST_CASE("floating machine: in equilibrium it pitches by the overhang of nacell
     const RigidWhole whole(turbine);
     // Weights to the upwind side (-x) pitch it upwind (negative), to the left (+y) roll it to the left (negative).
     Vec6 load = Vec6::Zero();
-    load(3) = -9.80665 * whole.first.y();
-    load(4) = 9.80665 * whole.first.x();
+    load(3) = -units::standard_gravity * whole.first.y();
+    load(4) = units::standard_gravity * whole.first.x();
     const Vec6 expected = hand.K.inverse() * load;
     Vector q = Vector::Zero(turbine.system().model.size());
     const std::vector<int> rows = platform_rows(turbine);

@@ -1,4 +1,5 @@
 // The NREL 5 MW machine on the OC3-Hywind spar beside published figures.
+#include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "solvers/linear/modes.hpp"
@@ -19,7 +20,7 @@ TEST_CASE("OC3-Hywind: hull, masses and buoyancy are those published", "[publish
     const std::vector<HullStation> hull{{0, 6.5}, {4, 6.5}, {12, 9.4}, {120, 9.4}};
     CHECK(displaced_volume(hull) == Approx(8029.21).epsilon(1e-5));
     CHECK(spar.added_mass(0, 0) == Approx(0.969954 * 1025 * 8029.21).epsilon(1e-5));
-    CHECK(spar.buoyancy == Approx(1025 * 9.80665 * 8029.21).epsilon(1e-6));
+    CHECK(spar.buoyancy == Approx(1025 * units::standard_gravity * 8029.21).epsilon(1e-6));
     // ElastoDyn's summary: tower 249718.003 kg, everything 8065437.845 kg (its blades have 70 kg less than the integral
     // of the table); the report, by RAFT: mass centre 77.97 m below the water (the parts as published give 78.00 m).
     const Turbine turbine = nrel5mw_on_oc3_hywind(CoordinateRole::free, Nrel5mwVariant::fast, 4, 4);
@@ -31,7 +32,7 @@ TEST_CASE("OC3-Hywind: hull, masses and buoyancy are those published", "[publish
     CHECK(whole.mass == Approx(8065437.845).epsilon(5e-5));
     CHECK(whole.first.z() / whole.mass == Approx(-77.97).margin(0.05));
     // Buoyancy less the pull of the lines carries the weight (to 1e-4: 4 kN or 1 cm of heave).
-    CHECK(spar.buoyancy + spar.mooring_pull.z() == Approx(9.80665 * whole.mass).epsilon(1e-4));
+    CHECK(spar.buoyancy + spar.mooring_pull.z() == Approx(units::standard_gravity * whole.mass).epsilon(1e-4));
     CHECK(turbine.warnings().empty());
     CHECK(turbine.rotor().description.find("OC3-Hywind") != std::string::npos);
 }

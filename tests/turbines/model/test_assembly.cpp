@@ -1,5 +1,6 @@
 // What the assembly of a turbine may be asked for: elements, blades, generator, damping, gravity.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
@@ -131,7 +132,7 @@ TEST_CASE(
     "[analytic]") {
     const turbines::Turbine machine = with_blades(5);
     const turbines::Turbine blade = turbines::isolated_blade(turbines::wt600_description(), undamped());
-    const double own = frequencies(blade, 27 * rpm).at(0), shift = 2 * 27. / 60;
+    const double own = frequencies(blade, 27 * rpm).at(0), shift = 2 * 27 / units::minute;
     const std::vector<double> f = frequencies(machine, 27 * rpm);
     for (double expected : {own - shift, own + shift})
         CHECK(std::any_of(f.begin(), f.end(), [&](double x) { return std::abs(x - expected) < 2e-5; }));
@@ -209,8 +210,8 @@ TEST_CASE("assembly: without structural and joint damping there is none", "[prop
 TEST_CASE("assembly: weight on the tower lowers its first frequencies, weight that pulls upward raises them",
           "[property]") {
     turbines::AssemblyOptions down = undamped(), up = undamped();
-    down.gravity = Vec3(0, 0, -9.80665);
-    up.gravity = Vec3(0, 0, 9.80665);
+    down.gravity = Vec3(0, 0, -units::standard_gravity);
+    up.gravity = Vec3(0, 0, units::standard_gravity);
     // Generator locked: blades that sag leave the free rotor a little stiffness (a motion at 2e-4 Hz).
     solvers::CampbellOptions locked;
     locked.spin = solvers::RotorSpin::prescribed;

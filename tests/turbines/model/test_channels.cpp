@@ -1,4 +1,5 @@
 // Channels of a turbine: loads against weights, first moments and springs by hand, deflections, names.
+#include "mbs/base/units.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
@@ -15,7 +16,7 @@ using namespace turbines;
 
 namespace {
 
-constexpr double g = 9.80665, tilt = 5 * pi / 180;
+constexpr double g = units::standard_gravity, tilt = 5 * units::degree;
 
 AssemblyOptions heavy() {
     AssemblyOptions options;

@@ -3,6 +3,7 @@
 #include "elements/cardan_beam/section_loads.hpp"
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "tests/oracles/jet.hpp"
 #include "tests/oracles/platform_frames.hpp"
@@ -196,7 +197,7 @@ TEST_CASE("platform: root loads of the undeformed blade are weight and inertia o
                 const Motion motion(seed);
                 State s(m, motion);
                 const std::vector<double> values = s.sample(turbines::blade_channels(m));
-                const Vec6 exact = rigid_blade_loads(blade, motion.frames(), {0, 0, -9.80665});
+                const Vec6 exact = rigid_blade_loads(blade, motion.frames(), {0, 0, -units::standard_gravity});
                 for (int i = 0; i < 6; ++i) {
                     CAPTURE(elements, seed, i);
                     CHECK(std::abs(entry(values, 3 + i) - exact(i)) < error * exact.segment<3>(i < 3 ? 0 : 3).norm());
@@ -280,7 +281,7 @@ TEST_CASE(
         State heavier = State(m, motion);
         heavier.q = still.q;
         heavier.qd = still.qd;
-        heavier.solve(m.system().forces.with_gravity(Vec3(0, 0, -9.80665) - 3 * along.at(i)));
+        heavier.solve(m.system().forces.with_gravity(Vec3(0, 0, -units::standard_gravity) - 3 * along.at(i)));
         accelerated.qdd(a) = heavier.qdd(a) = 0;
         CHECK((accelerated.qdd - heavier.qdd).norm() < 1e-9 * size);
         CHECK((accelerated.actuator - heavier.actuator).norm() < 1e-9 * forces);

@@ -1,4 +1,5 @@
 // A platform alone in the water, its added mass and stiffness by hand; what is refused.
+#include "mbs/base/units.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/time/integrate.hpp"
@@ -31,7 +32,7 @@ struct Afloat {
 
 PlatformDescription neutrally_buoyant() {
     PlatformDescription p = some_platform();
-    p.buoyancy = 9.80665 * p.inertia.mass;
+    p.buoyancy = units::standard_gravity * p.inertia.mass;
     return p;
 }
 
@@ -56,7 +57,7 @@ TEST_CASE("platform alone: mass, damping and stiffness are those put together by
     M.bottomRightCorner<3, 3>() += body.J - body.mass * c * c;
     Mat6 K = p.hydrostatic + p.mooring;
     // Metacentre: weight at its centre, buoyancy at its own.
-    const double righting = 9.80665 * body.mass * (-body.com.z() + p.buoyancy_centre.z());
+    const double righting = units::standard_gravity * body.mass * (-body.com.z() + p.buoyancy_centre.z());
     K(3, 3) += righting;
     K(4, 4) += righting;
     const Vec6 scale = M.diagonal().cwiseSqrt(), k = K.diagonal().cwiseSqrt();

@@ -16,9 +16,9 @@ using turbines::Turbine;
 namespace {
 
 using units::degree;
-constexpr double rotor_speed = 12.1 * pi / 30, revolution = 60 / 12.1;
+constexpr double rotor_speed = 12.1 * units::rpm, revolution = units::minute / 12.1;
 
-Turbine machine(int elements, double gravity = 9.80665) {
+Turbine machine(int elements, double gravity = units::standard_gravity) {
     turbines::Nrel5mwPlatformOptions options;
     options.gravity = Vec3(0, 0, -gravity);
     options.elements = turbines::nrel5mw_platform_elements(elements);
@@ -185,7 +185,7 @@ TEST_CASE("platform: a steady velocity of surge, sway or heave leaves the respon
 }
 
 TEST_CASE("platform: on a base that falls freely the blade does not feel its weight", "[property]") {
-    const double T = revolution / 2, g = 9.80665;
+    const double T = revolution / 2, g = units::standard_gravity;
     const Motion fall = Motion::function([=](double t) { return MotionState{-g * t * t / 2, -g * t, -g}; });
     Run falling(machine(3), {{BaseCoordinate::heave, fall}}, 1e-8), weightless(machine(3, 0), {}, 1e-8);
     const History a = falling.record(0, T, 20), b = weightless.record(0, T, 20);

@@ -51,7 +51,7 @@ fs::path data(const char* name) {
 
 }  // namespace
 
-TEST_CASE("csv table: columns are found by name, with their units") {
+TEST_CASE("csv table: columns are found by name, with their units", "[property]") {
     const CsvTable table =
         CsvTable::parse("# where it is from\n" + header + "0,1e9\n# half way\n 0.5 ,\t-2.5e-3\n", "f");
     CHECK(table.rows() == 2);
@@ -65,7 +65,8 @@ TEST_CASE("csv table: columns are found by name, with their units") {
     CHECK(table.file() == "f");
 }
 
-TEST_CASE("csv: line ends of Windows, blank lines, a missing last line end and a byte-order mark do not matter") {
+TEST_CASE("csv: line ends of Windows, blank lines, a missing last line end and a byte-order mark do not matter",
+          "[property]") {
     const CsvTable table = CsvTable::parse("\xEF\xBB\xBF# c\r\n\r\na[m],b[-]\r\n1,2\r\n3,4\r\n\r\n  \r\n\n", "f");
     CHECK(table.unit("b") == "-");
     CHECK(vector_of(table.column("b")) == std::vector<double>{2.0, 4.0});
@@ -75,7 +76,7 @@ TEST_CASE("csv: line ends of Windows, blank lines, a missing last line end and a
     CHECK(quantities.note("mass").empty());
 }
 
-TEST_CASE("csv: numbers are read with a decimal point in any locale") {
+TEST_CASE("csv: numbers are read with a decimal point in any locale", "[property]") {
     const std::string before = std::setlocale(LC_ALL, nullptr);
     for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
         if (std::setlocale(LC_ALL, name) == nullptr) continue;  // not installed
@@ -85,7 +86,7 @@ TEST_CASE("csv: numbers are read with a decimal point in any locale") {
     std::setlocale(LC_ALL, before.c_str());
 }
 
-TEST_CASE("csv table: an error names file, line and character column") {
+TEST_CASE("csv table: an error names file, line and character column", "[property]") {
     CHECK(table_error(header + "0,1\n1\n") == "blade.csv:3:1: 1 fields; the header has 2");
     CHECK(table_error(header + "0,1\n\n# c\n1,2,3\n") == "blade.csv:5:5: 3 fields; the header has 2");
     CHECK(table_error(header + "0,1\n1,2,\n") == "blade.csv:3:5: 3 fields; the header has 2");
@@ -102,7 +103,7 @@ TEST_CASE("csv table: an error names file, line and character column") {
     CHECK(table_error("\xC3\xA4[m],b[m]\n1,2\n3,x\n") == "blade.csv:3:3: 'x' is not a number");
 }
 
-TEST_CASE("csv table: a header that is missing or wrong is an error") {
+TEST_CASE("csv table: a header that is missing or wrong is an error", "[property]") {
     CHECK(table_error("") == "blade.csv:1: the file is empty: no header, no data");
     CHECK(table_error("# only\n# comments\n\n") == "blade.csv:3: the file is empty: no header, no data");
     CHECK(table_error(header) == "blade.csv:1: there is a header but no data");
@@ -116,7 +117,7 @@ TEST_CASE("csv table: a header that is missing or wrong is an error") {
     CHECK_THAT(table_error(quantity_header + "mass,kg,1,\n"), Contains("'quantity' is not a header field"));
 }
 
-TEST_CASE("csv table: asking for an unknown column or another unit is an error") {
+TEST_CASE("csv table: asking for an unknown column or another unit is an error", "[property]") {
     const CsvTable table = CsvTable::parse("# c\n" + header + "0,1\n", "blade.csv");
     CHECK(message_of([&] { (void)table.column("GJ"); }) == "blade.csv:2: no column 'GJ'; there are: span, EI_flap");
     CHECK(message_of([&] { (void)table.unit("GJ"); }) == "blade.csv:2: no column 'GJ'; there are: span, EI_flap");
@@ -126,7 +127,7 @@ TEST_CASE("csv table: asking for an unknown column or another unit is an error")
           "blade.csv:2:9: column 'EI_flap': unit N mm^2 expected, N m^2 found");
 }
 
-TEST_CASE("csv quantities: numbers, lists of numbers and texts are found by name") {
+TEST_CASE("csv quantities: numbers, lists of numbers and texts are found by name", "[property]") {
     const CsvQuantities q = CsvQuantities::parse(
         "# c\nquantity,unit,value,source\nmass,kg, 1970 ,P, ca. 2000\ninertia,kg m^2,2.5e4/1.0e5 "
         "/-3,\nkind,-,upwind,A\n",
@@ -145,7 +146,7 @@ TEST_CASE("csv quantities: numbers, lists of numbers and texts are found by name
     CHECK(q.file() == "f");
 }
 
-TEST_CASE("csv quantities: an error names file, line and character column") {
+TEST_CASE("csv quantities: an error names file, line and character column", "[property]") {
     CHECK(quantities_error("") == "turbine.csv:1: the file is empty: no header, no data");
     CHECK(quantities_error(quantity_header) == "turbine.csv:1: there is a header but no data");
     CHECK(quantities_error("mass,kg,1,\n") ==
@@ -178,7 +179,7 @@ TEST_CASE("csv quantities: an error names file, line and character column") {
     CHECK(error([&] { return q.number("nan", "m"); }) == "turbine.csv:6:7: 'NaN' is not a finite number");
 }
 
-TEST_CASE("csv: a file is read from a path, and one that cannot be read is an error that says why") {
+TEST_CASE("csv: a file is read from a path, and one that cannot be read is an error that says why", "[property]") {
     const fs::path folder = fs::temp_directory_path() / cardan::text("cardan_csv_", ::getpid());
     fs::create_directories(folder);
     const std::string path = (folder / "t.csv").string();
@@ -194,7 +195,7 @@ TEST_CASE("csv: a file is read from a path, and one that cannot be read is an er
     CHECK_THROWS_WITH(CsvTable::read(fs::temp_directory_path()), Contains("is a folder, not a file"));
 }
 
-TEST_CASE("csv: the files of the turbines can be read") {
+TEST_CASE("csv: the files of the turbines can be read", "[property]") {
     const CsvTable nrel_blade = CsvTable::read(data("nrel5mw_blade.csv"));
     CHECK(nrel_blade.rows() == 49);
     CHECK(nrel_blade.column("radius_from_rotor_apex", "m").back() == 63.0);

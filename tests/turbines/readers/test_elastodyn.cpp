@@ -212,7 +212,7 @@ TEST_CASE("beams that are held in bending: the machine moves as with an infinite
         solvers::CampbellOptions sweep;
         sweep.spin = solvers::RotorSpin::prescribed;
         sweep.keep_shapes = false;
-        const std::array speed{45 * pi / 30};
+        const std::array speed{45 * units::rpm};
         std::vector<double> all;
         const solvers::Campbell d = solvers::campbell(machine.system(), machine.rotor(), speed, sweep);
         for (const solvers::CampbellMode& m : d.points[0].modes) all.push_back(m.mode.natural_hz());
@@ -256,7 +256,7 @@ TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring ho
     const TurbineFile file = read_openfast(test::data_file("openfast/small.fst"));
     CHECK(file.description.yaw.rotation.stiffness == 2e7);
     CHECK(file.description.yaw.rotation.damping == 3e4);
-    CHECK(file.rotor_speed == Approx(46 * pi / 30).epsilon(1e-14));  // 1150 rpm of the generator over 25
+    CHECK(file.rotor_speed == Approx(46 * units::rpm).epsilon(1e-14));  // 1150 rpm of the generator over 25
     CHECK(test::has_note(file.notes, "Gravity", "without meaning"));
     CHECK(test::has_note(file.notes, "GenEff", "control"));
     const test::ModelFolder model("openfast");

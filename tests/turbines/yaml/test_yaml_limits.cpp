@@ -69,7 +69,7 @@ std::string confined(rlim_t room, Action action) {
 
 }  // namespace
 
-TEST_CASE("yaml limits: what is not text never reaches the parser") {
+TEST_CASE("yaml limits: what is not text never reaches the parser", "[property]") {
     // The parser takes the first for UTF-32 and its characters for lengths: it asks for memory without end.
     constexpr rlim_t room = rlim_t{256} << 20;
     const std::string utf32 = std::string(",\0\0\0\xDA", 5) + "x";
@@ -82,7 +82,7 @@ TEST_CASE("yaml limits: what is not text never reaches the parser") {
     CHECK(YamlNode::parse("a: \"\\x04\"\r\n", "m.yaml")["a"].word() == "\x04");
 }
 
-TEST_CASE("yaml limits: depth, number of nodes, lengths of keys, lines and texts") {
+TEST_CASE("yaml limits: depth, number of nodes, lengths of keys, lines and texts", "[property]") {
     CHECK_THAT(message_of_parsing("a:\n" + repeated("[", 100'000)),
                Contains("m.yaml:2:") && Contains("nested deeper than 60"));
     CHECK_THAT(message_of_parsing(repeated("- ", 70)), Contains("nested deeper than 60"));
@@ -100,7 +100,7 @@ TEST_CASE("yaml limits: depth, number of nodes, lengths of keys, lines and texts
     CHECK_THAT(message_of_parsing("a:\n" + repeated("- 1\n", 1'100'000)), Contains("more than 1000000 nodes"));
 }
 
-TEST_CASE("yaml limits: aliases count as what they stand for, and none stands for itself") {
+TEST_CASE("yaml limits: aliases count as what they stand for, and none stands for itself", "[property]") {
     std::string laughs = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
     for (int i = 1; i <= 8; ++i)
         laughs += text("a", i, ": &a", i, " [", repeated(text("*a", i - 1, ", "), 9), "*a", i - 1, "]\n");

@@ -2,6 +2,7 @@
 #include "tests/turbines/machines/nrel5mw/test_nrel5mw_blade.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/oracles/rotating_blade.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -71,7 +72,7 @@ TEST_CASE("NREL 5 MW blade: without the factor 16844.75 kg, which is the trapezo
 TEST_CASE("NREL 5 MW blade: a section is the table's row in blade axes", "[property]") {
     // Row at 13.699755 m: 406.186 kg/m, twist 12.848 deg, mass centre 0.30756 m toward the trailing edge.
     const turbines::Nrel5mwBlade blade = nrel5mw_blade();
-    const double x = 13.699755 - 1.5, twist = 12.848 * pi / 180;
+    const double x = 13.699755 - 1.5, twist = 12.848 * units::degree;
     const BeamSection s = blade.line.section(x);
     CHECK(s.mass == Approx(1.04536 * 406.186).epsilon(1e-12));
     CHECK(s.centre.y() == Approx(-0.30756 * std::cos(twist)).epsilon(1e-12));
@@ -225,7 +226,7 @@ Variant log_linear_variant() {
         std::vector<double> c;
         std::istringstream cells(line);
         for (std::string cell; std::getline(cells, cell, ',');) c.push_back(std::stod(cell));
-        const double factor = 1.04536, twist = c.at(3) * pi / 180, polar = factor * (c.at(9) + c.at(10));
+        const double factor = 1.04536, twist = c.at(3) * units::degree, polar = factor * (c.at(9) + c.at(10));
         v.stations.push_back({.x = c.at(1) - 1.5,
                               .mass_per_length = factor * c.at(4),
                               .flap_stiffness = c.at(5),

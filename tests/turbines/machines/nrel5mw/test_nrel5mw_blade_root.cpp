@@ -1,4 +1,5 @@
 // Motion of the root of a blade of the NREL 5 MW machine on a moving platform.
+#include "mbs/base/units.hpp"
 #include "tests/oracles/jet.hpp"
 #include "tests/oracles/platform_frames.hpp"
 #include "tests/support/catch.hpp"
@@ -52,7 +53,7 @@ TEST_CASE("NREL 5 MW assumed modes: A, B and their derivatives are those of the 
         CHECK((m.A_dot - axial(E.transpose() * E2 + E1.transpose() * E1)).norm() < 1e-13);
         CHECK((m.B - E.transpose() * rate(f.root)).norm() < 1e-11);
         CHECK((m.B_dot - E.transpose() * acceleration(f.root) - E1.transpose() * rate(f.root)).norm() < 1e-11);
-        CHECK((m.gravity + 9.80665 * E.row(0).transpose()).norm() < 1e-13);
+        CHECK((m.gravity + units::standard_gravity * E.row(0).transpose()).norm() < 1e-13);
     }
 }
 

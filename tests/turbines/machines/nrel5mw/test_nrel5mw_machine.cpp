@@ -3,6 +3,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/refusal.hpp"
@@ -87,7 +88,7 @@ ElastodynBlade elastodyn_blade(int elements) {
         while (i + 1 < r.size() && x > r[i] - 1.5) ++i;
         const double t = (x + 1.5 - r[i - 1]) / (r[i] - r[i - 1]);
         const auto here = [&](std::span<const double> y) { return y[i - 1] + t * (y[i] - y[i - 1]); };
-        const double m = 1.04536 * here(mu) * h, angle = here(twist) * pi / 180;
+        const double m = 1.04536 * here(mu) * h, angle = here(twist) * units::degree;
         Eigen::Matrix<double, 2, 3> curvature;  // out of and in the plane of rotation
         Vec3 own;                               // across the chord, across it, along it
         for (int s = 0; s < 3; ++s) {
@@ -145,7 +146,7 @@ TEST_CASE(
     const ElastodynBlade sums = elastodyn_blade(17);
     // 109389.842 kg and 38677040.613 kg m^2 in its summary file, hub included, cone 2.5 deg: these are its elements.
     CHECK(56780 + 3 * sums.mass == Approx(109389.842).margin(1e-3));
-    CHECK(115926 + 3 * sums.inertia * std::pow(std::cos(2.5 * pi / 180), 2) == Approx(38677040.613).margin(1e-3));
+    CHECK(115926 + 3 * sums.inertia * std::pow(std::cos(2.5 * units::degree), 2) == Approx(38677040.613).margin(1e-3));
     const Vec3 integrals = elastodyn_blade(20000).hz();
     const Vec3 change = 100 * (sums.hz().cwiseQuotient(integrals).array() - 1);
     CAPTURE(integrals.transpose(), change.transpose());
@@ -171,12 +172,12 @@ TEST_CASE("NREL 5 MW machine: hub 90 m above ground and 5 m upwind, tips upwind 
     CHECK(std::abs(hub.p.y()) < 1e-12);
     CHECK(hub.p.z() == Approx(90).margin(1e-4));
     // 5 degrees of tilt, blade 1 up: leaning back by 5, forward by 2.5 degrees of cone.
-    const double lean = (5 - 2.5) * pi / 180;
+    const double lean = (5 - 2.5) * units::degree;
     const Vec3 tip = pose(kin, machine.layout().blades[0].tip()).p - hub.p;
     CHECK((tip - 63 * Vec3(std::sin(lean), 0, std::cos(lean))).norm() < 1e-12 * 63);
     for (const CardanBeam& blade : machine.layout().blades) {
         const Vec3 in_hub = hub.R.transpose() * (pose(kin, blade.tip()).p - hub.p);
-        CHECK(in_hub.z() == Approx(-63 * std::sin(2.5 * pi / 180)).epsilon(1e-12));
+        CHECK(in_hub.z() == Approx(-63 * std::sin(2.5 * units::degree)).epsilon(1e-12));
     }
 }
 
@@ -206,7 +207,7 @@ TEST_CASE("NREL 5 MW machine: inertia of the rotor about its shaft, torsion of t
     turbines::TurbineDescription d =
         almost_rigid(turbines::nrel5mw_description(turbines::nrel5mw_options(Nrel5mwVariant::fast)));
     const turbines::Turbine machine = turbines::assemble(d, undamped(Nrel5mwVariant::fast, 2, 2));
-    const double cone = 2.5 * pi / 180, tilt = 5 * pi / 180;
+    const double cone = 2.5 * units::degree, tilt = 5 * units::degree;
     const double m1 = blade_moment(1), m2 = blade_moment(2), m0 = blade_moment(0);
     // Blade k: points apex + r u_k. Kinetic energy of yaw rate a and shaft rate b, velocities a ez x p + b es x (r u).
     const Vec3 shaft(std::cos(tilt), 0, -std::sin(tilt)), up(std::sin(tilt), 0, std::cos(tilt));

@@ -2,6 +2,7 @@
 // aerodynamics, generator and yaw bearing locked. A peer's numbers with idealisations of their own, which an
 // independent model of ElastoDyn has as well. [docs/nrel5mw.md]
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/oracles/elastodyn_turbine.hpp"
 #include "tests/oracles/polynomial_blade.hpp"
 #include "tests/support/catch.hpp"
@@ -55,7 +56,7 @@ ElastodynTurbine elastodyn_turbine(int blade_elements, int tower_elements) {
     };
     const auto radius = b.column("radius_from_rotor_apex", "m");
     const auto q = turbines::CsvQuantities::parse(turbines::embedded_data("nrel5mw_turbine.csv"), "turbine");
-    const double degree = pi / 180;
+    using units::degree;
     ElastodynTurbine machine;
     machine.blade.x = values(radius, radius[0], 1);
     machine.blade.mass = values(b.column("mass_per_length"), 0, q.number("blade_mass_adjust_factor", "-"));
@@ -155,7 +156,7 @@ PolynomialBlade beamdyn_blade() {
     PolynomialBlade blade;
     for (std::size_t i = 0; i < t.rows(); ++i) {
         blade.stations.push_back(r[i] - r[0]);
-        blade.sections.push_back({-twist[i] * pi / 180, mass[i], flap[i], edge[i], EA[i] / 10, jf[i], je[i]});
+        blade.sections.push_back({-twist[i] * units::degree, mass[i], flap[i], edge[i], EA[i] / 10, jf[i], je[i]});
     }
     return blade;
 }

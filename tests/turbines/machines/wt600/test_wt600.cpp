@@ -1,6 +1,7 @@
 // The 600 kW machine: masses, first moments, places and directions.
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
 
+#include "mbs/base/units.hpp"
 #include "tests/oracles/wt600_stations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -104,7 +105,7 @@ TEST_CASE("600 kW machine: the hub stands 52.44 m above the ground, upwind, the 
           "[property]") {
     // Table 1 calls 52.2 m the height of the tower; 50.7 + 1.5 + 2.8 sin 5 deg.
     const Pose<double> hub = pose_of(turbines::wt600(), "hub", 0);
-    const double tilt = 5 * pi / 180;
+    const double tilt = 5 * units::degree;
     CHECK(hub.p.z() == Approx(52.44).margin(0.005));
     CHECK(hub.p.z() == Approx(50.7 + 1.5 + 2.8 * std::sin(tilt)).epsilon(1e-12));
     CHECK(hub.p.x() == Approx(-2.8 * std::cos(tilt)).epsilon(1e-12));
@@ -118,7 +119,7 @@ TEST_CASE("600 kW machine: blade 1 points up at azimuth 0, blade 2 where blade 1
     const turbines::Turbine machine = turbines::wt600();
     const Vec3 axis = pose_of(machine, "hub", 0).R.col(2);
     const Vec3 up = pose_of(machine, "blade 1 root", 0).R.col(0);
-    CHECK(up.z() == Approx(std::cos(5 * pi / 180)).epsilon(1e-12));
+    CHECK(up.z() == Approx(std::cos(5 * units::degree)).epsilon(1e-12));
     for (int k : {1, 2}) {
         const Pose<double> turned = pose_of(machine, "blade 1 node 3", 2 * pi * k / 3);
         const Pose<double> next = pose_of(machine, text("blade ", k + 1, " node 3"), 0);

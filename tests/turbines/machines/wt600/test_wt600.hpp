@@ -133,7 +133,7 @@ inline Complex flap_of_tip(const solvers::Campbell& d, const char* branch, int p
     };
     const Vec3T<Complex> arm = (place(tip_name) - place("hub")).cast<Complex>();
     const Vec3T<Complex> carried = hub.tail<3>() + cross<Complex>(hub.head<3>(), arm);
-    const double tilt = 5 * pi / 180;
+    const double tilt = 5 * units::degree;
     const Vec3T<Complex> shaft = Vec3(std::cos(tilt), 0, -std::sin(tilt)).cast<Complex>();
     return dot<Complex>(shaft, tip.tail<3>() - carried);
 }

@@ -1,4 +1,5 @@
 // The whole machine converges with the number of elements.
+#include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/support/catch.hpp"
 #include "turbines/machines/wt600.hpp"
@@ -17,7 +18,7 @@ TEST_CASE("600 kW machine: frequencies converge to those of 24 elements per part
                                                            .joint_damping = false});
         CampbellOptions options;
         options.keep_shapes = false;
-        const std::vector<double> speed{27 * pi / 30};
+        const std::vector<double> speed{27 * units::rpm};
         const Campbell d = campbell(machine.system(), machine.rotor(), speed, options);
         std::vector<double> hz;
         for (std::size_t i = 0; i < 14; ++i) hz.push_back(d.points[0].modes[i].mode.natural_hz());

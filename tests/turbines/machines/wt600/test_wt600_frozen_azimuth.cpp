@@ -2,6 +2,7 @@
 // linearised with the rotor frozen at one azimuth, and motions as seen in axes that turn with the rotor. Two of the
 // paper's statements do not hold in the fixed frame; frozen azimuths, which are no motions of the machine, have both,
 // rotating axes one.
+#include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
 
@@ -112,8 +113,8 @@ TEST_CASE("rotating axes, statement 1 in operation: the two differential lags ar
         CHECK(std::abs(b - a) < 0.03 * a);
     }
     // Numbers of another implementation.
-    CHECK(hz(diagram(), lag_backward, 20) + 20 / 60.0 == Approx(3.6365).margin(2e-4));
-    CHECK(hz(diagram(), lag_forward, 20) - 20 / 60.0 == Approx(3.6409).margin(2e-4));
+    CHECK(hz(diagram(), lag_backward, 20) + 20 / units::minute == Approx(3.6365).margin(2e-4));
+    CHECK(hz(diagram(), lag_forward, 20) - 20 / units::minute == Approx(3.6409).margin(2e-4));
 }
 
 TEST_CASE("rotating axes, statement 2: of the two differential flaps one rises and one falls", "[property]") {

@@ -1,6 +1,7 @@
 // What the paper of 2007 states about the modes of the 600 kW machine, with the generator that it describes: "a
 // non-linear torsional damper", here the data set's induction machine, linearised. The bounds are ours, as in
 // test_wt600_statements.cpp, which has the generator free.
+#include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
 #include "turbines/machines/wt600_operation.hpp"
@@ -85,7 +86,7 @@ TEST_CASE("statements with slip, 7: the longitudinal tower mode becomes lateral 
     CHECK(std::abs(flap(0, 2) - flap(0, 3)) < 0.1 * std::abs(flap(0, 2)));
     for (int point : {20, 33}) {
         CHECK(flap(point, 2).imag() * flap(point, 3).imag() < 0);
-        CHECK(std::abs(std::arg(flap(point, 2) / flap(point, 3))) > 100 * pi / 180);
+        CHECK(std::abs(std::arg(flap(point, 2) / flap(point, 3))) > 100 * units::degree);
     }
 }
 

@@ -3,6 +3,7 @@
 // (Coleman). Two of the statements hold only for eigenvalues at a frozen azimuth: test_wt600_frozen_azimuth.cpp. The
 // paper prints curves without numbers, so the bounds below are ours.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
 
@@ -263,7 +264,7 @@ TEST_CASE("statement 7: in that mode blades 2 and 3 flap alike at rest and in op
         CHECK(b2.imag() * b3.imag() < 0);
         CHECK(std::abs(b2.imag() + b3.imag()) < 0.1 * std::abs(b2.imag()));
         CHECK(std::abs(b2.imag()) > std::abs(b2.real()));
-        CHECK(std::abs(std::arg(b2 / b3)) > 100 * pi / 180);
+        CHECK(std::abs(std::arg(b2 / b3)) > 100 * units::degree);
     }
 }
 

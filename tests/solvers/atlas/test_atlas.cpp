@@ -1,6 +1,6 @@
 // Integration in several charts: what is handed over and what is refused. The tops are in test_time_tops.cpp.
 #include "mbs/base/error.hpp"
-#include "solvers/time/atlas.hpp"
+#include "solvers/atlas/atlas.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -77,7 +77,7 @@ TEST_CASE("atlas: motions of drives, dissipation and the balance of energy conti
     }
 }
 
-TEST_CASE("atlas: where no other chart is better it stays", "[solvers][atlas]") {
+TEST_CASE("atlas: where no other chart is better it stays", "[solvers][atlas][property]") {
     const Carousels c;
     AtlasIntegrator atlas({c.chart(c.xyz, 1e-8), c.chart(c.again, 1e-8)}, "body", 0, c.q, c.qd, 0.5);
     REQUIRE(atlas.advance(6).reached());
@@ -85,7 +85,7 @@ TEST_CASE("atlas: where no other chart is better it stays", "[solvers][atlas]") 
     CHECK(atlas.chart() == 0);
 }
 
-TEST_CASE("atlas: the user's own events and cancellation work in every chart", "[solvers][atlas]") {
+TEST_CASE("atlas: the user's own events and cancellation work in every chart", "[solvers][atlas][property]") {
     const Carousels c;
     int asked = 0;
     Chart first = c.chart(c.xyz), second = c.chart(c.yxz);
@@ -106,7 +106,7 @@ TEST_CASE("atlas: the user's own events and cancellation work in every chart", "
     CHECK(asked == 2001);
 }
 
-TEST_CASE("atlas: bad input is refused", "[solvers][atlas]") {
+TEST_CASE("atlas: bad input is refused", "[solvers][atlas][property]") {
     const Carousels c;
     const auto make = [&](std::vector<Chart> charts, const std::string& frame, double least = 0.3) {
         AtlasIntegrator(std::move(charts), frame, 0, c.q, c.qd, least);

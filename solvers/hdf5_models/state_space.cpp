@@ -1,4 +1,4 @@
-#include "solvers/hdf5/state_space.hpp"
+#include "solvers/hdf5_models/state_space.hpp"
 
 #include "mbs/base/version.hpp"
 #include "solvers/hdf5/file.hpp"

@@ -1,4 +1,4 @@
-#include "solvers/algebra/shifted_schur.hpp"
+#include "solvers/control/detail/shifted_schur.hpp"
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"

@@ -1,4 +1,4 @@
-#include "solvers/time/atlas.hpp"
+#include "solvers/atlas/atlas.hpp"
 
 #include "mbs/base/error.hpp"
 
