@@ -248,7 +248,7 @@ CARDAN_VECTORISED void ForwardDynamics::forward_on_path(const Arrays& arrays, st
 // Only the path from the base to these coordinates is swept.                                             [Woodbury]
 void ForwardDynamics::couple(const Arrays& arrays) {
     const auto r = std::ssize(support_);
-    // Of coordinate i of the support, under load j of several.
+    // What the path holds for coordinate i of the support, under load j of several.
     const auto state = [&](Eigen::Index i, Eigen::Index j, Eigen::Index loads) -> OnPath& {
         return entry(on_path_, entry(at_, i) * loads + j);
     };

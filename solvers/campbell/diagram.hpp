@@ -76,7 +76,7 @@ struct CampbellMode {
     Mode mode;
     std::vector<Share> shares;  ///< of the elastic energy, by component (sum over the harmonics)
     Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
-    /// Of the elastic energy of all blades, the part of each, averaged over the revolution; empty unless the method is
+    /// Each blade's part of the elastic energy of all blades, averaged over the revolution; empty unless the method is
     /// Floquet's and the blades differ.
     Vector blade_shares = {};
     /// For a motion (almost) without elastic energy, the row with most kinetic energy, after which it is named: yaw,

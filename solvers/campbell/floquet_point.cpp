@@ -241,7 +241,7 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
     if (options.symmetry.parts == 1 && rotor_.blades.size() > 1) set_blade_shares(point);
 }
 
-// Of blades that differ one may move alone. Multi-blade coordinates spread its motion over all patterns; back in the
+// Where blades differ, one may move alone. Multi-blade coordinates spread its motion over all patterns; back in the
 // blades' own coordinates, their elastic energies over the revolution tell.
 void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
     constexpr int azimuths = 32;

@@ -1,5 +1,6 @@
 // Machines of all kinds from one description: bearings of every hold, blades that differ or are missing, hubs alone,
 // downwind rotors, teetered hubs on elastic drive trains; and descriptions that look wrong.
+#include "mbs/base/units.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
@@ -206,7 +207,7 @@ TEST_CASE("machine variants: a teetered rotor of real blades on an elastic drive
     d.hub.teeter = {.bearing = {2e5}, .undersling = 0.3, .delta3 = 0.2};
     d.yaw.rotation = free_joint;
     turbines::AssemblyOptions options = undamped(1);
-    options.gravity = {0, 0, -9.80665};
+    options.gravity = {0, 0, -units::standard_gravity};
     const Turbine turbine = turbines::assemble(d, options);
     const Model& model = turbine.system().model;
     CHECK(turbine.rotor().odd_coordinates == std::vector<int>{model.index("teeter")});
