@@ -1,6 +1,6 @@
 // Decay test of a damped beam: displaced in its first mode and let go, logarithmic decrement from peak to peak.
-#include "mbs/base/entry.hpp>
-#include <cardan/elements/cardan_beam/single_beam.hpp"
+#include <cardan/elements/cardan_beam/single_beam.hpp>
+#include <cardan/mbs/base/entry.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/solvers/equilibrium/natural_modes.hpp>
 #include <cardan/solvers/time/integrate.hpp>
