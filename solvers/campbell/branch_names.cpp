@@ -1,6 +1,6 @@
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
-#include "solvers/campbell/tracking.hpp"
+#include "solvers/campbell/detail/tracking.hpp"
 
 #include <algorithm>
 #include <array>

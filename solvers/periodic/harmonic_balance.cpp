@@ -1,6 +1,6 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/periodic/rotor_equations.hpp"
+#include "solvers/periodic/detail/rotor_equations.hpp"
 
 #include <algorithm>
 #include <limits>
