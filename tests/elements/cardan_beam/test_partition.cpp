@@ -1,6 +1,6 @@
 // How mass is given to the bodies of an element.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/cardan_beam/tilted_masses.hpp"
+#include "elements/cardan_beam/detail/tilted_masses.hpp"
 #include "elements/sections/quadrature.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
