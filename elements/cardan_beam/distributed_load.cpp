@@ -1,6 +1,6 @@
 #include "elements/cardan_beam/distributed_load.hpp"
 
-#include "elements/cardan_beam/static_shapes.hpp"
+#include "elements/cardan_beam/detail/static_shapes.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "elements/cardan_beam/partition.hpp"
 
-#include "elements/cardan_beam/mean_difference.hpp"
-#include "elements/cardan_beam/static_moment.hpp"
-#include "elements/cardan_beam/tilted_masses.hpp"
+#include "elements/cardan_beam/detail/mean_difference.hpp"
+#include "elements/cardan_beam/detail/static_moment.hpp"
+#include "elements/cardan_beam/detail/tilted_masses.hpp"
 
 namespace cardan {
 

@@ -1,7 +1,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
-#include "solvers/campbell/tracking.hpp"
+#include "solvers/campbell/detail/tracking.hpp"
 
 #include <algorithm>
 #include <array>

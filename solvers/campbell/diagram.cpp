@@ -3,10 +3,10 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/campbell/floquet_mac.hpp"
-#include "solvers/campbell/method.hpp"
+#include "solvers/campbell/detail/floquet_mac.hpp"
+#include "solvers/campbell/detail/method.hpp"
+#include "solvers/campbell/detail/tracking.hpp"
 #include "solvers/campbell/point.hpp"
-#include "solvers/campbell/tracking.hpp"
 
 #include <algorithm>
 #include <cmath>

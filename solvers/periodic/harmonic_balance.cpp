@@ -1,7 +1,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/periodic/rotor_equations.hpp"
+#include "solvers/periodic/detail/rotor_equations.hpp"
 
 #include <algorithm>
 #include <limits>

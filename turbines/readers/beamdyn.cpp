@@ -2,7 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/readers/matrix_blade.hpp"
+#include "turbines/readers/detail/matrix_blade.hpp"
 
 namespace cardan::turbines {
 

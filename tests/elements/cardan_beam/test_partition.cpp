@@ -1,6 +1,6 @@
 // How mass is given to the bodies of an element.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/cardan_beam/tilted_masses.hpp"
+#include "elements/cardan_beam/detail/tilted_masses.hpp"
 #include "elements/sections/quadrature.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
@@ -172,10 +172,8 @@ TEST_CASE("static moments: total mass and first two moments of a tapered beam ar
     CHECK(I == Approx(2. / 3 - 1. / 4));
 }
 
-TEST_CASE(
-    "static moments: a strongly tapered element gives a warning with its place and centres; a stronger taper is "
-    "refused",
-    "[property]") {
+TEST_CASE("static moments: strong taper gives a warning with place and centres, stronger taper is refused",
+          "[property]") {
     const auto thin = [](double taper) {
         return BeamLine{
             1, {}, [taper](double x) { return slender(std::exp(-taper * x), 1 - 0.9 * x).section(); }, "thin tip"};

@@ -1,7 +1,7 @@
 // MAC of motions with periodic shapes, and tracking by it.
 #include "mbs/base/error.hpp"
-#include "solvers/campbell/floquet_mac.hpp"
-#include "solvers/campbell/tracking.hpp"
+#include "solvers/campbell/detail/floquet_mac.hpp"
+#include "solvers/campbell/detail/tracking.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"

@@ -2,7 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"
-#include "turbines/readers/matrix_blade.hpp"
+#include "turbines/readers/detail/matrix_blade.hpp"
 
 #include <algorithm>
 #include <array>

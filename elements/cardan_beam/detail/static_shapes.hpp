@@ -2,7 +2,7 @@
 /// Static shapes of the hinges of an element in one bending plane, on which its masses and loads do work.
 #pragma once
 
-#include "elements/cardan_beam/compliance_hinges.hpp"
+#include "elements/cardan_beam/detail/compliance_hinges.hpp"
 
 namespace cardan {
 

@@ -1,4 +1,4 @@
-#include "solvers/periodic/rotor_equations.hpp"
+#include "solvers/periodic/detail/rotor_equations.hpp"
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"

@@ -2,7 +2,7 @@
 /// The mean-difference partition of an element in one bending plane. Formulas: docs/partitions.md.
 #pragma once
 
-#include "elements/cardan_beam/compliance_hinges.hpp"
+#include "elements/cardan_beam/detail/compliance_hinges.hpp"
 
 namespace cardan {
 

@@ -1,4 +1,4 @@
-#include "elements/cardan_beam/static_shapes.hpp"
+#include "elements/cardan_beam/detail/static_shapes.hpp"
 
 #include "mbs/base/decompositions.hpp"
 

@@ -1,10 +1,10 @@
-#include "solvers/campbell/neighbour_names.hpp"
+#include "solvers/campbell/detail/neighbour_names.hpp"
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
-#include "solvers/campbell/floquet_mac.hpp"
-#include "solvers/campbell/tracking.hpp"
+#include "solvers/campbell/detail/floquet_mac.hpp"
+#include "solvers/campbell/detail/tracking.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solvers/campbell/tracking.hpp"
+#include "solvers/campbell/detail/tracking.hpp"
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"

@@ -1,4 +1,4 @@
-#include "turbines/readers/matrix_blade.hpp"
+#include "turbines/readers/detail/matrix_blade.hpp"
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"

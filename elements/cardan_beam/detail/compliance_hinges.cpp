@@ -1,4 +1,4 @@
-#include "elements/cardan_beam/compliance_hinges.hpp"
+#include "elements/cardan_beam/detail/compliance_hinges.hpp"
 
 #include "elements/cardan_beam/timoshenko.hpp"
 

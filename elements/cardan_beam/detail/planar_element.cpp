@@ -1,4 +1,4 @@
-#include "elements/cardan_beam/planar_element.hpp"
+#include "elements/cardan_beam/detail/planar_element.hpp"
 
 #include "mbs/base/entry.hpp"
 

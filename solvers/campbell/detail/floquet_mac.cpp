@@ -1,4 +1,4 @@
-#include "solvers/campbell/floquet_mac.hpp"
+#include "solvers/campbell/detail/floquet_mac.hpp"
 
 #include "mbs/base/entry.hpp"
 

@@ -2,7 +2,7 @@
 /// Hinge positions chosen from the bending compliance c(x) of an element.
 #pragma once
 
-#include "elements/cardan_beam/planar_element.hpp"
+#include "elements/cardan_beam/detail/planar_element.hpp"
 
 namespace cardan {
 

@@ -1,4 +1,4 @@
-#include "solvers/campbell/floquet_point.hpp"
+#include "solvers/campbell/detail/floquet_point.hpp"
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"

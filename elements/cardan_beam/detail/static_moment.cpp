@@ -1,6 +1,6 @@
-#include "elements/cardan_beam/static_moment.hpp"
+#include "elements/cardan_beam/detail/static_moment.hpp"
 
-#include "elements/cardan_beam/static_shapes.hpp"
+#include "elements/cardan_beam/detail/static_shapes.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 

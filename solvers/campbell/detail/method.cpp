@@ -1,4 +1,4 @@
-#include "solvers/campbell/method.hpp"
+#include "solvers/campbell/detail/method.hpp"
 
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/point.hpp"

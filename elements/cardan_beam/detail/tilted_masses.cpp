@@ -1,4 +1,4 @@
-#include "elements/cardan_beam/tilted_masses.hpp"
+#include "elements/cardan_beam/detail/tilted_masses.hpp"
 
 #include "elements/cardan_beam/timoshenko.hpp"
 #include "mbs/base/decompositions.hpp"

@@ -2,8 +2,8 @@
 /// Tracking of modes over rotor speed or another parameter.
 #pragma once
 
+#include "solvers/campbell/detail/neighbour_names.hpp"
 #include "solvers/campbell/diagram.hpp"
-#include "solvers/campbell/neighbour_names.hpp"
 
 namespace cardan::solvers {
 

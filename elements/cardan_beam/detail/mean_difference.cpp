@@ -1,6 +1,6 @@
-#include "elements/cardan_beam/mean_difference.hpp"
+#include "elements/cardan_beam/detail/mean_difference.hpp"
 
-#include "elements/cardan_beam/static_shapes.hpp"
+#include "elements/cardan_beam/detail/static_shapes.hpp"
 
 namespace cardan {
 
