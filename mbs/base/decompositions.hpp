@@ -1,6 +1,7 @@
 /// @file
 /// Eigen's dense decompositions, compiled once because they dominate compile time. Include this instead of Eigen's own
-/// headers.
+/// headers. Those of general and of complex matrices, which few programs need, are in cardan::decompositions; the
+/// others are in cardan::mbs.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -25,17 +26,18 @@
     DECLARE void CompleteOrthogonalDecomposition<cardan::Matrix>::_solve_impl(const cardan::Vector&, cardan::Vector&) \
         const;                                                                                                        \
     DECLARE class JacobiSVD<cardan::Matrix>;
-#define CARDAN_EIGENVALUES(DECLARE)                                                                                    \
-    DECLARE class HessenbergDecomposition<cardan::Matrix>;                                                             \
-    DECLARE class RealSchur<cardan::Matrix>;                                                                           \
-    DECLARE RealSchur<cardan::Matrix>& RealSchur<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool);     \
-    DECLARE class EigenSolver<cardan::Matrix>;                                                                         \
-    DECLARE EigenSolver<cardan::Matrix>& EigenSolver<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool); \
-    DECLARE class Tridiagonalization<cardan::Matrix>;                                                                  \
-    DECLARE class SelfAdjointEigenSolver<cardan::Matrix>;                                                              \
-    DECLARE SelfAdjointEigenSolver<cardan::Matrix>& SelfAdjointEigenSolver<cardan::Matrix>::compute(                   \
-        const EigenBase<cardan::Matrix>&, int);                                                                        \
+#define CARDAN_EIGENVALUES(DECLARE)                                                                  \
+    DECLARE class HessenbergDecomposition<cardan::Matrix>;                                           \
+    DECLARE class Tridiagonalization<cardan::Matrix>;                                                \
+    DECLARE class SelfAdjointEigenSolver<cardan::Matrix>;                                            \
+    DECLARE SelfAdjointEigenSolver<cardan::Matrix>& SelfAdjointEigenSolver<cardan::Matrix>::compute( \
+        const EigenBase<cardan::Matrix>&, int);                                                      \
     DECLARE class GeneralizedSelfAdjointEigenSolver<cardan::Matrix>;
+#define CARDAN_GENERAL_EIGENVALUES(DECLARE)                                                                        \
+    DECLARE class RealSchur<cardan::Matrix>;                                                                       \
+    DECLARE RealSchur<cardan::Matrix>& RealSchur<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool); \
+    DECLARE class EigenSolver<cardan::Matrix>;                                                                     \
+    DECLARE EigenSolver<cardan::Matrix>& EigenSolver<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool);
 #define CARDAN_COMPLEX_DECOMPOSITIONS(DECLARE)                                                             \
     DECLARE class PartialPivLU<cardan::ComplexMatrix>;                                                     \
     DECLARE PartialPivLU<cardan::ComplexMatrix>::PartialPivLU(const EigenBase<cardan::ComplexMatrix>&);    \
@@ -51,5 +53,6 @@
 namespace Eigen {
 CARDAN_FACTORISATIONS(extern template)
 CARDAN_EIGENVALUES(extern template)
+CARDAN_GENERAL_EIGENVALUES(extern template)
 CARDAN_COMPLEX_DECOMPOSITIONS(extern template)
 }  // namespace Eigen

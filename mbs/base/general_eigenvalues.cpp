@@ -1,0 +1,5 @@
+#include "mbs/base/decompositions.hpp"
+
+namespace Eigen {
+CARDAN_GENERAL_EIGENVALUES(template)
+}
