@@ -68,7 +68,7 @@ BeamLine scaled(const BeamLine& line, double s) {
 namespace {
 
 void scale(BladeDescription& blade, double s) {
-    blade.line = scaled(blade.line, s);
+    blade.line = turbines::scaled(blade.line, s);
     blade.damping = scaled(blade.damping, s);
     blade.pitch = rotational(blade.pitch, s);
 }

@@ -22,7 +22,7 @@ struct Change {
     unsigned char by;  // exclusive or
 };
 
-struct Outcome {
+struct Survival {
     std::size_t as_it_was = 0, refused = 0;
     std::string wrong, ended;  // places of the first few
 };
@@ -47,8 +47,8 @@ public:
     [[nodiscard]] std::size_t size() const { return good_.size(); }
 
     // A child goes through the changes; where it ends, another goes on behind that place.
-    Outcome run(const std::vector<Change>& changes) {
-        Outcome outcome;
+    Survival run(const std::vector<Change>& changes) {
+        Survival outcome;
         while (progress_->next < changes.size()) {
             const pid_t child = ::fork();
             if (child == 0) {
@@ -114,7 +114,7 @@ void write_small(const std::string& path, std::size_t rows, int chunk) {
     writer.finish();
 }
 
-void check(const Outcome& outcome, std::size_t changes) {
+void check(const Survival& outcome, std::size_t changes) {
     CHECK(outcome.wrong == "");
     CHECK(outcome.ended == "");
     CHECK(outcome.as_it_was + outcome.refused == changes);
@@ -144,7 +144,7 @@ TEST_CASE("history: one changed byte is noticed or does not matter, everywhere",
         changes.push_back({at, 0xFF});
         if (chunk == 16) changes.push_back({at, static_cast<unsigned char>(1U << (at % 8))});
     }
-    const Outcome outcome = campaign.run(changes);
+    const Survival outcome = campaign.run(changes);
     std::cout << changes.size() << " changes of one byte in " << campaign.size() << ": " << outcome.refused
               << " refused, " << outcome.as_it_was << " without effect" << std::endl;
     check(outcome, changes.size());

@@ -144,7 +144,7 @@ TEST_CASE("envelope: every column keeps its first, smallest, largest and last va
             std::vector<std::pair<double, double>> found(columns + 1, {2, -2});
             for (std::size_t i = 0; i < xs.size(); ++i) {
                 const double place = (xs[i] - x.front()) * (static_cast<double>(columns) / (x.back() - x.front()));
-                auto& [low, high] = entry(found, place);
+                auto& [low, high] = found[static_cast<std::size_t>(place)];
                 low = std::min(low, ys[i]);
                 high = std::max(high, ys[i]);
             }

@@ -99,9 +99,9 @@ TEST_CASE("teetered machine, mixed elements: the steady state solves the exact e
         return residual;
     };
     turbines::TurbineDescription coned = teetered_description();
-    coned.hub.cone = 0.06;
-    coned.hub.undersling = 0.2;
-    coned.tilt = 0.1;
+    coned.blade.cone = 0.06;
+    coned.hub.teeter->undersling = 0.2;
+    coned.nacelle.tilt = 0.1;
     for (bool rigid_tower : {false, true}) CHECK(largest(teetered_description(), rigid_tower) < 1e-7);
     CHECK(largest(coned, true) < 1e-7);
     // The box scheme carries a force along a bent blade with an error of its own order: a thrust of 6e-3 N of the

@@ -10,6 +10,7 @@
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
+#include "tests/turbines/machines/teetered/teetered_machine.hpp"
 
 #include <Eigen/Geometry>
 
