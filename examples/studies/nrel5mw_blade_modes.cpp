@@ -266,7 +266,7 @@ void write_files(const solvers::Campbell& diagram, const std::string& out) {
     solvers::write_csv(diagram, out + ".csv");
     std::vector<solvers::BladeShapes> shapes;
     for (std::size_t i = 0; i < diagram.points.size(); ++i)
-        shapes.push_back(solvers::blade_shapes(diagram, names, i, Vec3::UnitZ()));
+        shapes.push_back(solvers::blade_shapes(diagram, names, i, Vec3::UnitX()));
     solvers::write_csv(shapes, out + "_modes.csv");
     solvers::plot(shapes.back(), out + "_modes.svg");
     std::cout << "\nfiles: " << out << ".csv, _modes.csv, _modes.svg\n";

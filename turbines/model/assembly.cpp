@@ -155,7 +155,7 @@ Turbine isolated_blade(const TurbineDescription& description, const AssemblyOpti
     assembler.one_blade(number);
     Turbine turbine;
     turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(options));
-    turbine.rotor_.description += computed(description);
+    turbine.rotor_.description += computed(alone);
     return turbine;
 }
 

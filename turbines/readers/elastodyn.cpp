@@ -151,10 +151,11 @@ private:
         const char* const about_teeter = has_both ? "HubIner_Teeter" : "HubIner";
         hub.com.z() -= file_.number("UndSling");
         const double steiner = hub.mass * hub.com.z() * hub.com.z(), given = not_negative(about_teeter);
-        if (given < steiner)
+        if (given == 0 && steiner > 0) file_.note(about_teeter, "none is given: that of the hub's mass alone");
+        if (given > 0 && given < steiner)
             file_.fail(about_teeter, text(about_teeter, " = ", given, "; allowed: at least ", steiner,
                                           ", mass of the hub times its distance from the teeter axis squared"));
-        hub.J(1, 1) = (given - steiner) / std::pow(std::cos(angle("Delta3", 80)), 2);
+        hub.J(1, 1) = std::max(given - steiner, 0.0) / std::pow(std::cos(angle("Delta3", 80)), 2);
         hub.J(2, 2) = has_both ? not_negative("HubIner") : hub.J(1, 1);
     }
 

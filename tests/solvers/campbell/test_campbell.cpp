@@ -150,7 +150,8 @@ TEST_CASE("campbell: modes above the largest frequency are left out", "[analytic
 
 TEST_CASE("campbell: of an anisotropic rotor the mean over the azimuth is taken, with a warning", "[analytic]") {
     // On a rigid hub the mean multi-blade system is that of a rotor with the mean hinge stiffness.
-    const Campbell unequal = diagram_of(make_rotor({.stiffness = {1700, 2300, 2600}}), {3.0});
+    const CampbellOptions coleman{.method = CampbellMethod::coleman};
+    const Campbell unequal = diagram_of(make_rotor({.stiffness = {1700, 2300, 2600}}), {3.0}, coleman);
     CHECK(unequal.warning.find("not isotropic") != std::string::npos);
     CHECK(unequal.warning.find("mean over the azimuth") != std::string::npos);
     const double w = flap_frequency(3, 2200);
@@ -160,7 +161,16 @@ TEST_CASE("campbell: of an anisotropic rotor the mean over the azimuth is taken,
     // At standstill nothing is averaged: every blade has its own frequency.
     const Campbell still = diagram_of(make_rotor({.stiffness = {1700, 2300, 2600}}), {0.0});
     CHECK(still.warning.empty());
+    // Unless Coleman's method is asked for, Floquet's is taken, and every blade has its frequency in rotation as well.
+    const Campbell chosen = diagram_of(make_rotor({.stiffness = {1700, 2300, 2600}}), {3.0});
+    CHECK(chosen.method.find("Floquet") == 0);
+    CHECK(chosen.method.find("chosen: the equations are not constant in multi-blade coordinates") != std::string::npos);
     const double stiffness[] = {1700, 2300, 2600};
+    for (int k = 1; k <= 3; ++k) {
+        const double own = flap_frequency(3, stiffness[k - 1]),
+                     found = 2 * pi * chosen.damped_hz(chosen.branch(text("blade flap (blade ", k, ")")), 0);
+        CHECK(std::abs(std::remainder(found - own, 3.0)) < 1e-6);
+    }
     REQUIRE(still.points[0].modes.size() == 3);
     for (std::size_t i = 0; i < 3; ++i)
         CHECK(still.points[0].modes[i].mode.natural_hz() ==
@@ -259,7 +269,7 @@ TEST_CASE("campbell: what has no diagram is refused", "[property]") {
     check_refused([&] { (void)diagram_of(rotor, {infinite}); }, {"rotor speed number 1", "inf"});
     check_refused(
         [&] {
-            (void)diagram_of(make_rotor({.stiffness = {2000, 2000}}), {1.0});
+            (void)diagram_of(make_rotor({.stiffness = {2000, 2000}}), {1.0}, {.method = CampbellMethod::coleman});
         },
         {"small rotor", "number of blades = 2", "two blades"});
     const Campbell d = diagram_of(rotor, {1.0});
@@ -270,16 +280,17 @@ TEST_CASE("campbell: what has no diagram is refused", "[property]") {
     check_refused([&] { (void)diagram_of(spinless, {1.0}); }, {"rotor speed", "without rotor"});
 }
 
-TEST_CASE("campbell: without a constant steady state there is no diagram", "[property]") {
+TEST_CASE("campbell: without a constant steady state Coleman's method has no diagram", "[property]") {
     // Gravity in the rotor plane pulls at the lag hinges once per revolution.
     const SmallRotor rotor = make_rotor({.hinges = BladeHinges::lag, .gravity = {0, -units::standard_gravity, 0}});
     std::string message;
     try {
-        (void)diagram_of(rotor, {2.0});
+        (void)diagram_of(rotor, {2.0}, {.method = CampbellMethod::coleman});
     } catch (const NumericalError& error) {
         message = error.what();
     }
     CHECK(message.find("periodic") != std::string::npos);
+    CHECK(diagram_of(rotor, {2.0}).method.find("chosen: there is no constant steady state") != std::string::npos);
 }
 
 }  // namespace cardan::testing::hinged_rotors

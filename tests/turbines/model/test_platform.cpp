@@ -314,7 +314,7 @@ TEST_CASE("platform: bad options are refused", "[property]") {
     for (int blades : {0, 4})
         refused([=](O& o) { o.blades = blades; }, {"platform: number of blades = ", text(blades), "1 ... 3"});
     refused([](O& o) { o.pitch = std::nan(""); }, {"platform: pitch [rad] = nan", "finite"});
-    refused([](O& o) { o.gravity(1) = std::nan(""); }, {"platform: gravity", "nan", "finite"});
+    refused([](O& o) { o.gravity(1) = std::nan(""); }, {"gravity", "nan", "finite"});
     for (int elements : {0, 1001})
         refused([=](O& o) { o.elements.elements = elements; }, {"number of elements = ", text(elements)});
     refused([](O& o) { o.elements = turbines::nrel5mw_platform_elements(2, -1); }, {"damping", "-1", ">= 0"});

@@ -2,10 +2,12 @@
 // the whole. Every case gives the right machine, a note or an error, never another machine in silence.
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
+#include "turbines/model/assembly.hpp"
 #include "turbines/model/beam_table.hpp"
 #include "turbines/readers/elastodyn.hpp"
 #include "turbines/yaml/windio.hpp"
 
+#include <cmath>
 #include <limits>
 
 using namespace cardan;
@@ -33,12 +35,60 @@ TurbineFile windio_with(const char* file, const std::string& old_text, const std
 }  // namespace
 
 TEST_CASE("openfast: the apex of a two-bladed rotor is upwind of the teeter pin by the undersling", "[analytic]") {
-    // ElastoDyn: r_PQ = -UndSling g1 with g1 downwind along the shaft.
+    // ElastoDyn: r_PQ = -UndSling g1 with g1 downwind along the shaft. The overhang counts to the pin, the hub's mass
+    // lies HubCM = 0.1 m downwind of the apex.
     const test::ModelFolder model("openfast");
     model.replace(elastodyn_file, "3   NumBl", "2   NumBl");
-    CHECK(read_elastodyn(model / elastodyn_file).description.nacelle.overhang == 2.0);
     model.replace(elastodyn_file, "0   UndSling", "0.25   UndSling");
-    CHECK(read_elastodyn(model / elastodyn_file).description.nacelle.overhang == 2.25);
+    const TurbineDescription d = read_elastodyn(model / elastodyn_file).description;
+    CHECK(d.nacelle.overhang == 2.0);
+    REQUIRE(d.hub.teeter);
+    CHECK(d.hub.teeter->undersling == 0.25);
+    CHECK(d.hub.teeter->bearing.is_rigid());  // TeetDOF is False
+    CHECK(d.hub.inertia.com.z() == Approx(0.1 - 0.25));
+    AssemblyOptions bending;
+    bending.blade_beam.emplace().torsion = bending.tower_beam.emplace().torsion = false;
+    const Turbine turbine = assemble(d, bending);
+    const Model& model_of = turbine.system().model;
+    Workspace workspace(model_of);
+    const Kinematics kin = kinematics(model_of, Vector::Zero(model_of.size()), workspace);
+    const auto along_shaft = [&](const char* frame) {
+        const Pose<double> shaft = pose(kin, turbine.layout().shaft);
+        return shaft.R.col(0).dot(pose(kin, model_of.frame(frame)).p - shaft.p);
+    };
+    CHECK(along_shaft("rotor centre") == Approx(-2.0));
+    CHECK((along_shaft("blade 1 root") + along_shaft("blade 2 root")) / 2 ==
+          Approx(-2.25 + d.hub.radius * std::sin(d.blade.cone)));
+}
+
+TEST_CASE("elastodyn: a hub that teeters has the springs and dampers that act from rest; stops are noted",
+          "[analytic]") {
+    const test::ModelFolder model("openfast");
+    model.replace(elastodyn_file, "3   NumBl", "2   NumBl");
+    model.replace(elastodyn_file, "False   TeetDOF", "True   TeetDOF");
+    const auto teeter = [&] { return *read_elastodyn(model / elastodyn_file).description.hub.teeter; };
+    CHECK(teeter().bearing.hold == Bearing::Hold::free);
+    model.replace(elastodyn_file, "0   TeetMod", "1   TeetMod");
+    model.replace(elastodyn_file, "0   TeetDmp ", "40000   TeetDmp ");
+    model.replace(elastodyn_file, "0   TeetSSSp", "3000   TeetSSSp");
+    model.replace(elastodyn_file, "0   Delta3", "15   Delta3");
+    CHECK(teeter().bearing.stiffness == 3000);
+    CHECK(teeter().bearing.damping == 40000);
+    CHECK(teeter().delta3 == Approx(15 * pi / 180));
+    model.replace(elastodyn_file, "0   TeetSStP", "3   TeetSStP");
+    model.replace(elastodyn_file, "0   TeetDmpP", "2   TeetDmpP");
+    const TurbineFile stops = read_elastodyn(model / elastodyn_file);
+    CHECK(stops.description.hub.teeter->bearing.hold == Bearing::Hold::free);
+    CHECK(stops.description.hub.teeter->bearing.damping == 0);
+    CHECK(test::has_note(stops.notes, "TeetSStP", "a stop"));
+    CHECK(test::has_note(stops.notes, "TeetDmpP", "beyond an angle"));
+    model.replace(elastodyn_file, "0   HubIner_Teeter", "5   HubIner_Teeter");
+    CHECK_THAT(message_of([&] { (void)read_elastodyn(model / elastodyn_file); }),
+               Contains("HubIner_Teeter = 5; allowed: at least 12"));
+    model.replace(elastodyn_file, "5   HubIner_Teeter", "32   HubIner_Teeter");
+    const RigidInertia hub = read_elastodyn(model / elastodyn_file).description.hub.inertia;
+    CHECK(hub.J(1, 1) == Approx(20 / std::pow(std::cos(15 * pi / 180), 2)));
+    CHECK(hub.J(2, 2) == 300);
 }
 
 TEST_CASE("openfast: a damping ratio of zero stays one, all zeros are no damping", "[analytic]") {

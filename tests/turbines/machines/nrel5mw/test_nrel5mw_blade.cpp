@@ -304,7 +304,7 @@ TEST_CASE("NREL 5 MW blade: bad options and data are refused", "[property]") {
     turbines::Nrel5mwBladeOptions rigid;
     rigid.axial = false;
     check_refused([&] { (void)turbines::isolated_blade(nrel5mw_blade(rigid), nrel5mw_blade_elements()); },
-                  {"NREL 5 MW blade", "extension"});
+                  {"blade 1", "extension", "EA"});
 
     const test::Folder folder;
     CHECK(test::message_of([&] { (void)nrel5mw_blade(folder.path); }).find("nrel5mw_blade.csv: cannot be read") !=

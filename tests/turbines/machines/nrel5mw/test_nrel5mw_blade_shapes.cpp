@@ -67,7 +67,7 @@ TEST_CASE("NREL 5 MW blade: modes are named by what moves, not by their place in
 TEST_CASE("NREL 5 MW blade: mode shapes have their signs, nodes and slopes", "[property]") {
     const solvers::Campbell d = diagram(nrel5mw_blade_elements(16));
     for (std::size_t point : {0, 2}) {
-        const solvers::BladeShapes shapes = solvers::blade_shapes(d, blade_mode_names, point, Vec3::UnitZ());
+        const solvers::BladeShapes shapes = solvers::blade_shapes(d, blade_mode_names, point, Vec3::UnitX());
         REQUIRE(shapes.modes.size() == blade_mode_names.size());
         CHECK(shapes.rotor_speed == blade_speeds.at(point));
         for (std::size_t k = 0; k < blade_mode_names.size(); ++k) {
@@ -121,8 +121,8 @@ TEST_CASE("NREL 5 MW blade: shapes as table and picture", "[property]") {
     const double speed[] = {0, 12.1 * rpm};
     const solvers::Campbell d = diagram(nrel5mw_blade_elements(4), speed);
     const std::array<std::string, 2> two{blade_mode_names[0], "9th blade flap"};  // what is not there is left out
-    const std::vector<solvers::BladeShapes> shapes{solvers::blade_shapes(d, two, 0, Vec3::UnitZ()),
-                                                   solvers::blade_shapes(d, two, 1, Vec3::UnitZ())};
+    const std::vector<solvers::BladeShapes> shapes{solvers::blade_shapes(d, two, 0, Vec3::UnitX()),
+                                                   solvers::blade_shapes(d, two, 1, Vec3::UnitX())};
     solvers::write_csv(shapes, folder / "shapes.csv");
     const std::string table = test::bytes_of(folder / "shapes.csv");
     CHECK(std::count(table.begin(), table.end(), '\n') == 2 + 1 + 2 * 5);
@@ -141,7 +141,7 @@ TEST_CASE("NREL 5 MW blade: shapes as table and picture", "[property]") {
           std::string::npos);
     solvers::Campbell without = d;
     without.motions.clear();
-    check_refused([&] { (void)solvers::blade_shapes(without, two, 0, Vec3::UnitZ()); }, {"mode shape", "keep_shapes"});
+    check_refused([&] { (void)solvers::blade_shapes(without, two, 0, Vec3::UnitX()); }, {"mode shape", "keep_shapes"});
     without.lines.clear();
-    check_refused([&] { (void)solvers::blade_shapes(without, two, 0, Vec3::UnitZ()); }, {"no line of blade 1"});
+    check_refused([&] { (void)solvers::blade_shapes(without, two, 0, Vec3::UnitX()); }, {"no line of blade 1"});
 }

@@ -48,7 +48,7 @@ Vec3 position(const Kinematics& kin, const char* frame) {
 }  // namespace
 
 TEST_CASE("teetered machine: masses and places are those of Table I", "[published]") {
-    const Turbine machine = assemble(teetered_description());
+    const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
     const auto parts = masses_by_part(machine.tree());
     const auto part = [&](const std::string& name) {
         return *std::find_if(parts.begin(), parts.end(), [&](const PartMass& p) { return p.part == name; });
@@ -72,10 +72,10 @@ TEST_CASE("teetered machine: masses and places are those of Table I", "[publishe
 TEST_CASE("teetered machine: results keep the machine that was computed, not only what it was read from",
           "[property]") {
     turbines::TurbineDescription d = teetered_description();
-    d.hub.teeter->bearing.stiffness = 12345;
+    d.hub.teeter->bearing = {12345};
     change_section(d.blade.line, [](EngineeringSection& s) { s.EI_flap *= 2; });
     d.name = "stiffer";
-    const std::string kept = assemble(d).rotor().description;
+    const std::string kept = assemble(d, turbines::teetered_assembly()).rotor().description;
     const std::size_t at = kept.find("the machine that was computed\n");
     REQUIRE(at != std::string::npos);
     CHECK_THAT(kept.substr(at), Contains("name: \"stiffer\"\n") && Contains("rotor_speed: 6.02\n") &&
@@ -85,7 +85,7 @@ TEST_CASE("teetered machine: results keep the machine that was computed, not onl
 
 TEST_CASE("teetered machine: the metric of yaw and teeter is that of the rigid machine by hand", "[analytic]") {
     // Slender blades from 1.8 to 10.22 m with 4.9999 (about the shaft), 1e-4 (teeter), 5 (spanwise) kg m.
-    const Turbine machine = assemble(teetered_description());
+    const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
     const Model& model = machine.system().model;
     const double slender = 2 * 67.5772 * (std::pow(10.22, 3) - std::pow(1.8, 3)) / 3, both = 2 * 8.42;
     const double span = 50 + both * 5, teeter = 50 + slender + both * 1e-4, shaft = 5 + slender + both * 4.9999;
@@ -104,7 +104,7 @@ TEST_CASE("teetered machine: the metric of yaw and teeter is that of the rigid m
 }
 
 TEST_CASE("teetered machine: coordinates in order, spin prescribed, two blades in corresponding order", "[property]") {
-    const Turbine machine = assemble(teetered_description());
+    const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
     const CoordinateTable& table = machine.system().model.coordinates();
     REQUIRE(table.size() == 30 + 3 + 2 * 30);
     CHECK(table[0].name == "tower element 1 bending y1");
@@ -284,7 +284,7 @@ TEST_CASE("teetered machine: elements, extension and torsion of tower and blades
 TEST_CASE("teetered machine: straight it is its own steady state; coned, both blades flap alike and it does not teeter",
           "[property]") {
     TurbineDescription d = teetered_description();
-    d.yaw.rotation.stiffness = 1e7;  // free, yaw would have no definite place
+    d.yaw.rotation = {1e7};  // free, yaw would have no definite place
     for (double cone : {0.0, 0.05}) {
         d.blade.cone = cone;
         const Turbine machine = assemble(d, turbines::teetered_assembly(2));
@@ -352,7 +352,7 @@ TEST_CASE("teetered machine: data in a folder are read, and errors say where and
     CHECK_THAT(message_with("50/5/50", "50/5"), Contains("hub_inertia_teeter_shaft_spanwise") &&
                                                     Contains("number of values = 2; allowed: 3, separated by /"));
     CHECK_THAT(message_with("blade_torsion_stiffness,N m^2,1.0e7", "blade_torsion_stiffness,N m^2,0"),
-               Contains("blade: GJ [N m^2] = 0; allowed: > 0"));
+               Contains("blade, station 1 (x = 0 m): GJ [N m^2] = 0; allowed: > 0"));
     CHECK_THROWS_AS(teetered_description("no/such/folder"), FileError);
 }
 
@@ -366,7 +366,7 @@ TEST_CASE("teetered machine: bad descriptions and options are refused with the v
     check_machine_refused([](D& d, O&) { d.hub.teeter->delta3 = 30; }, {"hub.teeter.delta3 [rad] = 30", "degrees?"});
     check_machine_refused([](D& d, O&) { d.blade.cone = 2; }, {"blade.cone [rad] = 2", "`unusual`"});
     check_machine_refused([](D& d, O&) { d.nacelle.tilt = not_a_number; }, {"nacelle.tilt [rad] = nan"});
-    check_machine_refused([](D& d, O&) { d.hub.teeter->bearing.stiffness = -1; },
+    check_machine_refused([](D& d, O&) { d.hub.teeter->bearing = {-1}; },
                           {"hub.teeter.stiffness [N m/rad] = -1", "free_joint"});
     check_machine_refused([](D& d, O&) { d.yaw.rotation.damping = -1; }, {"yaw.rotation.damping [N m s/rad] = -1"});
     check_machine_refused([](D& d, O&) { d.nacelle.inertia.mass = -6900; }, {"nacelle", "mass [kg] = -6900"});
