@@ -37,10 +37,11 @@ double factor(OpenFastFile& file, const char* keyword) {
     return value;
 }
 
-// Stations in m; the fractions go from 0 to 1.
+// Stations in m; the fractions go from 0 to 1. One row alone holds for the whole beam.
 std::vector<double> stations(const OpenFastTable& table, const char* fraction, double length) {
     std::vector<double> x;
     const std::vector<double>& s = table.column(fraction);
+    if (s.size() == 1) return {0, length};
     for (std::size_t i = 0; i < s.size(); ++i) {
         const bool first = i == 0, last = i + 1 == s.size();
         if (first && s[i] != 0) table.fail(i, text(fraction, " = ", s[i], " in the first row; allowed: 0"));
@@ -127,7 +128,7 @@ void note_other_columns(std::vector<FileNote>& notes, const OpenFastTable& table
 }
 
 std::size_t rows_of(OpenFastFile& file, const char* keyword) {
-    return static_cast<std::size_t>(file.integer(keyword, 2, 100000));
+    return static_cast<std::size_t>(file.integer(keyword, 1, 100000));
 }
 
 void finish(ElastoDynBeam& beam, const OpenFastFile& file) {
@@ -165,6 +166,7 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
         if (t.has("EdgcgOf") || t.has("FlpcgOf")) s.mass_centre = {-edge_cg[i], flap_cg[i]};
         table.sections.push_back(s);
     }
+    table.sections.resize(table.stations.size(), table.sections.front());
     ElastoDynBeam blade;
     blade.line = line_of(table, t);
     ModalRatios modal;
@@ -207,6 +209,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length) 
         s.j_edge = j_fore_aft.not_negative(i);
         table.sections.push_back(s);
     }
+    table.sections.resize(table.stations.size(), table.sections.front());
     ElastoDynBeam tower;
     tower.line = line_of(table, t);
     ModalRatios modal;

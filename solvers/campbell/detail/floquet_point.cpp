@@ -24,6 +24,9 @@ constexpr double elastic_limit = 0.05;
 constexpr double rigid_per_radian = 1e-4;
 // That limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
 constexpr double free_spin_limit = 0.05;
+// Times its energy: a motion that would have so much more if its mean displacement vibrated once per revolution is that
+// displacement.
+constexpr double mostly_displacement = 1e3;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
 // Asymmetry of the blades relative to the diagonals; more is not rounding.
@@ -57,6 +60,19 @@ void keep_displacement(FloquetMode& mode) {
     mode.harmonics = ComplexMatrix(mode.harmonics.col(-mode.first_harmonic));
     mode.participation = Vector::Ones(1);
     mode.first_harmonic = 0;
+}
+
+// A free displacement (yaw) is a double zero, which errors of the steady state split. What little else moves then may
+// have its energy in another harmonic, near a resonance, and that one was taken for the principal one.
+void find_displacement(FloquetMode& mode, const Matrix& M, double speed) {
+    const double shift = std::round(mode.exponent.imag() / speed);
+    const Complex reduced = mode.exponent - Complex(0, shift * speed);
+    const Index at = -mode.first_harmonic - static_cast<Index>(shift);
+    if (shift == 0 || std::abs(reduced) > rigid_per_radian * speed || at < 0 || at >= mode.harmonics.cols()) return;
+    const double energy = 2, displaced = speed * speed * mode.harmonics.col(at).cwiseAbs2().dot(M.diagonal());
+    if (displaced < mostly_displacement * energy) return;
+    mode.exponent = reduced;
+    mode.first_harmonic = -static_cast<int>(at);
 }
 
 void leave_out_ends(FloquetMode& mode) {
@@ -229,6 +245,7 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
     Floquet result = floquet(periodic, options);
     if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
     for (FloquetMode& mode : result.modes) {
+        find_displacement(mode, mean_.M, std::abs(state_->rotor_speed));
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;
         if (slow) mode.kind = FloquetKind::rigid;

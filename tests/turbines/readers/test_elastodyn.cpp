@@ -205,6 +205,20 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
     CHECK(!changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).dofs.blades);
 }
 
+TEST_CASE("elastodyn: a tower of one station has the same section everywhere", "[property]") {
+    const test::ModelFolder model("openfast");
+    model.replace("small_Tower.dat", "4   NTwInpSt", "1   NTwInpSt");
+    for (const char* row :
+         {"  0.400     420.000   1.5000E+09   1.5450E+09\n", "  0.700     360.000   1.1000E+09   1.1330E+09\n",
+          "  1.000     300.000   8.0000E+08   8.2400E+08\n"})
+        model.replace("small_Tower.dat", row, "");
+    const BeamLine tower = read_elastodyn(model / "small_ElastoDyn.dat").description.tower.line;
+    for (double x : {0.0, 11.0, 24.0}) {
+        CHECK(tower.section(x).mass == Approx(1.01 * 500));
+        CHECK(1 / tower.section(x).compliance(5, 5) == Approx(0.98 * 2e9));
+    }
+}
+
 TEST_CASE("beams that are held in bending: the machine moves as with an infinitely stiff one", "[crosscheck]") {
     const TurbineFile file = read_elastodyn(test::data_file("openfast/small_ElastoDyn.dat"));
     AssemblyOptions options = bending_only();
