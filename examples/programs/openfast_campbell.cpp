@@ -144,13 +144,13 @@ turbines::AssemblyOptions assembly_options(const Arguments& a, const turbines::T
     return o;
 }
 
-// What is not constant in multi-blade coordinates has its own method.
+// The mean over the azimuth is an approximation that serves equal blades under gravity or on an unbalanced hub.
 solvers::CampbellMethod method_for(const Arguments& a, const turbines::TurbineDescription& machine) {
     const RigidInertia& hub = machine.hub.inertia;
     const bool balanced = hub.com.head<2>().isZero(0) && hub.J(0, 0) == hub.J(1, 1) && hub.J(0, 1) == 0 &&
                           hub.J(0, 2) == 0 && hub.J(1, 2) == 0;
-    if (machine.blades == 2) return solvers::CampbellMethod::floquet;
-    return a.gravity || !balanced ? solvers::CampbellMethod::averaged : solvers::CampbellMethod::coleman;
+    const bool equal = machine.blades > 2 && machine.own_blades.empty();
+    return equal && (a.gravity || !balanced) ? solvers::CampbellMethod::averaged : solvers::CampbellMethod::automatic;
 }
 
 void save(const Arguments& a, const turbines::TurbineFile& model) {

@@ -15,6 +15,7 @@ const std::vector<KeywordGroup>& ignored_by_elastodyn() {
          "output and numerical settings: without meaning for the machine"},
         {{"ShftGagL", "NcIMU*", "AzimB1Up"}, "places of sensors: without effect on the motion"},
         {{"FurlFile", "Furling"}, "furling is off"},
+        {{"Gravity"}, "gravity is given to the assembly"},
         {{"Teet*", "Delta3", "UndSling"}, "teetering: this machine has none"},
         {{"YawFrct*", "M_CSmax", "M_FCSmax", "M_MCSmax", "M_CD", "M_FCD", "M_MCD", "sig_v", "sig_v2", "OmgCut"},
          "friction of the yaw bearing: not part of the model"},
