@@ -13,7 +13,7 @@ namespace {
 // Everything off its place that the appendix has a letter for.
 turbines::TurbineDescription offset_machine() {
     turbines::TurbineDescription d = turbines::teetered_description();
-    change_section(d.tower.line, [](EngineeringSection& s) {
+    testing::change_section(d.tower.line, [](EngineeringSection& s) {
         s.mass = 1e-8;  // the appendix has none, the torsion of the tower needs some
         s.j_flap = s.j_edge = 1e-7;
         s.EA = 1e10;
@@ -48,7 +48,7 @@ TeeteredHead head_of(const turbines::TurbineDescription& d, double rotor_speed) 
     head.C_h = d.hub.teeter->bearing.damping;
     head.Omega = rotor_speed;
 
-    const EngineeringSection s = section_of(d.blade.line);
+    const EngineeringSection s = testing::section_of(d.blade.line);
     const double length = 2 * d.blade.line.length, blades = length * s.mass, a = d.hub.radius,
                  b = a + d.blade.line.length;
     const RigidInertia& hub = d.hub.inertia;
