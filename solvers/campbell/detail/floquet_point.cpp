@@ -85,14 +85,6 @@ void leave_out_ends(FloquetMode& mode) {
     mode.first_harmonic += static_cast<int>(first);
 }
 
-// Sum of the harmonics at an azimuth; a factor of all of them, exp(exponent t), is left out.
-ComplexVector shape_at(const FloquetMode& mode, double psi) {
-    ComplexVector sum = ComplexVector::Zero(mode.harmonics.rows());
-    for (Index i = 0; i < mode.harmonics.cols(); ++i)
-        sum += std::polar(1.0, static_cast<double>(mode.first_harmonic + i) * psi) * mode.harmonics.col(i);
-    return sum;
-}
-
 // Places of some coordinates among the unknowns, as far as they are there.
 std::vector<int> rows_among(const std::vector<int>& unknowns, const std::vector<int>& coordinates) {
     std::vector<int> rows;
@@ -271,7 +263,7 @@ void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
         const double psi = 2 * pi * i / azimuths;
         const Matrix at = T.matrix(psi);
         for (CampbellMode& m : point.modes) {
-            const ComplexVector x = at * shape_at(*m.floquet, psi);
+            const ComplexVector x = at * m.floquet->shape(m.floquet->period * i / azimuths);
             for (Eigen::Index k = 0; k < m.blade_shares.size(); ++k) {
                 const std::vector<int>& own = entry(rows, k);
                 m.blade_shares(k) += hermitian_form(Matrix(K(own, own)), ComplexVector(x(own)));

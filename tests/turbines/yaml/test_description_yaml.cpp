@@ -1,6 +1,7 @@
 // Our own YAML: what is written is read again bit for bit, and nothing else is read.
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
+#include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600.hpp"
 #include "turbines/model/assembly.hpp"
 #include "turbines/model/beam_table.hpp"
@@ -71,6 +72,43 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
     SECTION("BeamDyn, curved") {
         check_round_trip(read_openfast(test::data_file("openfast/small_BeamDyn.fst")).description);
     }
+    SECTION("teetered, downwind, free to yaw") {
+        TurbineDescription d = teetered_description();
+        d.hub.teeter->undersling = 1.0 / 3;
+        d.hub.teeter->delta3 = 0.1;
+        d.yaw.rotation = {0, 7.0 / 3, Bearing::Hold::free};
+        d.drive_train.shaft.mass = 0.1;
+        check_round_trip(d);
+        const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
+        REQUIRE(read.hub.teeter);
+        CHECK(read.hub.teeter->undersling == d.hub.teeter->undersling);
+        CHECK(read.hub.teeter->bearing.hold == Bearing::Hold::free);
+        CHECK(read.yaw.rotation.damping == 7.0 / 3);
+        CHECK(read.rotor_speed == 6.02);
+        CHECK(read.drive_train.shaft.mass == 0.1);
+        CHECK(assemble(read, teetered_assembly(1)).summary() == assemble(d, teetered_assembly(1)).summary());
+    }
+    SECTION("blades of their own, a missing one, bearings of every kind") {
+        TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
+        d.own_blades[2] = d.blade;
+        d.own_blades[2]->pitch_setting = 1.0 / 7;
+        d.own_blades[2]->pitch = d.blade.pitch = driven_joint;
+        d.own_blades[3] = std::nullopt;
+        d.yaw.translation = {1e8, 1.0 / 3};
+        d.unusual = true;
+        check_round_trip(d);
+        const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
+        CHECK(read.unusual);
+        CHECK(read.blade_at(2)->pitch_setting == 1.0 / 7);
+        CHECK(read.blade_at(2)->pitch.hold == Bearing::Hold::driven);
+        CHECK(read.blade_at(3) == nullptr);
+        CHECK(read.blade_at(1) == &read.blade);
+    }
+    SECTION("a hub without blades") {
+        TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
+        d.blades = 0;
+        check_round_trip(d);
+    }
     SECTION("texts with quotes, line ends, control characters; numbers of all sizes") {
         TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
         d.name = "a \"quoted\" \\ name: # no comment\t\x01 \xC3\xA4";
@@ -80,6 +118,23 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         d.blade.cone = -0.0;
         check_round_trip(d);
     }
+}
+
+TEST_CASE("description yaml: version 1 is read, with its infinite and zero springs", "[property]") {
+    // The same machine as it was written then.
+    const TurbineDescription old = read_description(std::string(CARDAN_SOURCE_DIR) +
+                                                    "/tests/fuzz/seeds/description/small.yaml"),
+                             now = read_openfast(test::data_file("openfast/small.fst")).description;
+    CHECK(old.yaw.rotation.stiffness == now.yaw.rotation.stiffness);
+    CHECK(old.yaw.translation.is_rigid());
+    CHECK(old.blade.pitch.is_rigid());
+    CHECK(old.drive_train.main_shaft.damping == now.drive_train.main_shaft.damping);
+    check_same_bits(old.blade.line, now.blade.line);
+    std::string text = test::bytes_of(std::string(CARDAN_SOURCE_DIR) + "/tests/fuzz/seeds/description/small.yaml");
+    const std::size_t at = text.find("stiffness: 20000000");
+    REQUIRE(at != std::string::npos);
+    text.replace(at, 19, "stiffness: 0");
+    CHECK(parse_description(text, "old.yaml").yaw.rotation.hold == Bearing::Hold::free);
 }
 
 TEST_CASE("description yaml: a file is written and read", "[property]") {
