@@ -153,10 +153,18 @@ void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count)
 
 void PointSolver::set_system(double rotor_speed) {
     restrict_to(lin_, unknowns_, rotor_.spin, current_);
-    if (!coleman_) return;
     const bool frozen = method_ == CampbellMethod::frozen_azimuth;
-    coleman_->transform_in_place(current_, 0, frozen ? 0 : rotor_speed);
-    if (!frozen && rotor_speed != 0 && rotor_.spin >= 0) average_if_periodic(rotor_speed);
+    if (coleman_) coleman_->transform_in_place(current_, 0, frozen ? 0 : rotor_speed);
+    if (frozen || rotor_speed == 0 || rotor_.spin < 0) return;
+    const double changing = remainder(rotor_speed);
+    if (changing < negligible_remainder) return;
+    if (coleman_)
+        take_mean(rotor_speed, changing);
+    else
+        warn("constant",
+             text("the equations are not constant, although there is no rotor to transform: they change by ", changing,
+                  " (relative) with the azimuth, and those of azimuth 0 are used, which describe no "
+                  "motion of the machine. Take CampbellMethod::floquet"));
 }
 
 void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out) {
@@ -164,7 +172,7 @@ void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSyst
     turned_.q(rotor_.spin) += psi;
     lineariser_.linearise(turned_, lin_);
     restrict_to(lin_, unknowns_, rotor_.spin, out);
-    coleman_->transform_in_place(out, psi, rotor_speed);
+    if (coleman_) coleman_->transform_in_place(out, psi, rotor_speed);
 }
 
 double PointSolver::remainder(double rotor_speed) {
@@ -179,25 +187,23 @@ double PointSolver::periodic_remainder(double rotor_speed) {
     lineariser_.linearise(steady_.at, lin_);
     if (turned_.q.size() == 0) start();
     restrict_to(lin_, unknowns_, rotor_.spin, current_);
-    if (!coleman_) return 0;
-    coleman_->transform_in_place(current_, 0, rotor_speed);
+    if (coleman_) coleman_->transform_in_place(current_, 0, rotor_speed);
     return remainder(rotor_speed);
 }
 
 // The transformed matrices of an isotropic rotor are constant; otherwise their azimuthal average is used, with a
 // warning. The steady state is the constant one of this solver: only the rotor is turned. PeriodicPointSolver and
 // azimuth_average() take the periodic one.
-void PointSolver::average_if_periodic(double rotor_speed) {
-    SecondOrderSystem& z = current_;
-    const double remainder = this->remainder(rotor_speed);
-    if (remainder < negligible_remainder) return;
+void PointSolver::take_mean(double rotor_speed, double remainder) {
     const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
     const auto at = [&](int i, SecondOrderSystem& out) { set_at_azimuth(2 * pi * i / azimuths, rotor_speed, out); };
-    average(azimuths, at, z, other_);
-    if (warning_.find("not isotropic") == std::string::npos)
-        warning_ += text(warning_.empty() ? "" : "; ",
-                         "the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,
-                         " (relative); its mean over the azimuth is used, which is an approximation");
+    average(azimuths, at, current_, other_);
+    warn("not isotropic", text("the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ",
+                               remainder, " (relative); its mean over the azimuth is used, which is an approximation"));
+}
+
+void PointSolver::warn(std::string_view once, const std::string& what) {
+    if (warning_.find(once) == std::string::npos) warning_ += text(warning_.empty() ? "" : "; ", what);
 }
 
 std::vector<std::string> PointSolver::row_names() const {

@@ -64,8 +64,8 @@ public:
     Matrix rotating_coordinates() const override;
     const std::string& warning() const override { return warning_; }
 
-    /// Largest part of the multi-blade matrices that changes with the azimuth, relative to them; 0 without blades to
-    /// transform. Steady state as in solve().
+    /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
+    /// solve().
     double periodic_remainder(double rotor_speed);
     /// Null without blades to transform.
     const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
@@ -81,7 +81,9 @@ private:
     void set_system(double rotor_speed);
     void set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out);
     double remainder(double rotor_speed);
-    void average_if_periodic(double rotor_speed);
+    void take_mean(double rotor_speed, double remainder);
+    // Unless a warning with the words `once` was given.
+    void warn(std::string_view once, const std::string& what);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);
 
     const System& system_;

@@ -65,15 +65,19 @@ private:
     bool unusual_;
 };
 
+void check_damping(const BeamDamping& damping, const std::string& field, const Ranges& ranges) {
+    const ModalRatios& modal = damping.modal;
+    for (const auto* ratios : {&modal.all, &modal.bending_y, &modal.bending_z, &modal.torsion, &modal.extension})
+        for (double ratio : *ratios) ranges.ratio(field + ".damping", ratio);
+}
+
 void check_blade(const TurbineDescription& d, const BladeDescription& blade, const std::string& field,
                  const Ranges& ranges) {
     check_bearing(d.name, field + ".pitch", blade.pitch, about);
     ranges.angle(field + ".cone", blade.cone, 0.5, pi / 2);
     ranges.angle(field + ".pitch_setting", blade.pitch_setting, 3.2, 1e3);
     ranges.ratio(field + ".first_flap_damping", blade.first_flap_damping);
-    for (const std::vector<double>* ratios : {&blade.damping.modal.all, &blade.damping.modal.bending_y,
-                                              &blade.damping.modal.bending_z, &blade.damping.modal.torsion})
-        for (double ratio : *ratios) ranges.ratio(field + ".damping", ratio);
+    check_damping(blade.damping, field, ranges);
 }
 
 void check_blades(const TurbineDescription& d, const Ranges& ranges) {
@@ -112,6 +116,7 @@ void TurbineDescription::check() const {
     if (elastic) require_positive(name, "generator inertia [kg m^2]", drive_train.generator_inertia);
     ranges.angle("nacelle.tilt", nacelle.tilt, 0.35, pi / 2);
     ranges.ratio("tower.first_mode_damping", tower.first_mode_damping);
+    check_damping(tower.damping, "tower", ranges);
     check_bearing(name, "yaw.rotation", yaw.rotation, about);
     check_bearing(name, "yaw.translation", yaw.translation, along);
     check_bearing(name, "nacelle.tilt_bearing", nacelle.tilt_bearing, about);

@@ -239,6 +239,15 @@ TEST_CASE("machine variants: the method of a Campbell diagram follows from the m
     CHECK(unequal.find("Floquet") == 0);
     CHECK(unequal.find("chosen: ") != std::string::npos);
     CHECK(method(machine([](D& d) { d.blades = 2; }, 1)).find("chosen: two blades") != std::string::npos);
+    // One blade on a tower that moves is periodic; one on a hub that does not is constant in its own frame.
+    const Turbine one = machine([](D& d) { d.blades = 1; }, 1);
+    CHECK(method(one).find("chosen: the equations are not constant") != std::string::npos);
+    CHECK(method(turbines::isolated_blade(turbines::wt600_description(), undamped(1))) ==
+          "rotating frame of the blade");
+    const solvers::Campbell frozen = solvers::campbell(
+        one.system(), one.rotor(), {27 * rpm}, {.method = solvers::CampbellMethod::coleman, .max_frequency_hz = 3});
+    CHECK(frozen.warning.find("Take CampbellMethod::floquet") != std::string::npos);
+    CHECK(method(machine([](D& d) { d.blades = 0; }, 1)).find("fixed frame") == 0);
 }
 
 }  // namespace cardan::testing::machine_variants
