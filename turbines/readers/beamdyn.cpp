@@ -20,10 +20,14 @@ MatrixBlade key_points(OpenFastFile& file) {
     MatrixBlade blade;
     for (std::size_t i = 0; i < t.rows(); ++i) {
         blade.points.emplace_back(x[i], y[i], z[i]);
-        constexpr double largest = 1e5;  // m
+        constexpr double largest = 1e5, rounding = 1e-9;  // m; of the blade's length
         if (blade.points[i].cwiseAbs().maxCoeff() > largest)
             t.fail(i, text("key point (", x[i], ", ", y[i], ", ", z[i], "); allowed: up to ", largest, " m"));
-        if (i == 0 && !blade.points[0].isZero(0)) t.fail(0, "first key point; allowed: the blade root (0, 0, 0)");
+        if (i == 0) {
+            if (blade.points[0].norm() > rounding * std::abs(z.back()))
+                t.fail(0, "first key point; allowed: the blade root (0, 0, 0)");
+            blade.points[0].setZero();
+        }
         if (i > 0 && !(z[i] > z[i - 1])) t.fail(i, text("kp_zr = ", z[i], " after ", z[i - 1], "; allowed: larger"));
         if (std::abs(twist[i]) > 180) t.fail(i, text("initial_twist = ", twist[i], "; allowed: -180 ... 180 degrees"));
         blade.twist.push_back(twist[i] * units::degree);

@@ -25,10 +25,8 @@ const std::vector<KeywordGroup>& ignored_by_elastodyn() {
     return all;
 }
 
-// FAST 7 counts as PreCone(1), some files as PreCone1.
-std::string numbered(const OpenFastFile& file, const char* keyword, int blade) {
-    const std::string bare = text(keyword, blade);
-    return file.has(bare) ? bare : text(keyword, "(", blade, ")");
+std::string numbered(const char* keyword, int blade) {
+    return text(keyword, "(", blade, ")");
 }
 
 class Reader {
@@ -188,10 +186,10 @@ private:
         const double tip = positive("TipRad");
         if (!(tip > d_.hub.radius))
             file_.fail("TipRad", text("TipRad = ", tip, "; allowed: above HubRad = ", d_.hub.radius));
-        d_.blade.cone = angle(numbered(file_, "PreCone", 1), 45);
-        out_.pitch = angle(numbered(file_, "BlPitch", 1));
+        d_.blade.cone = angle(numbered("PreCone", 1), 45);
+        out_.pitch = angle(numbered("BlPitch", 1));
         d_.blade.pitch = context_.pitch;
-        const std::string blade_file = numbered(file_, "BldFile", 1);
+        const std::string blade_file = numbered("BldFile", 1);
         for (int k = 1; k <= d_.blades; ++k) note_blade(k);
         if (context_.blade) {
             ElastoDynBeam blade = *context_.blade;
@@ -221,8 +219,8 @@ private:
 
     // A blade of its own where it differs from the first.
     void read_other_blade(int k, double length) {
-        const std::string cone = numbered(file_, "PreCone", k), pitch = numbered(file_, "BlPitch", k),
-                          file = numbered(file_, "BldFile", k), first = numbered(file_, "BldFile", 1);
+        const std::string cone = numbered("PreCone", k), pitch = numbered("BlPitch", k), file = numbered("BldFile", k),
+                          first = numbered("BldFile", 1);
         BladeDescription own = d_.blade;
         if (file_.has(cone)) own.cone = angle(cone);
         if (file_.has(pitch)) own.pitch_setting = angle(pitch) - out_.pitch;
@@ -233,9 +231,9 @@ private:
     }
 
     void note_blade(int k) {
-        file_.note_unless(numbered(file_, "TipMass", k), 0, "tip masses are not part of the model");
-        file_.note_unless(numbered(file_, "PBrIner", k), 0, "inertia of the pitch bearing: not part of the model");
-        file_.note_unless(numbered(file_, "BlPIner", k), 0, "inertia of the pitch drive: not part of the model");
+        file_.note_unless(numbered("TipMass", k), 0, "tip masses are not part of the model");
+        file_.note_unless(numbered("PBrIner", k), 0, "inertia of the pitch bearing: not part of the model");
+        file_.note_unless(numbered("BlPIner", k), 0, "inertia of the pitch drive: not part of the model");
     }
 
     // A beam that bends has all its modes: it can be made rigid where all of its flags are False, but not lose one

@@ -12,10 +12,6 @@ void append(std::vector<FileNote>& notes, std::vector<FileNote> more) {
     for (FileNote& note : more) notes.push_back(std::move(note));
 }
 
-std::string bare_or_first(const OpenFastFile& file, const char* keyword) {
-    return file.has(text(keyword, "(1)")) ? text(keyword, "(1)") : text(keyword, "1");
-}
-
 // What ServoDyn knows of the structure.
 struct Servo {
     Bearing yaw = rigid_joint;
@@ -73,9 +69,9 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     ElastoDynContext context;
     context.yaw = servo.yaw;
     if (kind == 2) {
-        const std::string first = bare_or_first(main, "BDBldFile");
+        constexpr auto first = "BDBldFile(1)";
         BeamDynBlade blade = main.follow(first, [&] { return read_beamdyn(main.path(first)); });
-        for (const char* other : {"BDBldFile(2)", "BDBldFile(3)", "BDBldFile2", "BDBldFile3"})
+        for (const char* other : {"BDBldFile(2)", "BDBldFile(3)"})
             if (main.has(other) && main.word(other) != main.word(first))
                 main.note(other, "all blades are the first one");
         context.blade = std::move(blade.beam);

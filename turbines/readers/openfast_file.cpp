@@ -54,6 +54,13 @@ std::string utf8(std::string_view text) {
     return out;
 }
 
+// What a keyword is compared by: files write BldFlDmp(1), BldFlDmp1 and bldfldmp(1).
+std::string key_of(std::string_view keyword) {
+    std::string key = lower_case(keyword);
+    std::erase_if(key, [](char c) { return c == '(' || c == ')'; });
+    return key;
+}
+
 std::string joined(const std::vector<std::string>& words) {
     std::string all;
     for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
@@ -64,8 +71,7 @@ bool belongs(const std::string& keyword, const KeywordGroup& group) {
     return std::any_of(group.keywords.begin(), group.keywords.end(), [&](std::string_view member) {
         const bool beginning = member.ends_with('*');
         if (beginning) member.remove_suffix(1);
-        return beginning ? lower_case(keyword).starts_with(lower_case(member))
-                         : lower_case(keyword) == lower_case(member);
+        return beginning ? key_of(keyword).starts_with(key_of(member)) : key_of(keyword) == key_of(member);
     });
 }
 
@@ -170,9 +176,8 @@ OpenFastFile OpenFastFile::read(const std::filesystem::path& path) {
 }
 
 const OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) const {
-    const auto found = std::find_if(lines_.begin(), lines_.end(), [key = lower_case(keyword)](const Line& l) {
-        return lower_case(l.keyword) == key;
-    });
+    const auto found = std::find_if(lines_.begin(), lines_.end(),
+                                    [key = key_of(keyword)](const Line& l) { return key_of(l.keyword) == key; });
     return found == lines_.end() ? nullptr : &*found;
 }
 
@@ -185,9 +190,9 @@ OpenFastFile::Line& OpenFastFile::known(std::string_view keyword) {
     if (line == nullptr)
         throw ParseError(file_, lines_.back().number, 0,
                          cardan::text("no line with the keyword ", keyword, " up to the end of the file"));
-    const std::string key = lower_case(keyword);
+    const std::string key = key_of(keyword);
     for (const Line& other : lines_)
-        if (&other != line && lower_case(other.keyword) == key)
+        if (&other != line && key_of(other.keyword) == key)
             throw ParseError(file_, other.number, 0,
                              cardan::text(keyword, " is there already, in line ", line->number));
     line->used = true;

@@ -195,6 +195,7 @@ TEST_CASE("beamdyn: files that do not describe a blade are refused with the line
                Contains("row 6 of 6 of the table of kp_xr"));
     CHECK_THAT(main("5.0000      4.0000", "2.0000      4.0000"), Contains("kp_zr = 2 after 2.5; allowed: larger"));
     CHECK_THAT(main("0.0000      0.0000      0.0000", "0.1000      0.0000      0.0000"), Contains("first key point"));
+    CHECK(main("0.0000      0.0000      0.0000", "0.0000      0.0000     -8.1E-28") == "nothing was thrown");
     const auto blade = [&](const char* a, const char* b) { return message("small_BeamDyn_Blade.dat", a, b); };
     CHECK_THAT(blade("             3   station_total", "             4   station_total"),
                Contains("station 4 of 4, place"));

@@ -29,6 +29,7 @@ TEST_CASE("openfast file: entries are found by keyword in any case, with or with
         "1, 2,\t3  List - of numbers\n");
     CHECK(f.title() == "a title");
     CHECK(f.number("mass(1)") == 1500);
+    CHECK(f.number("Mass1") == 1500);  // some files have the brackets, some have not
     CHECK(f.word("dt") == "DEFAULT");
     CHECK(f.flag("FLAG"));
     CHECK(f.flag("Other"));
