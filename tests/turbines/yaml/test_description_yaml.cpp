@@ -104,6 +104,17 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         CHECK(read.blade_at(3) == nullptr);
         CHECK(read.blade_at(1) == &read.blade);
     }
+    SECTION("a file with every kind of entry") {
+        const TurbineDescription d =
+            read_description(std::string(CARDAN_SOURCE_DIR) + "/tests/fuzz/seeds/description/variants.yaml");
+        check_round_trip(d);
+        CHECK(d.yaw.rotation.hold == Bearing::Hold::free);
+        CHECK(d.yaw.rotation.damping == 3);
+        CHECK(d.hub.teeter->bearing.damping == 100);
+        CHECK(d.blade_at(2)->pitch_setting == 0.05);
+        CHECK(d.blade_at(3) == nullptr);
+        CHECK(assemble(d).layout().blade_numbers == std::vector<int>{1, 2});
+    }
     SECTION("a hub without blades") {
         TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
         d.blades = 0;
