@@ -79,9 +79,9 @@ public:
     std::string summary() const;
 
 private:
-    friend Turbine assemble(const TurbineDescription&, const AssemblyOptions&);
-    friend Turbine isolated_blade(const TurbineDescription&, const AssemblyOptions&, int);
-    friend Turbine isolated_tower(const TurbineDescription&, const AssemblyOptions&, bool);
+    friend Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options);
+    friend Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options, int number);
+    friend Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options, bool with_top);
     Turbine() = default;
     void finish(const class Assembler& assembler, const std::string& name, std::string source,
                 const std::string& settings);

@@ -70,14 +70,22 @@ MatrixCurve triangles(const YamlNode& node) {
     return out;
 }
 
-// Version 2: a list of every entry K11 ... K66.
+// A list of `count` numbers; zeros where the schema leaves it out.
+std::vector<double> numbers_or_zeros(const YamlNode& node, std::string_view key, std::size_t count) {
+    const auto list = node.find(key);
+    return list ? list->numbers(count) : std::vector<double>(count, 0.0);
+}
+
+// Version 2: a list of every entry K11 ... K66; couplings may be left out.
 MatrixCurve named_stiffness(const YamlNode& node) {
     MatrixCurve out;
-    out.values.assign(node["K11"].items().size(), Mat6::Zero());
+    out.values.assign(node["grid"].items().size(), Mat6::Zero());
     out.grid = increasing_grid(node["grid"], out.values.size());
     for (Eigen::Index i = 0; i < 6; ++i)
         for (Eigen::Index j = i; j < 6; ++j) {
-            const std::vector<double> entry = node[text("K", i + 1, j + 1)].numbers(out.grid.size());
+            const std::string key = text("K", i + 1, j + 1);
+            const std::vector<double> entry =
+                i == j ? node[key].numbers(out.grid.size()) : numbers_or_zeros(node, key, out.grid.size());
             for (std::size_t k = 0; k < entry.size(); ++k) out.values[k](i, j) = out.values[k](j, i) = entry[k];
         }
     return out;
@@ -87,7 +95,7 @@ MatrixCurve named_inertia(const YamlNode& node) {
     MatrixCurve out;
     const std::vector<double> mass = node["mass"].numbers();
     out.grid = increasing_grid(node["grid"], mass.size());
-    const auto list = [&](const char* key) { return node[key].numbers(mass.size()); };
+    const auto list = [&](const char* key) { return numbers_or_zeros(node, key, mass.size()); };
     const std::vector<double> x = list("cm_x"), y = list("cm_y"), edge = list("i_edge"), flap = list("i_flap"),
                               polar = list("i_plr"), product = list("i_cp");
     for (std::size_t k = 0; k < mass.size(); ++k) {
