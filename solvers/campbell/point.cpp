@@ -160,11 +160,10 @@ void PointSolver::set_system(double rotor_speed) {
     if (changing < negligible_remainder) return;
     if (coleman_)
         take_mean(rotor_speed, changing);
-    else
-        warn("constant",
-             text("the equations are not constant, although there is no rotor to transform: they change by ", changing,
-                  " (relative) with the azimuth, and those of azimuth 0 are used, which describe no "
-                  "motion of the machine. Take CampbellMethod::floquet"));
+    else if (!warned_of("not constant"))
+        warn(text("the equations are not constant, although there is no rotor to transform: they change by ", changing,
+                  " (relative) with the azimuth, and those of azimuth 0 are used, which describe no motion of the "
+                  "machine. Take CampbellMethod::floquet"));
 }
 
 void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out) {
@@ -198,12 +197,17 @@ void PointSolver::take_mean(double rotor_speed, double remainder) {
     const int azimuths = std::max(24, 2 * static_cast<int>(rotor_.blades.size()) + 1);
     const auto at = [&](int i, SecondOrderSystem& out) { set_at_azimuth(2 * pi * i / azimuths, rotor_speed, out); };
     average(azimuths, at, current_, other_);
-    warn("not isotropic", text("the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ",
-                               remainder, " (relative); its mean over the azimuth is used, which is an approximation"));
+    if (!warned_of("not isotropic"))
+        warn(text("the rotor is not isotropic: the multi-blade system keeps a periodic remainder of ", remainder,
+                  " (relative); its mean over the azimuth is used, which is an approximation"));
 }
 
-void PointSolver::warn(std::string_view once, const std::string& what) {
-    if (warning_.find(once) == std::string::npos) warning_ += text(warning_.empty() ? "" : "; ", what);
+bool PointSolver::warned_of(std::string_view what) const {
+    return warning_.find(what) != std::string::npos;
+}
+
+void PointSolver::warn(const std::string& what) {
+    warning_ += text(warning_.empty() ? "" : "; ", what);
 }
 
 std::vector<std::string> PointSolver::row_names() const {

@@ -82,8 +82,9 @@ private:
     void set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out);
     double remainder(double rotor_speed);
     void take_mean(double rotor_speed, double remainder);
-    // Unless a warning with the words `once` was given.
-    void warn(std::string_view once, const std::string& what);
+    // Checked before the text of a warning is built: later points allocate nothing.
+    bool warned_of(std::string_view what) const;
+    void warn(const std::string& what);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);
 
     const System& system_;
