@@ -100,6 +100,7 @@ solvers::LinearModel linearise(const turbines::Turbine& turbine, const Arguments
         solvers::PeriodicOptions periodic;
         periodic.rotor_speed = rotor_speed;
         periodic.harmonics = a.harmonics;
+        periodic.rotor = &turbine.rotor();
         const auto state = solvers::harmonic_balance(turbine.system(), spin, periodic);
         require_result(state);
         return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);

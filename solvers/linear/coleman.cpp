@@ -60,6 +60,21 @@ std::string multi_blade_name(const MultiBladeRow& row) {
     return {};
 }
 
+bool ColemanTransform::exists(const RotorMap& rotor, const std::vector<int>& coordinates) {
+    const std::size_t blades = rotor.blades.size();
+    if (blades == 0) return !rotor.rotating_pairs.empty();
+    if (blades == 1 || blades > max_blades) return false;
+    const std::size_t size = rotor.blades[0].size();
+    for (const std::vector<int>& blade : rotor.blades)
+        if (blade.size() != size) return false;
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto is_free = [&](const std::vector<int>& blade) { return row_of(coordinates, blade[i]) >= 0; };
+        const auto free = std::count_if(rotor.blades.begin(), rotor.blades.end(), is_free);
+        if (free != 0 && free != std::ssize(rotor.blades)) return false;
+    }
+    return true;
+}
+
 ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
     : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
     if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))

@@ -35,10 +35,20 @@ public:
     /// floquet()). Without blades only rotating pairs are transformed.
     /// @throws InputError if there is one blade or more than 32, or if they differ in their number of coordinates.
     ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
+    /// Whether the constructor accepts them.
+    static bool exists(const RotorMap& rotor, const std::vector<int>& coordinates);
 
     /// T, dT/dpsi or its second derivative at azimuth psi, as a full matrix.
     Matrix matrix(double psi, int derivative = 0) const;
     const std::vector<MultiBladeRow>& rows() const { return rows_; }
+
+    /// Two columns that rotate into one another: a' = -factor b, b' = factor a (derivatives by psi), so that T(psi) is
+    /// T(0) with them rotated by factor * psi.
+    struct TurningPair {
+        int a, b;
+        double factor;
+    };
+    const std::vector<TurningPair>& turning_pairs() const { return pairs_; }
 
     /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
     /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G
@@ -56,12 +66,6 @@ public:
 private:
     static constexpr int max_blades = 32;
 
-    // Two columns that rotate into one another: a' = -factor b, b' = factor a (derivatives by psi), i.e. T rotates them
-    // by factor * psi.
-    struct TurningPair {
-        int a, b;
-        double factor;
-    };
     void transform_columns(double psi, Matrix& A) const;
     void transform_rows(double psi, Matrix& A) const;
     void congruence(double psi, Matrix& A) const;

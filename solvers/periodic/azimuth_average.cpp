@@ -10,11 +10,12 @@ namespace cardan::solvers {
 
 namespace {
 
-PeriodicSteadyState periodic_state(const System& system, int spin, const AzimuthAverageOptions& options) {
+PeriodicSteadyState periodic_state(const System& system, const RotorMap& rotor, const AzimuthAverageOptions& options) {
     PeriodicOptions periodic;
     periodic.rotor_speed = options.rotor_speed;
     periodic.harmonics = options.harmonics;
-    PeriodicSteadyState state = harmonic_balance(system, spin, periodic);
+    periodic.rotor = &rotor;
+    PeriodicSteadyState state = harmonic_balance(system, rotor.spin, periodic);
     require_result(state);
     return state;
 }
@@ -42,7 +43,7 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
         mean.system = coleman.transform(restrict_to(lin, unknowns, rotor.spin), options.standstill, 0);
         return mean;
     }
-    const PeriodicSteadyState state = periodic_state(system, rotor.spin, options);
+    const PeriodicSteadyState state = periodic_state(system, rotor, options);
     const PeriodicSystem periodic = in_multi_blade_rows(linearised(system, state, unknowns), coleman, speed);
     mean.steady_remainder = state.remainder;
     mean.system = mean_over_period(periodic, options.azimuths);

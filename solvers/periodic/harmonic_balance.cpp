@@ -1,6 +1,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/periodic/detail/mean_jacobian.hpp"
 #include "solvers/periodic/detail/rotor_equations.hpp"
 
 #include <algorithm>
@@ -13,6 +14,11 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr const char* in_harmonic_balance = "harmonic balance";
+// What counts as converged if no step reduces the residual, which may be rounding.
+constexpr double small_residual = 1e-8;
+// Steps with the mean Jacobian: where the residual falls to less than this, the Jacobian is kept; where it does not
+// fall to less than the other, the step is no use.
+constexpr double good_reduction = 0.1, least_reduction = 0.5;
 
 // Unknowns are the coefficients column after column: entry l n + i is coefficient l of unknown i.
 class Balance {
@@ -32,6 +38,8 @@ private:
     Vector shortest_solution(const Matrix& J, const Vector& right);
     void describe(const Vector& null_vector);
     bool search(const Matrix& dx);
+    bool advance();
+    bool mean_step();
     void finish(PeriodicSteadyState& result, bool small);
 
     PeriodicOptions options_;
@@ -40,7 +48,9 @@ private:
     Matrix basis_[3];  // by derivative, times the power of the rotor speed: a column per azimuth
     Matrix weights_;   // of the projection on the harmonics: a column per azimuth
     std::vector<Index> held_;
-    Vector scale_, unit_;  // of residuals, per unknown; of entries for the linear system
+    std::optional<MeanJacobian> mean_;  // none: Newton's steps only
+    bool stale_ = true;                 // it belongs to another state
+    Vector scale_, unit_;               // of residuals, per unknown; of entries for the linear system
     Matrix x_, R_;
     std::string why_ = "the limit of iterations was reached";
     std::vector<std::string> open_;  // what the equations do not determine
@@ -63,6 +73,9 @@ Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
     }
     hold();
     x_ = equations_.start(options.harmonics);
+    if (options.rotor) mean_ = MeanJacobian::make(*options.rotor, equations_, options.harmonics);
+    for (Index row : held_)
+        if (mean_ && !mean_->hold(row)) mean_.reset();
     R_.setZero(x_.rows(), x_.cols());
 }
 
@@ -196,18 +209,46 @@ bool Balance::search(const Matrix& dx) {
     return false;
 }
 
+// A step with the mean Jacobian; afterwards x_ is better by half at least, or unchanged.
+bool Balance::mean_step() {
+    const bool fresh = stale_;
+    if (stale_) mean_->set(equations_, x_);
+    stale_ = false;
+    Matrix dx, R;
+    if (!mean_->step(R_, 0.1 * options_.tolerance, dx)) {
+        mean_.reset();
+        return false;
+    }
+    const Matrix x = x_ + dx;
+    const double before = norm(R_), after = evaluate(x, R) ? norm(R) : std::numeric_limits<double>::infinity();
+    if (after < least_reduction * before) {
+        x_ = x;
+        R_ = R;
+        stale_ = after > good_reduction * before;
+        return true;
+    }
+    stale_ = true;
+    return !fresh && mean_step();
+}
+
+// False if nothing makes the residual smaller.
+bool Balance::advance() {
+    if (mean_ && mean_step()) return true;
+    Matrix dx;
+    return step(dx) && search(dx);
+}
+
 PeriodicSteadyState Balance::solve() {
     PeriodicSteadyState result;
     set_scales();
     bool finite = evaluate(x_, R_);
     if (!finite) why_ = "the residual at the start is not finite";
-    Matrix dx;
     while (finite && largest(R_) > options_.tolerance && result.iterations < options_.iterations) {
-        finite = step(dx) && search(dx);
+        finite = advance();
         ++result.iterations;
     }
     // If no step reduces it, a small residual is as good as the arithmetic allows.
-    finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : 1e-8));
+    finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : small_residual));
     return result;
 }
 

@@ -2,6 +2,7 @@
 /// Periodic steady state of a rotor that turns at constant speed: gravity, unbalance, two blades.
 #pragma once
 
+#include "mbs/model/rotor_map.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 
 #include <span>
@@ -24,6 +25,9 @@ struct PeriodicOptions {
     /// Harmonic balance: coordinates whose mean is held at that of `start` by a load, which is part of the result. For
     /// unrestrained coordinates, such as free yaw.
     std::vector<int> held = {};
+    /// Harmonic balance: the blades. With three or more alike, steps cost a small part of Newton's; the steady state is
+    /// the same to the tolerance. Null: Newton's steps only.
+    const RotorMap* rotor = nullptr;
     /// Shooting: steps per revolution (0: 8 harmonics, at least 64) and stages of Radau's method (order 2 s - 1).
     int steps = 0, stages = 5;
 };
@@ -66,7 +70,9 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 /// is taken and `note` says so, unless the start already is a solution.
 ///                                                             [Cameron and Griffin 1989; Krack and Gross 2019]
 ///
-/// Cost per iteration O(samples harmonics^2 n^2) and a linear system of n (2 harmonics + 1) rows.
+/// Cost per iteration O(samples harmonics^2 n^2) and a linear system of n (2 harmonics + 1) rows. If `rotor` is given,
+/// the Jacobian is the mean of that over the revolution in multi-blade coordinates as long as the residual falls well:
+/// an iteration then costs a linear system of n complex rows for every harmonic that matters.
 /// @throws InputError for options out of range; user forces must have the period of a revolution and are not checked
 PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options);
 

@@ -78,6 +78,7 @@ solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rot
     solvers::PeriodicOptions options;
     options.rotor_speed = rotor_speed;
     options.harmonics = 4;
+    options.rotor = &turbine.rotor();
     const solvers::PeriodicSteadyState state =
         solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
     require_result(state, "equilibrium");

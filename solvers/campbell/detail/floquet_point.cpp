@@ -154,6 +154,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     PeriodicOptions options;
     options.harmonics = options_.floquet.harmonics;
     options.held = options_.floquet.held;
+    options.rotor = &rotor_;
     // The known state first: from it the next one is approached in parts if it has to be.
     std::vector<double> speeds{rotor_speed};
     if (state_) {

@@ -1,0 +1,157 @@
+#include "solvers/periodic/detail/mean_jacobian.hpp"
+
+#include "mbs/base/entry.hpp"
+#include "solvers/periodic/periodic_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+// What is smaller than this beside the largest waits for the next step.
+constexpr double small_share = 1e-3;
+// Below, a matrix counts as singular; what that means is left to Newton's method.
+constexpr double least_rcond = 1e-12;
+
+// T turns its columns by so many harmonics.
+int highest_harmonic(const ColemanTransform& transform) {
+    double highest = 0;
+    for (const ColemanTransform::TurningPair& pair : transform.turning_pairs())
+        highest = std::max(highest, std::abs(pair.factor));
+    return static_cast<int>(std::lround(highest));
+}
+
+// Multi-blade matrices of alike blades hold harmonics that are multiples of the number of blades; the mean over so many
+// azimuths is exact up to the third of them.
+int azimuths_of_mean(const ColemanTransform& transform) {
+    return 4 * (2 * highest_harmonic(transform) + 1);
+}
+
+}  // namespace
+
+std::optional<MeanJacobian> MeanJacobian::make(const RotorMap& rotor, const RotorEquations& equations, int harmonics) {
+    if (equations.size() == 0 || rotor.blades.size() == 2) return {};
+    if (!ColemanTransform::exists(rotor, equations.unknowns())) return {};
+    return MeanJacobian(ColemanTransform(rotor, equations.unknowns()), equations.rotor_speed(), harmonics);
+}
+
+MeanJacobian::MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics)
+    : transform_(transform),
+      rotor_speed_(rotor_speed),
+      harmonics_(harmonics),
+      z_harmonics_(harmonics + highest_harmonic(transform)),
+      at_zero_(transform.matrix(0)) {
+    // A product of two series, one of x and one of z, is projected without error.
+    const int count = 2 * z_harmonics_ + 1;
+    basis_.resize(2 * harmonics_ + 1, count);
+    z_basis_.resize(2 * z_harmonics_ + 1, count);
+    for (int s = 0; s < count; ++s) {
+        azimuths_.push_back(2 * pi * s / count);
+        basis_.col(s) = fourier_basis(azimuths_.back(), harmonics_);
+        z_basis_.col(s) = fourier_basis(azimuths_.back(), z_harmonics_);
+    }
+}
+
+bool MeanJacobian::hold(Index row) {
+    if (entry(transform_.rows(), row).blade_coordinate >= 0) return false;
+    for (const ColemanTransform::TurningPair& pair : transform_.turning_pairs())
+        if (row == pair.a || row == pair.b) return false;
+    held_.push_back(row);
+    return true;
+}
+
+void MeanJacobian::set(RotorEquations& equations, const Matrix& x) {
+    const int count = azimuths_of_mean(transform_);
+    const auto set_at = [&](int s, SecondOrderSystem& out) {
+        const double psi = 2 * pi * s / count;
+        equations.set_on(x, psi);
+        equations.linearise(out);
+        transform_.transform_in_place(out, psi, rotor_speed_);
+    };
+    set_at(0, mean_);
+    average(count, set_at, mean_, at_);
+    factors_.clear();
+}
+
+// T(psi) is T(0) with the columns of every turning pair rotated; the same pairs of rows of z, forth or back.
+void MeanJacobian::turn(Matrix& values, double sense) const {
+    for (Index s = 0; s < values.cols(); ++s)
+        for (const ColemanTransform::TurningPair& pair : transform_.turning_pairs()) {
+            const double angle = sense * pair.factor * entry(azimuths_, s), c = std::cos(angle), d = std::sin(angle),
+                         a = values(pair.a, s), b = values(pair.b, s);
+            values(pair.a, s) = c * a - d * b;
+            values(pair.b, s) = d * a + c * b;
+        }
+}
+
+Matrix MeanJacobian::to_multi_blade(const Matrix& R) const {
+    Matrix values = at_zero_.transpose() * R * basis_;
+    turn(values, 1);
+    return fourier_coefficients(values, z_harmonics_);
+}
+
+Matrix MeanJacobian::from_multi_blade(const Matrix& z) const {
+    Matrix values = z * z_basis_;
+    turn(values, -1);
+    return fourier_coefficients(at_zero_ * values, harmonics_);
+}
+
+// The larger of stiffness and inertia.
+Vector MeanJacobian::scale(int harmonic) const {
+    const double omega = std::max(1, harmonic) * rotor_speed_;
+    const Vector scale = mean_.K.diagonal().cwiseAbs().cwiseMax(omega * omega * mean_.M.diagonal());
+    return scale.cwiseMax(1e-12 * scale.maxCoeff());
+}
+
+// The complex matrix as a real one on (Re, -Im), the coefficients of cosine and sine:
+// (A + i B)(c - i s) = (A c + B s) - i (A s - B c).
+const MeanJacobian::Factors* MeanJacobian::factors(int harmonic) {
+    if (const auto known = factors_.find(harmonic); known != factors_.end()) return &known->second;
+    const double omega = harmonic * rotor_speed_;
+    const Vector unit = scale(harmonic).cwiseSqrt().cwiseInverse();
+    Matrix A = unit.asDiagonal() * (mean_.K - omega * omega * mean_.M) * unit.asDiagonal();
+    const Index n = A.rows();
+    if (harmonic == 0) {
+        for (Index row : held_) {
+            A.row(row).setZero();
+            A.col(row).setZero();
+            A(row, row) = 1;
+        }
+    } else {
+        const Matrix B = omega * (unit.asDiagonal() * mean_.C * unit.asDiagonal()), real = A;
+        A.resize(2 * n, 2 * n);
+        A << real, B, -B, real;
+    }
+    if (!A.allFinite()) return nullptr;
+    const Factors& found = factors_.emplace(harmonic, A).first->second;
+    return found.rcond() > least_rcond ? &found : nullptr;
+}
+
+bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx) {
+    Matrix r = to_multi_blade(R);
+    for (Index row : held_) r(row, 0) = 0;
+    const Index n = r.rows();
+    const auto part = [&](int j) { return j == 0 ? r.leftCols(1) : r.middleCols(2 * j - 1, 2); };
+    Vector size(z_harmonics_ + 1);
+    for (int j = 0; j <= z_harmonics_; ++j) size(j) = (part(j).array().colwise() / scale(j).array()).abs().maxCoeff();
+    const double small = std::max(small_share * size.maxCoeff(), negligible);
+    for (int j = 0; j <= z_harmonics_; ++j) {
+        auto own = part(j);
+        if (!(size(j) > small)) {
+            own.setZero();
+            continue;
+        }
+        const Factors* const lu = factors(j);
+        if (!lu) return false;
+        const Vector unit = scale(j).cwiseSqrt().cwiseInverse().replicate(j == 0 ? 1 : 2, 1);
+        own = -unit.cwiseProduct(lu->solve(unit.cwiseProduct(own.reshaped()))).reshaped(n, own.cols());
+    }
+    dx = from_multi_blade(r);
+    return dx.allFinite();
+}
+
+}  // namespace cardan::solvers

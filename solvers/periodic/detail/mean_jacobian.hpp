@@ -1,0 +1,58 @@
+/// @file
+/// Steps toward a periodic steady state with a Jacobian that is constant over the revolution.
+#pragma once
+
+#include "mbs/base/decompositions.hpp"
+#include "solvers/linear/coleman.hpp"
+#include "solvers/periodic/detail/rotor_equations.hpp"
+
+#include <map>
+#include <optional>
+
+namespace cardan::solvers {
+
+/// Newton's step for harmonic balance with M, C and K replaced by their means over the revolution in multi-blade
+/// coordinates z. Where three or more blades are alike, these matrices hardly depend on the azimuth, so the step is
+/// nearly the exact one, and the linear system of n (2 harmonics + 1) rows falls apart into one of n complex rows per
+/// harmonic:
+///
+///     (K - (j Omega)^2 M + i j Omega C) dz_j = -(T^T r)_j,    dx = T dz.
+class MeanJacobian {
+public:
+    /// None where that is no use: without multi-blade coordinates, and for two blades, whose equations change with the
+    /// azimuth in any coordinates.
+    static std::optional<MeanJacobian> make(const RotorMap& rotor, const RotorEquations& equations, int harmonics);
+
+    /// No step changes the mean of this unknown. @returns false for a blade's coordinate, of which there is none
+    bool hold(Eigen::Index row);
+    /// Takes the means on the series x, a row per unknown.  Cost O(n^2) at every azimuth
+    void set(RotorEquations& equations, const Matrix& x);
+    /// The step that cancels the harmonics R of the residual, as far as they matter: those that are a thousandth of the
+    /// largest, or smaller than `negligible`, are left for the next step. Most are, and the factors of a harmonic are
+    /// computed when they are first needed.
+    /// @param negligible  residual / stiffness
+    /// @returns false if a matrix is singular (something that nothing holds) or not finite
+    bool step(const Matrix& R, double negligible, Matrix& dx);
+
+private:
+    using Factors = Eigen::PartialPivLU<Matrix>;
+
+    MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics);
+    void turn(Matrix& values, double sense) const;
+    Matrix to_multi_blade(const Matrix& R) const;
+    Matrix from_multi_blade(const Matrix& z) const;
+    Vector scale(int harmonic) const;
+    const Factors* factors(int harmonic);
+
+    ColemanTransform transform_;
+    double rotor_speed_;
+    int harmonics_, z_harmonics_;  ///< multi-blade coordinates have more
+    Matrix at_zero_;               ///< T(0)
+    std::vector<double> azimuths_;
+    Matrix basis_, z_basis_;  ///< at the azimuths, by column
+    std::vector<Eigen::Index> held_;
+    SecondOrderSystem mean_, at_;
+    std::map<int, Factors> factors_;  ///< by harmonic
+};
+
+}  // namespace cardan::solvers
