@@ -2,25 +2,13 @@
 
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/dense.hpp"
+#include "solvers/linear/detail/shifted_state.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace cardan::solvers {
 
 namespace {
-
-// A frequency near the lowest elastic one: the smallest Rayleigh quotient of a single coordinate. Where there is no
-// spring at all, a small stiffness is what rounding leaves of loads that cancel.
-double lowest_scale(const SecondOrderSystem& system) {
-    double lowest = std::numeric_limits<double>::infinity();
-    const double rounding = 1e-14 * system.K.norm();
-    for (Eigen::Index i = 0; i < system.M.rows(); ++i) {
-        const double k = std::abs(system.K(i, i)), spring = std::abs(system.K_elastic(i, i));
-        if (k > rounding || (spring > 0 && k > 1e-3 * spring)) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
-    }
-    return std::isfinite(lowest) ? lowest : 1.0;
-}
 
 // Size of (lambda^2 M + lambda C + K) x beside that of its terms, rows weighed by `d`.
 template <class Shape>
@@ -40,7 +28,6 @@ double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda
     return std::sqrt(rest / terms);
 }
 
-constexpr double high = 1e6;           // times the lowest frequency: what is above may be rounding
 constexpr double largest_rest = 0.01;  // of the equations' terms
 
 }  // namespace
@@ -90,20 +77,14 @@ ModeSolver::ModeSolver(Eigen::Index rows)
 std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
     found_.clear();
     const Eigen::Index n = d_.size();
-    for (const Matrix* m : {&system.M, &system.C, &system.K, &system.K_elastic})
-        if (m->rows() != n || m->cols() != n)
-            throw InputError("modes", "size of a system matrix", text(m->rows(), " x ", m->cols()), text(n, " x ", n));
+    check_modes_input(system, n, K_s_);
     if (n == 0) return 0;
-    if (!system.M.allFinite() || !system.C.allFinite() || !system.K.allFinite())
-        throw NumericalError("modes: a system matrix is not finite");
-    K_s_ = system.M;
-    if (!positive_definite(K_s_)) throw NumericalError("modes: the mass matrix is not positive definite");
-    const double scale = lowest_scale(system), sigma = 0.1 * scale, s = sigma / scale;
+    const double scale = lowest_scale(system), s = mode_shift;
     set_state_matrix(system, scale, s);
     if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
-    collect(scale, s, 1e-3 * sigma);
+    collect(scale, s, rigid_ratio_of_modes * scale);
     std::erase_if(found_, [&](const Found& found) {
-        if (std::abs(found.eigenvalue) < high * scale) return false;
+        if (std::abs(found.eigenvalue) < doubtful_ratio_of_modes * scale) return false;
         const bool complex = found.eigenvalue.imag() != 0;
         const auto shape = [&](Eigen::Index j) {
             return Complex(shapes_(j, found.column), complex ? shapes_(j, found.column + 1) : 0.0);

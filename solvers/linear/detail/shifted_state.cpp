@@ -1,0 +1,33 @@
+#include "solvers/linear/detail/shifted_state.hpp"
+
+#include "mbs/base/error.hpp"
+#include "solvers/algebra/dense.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cardan::solvers {
+
+double lowest_scale(const SecondOrderSystem& system) {
+    double lowest = std::numeric_limits<double>::infinity();
+    const double rounding = 1e-14 * system.K.norm();
+    for (Eigen::Index i = 0; i < system.M.rows(); ++i) {
+        const double k = std::abs(system.K(i, i)), spring = std::abs(system.K_elastic(i, i));
+        if (k > rounding || (spring > 0 && k > 1e-3 * spring)) lowest = std::min(lowest, std::sqrt(k / system.M(i, i)));
+    }
+    return std::isfinite(lowest) ? lowest : 1.0;
+}
+
+void check_modes_input(const SecondOrderSystem& system, Eigen::Index n, Matrix& scratch) {
+    for (const Matrix* m : {&system.M, &system.C, &system.K, &system.K_elastic})
+        if (m->rows() != n || m->cols() != n)
+            throw InputError("modes", "size of a system matrix", text(m->rows(), " x ", m->cols()), text(n, " x ", n));
+    if (n == 0) return;
+    if (!system.M.allFinite() || !system.C.allFinite() || !system.K.allFinite())
+        throw NumericalError("modes: a system matrix is not finite");
+    scratch = system.M;
+    if (!positive_definite(scratch)) throw NumericalError("modes: the mass matrix is not positive definite");
+}
+
+}  // namespace cardan::solvers
