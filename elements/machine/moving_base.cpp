@@ -16,16 +16,26 @@ std::string written(const Vec3& v) {
     return text("(", v(0), ", ", v(1), ", ", v(2), ")");
 }
 
-void check(const std::string& name, const MovingBaseOptions& options) {
+// A rotation that takes z onto the direction; along an axis its entries are 0 and +-1.
+Mat3 onto(const Vec3& direction) {
+    Eigen::Index smallest = 0;
+    direction.cwiseAbs().minCoeff(&smallest);
+    const Vec3 z = direction.normalized(), x = cross<double>(Vec3::Unit(smallest), z).normalized();
+    return (Mat3() << x, cross<double>(z, x), z).finished();
+}
+
+}  // namespace
+
+void MovingBaseOptions::check(const std::string& name) const {
     constexpr double smallest = 1e-3;  // sine of the angle between axes that count as different
-    const auto& along = options.directions;
+    const auto& along = directions;
     for (std::size_t i = 0; i < along.size(); ++i)
         if (!(std::abs(along.at(i).norm() - 1) < 1e-9))
             throw InputError(name, text("direction of ", names.at(i)), written(along.at(i)), "a unit vector");
     const double volume = dot<double>(cross<double>(along[0], along[1]), along[2]);
     if (std::abs(volume) < smallest)
         throw InputError(name, "volume spanned by surge, sway and heave", volume, text("at least ", smallest));
-    const auto& order = options.rotations;
+    const auto& order = rotations;
     for (BaseCoordinate rotation : {BaseCoordinate::roll, BaseCoordinate::pitch, BaseCoordinate::yaw})
         if (std::ranges::count(order, rotation) != 1)
             throw InputError(name, text("number of rotations called ", entry(names, rotation)),
@@ -40,18 +50,8 @@ void check(const std::string& name, const MovingBaseOptions& options) {
     }
 }
 
-// A rotation that takes z onto the direction; along an axis its entries are 0 and +-1.
-Mat3 onto(const Vec3& direction) {
-    Eigen::Index smallest = 0;
-    direction.cwiseAbs().minCoeff(&smallest);
-    const Vec3 z = direction.normalized(), x = cross<double>(Vec3::Unit(smallest), z).normalized();
-    return (Mat3() << x, cross<double>(z, x), z).finished();
-}
-
-}  // namespace
-
 MovingBase add_moving_base(Tree& tree, FrameId carrier, const std::string& name, const MovingBaseOptions& options) {
-    check(name, options);
+    options.check(name);
     MovingBase base;
     FrameId at = carrier;
     const auto add = [&](BaseCoordinate which, JointKind kind) {

@@ -25,6 +25,11 @@ struct MovingBaseOptions {
     CoordinateRole role = CoordinateRole::driven;
     /// Roles of individual coordinates, surge ... yaw, where they differ from `role`.
     std::array<std::optional<CoordinateRole>, 6> roles = {};
+
+    /// @param name  of the base, for messages
+    /// @throws InputError: a direction that is no unit vector, translations in one plane, consecutive rotations about
+    /// one axis, an order that lacks a rotation
+    void check(const std::string& name) const;
 };
 
 /// What was added to the tree.
@@ -37,8 +42,7 @@ struct MovingBase {
 /// Three translations in the carrier's axes (surge, sway, heave), then three rotations about the point reached: six
 /// massless bodies. Coordinates are called "<name> surge" ... "<name> yaw", the frame "<name>". What stands on the base
 /// is added to the frame; its masses by Tree::weld() there.
-/// @throws InputError: a direction that is no unit vector, translations in one plane, consecutive rotations about one
-/// axis, an order that lacks a rotation
+/// @throws InputError as MovingBaseOptions::check()
 MovingBase add_moving_base(Tree& tree, FrameId carrier, const std::string& name = "platform",
                            const MovingBaseOptions& options = {});
 

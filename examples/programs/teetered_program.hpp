@@ -37,11 +37,11 @@ inline turbines::Turbine machine(const TeeteredArguments& a) {
                                                    : turbines::teetered_description(std::filesystem::path(a.data));
     if (a.tower_ratio) description = turbines::with_tower_rigidity(description, *a.tower_ratio);
     if (a.no_teeter) description.hub.teeter->bearing = turbines::rigid_joint;
+    description.tower.rigid = a.rigid_tower;
     turbines::AssemblyOptions options = turbines::teetered_assembly();
     options.blade_beam->elements = a.blade_elements;
     options.tower_beam->elements = a.tower_elements;
     options.blade_beam->torsion_armature = options.tower_beam->torsion_armature = -1. / 12;  // of fourth order
-    options.rigid_tower = a.rigid_tower;
     if (a.gravity) options.gravity = {0, 0, -units::standard_gravity};
     return turbines::assemble(description, options);
 }

@@ -70,7 +70,7 @@ turbines::Wt600Operation machine_of(const Arguments& a) {
     options.wind = a.wind;
     options.tower_shadow = a.shadow;
     if (std::ranges::any_of(a.motions, [](const std::string& given) { return !given.empty(); }))
-        options.assembly.platform.emplace();
+        options.platform.emplace();
     return turbines::wt600_operation(options);
 }
 

@@ -71,6 +71,7 @@ TurbineDescription describe(const Nrel5mwBlade& blade, const CsvTable& tower, co
     TurbineDescription d;
     d.name = options.tower == Nrel5mwTower::land_based ? "NREL 5 MW machine, land-based"
                                                        : "NREL 5 MW machine, tower of the OC3-Hywind spar";
+    d.rotor_speed = q.number("rated_rotor_speed", "rpm") * units::rpm;
     d.blades = static_cast<int>(q.number("number_of_blades", "-"));
     d.tower.line = tower_line(tower);
     const double tower_ratio = q.number("tower_structural_damping_ratio", "%") * percent;

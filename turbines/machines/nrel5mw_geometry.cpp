@@ -17,7 +17,8 @@ Nrel5mwGeometry read_geometry() {
             .overhang = -q.number("overhang", "m"),
             .tilt = -q.number("shaft_tilt", "deg") * units::degree,
             .cone = q.number("precone", "deg") * units::degree,
-            .hub_radius = q.number("hub_radius", "m")};
+            .hub_radius = q.number("hub_radius", "m"),
+            .rated_speed = q.number("rated_rotor_speed", "rpm") * units::rpm};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ struct Nrel5mwGeometry {
     double tilt;               ///< upwind end of the shaft up
     double cone;               ///< tips downwind positive
     double hub_radius;
+    double rated_speed;  ///< of the rotor, rad/s
 };
 
 /// The data, read once.

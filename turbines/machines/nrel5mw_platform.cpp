@@ -2,6 +2,9 @@
 
 #include "mbs/base/error.hpp"
 #include "turbines/machines/nrel5mw_geometry.hpp"
+#include "turbines/model/beam_table.hpp"
+
+#include <limits>
 
 namespace cardan::turbines {
 
@@ -9,19 +12,45 @@ namespace {
 
 constexpr auto machine_name = "NREL 5 MW machine on a platform";
 
-// A rigid tower without mass under a rigid nacelle without mass; blade k stands at k of three places.
-TurbineDescription description_of(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options) {
+PlatformDescription driven_platform() {
+    PlatformDescription platform;
+    platform.coordinates.directions = {Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(),
+                                       Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ()};
+    platform.coordinates.rotations = {BaseCoordinate::roll, BaseCoordinate::pitch, BaseCoordinate::yaw};
+    return platform;
+}
+
+// A table, so that the description can be written to a file.
+BeamLine rigid_massless_line(double length) {
+    EngineeringSection section;
+    section.GJ = section.EI_flap = section.EI_edge = std::numeric_limits<double>::infinity();
+    BeamTable table;
+    table.name = "tower";
+    table.stations = {0, length};
+    table.sections = {section, section};
+    return beam_line(table);
+}
+
+}  // namespace
+
+TurbineDescription nrel5mw_platform_description(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options) {
+    if (options.blades < 1 || options.blades > 3)
+        throw InputError(machine_name, "number of blades", options.blades, "1 ... 3");
     const Nrel5mwGeometry& geometry = nrel5mw_geometry();
     TurbineDescription d;
     d.name = machine_name;
     d.source = blade.source;
+    d.rotor_speed = geometry.rated_speed;
     for (int missing = options.blades + 1; missing <= d.blades; ++missing) d.own_blades[missing] = std::nullopt;
-    d.tower.line.length = geometry.tower_height;
+    d.tower.line = rigid_massless_line(geometry.tower_height);
+    d.tower.rigid = true;
+    d.platform = driven_platform();
     d.yaw.rotation = driven_joint;
     d.nacelle.shaft_height = geometry.shaft_above_tower;
     d.nacelle.tilt = geometry.tilt;
     d.nacelle.overhang = geometry.overhang;
     d.drive_train.main_shaft = rigid_joint;
+    d.drive_train.spin = CoordinateRole::driven;
     d.hub.radius = blade.root_radius;
     d.blade.line = blade.line;
     d.blade.pitch = driven_joint;
@@ -29,16 +58,6 @@ TurbineDescription description_of(const Nrel5mwBlade& blade, const Nrel5mwPlatfo
     d.blade.damping = options.elements.damping;
     return d;
 }
-
-PlatformOptions driven_platform() {
-    PlatformOptions platform;
-    platform.coordinates.directions = {Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(),
-                                       Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ()};
-    platform.coordinates.rotations = {BaseCoordinate::roll, BaseCoordinate::pitch, BaseCoordinate::yaw};
-    return platform;
-}
-
-}  // namespace
 
 CardanBeamOptions nrel5mw_platform_elements(int elements, double beta) {
     CardanBeamOptions options = nrel5mw_blade_elements(elements);
@@ -53,17 +72,13 @@ Nrel5mwBlade nrel5mw_platform_blade() {
 }
 
 Turbine nrel5mw_on_platform(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options) {
-    if (options.blades < 1 || options.blades > 3)
-        throw InputError(machine_name, "number of blades", options.blades, "1 ... 3");
+    const TurbineDescription description = nrel5mw_platform_description(blade, options);
     AssemblyOptions assembly;
     assembly.pitch = options.pitch;
     assembly.gravity = options.gravity;
-    assembly.rigid_tower = true;
-    assembly.spin = CoordinateRole::driven;
-    assembly.platform = driven_platform();
     assembly.blade_beam = options.elements;
     assembly.blade_beam->damping = {};
-    return assemble(description_of(blade, options), assembly);
+    return assemble(description, assembly);
 }
 
 namespace {

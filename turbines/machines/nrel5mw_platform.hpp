@@ -32,6 +32,10 @@ struct Nrel5mwPlatformOptions {
     Vec3 gravity{0, 0, -units::standard_gravity};  ///< ground axes, m/s^2
 };
 
+/// The machine as described below.
+/// @throws InputError for a number of blades out of range
+TurbineDescription nrel5mw_platform_description(const Nrel5mwBlade& blade, const Nrel5mwPlatformOptions& options = {});
+
 /// Heights, overhang, tilt (5 degrees), cone (2.5 degrees, tips upwind) are those of nrel5mw_turbine.csv. All bodies
 /// except the blades are massless: the drive forces are those required by the blades. The platform's six coordinates,
 /// the yaw of the nacelle, the rotor and the pitch of each blade are driven; the blades' are free.

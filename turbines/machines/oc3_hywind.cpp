@@ -71,6 +71,7 @@ PlatformDescription describe_spar(const CsvQuantities& q) {
                          q.number("damping_yaw", "N m s/rad"));
     p.buoyancy = q.number("buoyancy", "N");
     p.mooring_pull.z() = q.number("mooring_pull_heave", "N");
+    p.coordinates.role = CoordinateRole::free;
     return p;
 }
 
@@ -89,15 +90,28 @@ PlatformDescription oc3_hywind(const std::filesystem::path& folder) {
     return p;
 }
 
+TurbineDescription nrel5mw_oc3_hywind_description(Nrel5mwOptions options) {
+    options.tower = Nrel5mwTower::oc3_hywind;
+    TurbineDescription d = nrel5mw_description(options);
+    d.platform = oc3_hywind();
+    return d;
+}
+
+TurbineDescription nrel5mw_oc3_hywind_description(const std::filesystem::path& folder, Nrel5mwOptions options) {
+    const PlatformDescription spar = oc3_hywind(folder);
+    options.tower = Nrel5mwTower::oc3_hywind;
+    TurbineDescription d = nrel5mw_description(folder, options);
+    d.platform = spar;
+    return d;
+}
+
 Turbine nrel5mw_on_oc3_hywind(CoordinateRole role, Nrel5mwVariant variant, int blade_elements, int tower_elements,
                               const Vec3& gravity) {
-    Nrel5mwOptions data = nrel5mw_options(variant);
-    data.tower = Nrel5mwTower::oc3_hywind;
+    TurbineDescription d = nrel5mw_oc3_hywind_description(nrel5mw_options(variant));
+    d.platform->coordinates.role = role;
     AssemblyOptions options = nrel5mw_assembly(variant, blade_elements, tower_elements);
     options.gravity = gravity;
-    options.platform = free_floating(oc3_hywind());
-    options.platform->coordinates.role = role;
-    return assemble(nrel5mw_description(data), options);
+    return assemble(d, options);
 }
 
 }  // namespace cardan::turbines

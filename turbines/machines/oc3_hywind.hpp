@@ -13,13 +13,22 @@ namespace cardan::turbines {
 /// reference point is on the still water level. Buoyancy acts there: its moment is part of the hydrostatic stiffness,
 /// as in the report. The stiffness of the mooring is made symmetric (the published entries surge-pitch and pitch-surge
 /// differ by 0.2 %). The added mass comes from strip theory with the published coefficient, which represents the
-/// low-frequency limit; in heave it is an estimate. No radiation damping, no viscous drag.
+/// low-frequency limit; in heave it is an estimate. No radiation damping, no viscous drag. All six coordinates are
+/// free.
 PlatformDescription oc3_hywind();
 /// As above, from a folder with oc3_hywind_platform.csv.
 /// @throws FileError, ParseError; InputError, also if the displaced volume differs from that of the hull
 PlatformDescription oc3_hywind(const std::filesystem::path& folder);
 
-/// Description and elements of one variant on the spar, with its own tower of 77.6 m on a foot 10 m above the water.
+/// The machine on the spar, free, with its own tower of 77.6 m on a foot 10 m above the water. A free spar needs
+/// gravity: its weight keeps it upright.
+/// @param options  as nrel5mw_description() but for the tower
+TurbineDescription nrel5mw_oc3_hywind_description(Nrel5mwOptions options = {});
+/// As above, from a folder.
+/// @throws FileError, ParseError, InputError
+TurbineDescription nrel5mw_oc3_hywind_description(const std::filesystem::path& folder, Nrel5mwOptions options = {});
+
+/// That description and the elements of one variant.
 /// @param role  of all six coordinates: free, or driven
 /// @param gravity  a free spar needs it: its weight keeps it upright
 Turbine nrel5mw_on_oc3_hywind(CoordinateRole role, Nrel5mwVariant variant = Nrel5mwVariant::report,

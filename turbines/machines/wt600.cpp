@@ -49,6 +49,8 @@ BeamLine blade_line(const CsvTable& t, double length) {
 TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     TurbineDescription d;
     d.name = "600 kW three-blade machine (Zhao, Maisser, Wu 2007)";
+    // Rated operation of the paper's Table 1: its tip speed ratio at its rated wind.
+    d.rotor_speed = q.number("tip_speed_ratio", "-") * q.number("rated_wind", "m/s") / q.number("rotor_radius", "m");
     const auto spring = [&](const char* stiffness, const char* damping) {
         return Bearing{q.number(stiffness, "N m/rad"), q.number(damping, "N m s/rad")};
     };

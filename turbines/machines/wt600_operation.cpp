@@ -102,6 +102,7 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
     if (!(options.wind >= 0) || std::isinf(options.wind))
         throw InputError("600 kW machine", "wind speed [m/s]", options.wind, "finite and >= 0");
     TurbineDescription description = options.data.empty() ? wt600_description() : wt600_description(options.data);
+    description.platform = options.platform;
     const Bearing mechanism = std::exchange(description.blade.pitch, free_joint);
     const Turbine bare = assemble(description, options.assembly);
     const MachineLayout& layout = bare.layout();

@@ -34,7 +34,8 @@ RotorCurve wt600_rotor_curve();
 
 struct Wt600OperationOptions {
     AssemblyOptions assembly = {.gravity = Vec3(0, 0, -units::standard_gravity)};
-    std::filesystem::path data = {};  ///< folder of the data set; empty: built in
+    std::filesystem::path data = {};                             ///< folder of the data set; empty: built in
+    std::optional<PlatformDescription> platform = std::nullopt;  ///< under the tower
     Wt600Generator generator = Wt600Generator::induction;
     bool at_grid = true;      ///< generator connected at the start
     double pitch = 0;         ///< pitch command at the start, rad, positive toward feather

@@ -34,7 +34,7 @@ BeamDamping sum(BeamDamping given, const BeamDamping& at_first_mode) {
 
 // Damping ratios are given for the first mode of each part: a first, undamped assembly tells its frequency.
 BeamDamping tower_damping(const TurbineDescription& d, const AssemblyOptions& options) {
-    if (d.tower.first_mode_damping == 0 || options.rigid_tower) return d.tower.damping;
+    if (d.tower.first_mode_damping == 0 || d.tower.rigid) return d.tower.damping;
     const PartDamping none;
     Assembler machine(d, options, none);
     machine.whole_machine();
@@ -126,6 +126,7 @@ namespace {
 // Last, so that it can be cut off and read again; what it was read from stands before it.
 std::string computed(TurbineDescription description) {
     description.source.clear();
+    if (description.platform) description.platform->source.clear();
     return text("\n\nthe machine that was computed\n", description_text(description));
 }
 
@@ -137,25 +138,80 @@ Turbine assemble(const TurbineDescription& description, const AssemblyOptions& o
     Assembler assembler(description, options, damping);
     assembler.whole_machine();
     Turbine turbine;
-    const bool told = options.platform && !options.platform->source.empty();
+    const bool told = description.platform && !description.platform->source.empty();
     turbine.finish(assembler, description.name,
-                   description.source + (told ? "\n" + options.platform->source : std::string()), settings(options));
+                   description.source + (told ? "\n" + description.platform->source : std::string()),
+                   settings(description, options));
     turbine.rotor_.description += computed(description);
     return turbine;
 }
 
+namespace {
+
+// What one blade needs; it stays at its place.
+TurbineDescription blade_alone(const TurbineDescription& d, int number) {
+    const BladeDescription* blade = number < 1 || number > d.blades ? nullptr : d.blade_at(number);
+    if (blade == nullptr) throw InputError(d.name, "number of the blade", number, "that of a blade of the machine");
+    TurbineDescription alone;
+    alone.name = d.name;
+    alone.source = d.source;
+    alone.rotor_speed = d.rotor_speed;
+    alone.blades = d.blades;
+    alone.yaw.rotation = alone.drive_train.main_shaft = rigid_joint;
+    alone.drive_train.spin = d.drive_train.spin;
+    alone.hub.radius = d.hub.radius;
+    alone.blade = *blade;
+    alone.blade.pitch = rigid_joint;
+    alone.unusual = d.unusual;
+    return alone;
+}
+
+TurbineDescription tower_alone(const TurbineDescription& d) {
+    TurbineDescription alone;
+    alone.name = d.name;
+    alone.source = d.source;
+    alone.blades = 0;
+    alone.tower = d.tower;
+    alone.yaw.rotation = alone.drive_train.main_shaft = rigid_joint;
+    alone.unusual = d.unusual;
+    return alone;
+}
+
+// The rest as far as it is given, on the ground: masses and records need no bearings.
+TurbineDescription completed(TurbineDescription d) {
+    const auto complete = [](Bearing& bearing) {
+        if (bearing.hold == Bearing::Hold::spring && std::isnan(bearing.stiffness)) bearing = rigid_joint;
+    };
+    for (Bearing* bearing : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing,
+                             &d.drive_train.high_speed_shaft, &d.drive_train.main_shaft, &d.blade.pitch})
+        complete(*bearing);
+    if (d.hub.teeter) complete(d.hub.teeter->bearing);
+    for (auto& [number, blade] : d.own_blades)
+        if (blade) complete(blade->pitch);
+    d.platform.reset();
+    return d;
+}
+
+// Its ratio is that of the first mode with everything on top.
+PartDamping damping_of_tower(const TurbineDescription& whole, const AssemblyOptions& options) {
+    if (!options.structural_damping) return {};
+    if (whole.tower.first_mode_damping != 0) whole.check();
+    AssemblyOptions held = options;  // all but the tower is held: a rotor may be without inertia
+    held.spin = CoordinateRole::driven;
+    return {tower_damping(whole, held), {}};
+}
+
+}  // namespace
+
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options, int number) {
-    TurbineDescription alone = description;
-    alone.tower.first_mode_damping = 0;
-    alone.yaw.rotation = alone.drive_train.main_shaft = alone.drive_train.high_speed_shaft = rigid_joint;
-    alone.hub.teeter.reset();
+    const TurbineDescription alone = blade_alone(description, number);
     alone.check();
     const PartDamping damping = part_damping(alone, options);
     Assembler assembler(alone, options, damping);
     assembler.one_blade(number);
     Turbine turbine;
-    turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(options));
-    turbine.rotor_.description += computed(alone);
+    turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(alone, options));
+    turbine.rotor_.description += computed(completed(description));
     return turbine;
 }
 
@@ -182,16 +238,16 @@ RigidInertia tower_top_inertia(const Turbine& machine) {
 }  // namespace
 
 Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options, bool with_top) {
-    description.check();
-    const PartDamping damping = part_damping(description, options);
-    AssemblyOptions own = options;
-    own.platform.reset();
-    Assembler assembler(description, own, damping);
-    assembler.tower_alone(with_top ? tower_top_inertia(assemble(description, own)) : RigidInertia{});
+    const TurbineDescription alone = tower_alone(description), whole = completed(description);
+    if (alone.tower.rigid) throw InputError(alone.name, "tower.rigid", "true", "false: it could not move");
+    (with_top ? whole : alone).check();
+    const PartDamping damping = damping_of_tower(whole, options);
+    Assembler assembler(alone, options, damping);
+    assembler.tower_alone(with_top ? tower_top_inertia(assemble(whole, options)) : RigidInertia{});
     Turbine turbine;
     turbine.finish(assembler, description.name + (with_top ? ", tower with a rigid top" : ", tower alone"),
-                   description.source, settings(own));
-    turbine.rotor_.description += computed(description);
+                   description.source, settings(alone, options));
+    turbine.rotor_.description += computed(whole);
     return turbine;
 }
 

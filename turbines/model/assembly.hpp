@@ -6,7 +6,6 @@
 #include "mbs/model/rotor_map.hpp"
 #include "mbs/system/system.hpp"
 #include "turbines/model/description.hpp"
-#include "turbines/model/platform.hpp"
 
 #include <memory>
 #include <optional>
@@ -20,22 +19,20 @@ struct ShaftBeam {
     double mass = 1;  ///< kg/m; not zero: nothing else gives the tilt joint an inertia of its own
 };
 
+/// How a description is meshed and analysed.
 struct AssemblyOptions {
     int tower_elements = 3;
     int blade_elements = 3;
     std::optional<double> delta =
         {};  ///< hinge position in tower and blades; empty: suits the partition; see CardanBeamOptions
     Partition partition = Partition::segment_masses;
-    double pitch = 0;                            ///< pitch setting of all blades, leading edge upwind positive, rad
-    Vec3 gravity = Vec3::Zero();                 ///< ground axes, m/s^2
-    bool structural_damping = true;              ///< of tower and blades
-    bool joint_damping = true;                   ///< of yaw, tilt, drive train, teeter, pitch
-    bool rigid_tower = false;                    ///< no tower coordinates; its mass stays
-    CoordinateRole spin = CoordinateRole::free;  ///< driven: the generator's azimuth is prescribed
+    double pitch = 0;                ///< pitch setting of all blades, leading edge upwind positive, rad
+    Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2
+    bool structural_damping = true;  ///< of tower and blades
+    bool joint_damping = true;       ///< of yaw, tilt, drive train, teeter, pitch
+    /// The generator's azimuth, free or driven, in place of DriveTrainDescription::spin; empty: as that says.
+    std::optional<CoordinateRole> spin = std::nullopt;
     std::optional<ShaftBeam> shaft_beam = std::nullopt;
-    /// A moving base under the whole machine, prescribed or free: a floating platform, a shaking table; none: fixed to
-    /// the ground.
-    std::optional<PlatformOptions> platform = std::nullopt;
     /// Complete element options of tower and blades: extension, torsion, element ends ... They replace the numbers of
     /// elements, delta and partition above. Their damping must be empty: it is part of the description.
     std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
@@ -45,11 +42,12 @@ struct AssemblyOptions {
 struct MachineLayout {
     /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
     std::optional<MovingBase> platform;
-    std::optional<CardanBeam> tower;               ///< none: rigid
-    FrameId tower_foot, tower_top;                 ///< axes of the tower's beam; x downwind, z up at rest
-    FrameId shaft;                                 ///< carries the drive train, x along the shaft, downwind
-    FrameId rotor_centre;                          ///< RotorMap::hub: spins with the shaft, does not teeter
-    FrameId hub;                                   ///< carries the blades; the same axes where nothing teeters
+    std::optional<CardanBeam> tower;  ///< none: rigid
+    FrameId tower_foot, tower_top;    ///< axes of the tower's beam; x downwind, z up at rest; a blade alone
+                                      ///< has none: the ground
+    FrameId shaft;                    ///< carries the drive train, x along the shaft, downwind
+    FrameId rotor_centre;             ///< RotorMap::hub: spins with the shaft, does not teeter
+    FrameId hub;                      ///< carries the blades; the same axes where nothing teeters
     std::optional<BodyId> yaw, teeter, generator;  ///< the generator's azimuth is the spin coordinate
     CoordinateSum azimuth;                         ///< of the rotor centre relative to the shaft frame
     double gear_ratio = 1;                         ///< generator speed over the rate of its coordinate
@@ -104,13 +102,16 @@ private:
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
 
 /// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (with its cone; no pitch
-/// joint, no teeter, no tilt, no platform). What the rest of the description lacks does not matter.
+/// joint, no teeter, no tilt, no platform). The rest of the description is left out, and may lack anything.
 /// @param number  which one
 /// @throws InputError also for a blade that is missing
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {}, int number = 1);
 
 /// The tower clamped at its foot, alone or with everything above it as one rigid body: blades undeformed, blade 1 up,
-/// at their pitch setting. It has no rotor and can only be analysed at standstill.
+/// at their pitch setting. It has no rotor and can only be analysed at standstill. A platform is left out. Of the rest
+/// of the description it needs nothing; with its top, or a damping ratio of the first mode, which is that of the tower
+/// with its top, it needs the masses, but no bearings.
+/// @throws InputError also for a tower that is rigid
 Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options = {},
                        bool with_top = false);
 

@@ -19,13 +19,13 @@ std::string in_words(const CardanBeamOptions& b) {
 }
 
 // Numbers of elements where they count, else what took their place.
-std::string parts_in_words(const AssemblyOptions& o) {
-    std::string words = o.rigid_tower  ? std::string("tower rigid, ")
+std::string parts_in_words(const TowerDescription& tower, const AssemblyOptions& o) {
+    std::string words = tower.rigid    ? std::string("tower rigid, ")
                         : o.tower_beam ? text("tower of ", in_words(*o.tower_beam), ", ")
                                        : text(o.tower_elements, " tower elements, ");
     words += o.blade_beam ? text("blades of ", in_words(*o.blade_beam), ", ")
                           : text(o.blade_elements, " elements per blade, ");
-    if ((o.tower_beam || o.rigid_tower) && o.blade_beam) return words;
+    if ((o.tower_beam || tower.rigid) && o.blade_beam) return words;
     return words + text(places_hinges(o.partition)
                             ? std::string()
                             : text("delta ", o.delta.value_or(recommended_delta(o.partition)), ", "),
@@ -34,14 +34,14 @@ std::string parts_in_words(const AssemblyOptions& o) {
 
 }  // namespace
 
-std::string settings(const AssemblyOptions& o) {
+std::string settings(const TurbineDescription& d, const AssemblyOptions& o) {
     return text(
-        parts_in_words(o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ", o.gravity(2),
-        ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
+        parts_in_words(d.tower, o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ",
+        o.gravity(2), ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
         o.joint_damping ? "on" : "off", ", main shaft ",
         o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
-        o.spin == CoordinateRole::driven ? ", rotor speed prescribed" : "",
-        o.platform ? text(", on a ", o.platform->name, " of ", o.platform->inertia.mass, " kg") : std::string());
+        o.spin.value_or(d.drive_train.spin) == CoordinateRole::driven ? ", rotor speed prescribed" : "",
+        d.platform ? text(", on a ", d.platform->name, " of ", d.platform->inertia.mass, " kg") : std::string());
 }
 
 }  // namespace cardan::turbines

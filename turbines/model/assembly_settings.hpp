@@ -1,5 +1,5 @@
 /// @file
-/// The options of an assembly as text, for the description stored with every result.
+/// How a description is assembled, as text for the description stored with every result.
 #pragma once
 
 #include "turbines/model/assembly.hpp"
@@ -7,6 +7,6 @@
 namespace cardan::turbines {
 
 /// "3 tower elements, 3 elements per blade, ..."
-std::string settings(const AssemblyOptions& options);
+std::string settings(const TurbineDescription& description, const AssemblyOptions& options);
 
 }  // namespace cardan::turbines

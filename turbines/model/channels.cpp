@@ -2,6 +2,7 @@
 
 #include "elements/cardan_beam/section_loads.hpp"
 #include "mbs/base/error.hpp"
+#include "turbines/model/detail/tower_loads.hpp"
 
 #include <utility>
 
@@ -9,29 +10,10 @@ namespace cardan::turbines {
 
 namespace {
 
-struct Source {
-    Turbine turbine;
-    std::vector<ExternalWrench> external;
-
-    const MachineLayout& layout() const { return turbine.layout(); }
-};
-using Shared = std::shared_ptr<const Source>;
-
-void add_moved(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double sign = 1) {
-    sum.force += sign * wrench.force;
-    sum.moment += sign * (wrench.moment + cross<double>(from - to, wrench.force));
-}
-
-// Adds what the external wrenches on the subtree of a body contribute at a point.
-void add_external(Wrench& sum, const Source& source, const ChannelInput& in, int subtree, const Vec3& at) {
-    const Kinematics& kin = in.kinematics;
-    for (const ExternalWrench& load : source.external)
-        if (kin.model().precedes(subtree, kin.model().frame(load.frame).body))
-            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin}), pose(kin, load.frame).p, at);
-}
+using Shared = std::shared_ptr<const ChannelSource>;
 
 // At the root or the tip of a beam, base axes, about the node there.
-Wrench beam_load(const Source& source, const ChannelInput& in, const CardanBeam& beam, bool tip, int subtree) {
+Wrench beam_load(const ChannelSource& source, const ChannelInput& in, const CardanBeam& beam, bool tip, int subtree) {
     const Pose<double> node = pose(in.kinematics, tip ? beam.tip() : beam.nodes.front());
     const Vec6 load = equilibrium_loads(beam, in.kinematics, in.forces, in.loads, tip ? beam.line.length : 0).values;
     Wrench sum{node.R * load.head<3>(), node.R * load.tail<3>()};
@@ -193,12 +175,13 @@ ChannelGroup tower_motion_channels(const Shared& source) {
     group.sample = [source, yaw](const ChannelInput& in, double* values) {
         const MachineLayout& layout = source->layout();
         const Kinematics& kin = in.kinematics;
-        const CardanBeam& tower = *layout.tower;
         const Pose<double> foot = pose(kin, layout.tower_foot), top = pose(kin, layout.tower_top);
-        const Vec3 d = top.p - foot.p - foot.R * tower.line.pose(tower.line.length).p;
-        const auto body = static_cast<std::size_t>(kin.model().frame(layout.tower_top).body);
+        const int body = kin.model().frame(layout.tower_top).body;
+        Vec3 d = Vec3::Zero(), a = Vec3::Zero();  // a rigid tower on the ground has neither
+        if (layout.tower) d = top.p - foot.p - foot.R * layout.tower->line.pose(layout.tower->line.length).p;
+        if (body >= 0) a = in.loads.motion[static_cast<std::size_t>(body)].at(top.p);
         const Vec3 in_foot = foot_axes(foot.R).transpose() * d, in_top = top.R.transpose() * d,
-                   acceleration = top.R.transpose() * in.loads.motion[body].at(top.p);
+                   acceleration = top.R.transpose() * a;
         for (const Vec3* v : {&in_foot, &in_top, &acceleration})
             for (Eigen::Index i : {0, 1}) *values++ = (*v)(i);
         if (yaw) *values = in.q(kin.model().index(*layout.yaw));
@@ -214,13 +197,19 @@ ChannelGroup tower_load_channels(const Shared& source) {
     add_loads(group, "tower top", "tower top", "tower top", "YawBrF", "YawBrM", "p",
               {"fore-aft shear force", "side-side shear force", "axial force (tension positive)", "roll moment",
                "pitching moment", "yaw moment"});
-    group.sample = [source](const ChannelInput& in, double* values) {
-        const CardanBeam& tower = *source->layout().tower;
+    const std::optional<RigidTower> rigid =
+        source->layout().tower ? std::nullopt : std::optional<RigidTower>(source->turbine);
+    group.sample = [source, rigid](const ChannelInput& in, double* values) {
+        const std::optional<CardanBeam>& tower = source->layout().tower;
         const Model& model = in.kinematics.model();
         const Mat3 foot = foot_axes(pose(in.kinematics, source->layout().tower_foot).R),
                    top = pose(in.kinematics, source->layout().tower_top).R;
-        const Wrench base_load = beam_load(*source, in, tower, false, model.index(tower.elements.front().bodies[0])),
-                     top_load = beam_load(*source, in, tower, true, model.index(tower.elements.back().bodies.back()));
+        const Wrench base_load =
+                         rigid ? rigid->foot_load(*source, in)
+                               : beam_load(*source, in, *tower, false, model.index(tower->elements.front().bodies[0])),
+                     top_load = rigid ? rigid->top_load(*source, in)
+                                      : beam_load(*source, in, *tower, true,
+                                                  model.index(tower->elements.back().bodies.back()));
         write(foot.transpose() * base_load.force, values);
         write(foot.transpose() * base_load.moment, values);
         write(top.transpose() * top_load.force, values);
@@ -308,11 +297,11 @@ std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalW
             throw InputError("channels of a turbine", "external wrench on the frame",
                              turbine.system().model.frame(load.frame).name, "a frame of a body");
     }
-    const Shared source = std::make_shared<const Source>(Source{turbine, std::move(external)});
+    const Shared source = std::make_shared<const ChannelSource>(ChannelSource{turbine, std::move(external)});
     std::vector<ChannelGroup> groups{rotor_channels(source)};
     if (turbine.layout().teeter) groups.push_back(teeter_channels(source));
     if (turbine.layout().platform) groups.push_back(platform_channels(source));
-    if (turbine.layout().tower) {
+    if (turbine.layout().tower_top != FrameId{}) {  // a blade alone has none
         groups.push_back(tower_motion_channels(source));
         groups.push_back(tower_load_channels(source));
     }

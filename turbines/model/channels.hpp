@@ -25,9 +25,9 @@ struct ExternalWrench {
     std::function<Wrench(const ForceInput&)> wrench = {};
 };
 
-/// Channels of those of rotor, tower and blades that the machine has. Loads follow from equilibrium of everything
-/// outboard: inertial forces, gravity, wrenches of the force set and `external`. User forces not listed there are
-/// ignored, which makes no difference for those inside joints (generator, brake, drives).
+/// Channels of those of rotor, tower (also one that is rigid) and blades that the machine has. Loads follow from
+/// equilibrium of everything outboard: inertial forces, gravity, wrenches of the force set and `external`. User forces
+/// not listed there are ignored, which makes no difference for those inside joints (generator, brake, drives).
 /// @throws InputError for an external wrench without a function or on the base
 std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalWrench> external = {});
 

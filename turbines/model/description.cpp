@@ -33,7 +33,7 @@ void check_bearing(const std::string& machine, const std::string& field, const B
 void check_shaft(const std::string& machine, const std::string& field, const Bearing& shaft) {
     if (shaft.hold == Hold::free || shaft.hold == Hold::driven)
         throw InputError(machine, field, shaft.hold == Hold::free ? "free" : "driven",
-                         "a spring, or rigid_joint; the rotor is driven by AssemblyOptions::spin");
+                         "a spring, or rigid_joint; the rotor is driven by drive_train.spin");
     check_bearing(machine, field, shaft, about);
 }
 
@@ -128,6 +128,7 @@ void TurbineDescription::check() const {
         ranges.angle("hub.teeter.delta3", hub.teeter->delta3, 1.3, pi / 2);
     }
     check_blades(*this, ranges);
+    if (platform) platform->check(name);
 }
 
 }  // namespace cardan::turbines

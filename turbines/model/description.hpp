@@ -5,6 +5,7 @@
 #pragma once
 
 #include "elements/cardan_beam/cardan_beam.hpp"
+#include "turbines/model/platform.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -34,6 +35,9 @@ struct TowerDescription {
     BeamLine line;                  ///< from the ground up
     double first_mode_damping = 0;  ///< damping ratio of the first bending mode, stiffness-proportional
     BeamDamping damping = {};       ///< in its place or beside it; bending about z of the beam is fore-aft
+    /// No coordinates: it stands undeformed, and its mass stays. Its stiffness and damping are not used, so that a
+    /// machine can be made rigid here and elastic again; a line without sections is massless.
+    bool rigid = false;
 };
 
 struct YawDescription {
@@ -61,6 +65,9 @@ struct DriveTrainDescription {
     /// What else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0, origin on the
     /// tower axis.
     RigidInertia shaft;
+    /// Of the generator's azimuth. Free: it turns as torques make it. Driven: it is prescribed, as of a rotor at
+    /// constant speed or a locked one. AssemblyOptions::spin goes before it.
+    CoordinateRole spin = CoordinateRole::free;
 };
 
 /// A hub that rocks on a pin across the shaft.
@@ -98,7 +105,7 @@ struct BladeDescription {
 struct TurbineDescription {
     std::string name;
     std::string source;      ///< the text it was read from; kept with every result
-    double rotor_speed = 0;  ///< nominal, rad/s; 0: not given
+    double rotor_speed = 0;  ///< nominal (rated, of a built-in machine), rad/s; 0: not given
     int blades = 3;          ///< places for blades, evenly spaced; 0: a hub alone
     TowerDescription tower;
     YawDescription yaw;
@@ -108,6 +115,8 @@ struct TurbineDescription {
     BladeDescription blade;  ///< all of them, but for those in `own_blades`
     /// Blades that differ from the others, by their number 1 ... `blades`; empty: that blade is missing.
     std::map<int, std::optional<BladeDescription>> own_blades = {};
+    /// What the tower stands on, prescribed or free: a floating platform, a shaking table; none: fixed to the ground.
+    std::optional<PlatformDescription> platform = std::nullopt;
 
     /// Angles and ratios outside the ranges of machines are meant so, not degrees or per cent.
     bool unusual = false;
@@ -115,7 +124,7 @@ struct TurbineDescription {
     /// The blade at a place, 1 ... `blades`; null: it is missing.
     const BladeDescription* blade_at(int number) const;
     /// Refuses what cannot be and, unless `unusual`, what machines do not have: |tilt| > 0.35, |cone| > 0.5, |delta-3|
-    /// > 1.3, |pitch setting| > 3.2 rad, damping ratios > 0.3.
+    /// > 1.3, |pitch setting| > 3.2 rad, damping ratios > 0.3. Beams are checked where elements are made of them.
     /// @throws InputError naming machine, field, value and what is allowed
     void check() const;
 };

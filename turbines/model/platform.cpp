@@ -126,7 +126,7 @@ UserForce linear_load(std::string name, const MovingBase& base, const Mat6& K) {
     return load;
 }
 
-void tell_balance(const ForceSet& forces, const Tree& tree, const PlatformOptions& platform,
+void tell_balance(const ForceSet& forces, const Tree& tree, const PlatformDescription& platform,
                   std::vector<std::string>& warnings) {
     double mass = 0;
     for (const PartMass& part : masses_by_part(tree)) mass += part.mass;
@@ -145,29 +145,24 @@ void add_dead_load(ForceSet& forces, Tree& tree, const MovingBase& base, const s
 
 }  // namespace
 
-void PlatformDescription::check() const {
-    inertia.check(name);
+void PlatformDescription::check(const std::string& machine) const {
+    const std::string where = machine.empty() ? name : text(machine, ", ", name);
+    inertia.check(where);
     const auto finite = [&](const char* quantity, const Vec3& v) {
-        if (!v.allFinite()) throw InputError(name, quantity, text(v.transpose()), "finite");
+        if (!v.allFinite()) throw InputError(where, quantity, text(v.transpose()), "finite");
     };
     finite("foot of the tower [m]", tower_foot);
     finite("centre of buoyancy [m]", buoyancy_centre);
     finite("pull of the mooring lines [N]", mooring_pull);
-    require_not_negative(name, "buoyancy [N]", buoyancy);
-    require_semidefinite(name, "added mass", added_mass);
-    require_semidefinite(name, "damping", damping);
-    require_symmetric(name, "hydrostatic stiffness", hydrostatic);
-    require_symmetric(name, "stiffness of the mooring", mooring);
+    require_not_negative(where, "buoyancy [N]", buoyancy);
+    require_semidefinite(where, "added mass", added_mass);
+    require_semidefinite(where, "damping", damping);
+    require_symmetric(where, "hydrostatic stiffness", hydrostatic);
+    require_symmetric(where, "stiffness of the mooring", mooring);
+    coordinates.check(where);
 }
 
-PlatformOptions free_floating(const PlatformDescription& platform) {
-    PlatformOptions options;
-    static_cast<PlatformDescription&>(options) = platform;
-    options.coordinates.role = CoordinateRole::free;
-    return options;
-}
-
-PlatformFrames add_platform(Tree& tree, const PlatformOptions& platform) {
+PlatformFrames add_platform(Tree& tree, const PlatformDescription& platform) {
     platform.check();
     const MovingBase base = add_moving_base(tree, Tree::base(), "platform", platform.coordinates);
     PlatformFrames frames{base, base.frame, {base.frame}};
@@ -185,7 +180,7 @@ PlatformFrames add_platform(Tree& tree, const PlatformOptions& platform) {
     return frames;
 }
 
-void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, const PlatformOptions& platform,
+void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, const PlatformDescription& platform,
                       std::vector<std::string>& warnings) {
     add_dead_load(forces, tree, base, "buoyancy", platform.buoyancy_centre, {0, 0, platform.buoyancy});
     add_dead_load(forces, tree, base, "mooring pull", Vec3::Zero(), platform.mooring_pull);

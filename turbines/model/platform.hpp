@@ -17,7 +17,8 @@
 
 namespace cardan::turbines {
 
-/// Properties of a platform and the forces on it. The default is a massless, unrestrained plate.
+/// A platform: its properties, the forces on it, and which of its coordinates are free. The default is a massless plate
+/// without forces that is driven in all six.
 ///
 /// The generalised forces
 ///
@@ -45,19 +46,14 @@ struct PlatformDescription {
     double buoyancy = 0;                  ///< weight of the displaced water, N, upward
     Vec3 buoyancy_centre = Vec3::Zero();  ///< where it acts, fixed to the platform, m from the reference point
     Vec3 mooring_pull = Vec3::Zero();     ///< of the lines on the undisplaced platform, ground axes, N
-
-    /// @throws InputError naming the platform, the quantity, its value and what is allowed
-    void check() const;
-};
-
-/// The platform of an assembly.
-struct PlatformOptions : PlatformDescription {
-    /// By default all six coordinates are driven; axes, signs and order of rotations are those above.
+    /// Free (`coordinates.role = CoordinateRole::free`) or driven, all or one by one; by default all six are driven.
+    /// Axes, signs and order of rotations are those above unless changed here.
     MovingBaseOptions coordinates = {};
-};
 
-/// The platform with all `coordinates` free.
-PlatformOptions free_floating(const PlatformDescription& platform);
+    /// @param machine  that it carries, for messages
+    /// @throws InputError naming machine and platform, the quantity, its value and what is allowed
+    void check(const std::string& machine = {}) const;
+};
 
 /// What add_platform() has added.
 struct PlatformFrames {
@@ -68,8 +64,8 @@ struct PlatformFrames {
 
 /// Massless bodies of the six coordinates, the platform's inertia and its added mass. The added mass is a kinetic
 /// energy x'^T A x' / 2: up to six armatures over the coordinates from A = L D L^T.
-/// @throws InputError as check() and add_moving_base()
-PlatformFrames add_platform(Tree& tree, const PlatformOptions& platform);
+/// @throws InputError as check()
+PlatformFrames add_platform(Tree& tree, const PlatformDescription& platform);
 
 /// Hydrodynamic and mooring forces on what add_platform() has added. Call it when the machine is complete and gravity
 /// is set.
@@ -80,7 +76,7 @@ PlatformFrames add_platform(Tree& tree, const PlatformOptions& platform);
 /// (Forces::with_load_factor) leave the elastic part as it is.
 /// @param warnings  out: imbalance of weight, buoyancy and mooring pull
 /// @throws InputError if that stiffness is not positive semidefinite: the platform would capsize
-void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, const PlatformOptions& platform,
+void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, const PlatformDescription& platform,
                       std::vector<std::string>& warnings);
 
 /// A cross-section of a hull of circular sections about the vertical axis.

@@ -45,6 +45,23 @@ BeamSection scaled(const BeamSection& section, double s) {
     return out;
 }
 
+// By coordinates: forces of displacements s, of rates s^2, of accelerations s^3, and s more for every angle.
+PlatformDescription scaled(PlatformDescription p, double s) {
+    Vec6 size;
+    size << Vec3::Ones(), Vec3::Constant(s);
+    const auto scale = [&](Mat6& A, double factor) { A = factor * (size.asDiagonal() * A * size.asDiagonal()); };
+    p.inertia = scaled(p.inertia, s);
+    p.tower_foot *= s;
+    p.buoyancy_centre *= s;
+    scale(p.hydrostatic, s);
+    scale(p.mooring, s);
+    scale(p.damping, power(s, 2));
+    scale(p.added_mass, power(s, 3));
+    p.buoyancy *= power(s, 2);
+    p.mooring_pull *= power(s, 2);
+    return p;
+}
+
 }  // namespace
 
 BeamLine scaled(const BeamLine& line, double s) {
@@ -101,6 +118,7 @@ TurbineDescription scaled(const TurbineDescription& description, double s) {
     scale(d.blade, s);
     for (auto& [number, blade] : d.own_blades)
         if (blade) scale(*blade, s);
+    if (d.platform) d.platform = scaled(*d.platform, s);
     return d;
 }
 

@@ -13,6 +13,8 @@ namespace cardan::turbines {
 ///     EI, GJ                                s^4    moment of inertia                   s^5
 ///     spring, damper of a rotation          s^3, s^4    of a translation               s, s^2
 ///     rotor speed, natural frequencies      1/s    power, thrust                       s^2
+///     stiffness, damping, added mass of a platform s, s^2, s^3, and s for each of the two coordinates that is an angle
+///     buoyancy, pull of mooring lines       s^2 (gravity times 1/s would balance it)
 ///     angles, twist, damping ratios, gear ratio    unchanged
 ///
 /// By dimensional analysis the ratios of frequencies to rotor speed stay exactly the same as long as gravity is

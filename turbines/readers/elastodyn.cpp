@@ -260,7 +260,7 @@ private:
             bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
             if (file_.flag_or(keyword, false))
-                file_.note(keyword, "the tower stands on the ground; see AssemblyOptions::platform");
+                file_.note(keyword, "the tower stands on the ground; see TurbineDescription::platform");
         if (file_.flag_or("PitchDOF", false)) file_.note("PitchDOF", "the pitch bearings are rigid");
         if (file_.flag_or("Furling", false)) file_.note("Furling", "furling is not part of the model");
     }
@@ -275,7 +275,7 @@ private:
             file_.note_unless(keyword, 0, "initial condition: those of a simulation are given to it here");
         for (const char* keyword : {"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
                                     "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefzt"})
-            file_.note_unless(keyword, 0, "the platform is no part of the description; see AssemblyOptions::platform");
+            file_.note_unless(keyword, 0, "a platform is not read; see TurbineDescription::platform");
     }
 
     OpenFastFile file_;

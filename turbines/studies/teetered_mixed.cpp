@@ -16,12 +16,14 @@ MixedBeam mixed(const BeamLine& line, int elements) {
     return {line, elements};
 }
 
-// What this model has not: elastic drive train and main frame, pitch joints, blades that differ, damping of beams.
+// What this model has not: a platform, elastic drive train and main frame, pitch joints, blades that differ, damping of
+// beams.
 void check(const TurbineDescription& d) {
     d.check();
     const auto require = [&d](const char* what, bool as_here, const char* allowed) {
         if (!as_here) throw InputError(d.name, what, "otherwise", allowed);
     };
+    require("platform", !d.platform, "none");
     require("number of blades", d.blades == 2 && d.own_blades.empty(), "2, equal ones");
     const auto turns = [](const Bearing& bearing) {
         return bearing.hold == Bearing::Hold::free || bearing.hold == Bearing::Hold::spring;
@@ -88,14 +90,11 @@ struct TeeteredMixed::Rotor {
     }
 };
 
-TeeteredMixed::TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements,
-                             bool rigid_tower)
+TeeteredMixed::TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements)
     : d_(description), blade_(mixed(description.blade.line, blade_elements)), tower_size_(0) {
     check(d_);
-    AssemblyOptions options = teetered_assembly(1);
-    options.rigid_tower = rigid_tower;
-    (void)assemble(d_, options);  // checks masses and springs
-    if (!rigid_tower) {
+    (void)assemble(d_, teetered_assembly(1));  // checks masses and springs
+    if (!d_.tower.rigid) {
         tower_ = mixed(d_.tower.line, tower_elements);
         tower_size_ = tower_->unknowns();
     }

@@ -21,8 +21,7 @@ class TeeteredMixed {
 public:
     /// @throws InputError for bad data, parts that this model lacks or fewer than one element; NumericalError if the
     /// blade has no steady state
-    TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements,
-                  bool rigid_tower = false);
+    TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements);
 
     const std::optional<MixedBeam>& tower() const { return tower_; }
     const MixedBeam& blade() const { return blade_; }

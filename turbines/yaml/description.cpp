@@ -39,7 +39,7 @@ private:
 };
 
 template <class M>
-M matrix(const YamlNode& node) {
+M square(const YamlNode& node) {
     M m;
     const std::vector<YamlNode> rows = node.items();
     if (std::ssize(rows) != m.rows()) node.fail(text(rows.size(), " rows; allowed: ", m.rows()));
@@ -50,7 +50,7 @@ M matrix(const YamlNode& node) {
     return m;
 }
 
-Vec3 vector(const YamlNode& node) {
+Vec3 triple(const YamlNode& node) {
     const std::vector<double> v = node.numbers(std::size_t{3});
     return {v[0], v[1], v[2]};
 }
@@ -93,10 +93,10 @@ BeamTable table(Level level) {
         for (const auto* list : {&K, &M})
             if (list->size() != t.stations.size())
                 (list == &K ? stiffness : mass).fail(text(list->size(), " matrices; allowed: ", t.stations.size()));
-        for (std::size_t i = 0; i < K.size(); ++i) t.matrices.push_back({matrix<Mat6>(K[i]), matrix<Mat6>(M[i])});
+        for (std::size_t i = 0; i < K.size(); ++i) t.matrices.push_back({square<Mat6>(K[i]), square<Mat6>(M[i])});
     }
     if (const auto points = level.find("points")) {
-        for (const YamlNode& point : points->items()) t.points.push_back(vector(point));
+        for (const YamlNode& point : points->items()) t.points.push_back(triple(point));
         t.shape = choice(level["shape"], {LineShape::spline, LineShape::polyline});
     }
     level.finish();
@@ -118,6 +118,29 @@ public:
     void integer(const char* key, int& value) { value = at()[key].integer(0, most_counted); }
     void flag(const char* key, bool& value) { value = at()[key].flag(); }
     void number(const char* key, double& value) { value = at()[key].number(); }
+    /// What is left out stays as it is.
+    void optional_flag(const char* key, bool& value) {
+        if (at().find(key)) flag(key, value);
+    }
+    void role(const char* key, CoordinateRole& value) {
+        value = choice(at()[key], {CoordinateRole::free, CoordinateRole::driven});
+    }
+    void optional_role(const char* key, CoordinateRole& value) {
+        if (at().find(key)) role(key, value);
+    }
+    void optional_role(const char* key, std::optional<CoordinateRole>& value) {
+        if (at().find(key)) role(key, value.emplace());
+    }
+    void vector(const char* key, Vec3& value) { value = triple(at()[key]); }
+    void matrix(const char* key, Mat6& value) { value = square<Mat6>(at()[key]); }
+    template <std::size_t n>
+    void vectors(const char* key, std::array<Vec3, n>& values) {
+        for_each_of(key, values, [](const YamlNode& node, Vec3& value) { value = triple(node); });
+    }
+    template <class Value, std::size_t n>
+    void choices(const char* key, std::array<Value, n>& values, std::initializer_list<Value> allowed) {
+        for_each_of(key, values, [&](const YamlNode& node, Value& value) { value = choice(node, allowed); });
+    }
     void bearing(const char* key, Bearing& b) {
         using Hold = Bearing::Hold;
         b = rigid_joint;
@@ -138,8 +161,8 @@ public:
     void inertia(const char* key, RigidInertia& i) {
         group(key, [&] {
             number("mass", i.mass);
-            i.com = vector(at()["com"]);
-            i.J = matrix<Mat3>(at()["J"]);
+            i.com = triple(at()["com"]);
+            i.J = square<Mat3>(at()["J"]);
             i.reduced = at()["reduced"].flag();
         });
     }
@@ -201,6 +224,15 @@ public:
 
 private:
     Level& at() { return levels_.back(); }
+    // A list as long as the array; one that is left out stays as it is.
+    template <class Values, class Read>
+    void for_each_of(const char* key, Values& values, const Read& read) {
+        const auto node = at().find(key);
+        if (!node) return;
+        const std::vector<YamlNode> items = node->items();
+        if (items.size() != values.size()) node->fail(text(items.size(), " entries; allowed: ", values.size()));
+        for (std::size_t i = 0; i < values.size(); ++i) read(items[i], values.at(i));
+    }
     std::vector<Level> levels_;
     int version_ = description_yaml_version;
 };

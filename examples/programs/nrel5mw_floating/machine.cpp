@@ -18,19 +18,12 @@ turbines::Nrel5mwVariant variant_of(const MachineOptions& options) {
     return Nrel5mwVariant::report;
 }
 
-turbines::Turbine machine(const MachineOptions& options, turbines::Nrel5mwTower tower,
-                          const std::optional<turbines::PlatformOptions>& platform) {
-    turbines::Nrel5mwOptions data = turbines::nrel5mw_options(variant_of(options));
-    data.tower = tower;
+turbines::Turbine machine(const MachineOptions& options, const turbines::TurbineDescription& description) {
     turbines::AssemblyOptions assembly =
         turbines::nrel5mw_assembly(variant_of(options), options.blade_elements, options.tower_elements);
     assembly.gravity = turbines::nrel5mw_gravity;
     assembly.structural_damping = assembly.joint_damping = !options.undamped;
-    assembly.platform = platform;
-    return turbines::assemble(options.data.empty()
-                                  ? turbines::nrel5mw_description(data)
-                                  : turbines::nrel5mw_description(std::filesystem::path(options.data), data),
-                              assembly);
+    return turbines::assemble(description, assembly);
 }
 
 }  // namespace
@@ -59,14 +52,19 @@ void check_tolerance(double tolerance) {
 }
 
 turbines::Turbine on_spar(const MachineOptions& options, CoordinateRole role) {
-    turbines::PlatformOptions platform = turbines::free_floating(
-        options.data.empty() ? turbines::oc3_hywind() : turbines::oc3_hywind(std::filesystem::path(options.data)));
-    platform.coordinates.role = role;
-    return machine(options, turbines::Nrel5mwTower::oc3_hywind, platform);
+    const turbines::Nrel5mwOptions data = turbines::nrel5mw_options(variant_of(options));
+    turbines::TurbineDescription description =
+        options.data.empty() ? turbines::nrel5mw_oc3_hywind_description(data)
+                             : turbines::nrel5mw_oc3_hywind_description(std::filesystem::path(options.data), data);
+    description.platform->coordinates.role = role;
+    return machine(options, description);
 }
 
 turbines::Turbine on_land(const MachineOptions& options) {
-    return machine(options, turbines::Nrel5mwTower::land_based, std::nullopt);
+    const turbines::Nrel5mwOptions data = turbines::nrel5mw_options(variant_of(options));
+    return machine(options, options.data.empty()
+                                ? turbines::nrel5mw_description(data)
+                                : turbines::nrel5mw_description(std::filesystem::path(options.data), data));
 }
 
 solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rotor_speed) {

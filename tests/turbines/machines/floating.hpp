@@ -88,13 +88,18 @@ inline turbines::PlatformDescription some_platform() {
     return p;
 }
 
+inline turbines::PlatformDescription floating_freely(turbines::PlatformDescription platform) {
+    platform.coordinates.role = CoordinateRole::free;
+    return platform;
+}
+
 /// Buoyancy such that it carries platform and machine.
 inline turbines::PlatformDescription in_balance(turbines::PlatformDescription platform,
-                                                const turbines::TurbineDescription& machine,
-                                                turbines::AssemblyOptions options) {
+                                                turbines::TurbineDescription machine,
+                                                const turbines::AssemblyOptions& options) {
     platform.buoyancy = 0;
-    options.platform.emplace();
-    static_cast<turbines::PlatformDescription&>(*options.platform) = platform;
+    machine.platform = platform;
+    machine.platform->coordinates.role = CoordinateRole::driven;
     platform.buoyancy = -options.gravity.z() * RigidWhole(assemble(machine, options)).mass - platform.mooring_pull.z();
     return platform;
 }

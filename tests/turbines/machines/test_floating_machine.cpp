@@ -28,8 +28,9 @@ AssemblyOptions on_ground(int elements = 1) {
 Turbine floating(const PlatformDescription& platform, int elements = 1, const Vec3& gravity = earth_gravity) {
     AssemblyOptions options = on_ground(elements);
     options.gravity = gravity;
-    options.platform = free_floating(platform);
-    return wt600(options);
+    TurbineDescription machine = wt600_description();
+    machine.platform = floating_freely(platform);
+    return assemble(machine, options);
 }
 
 PlatformDescription balanced(int elements = 1) {
@@ -196,11 +197,9 @@ TEST_CASE(
     "one follow",
     "[crosscheck]") {
     const PlatformDescription platform = balanced();
-    PlatformOptions held;
-    static_cast<PlatformDescription&>(held) = platform;
-    AssemblyOptions options = on_ground();
-    options.platform = held;
-    const Turbine driven = wt600(options), free = floating(platform);
+    TurbineDescription held = wt600_description();
+    held.platform = platform;
+    const Turbine driven = assemble(held, on_ground()), free = floating(platform);
     const Model& model = free.system().model;
     for (unsigned seed : {1u, 2u, 3u}) {
         Random random(seed);

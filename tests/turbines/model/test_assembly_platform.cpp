@@ -18,16 +18,22 @@ using namespace cardan::turbines;
 
 namespace {
 
-AssemblyOptions on_ground(const Vec3& gravity, int elements = 2) {
+struct Setup {
+    TurbineDescription description = wt600_description();
     AssemblyOptions options;
-    options.gravity = gravity;
-    options.tower_elements = options.blade_elements = elements;
-    return options;
+    Turbine assembled() const { return assemble(description, options); }
+};
+
+Setup on_ground(const Vec3& gravity, int elements = 2) {
+    Setup setup;
+    setup.options.gravity = gravity;
+    setup.options.tower_elements = setup.options.blade_elements = elements;
+    return setup;
 }
-AssemblyOptions on_platform(const Vec3& gravity, int elements = 2) {
-    AssemblyOptions options = on_ground(gravity, elements);
-    options.platform.emplace();
-    return options;
+Setup on_platform(const Vec3& gravity, int elements = 2) {
+    Setup setup = on_ground(gravity, elements);
+    setup.description.platform.emplace();
+    return setup;
 }
 
 // Positions, rates and accelerations of surge, sway, heave, roll, pitch, yaw.
@@ -48,8 +54,8 @@ struct Moving {
     MachineState state;
     Vector actuator;
 
-    Moving(const AssemblyOptions& options, unsigned seed, const PlatformMotion& platform = {})
-        : turbine(wt600(options)), state(turbine) {
+    Moving(const Setup& setup, unsigned seed, const PlatformMotion& platform = {})
+        : turbine(setup.assembled()), state(turbine) {
         Random random(seed);
         const Model& model = turbine.system().model;
         for (const CoordinateInfo& row : model.coordinates()) {
@@ -195,9 +201,8 @@ PlatformMotion any_motion(unsigned seed) {
 }
 
 // Two seconds from the undeformed machine in rotation.
-solvers::History simulate(const AssemblyOptions& options,
-                          const std::vector<std::pair<BaseCoordinate, solvers::Motion>>& motions) {
-    const Turbine turbine = wt600(options);
+solvers::History simulate(const Setup& setup, const std::vector<std::pair<BaseCoordinate, solvers::Motion>>& motions) {
+    const Turbine turbine = setup.assembled();
     const Model& model = turbine.system().model;
     std::vector<solvers::Drive> drives;
     for (const auto& [which, motion] : motions)
@@ -265,8 +270,8 @@ TEST_CASE("machine on a platform: an acceleration along a line is gravity the ot
 }
 
 TEST_CASE("machine on a platform: with the platform held the modes are those on the ground", "[property]") {
-    const auto diagram = [](const AssemblyOptions& options) {
-        const Turbine turbine = wt600(options);
+    const auto diagram = [](const Setup& setup) {
+        const Turbine turbine = setup.assembled();
         return solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 27, 27));
     };
     const solvers::Campbell held = diagram(on_platform(Vec3::Zero())), fixed = diagram(on_ground(Vec3::Zero()));
@@ -300,9 +305,17 @@ TEST_CASE("machine on a platform: two seconds held, in steady motion, or in surg
 
 TEST_CASE("machine on a platform: the load at the foot is weight less rate of change of momentum, in any motion",
           "[analytic]") {
-    for (unsigned seed : {1u, 2u, 3u, 4u}) {
+    // Elastic; rigid; rigid with everything up to the shaft fixed to it.
+    Setup elastic = on_platform(earth_gravity), rigid = elastic;
+    rigid.description.tower.rigid = true;
+    Setup stiff = rigid;
+    stiff.description.yaw = {rigid_joint, rigid_joint};
+    stiff.description.nacelle.tilt_bearing = rigid_joint;
+    const std::vector<std::pair<Setup, unsigned>> cases{{elastic, 1}, {elastic, 2}, {elastic, 3}, {elastic, 4},
+                                                        {rigid, 5},   {rigid, 6},   {stiff, 7},   {stiff, 8}};
+    for (const auto& [setup, seed] : cases) {
         const PlatformMotion motion = any_motion(seed);
-        const Moving m(on_platform(earth_gravity), seed, motion);
+        const Moving m(setup, seed, motion);
         const Vec3 foot = motion.q.head<3>();
         const Vec6 expected = gravity_load(m, foot) - momentum_rate(m, foot, false), found = foot_load(m, motion);
         CAPTURE(expected.transpose(), found.transpose());
@@ -314,9 +327,9 @@ TEST_CASE("machine on a platform: the load at the foot is weight less rate of ch
 TEST_CASE("machine on a platform: the drives carry what the foot and the platform's own mass ask for", "[crosscheck]") {
     for (unsigned seed : {1u, 2u, 3u}) {
         const PlatformMotion motion = any_motion(seed);
-        AssemblyOptions options = on_platform(earth_gravity);
-        options.platform->inertia.mass = 5e4;  // a point at the foot
-        const Moving m(options, seed, motion);
+        Setup setup = on_platform(earth_gravity);
+        setup.description.platform->inertia.mass = 5e4;  // a point at the foot
+        const Moving m(setup, seed, motion);
         const Vec6 load = foot_load(m, motion);
         const Vec3 force = 5e4 * (motion.qdd.head<3>() - earth_gravity) - load.head<3>(), moment = -load.tail<3>();
         const Mat3 yaw = rot_z(motion.q(5));
@@ -329,10 +342,10 @@ TEST_CASE("machine on a platform: the drives carry what the foot and the platfor
 }
 
 TEST_CASE("machine on a free platform: it falls as a whole; without gravity its momentum is conserved", "[analytic]") {
-    AssemblyOptions options = on_platform(earth_gravity);
-    options.platform->coordinates.role = CoordinateRole::free;
-    options.platform->inertia = {2e5, Vec3(0, 0, -10), Vec3(4e7, 4e7, 2e7).asDiagonal()};
-    Moving falling(options, 1);
+    Setup setup = on_platform(earth_gravity);
+    setup.description.platform->coordinates.role = CoordinateRole::free;
+    setup.description.platform->inertia = {2e5, Vec3(0, 0, -10), Vec3(4e7, 4e7, 2e7).asDiagonal()};
+    Moving falling(setup, 1);
     const Model& model = falling.turbine.system().model;
     Workspace workspace(model);
     Vector Q(model.size()), qdd(model.size()), none = Vector::Zero(model.size()), actuator = none;
@@ -342,10 +355,10 @@ TEST_CASE("machine on a free platform: it falls as a whole; without gravity its 
     qdd(falling.platform(2)) -= earth_gravity.z();
     CHECK(qdd.cwiseAbs().maxCoeff() < 1e-9);
 
-    options.gravity.setZero();
+    setup.options.gravity.setZero();
     for (unsigned seed : {1u, 2u}) {
         const PlatformMotion motion = any_motion(seed);
-        const Moving m(options, seed, motion);
+        const Moving m(setup, seed, motion);
         const Vec6 rate = momentum_rate(m, motion.q.head<3>(), true);
         CAPTURE(rate.transpose());
         CHECK(rate.head<3>().norm() < 1e-12 * mass(m.turbine) * 9.8);
@@ -355,9 +368,9 @@ TEST_CASE("machine on a free platform: it falls as a whole; without gravity its 
 
 TEST_CASE("machine on a moored platform: it has modes of the platform, at the frequency of its mass on the springs",
           "[analytic]") {
-    AssemblyOptions options = on_platform(Vec3::Zero());
-    options.platform->coordinates.role = CoordinateRole::free;
-    const Turbine bare = wt600(options);
+    Setup setup = on_platform(Vec3::Zero());
+    setup.description.platform->coordinates.role = CoordinateRole::free;
+    const Turbine bare = setup.assembled();
     ForceSet forces = bare.forces();
     const auto& coordinates = bare.layout().platform->coordinates;
     const std::array<std::string, 3> name{"surge", "sway", "heave"};
@@ -375,10 +388,10 @@ TEST_CASE("machine on a moored platform: it has modes of the platform, at the fr
 
 TEST_CASE("machine on a platform: its coordinates are named and the description mentions it", "[property]") {
     CHECK_FALSE(wt600().layout().platform);
-    CHECK_FALSE(isolated_blade(wt600_description(), on_platform(earth_gravity)).layout().platform);
-    AssemblyOptions options = on_platform(earth_gravity);
-    options.platform->inertia.mass = 1234;
-    const Turbine turbine = wt600(options);
+    Setup setup = on_platform(earth_gravity);
+    setup.description.platform->inertia.mass = 1234;
+    CHECK_FALSE(isolated_blade(setup.description, setup.options).layout().platform);
+    const Turbine turbine = setup.assembled();
     const CoordinateTable& table = turbine.system().model.coordinates();
     REQUIRE(turbine.layout().platform);
     for (const char* name : {"surge", "sway", "heave", "roll", "pitch", "yaw"}) {
@@ -387,14 +400,14 @@ TEST_CASE("machine on a platform: its coordinates are named and the description 
         CHECK(row.role == CoordinateRole::driven);
     }
     CHECK(turbine.rotor().description.find("on a platform of 1234 kg") != std::string::npos);
-    CHECK(mass(turbine) - mass(wt600(on_ground(earth_gravity))) == Approx(1234));
+    CHECK(mass(turbine) - mass(on_ground(earth_gravity).assembled()) == Approx(1234));
 }
 
 TEST_CASE("machine on a platform: a bad platform is refused", "[property]") {
-    AssemblyOptions options = on_platform(earth_gravity);
-    options.platform->inertia.mass = -1;
-    check_refused([&] { (void)wt600(options); }, {"platform", "mass", "-1"});
-    options = on_platform(earth_gravity);
-    options.platform->coordinates.directions[0] = Vec3::Zero();
-    check_refused([&] { (void)wt600(options); }, {"platform", "direction of surge", "unit vector"});
+    Setup setup = on_platform(earth_gravity);
+    setup.description.platform->inertia.mass = -1;
+    check_refused([&] { (void)setup.assembled(); }, {"600 kW", "platform", "mass", "-1"});
+    setup = on_platform(earth_gravity);
+    setup.description.platform->coordinates.directions[0] = Vec3::Zero();
+    check_refused([&] { setup.description.check(); }, {"600 kW", "platform", "direction of surge", "unit vector"});
 }

@@ -72,18 +72,25 @@ MachineState in_motion(const Turbine& turbine, unsigned seed, const std::vector<
 TEST_CASE(
     "channels: at standstill the tower's foot carries the weight of the machine, its top that of nacelle and rotor",
     "[analytic]") {
-    const Turbine turbine = wt600(heavy());
-    const Sampled now(turbine, MachineState(turbine));
-    const Weight all(turbine, {}), above(turbine, {"tower"});
-    CHECK(above.mass == Approx(26000 + 7500 + 3 * 1970.0).epsilon(1e-4));
-    CHECK((now.vector("TwrBsF", "t") - Vec3(0, 0, -all.mass * g)).norm() < 1e-9 * all.mass * g);
-    CHECK((now.vector("TwrBsM", "t") - all.moment).norm() < 1e-9 * all.mass * g);
-    CHECK((now.vector("YawBrF", "p") - Vec3(0, 0, -above.mass * g)).norm() < 1e-9 * all.mass * g);
-    // All of it hangs over the tower axis, so the height of the cut makes no difference to the moment.
-    CHECK((now.vector("YawBrM", "p") - above.moment).norm() < 1e-9 * all.mass * g);
-    CHECK(now["YawBrMyp"] < 0);  // the rotor's weight pulls the upwind side down
-    CHECK(now["TTDspFA"] == 0);
-    CHECK(now["YawBrTAxp"] == 0);
+    TurbineDescription elastic = wt600_description(), rigid = elastic;
+    rigid.tower.rigid = true;
+    TurbineDescription stiff = rigid;
+    stiff.yaw = {rigid_joint, rigid_joint};
+    stiff.nacelle.tilt_bearing = rigid_joint;
+    for (const TurbineDescription& d : {elastic, rigid, stiff}) {
+        const Turbine turbine = assemble(d, heavy());
+        const Sampled now(turbine, MachineState(turbine));
+        const Weight all(turbine, {}), above(turbine, {"tower"});
+        CHECK(above.mass == Approx(26000 + 7500 + 3 * 1970.0).epsilon(1e-4));
+        CHECK((now.vector("TwrBsF", "t") - Vec3(0, 0, -all.mass * g)).norm() < 1e-9 * all.mass * g);
+        CHECK((now.vector("TwrBsM", "t") - all.moment).norm() < 1e-9 * all.mass * g);
+        CHECK((now.vector("YawBrF", "p") - Vec3(0, 0, -above.mass * g)).norm() < 1e-9 * all.mass * g);
+        // All of it hangs over the tower axis, so the height of the cut makes no difference to the moment.
+        CHECK((now.vector("YawBrM", "p") - above.moment).norm() < 1e-9 * all.mass * g);
+        CHECK(now["YawBrMyp"] < 0);  // the rotor's weight pulls the upwind side down
+        CHECK(now["TTDspFA"] == 0);
+        CHECK(now["YawBrTAxp"] == 0);
+    }
 }
 
 TEST_CASE("channels: a parked blade carries its weight and the moment of its first moment, at every azimuth and pitch",
@@ -168,6 +175,32 @@ TEST_CASE("channels: a force at a blade's tip comes down to root, tower top and 
     CHECK((now.vector("YawBrM", "p") - (tip - top).cross(F)).norm() < 1e-6);
     CHECK((now.vector("TwrBsF", "t") - F).norm() < 1e-9);
     CHECK(now["TwrBsMyt"] > 0);
+}
+
+TEST_CASE("channels: a force on a nacelle that is fixed to a rigid tower comes down to its top and foot",
+          "[analytic]") {
+    TurbineDescription d = wt600_description();
+    d.tower.rigid = true;
+    d.yaw = {rigid_joint, rigid_joint};
+    const Vec3 F(300, -200, 100), arm(0, 0, 50.7);
+    for (const bool afloat : {false, true}) {
+        if (afloat) d.platform.emplace().mooring_pull = Vec3(7e5, 3e5, 0);  // on the platform, not on the tower
+        const Turbine bare = assemble(d);
+        const FrameId nacelle = bare.tree().frame("nacelle");
+        ForceSet forces = bare.forces();
+        forces.add_wrench({"wind", nacelle, {F, Vec3::Zero()}, WrenchAxes::base});
+        const Turbine loaded = bare.with_forces(forces);
+        const Sampled known(loaded, MachineState(loaded));
+        CHECK((known.vector("YawBrF", "p") - F).norm() < 1e-9);
+        CHECK(known.vector("YawBrM", "p").norm() < 1e-9);
+        CHECK((known.vector("TwrBsF", "t") - F).norm() < 1e-9);
+        CHECK((known.vector("TwrBsM", "t") - arm.cross(F)).norm() < 1e-8);
+        if (!afloat) continue;  // the ground takes no external wrenches
+        const auto wind = [F](const ForceInput&) { return Wrench{F, Vec3::Zero()}; };
+        const Sampled given(bare.system(), channels(bare, {{nacelle, wind}}), MachineState(bare));
+        for (const char* end : {"TwrBsMxt", "TwrBsMyt", "YawBrFxp", "TwrBsFzt"})
+            CHECK(given[end] == Approx(known[end]).margin(1e-9));
+    }
 }
 
 TEST_CASE("channels: in any motion the loads along the axes of joints are the forces of their springs and drives",

@@ -92,7 +92,7 @@ TEST_CASE("machine variants: a bearing that was not given is refused with its na
         },
         {"yaw.translation.damping [N s/m] = 3", "rigid or driven"});
     check_description_refused([](D& d) { d.drive_train.main_shaft = turbines::driven_joint; },
-                              {"main_shaft = driven", "AssemblyOptions::spin"});
+                              {"main_shaft = driven", "drive_train.spin"});
 }
 
 TEST_CASE("machine variants: degrees for radians and per cent for ratios are noticed, unless they are meant",
@@ -255,6 +255,114 @@ TEST_CASE("machine variants: the method of a Campbell diagram follows from the m
         bar.system(), bar.rotor(), {27 * rpm}, {.method = solvers::CampbellMethod::coleman, .max_frequency_hz = 3});
     CHECK(at_one_azimuth.warning.find("Take CampbellMethod::floquet") != std::string::npos);
     CHECK(method(machine([](D& d) { d.blades = 0; }, 1)).find("fixed frame") == 0);
+}
+
+TEST_CASE("machine variants: a platform is part of the description and of its check", "[property]") {
+    using turbines::PlatformDescription;
+    const auto refused = [](auto change, std::initializer_list<std::string> parts) {
+        check_description_refused([&](D& d) { change(d.platform.emplace()); }, parts);
+    };
+    refused([](PlatformDescription& p) { p.inertia.mass = -1; }, {"600 kW", "platform", "mass [kg] = -1"});
+    refused([](PlatformDescription& p) { p.name = "raft", p.buoyancy = -2; }, {"600 kW", "raft", "buoyancy [N] = -2"});
+    refused([](PlatformDescription& p) { p.mooring(0, 1) = 1; }, {"600 kW", "mooring, surge by sway = 1", "symmetric"});
+    refused([](PlatformDescription& p) { p.coordinates.rotations[0] = BaseCoordinate::surge; },
+            {"600 kW", "number of rotations called yaw = 0", "1"});
+    D d = turbines::wt600_description();
+    d.platform.emplace();
+    CHECK(refusal([&] { d.check(); }) == "(accepted)");
+    CHECK(turbines::assemble(d, undamped(1)).layout().platform);
+}
+
+TEST_CASE("machine variants: a rigid tower needs neither stiffness nor damping, and has no use for them",
+          "[property]") {
+    const auto rigid = [](auto change) {
+        return machine([&](D& d) {
+            d.tower.rigid = true;
+            change(d);
+        });
+    };
+    const Turbine plain = rigid([](D&) {}), damped = rigid([](D&d) { d.tower.first_mode_damping = 0.02; }),
+                  soft = rigid([](D&d) {
+                      d.tower.line.section = [own = d.tower.line.section](double x) {
+                          BeamSection s = own(x);
+                          s.compliance *= 1e3;
+                          return s;
+                      };
+                  });
+    CHECK(plain.system().model.coordinates().of_part("tower").empty());
+    CHECK(plain.rotor().description.find("tower rigid") != std::string::npos);
+    for (const Turbine* other : {&damped, &soft}) {
+        CHECK(frequencies(*other, 0) == frequencies(plain, 0));
+        CHECK(other->system().model.mass() == plain.system().model.mass());
+    }
+    // A line alone, without sections: a massless stand.
+    const Turbine stand = rigid([](D& d) { d.tower.line.section = nullptr; });
+    check_close(frequencies(stand, 0), frequencies(plain, 0), 1e-12);
+    check_description_refused([](D& d) { d.tower.rigid = true, d.tower.first_mode_damping = -1; },
+                              {"tower.first_mode_damping = -1"});
+    D d = turbines::wt600_description();
+    d.tower.rigid = true;
+    check_refused([&] { (void)turbines::isolated_tower(d); }, {"600 kW", "tower.rigid", "could not move"});
+}
+
+TEST_CASE("machine variants: whether the rotor is driven is part of the description, and an analysis may decide anew",
+          "[property]") {
+    D d = turbines::wt600_description();
+    turbines::AssemblyOptions options = undamped(1);
+    const auto role = [&] {
+        const Turbine turbine = turbines::assemble(d, options);
+        return turbine.system().model.coordinates()[turbine.rotor().spin].role;
+    };
+    CHECK(role() == CoordinateRole::free);
+    d.drive_train.spin = CoordinateRole::driven;
+    CHECK(role() == CoordinateRole::driven);
+    const Turbine blade = turbines::isolated_blade(d, options);
+    CHECK(blade.system().model.coordinates()[blade.rotor().spin].role == CoordinateRole::driven);
+    options.spin = CoordinateRole::free;
+    CHECK(role() == CoordinateRole::free);
+}
+
+TEST_CASE("machine variants: a blade or the tower alone needs nothing of the rest, and leaves a platform out",
+          "[property]") {
+    const D whole = turbines::wt600_description();
+    D one;  // no bearings, no hub, no tower
+    one.name = "a blade";
+    one.blade.line = whole.blade.line;
+    one.hub.radius = whole.hub.radius;
+    one.blade.first_flap_damping = whole.blade.first_flap_damping;
+    one.platform.emplace();
+    check_refused([&] { one.check(); }, {"a blade"});
+    const Turbine blade = turbines::isolated_blade(one, {}, 2), same = turbines::isolated_blade(whole, {}, 2);
+    CHECK_FALSE(blade.layout().platform);
+    CHECK(frequencies(blade, 27 * rpm) == frequencies(same, 27 * rpm));
+    one.blade = {};
+    one.own_blades[2].emplace().line = whole.blade.line;  // the others lack everything
+    one.own_blades[3] = std::nullopt;
+    one.own_blades[2]->first_flap_damping = whole.blade.first_flap_damping;
+    CHECK(frequencies(turbines::isolated_blade(one, {}, 2), 0) == frequencies(same, 0));
+    check_refused([&] { (void)turbines::isolated_blade(one, {}, 3); }, {"a blade", "number of the blade = 3"});
+
+    D stump;
+    stump.name = "a tower";
+    stump.tower.line = whole.tower.line;
+    stump.platform.emplace().inertia.mass = 1e6;
+    D undamped_tower = whole;
+    undamped_tower.tower.first_mode_damping = 0;
+    const Turbine tower = turbines::isolated_tower(stump), full = turbines::isolated_tower(undamped_tower);
+    CHECK_FALSE(tower.layout().platform);
+    CHECK(frequencies(tower, 0) == frequencies(full, 0));
+    // A ratio of the first mode is that of the tower with its top.
+    stump.tower.first_mode_damping = 0.01;
+    check_refused([&] { (void)turbines::isolated_tower(stump); }, {"length [m] = 0"});
+    stump.blades = 0;
+    CHECK(refusal([&] { (void)turbines::isolated_tower(stump); }) == "(accepted)");
+
+    // Masses on top count, whatever holds them.
+    D loose = undamped_tower;
+    loose.yaw.rotation = loose.drive_train.main_shaft = loose.blade.pitch = loose.nacelle.tilt_bearing = {};
+    loose.platform.emplace().inertia.mass = 1e6;
+    check_close(frequencies(turbines::isolated_tower(loose, {}, true), 0),
+                frequencies(turbines::isolated_tower(undamped_tower, {}, true), 0), 1e-9, 4);
 }
 
 }  // namespace cardan::testing::machine_variants

@@ -20,18 +20,16 @@ struct Afloat {
     PlatformFrames frames;
     std::vector<std::string> warnings;
 
-    explicit Afloat(const PlatformOptions& options, const Vec3& gravity = earth_gravity) {
+    explicit Afloat(const PlatformDescription& platform, const Vec3& gravity = earth_gravity) {
         forces.set_gravity(gravity);
-        frames = add_platform(tree, options);
-        add_water_forces(forces, tree, frames.base, options, warnings);
+        frames = add_platform(tree, platform);
+        add_water_forces(forces, tree, frames.base, platform, warnings);
     }
-    explicit Afloat(const PlatformDescription& platform, const Vec3& gravity = earth_gravity)
-        : Afloat(free_floating(platform), gravity) {}
     System system() const { return {tree, forces}; }
 };
 
 PlatformDescription neutrally_buoyant() {
-    PlatformDescription p = some_platform();
+    PlatformDescription p = floating_freely(some_platform());
     p.buoyancy = units::standard_gravity * p.inertia.mass;
     return p;
 }
@@ -118,7 +116,7 @@ TEST_CASE("platform alone: heave is the damped oscillation of mass and added mas
 
 TEST_CASE("platform alone: a body without stiffness keeps its momentum, added mass and all", "[analytic]") {
     // Constant added mass in the coordinates: g_ab x'^b of the translations is constant, whatever the body turns.
-    PlatformDescription p = some_platform();
+    PlatformDescription p = floating_freely(some_platform());
     p.hydrostatic.setZero();
     p.mooring.setZero();
     p.damping.setZero();
@@ -146,7 +144,7 @@ TEST_CASE("platform alone: a body without stiffness keeps its momentum, added ma
 }
 
 TEST_CASE("platform alone: without any stiffness there are no vibrations", "[property]") {
-    PlatformDescription p = some_platform();
+    PlatformDescription p = floating_freely(some_platform());
     p.hydrostatic.setZero();
     p.mooring.setZero();
     p.damping.setZero();
@@ -194,17 +192,16 @@ TEST_CASE("strip theory: bad hulls are refused", "[property]") {
 
 TEST_CASE("platform: single coordinates are free or driven, and only free ones have a stiffness that counts as elastic",
           "[property]") {
-    PlatformOptions options = free_floating(neutrally_buoyant());
-    options.coordinates.roles[0] = options.coordinates.roles[5] = CoordinateRole::driven;
-    const Afloat afloat(options);
+    PlatformDescription p = neutrally_buoyant();
+    p.coordinates.roles[0] = p.coordinates.roles[5] = CoordinateRole::driven;
+    const Afloat afloat(p);
     const System system = afloat.system();
     const CoordinateTable& table = system.model.coordinates();
     for (const char* name : {"surge", "yaw"})
         CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::driven);
     for (const char* name : {"sway", "heave", "roll", "pitch"})
         CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::free);
-    const solvers::SecondOrderSystem all = linear(Afloat(free_floating(neutrally_buoyant())).system()),
-                                     some = linear(system);
+    const solvers::SecondOrderSystem all = linear(Afloat(neutrally_buoyant()).system()), some = linear(system);
     CHECK((all.K - some.K).cwiseAbs().maxCoeff() < 1e-12 * all.K.cwiseAbs().maxCoeff());
     CHECK(some.K_elastic.row(0).isZero(0));
     CHECK(some.K_elastic.row(5).isZero(0));
@@ -239,8 +236,8 @@ TEST_CASE("platform: bad descriptions are refused with their name, the quantity,
     check_refused(with([](auto& p) { p.mooring_pull.y() = NAN; }), {"pull of the mooring lines", "nan"});
     check_refused(with([](auto& p) { p.buoyancy_centre.z() = -60; }), {"test spar", "capsizes", "unit diagonal"});
     // Driven it may do that, since it cannot.
-    PlatformOptions driven;
-    static_cast<PlatformDescription&>(driven) = neutrally_buoyant();
+    PlatformDescription driven = neutrally_buoyant();
+    driven.coordinates.role = CoordinateRole::driven;
     driven.buoyancy_centre.z() = -60;
     CHECK_NOTHROW(Afloat(driven));
 }

@@ -2,6 +2,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/machines/nrel5mw/test_nrel5mw_machine.hpp"
+#include "turbines/machines/oc3_hywind.hpp"
 #include "turbines/machines/wt600.hpp"
 #include "turbines/model/scaling.hpp"
 
@@ -65,6 +66,17 @@ TEST_CASE("scaling: there and back again, and bad factors", "[property]") {
     CHECK(back.yaw.translation.is_rigid());
     for (double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
         check_refused([&] { (void)turbines::scaled(d, bad); }, {"NREL 5 MW", "factor of lengths", "finite and > 0"});
+}
+
+TEST_CASE("scaling: a platform scales along, with the gravity that balances it", "[analytic]") {
+    turbines::TurbineDescription d = turbines::nrel5mw_oc3_hywind_description();
+    turbines::AssemblyOptions options, scaled_options;
+    options.gravity = turbines::nrel5mw_gravity;
+    scaled_options.gravity = options.gravity / length_ratio;
+    const turbines::Turbine a = turbines::assemble(d, options),
+                            b = turbines::assemble(turbines::scaled(d, length_ratio), scaled_options);
+    check_same(a, b, 0, 1e-8);
+    CHECK(b.warnings().size() == a.warnings().size());
 }
 
 TEST_CASE("scaling: 15 MW with 50 elements per blade runs the same way", "[analytic][slow]") {

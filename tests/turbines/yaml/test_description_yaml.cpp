@@ -1,6 +1,8 @@
 // Our own YAML: what is written is read again bit for bit, and nothing else is read.
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
+#include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/machines/oc3_hywind.hpp"
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600.hpp"
 #include "turbines/model/assembly.hpp"
@@ -50,17 +52,46 @@ void check_round_trip(const TurbineDescription& d) {
     CHECK(read.blade.damping.modal.bending_y == d.blade.damping.modal.bending_y);
 }
 
+void check_same_platform(const TurbineDescription& d) {
+    check_round_trip(d);
+    const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
+    REQUIRE(read.platform);
+    const PlatformDescription &a = *d.platform, &b = *read.platform;
+    CHECK(a.name == b.name);
+    CHECK(a.source == b.source);
+    CHECK(a.inertia.mass == b.inertia.mass);
+    CHECK(a.inertia.com == b.inertia.com);
+    CHECK(a.inertia.J == b.inertia.J);
+    CHECK(a.tower_foot == b.tower_foot);
+    CHECK(a.added_mass == b.added_mass);
+    CHECK(a.hydrostatic == b.hydrostatic);
+    CHECK(a.mooring == b.mooring);
+    CHECK(a.damping == b.damping);
+    CHECK(a.buoyancy == b.buoyancy);
+    CHECK(a.buoyancy_centre == b.buoyancy_centre);
+    CHECK(a.mooring_pull == b.mooring_pull);
+    CHECK(a.coordinates.role == b.coordinates.role);
+    CHECK(a.coordinates.roles == b.coordinates.roles);
+    CHECK(a.coordinates.directions == b.coordinates.directions);
+    CHECK(a.coordinates.rotations == b.coordinates.rotations);
+    CHECK(read.tower.rigid == d.tower.rigid);
+}
+
+// A text with one place changed.
+std::string message_after(std::string changed, const std::string& old_text, const std::string& new_text) {
+    const std::size_t at = changed.find(old_text);
+    if (at == std::string::npos) return "no such text";
+    changed.replace(at, old_text.size(), new_text);
+    return message_of([&] { (void)parse_description(changed, "machine.yaml"); });
+}
+
 std::string small() {
     static const std::string text = to_yaml(read_openfast(test::data_file("openfast/small.fst")).description);
     return text;
 }
 
 std::string message_after(const std::string& old_text, const std::string& new_text) {
-    std::string changed = small();
-    const std::size_t at = changed.find(old_text);
-    if (at == std::string::npos) return "no such text";
-    changed.replace(at, old_text.size(), new_text);
-    return message_of([&] { (void)parse_description(changed, "machine.yaml"); });
+    return message_after(small(), old_text, new_text);
 }
 
 }  // namespace
@@ -114,6 +145,37 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         CHECK(d.blade_at(2)->pitch_setting == 0.05);
         CHECK(d.blade_at(3) == nullptr);
         CHECK(assemble(d).layout().blade_numbers == std::vector<int>{1, 2});
+        CHECK(d.tower.rigid);
+        CHECK(d.drive_train.spin == CoordinateRole::driven);
+        REQUIRE(d.platform);
+        CHECK(d.platform->name == "a barge");
+        CHECK(d.platform->added_mass(4, 0) == -2e5);
+        CHECK(d.platform->buoyancy_centre == Vec3(0, 0, -3));
+        CHECK(d.platform->coordinates.role == CoordinateRole::free);
+        CHECK(d.platform->coordinates.roles[1] == CoordinateRole::driven);
+        CHECK(d.platform->coordinates.roles[5] == CoordinateRole::free);
+        CHECK_FALSE(d.platform->coordinates.roles[0]);
+        const Turbine turbine = assemble(d);
+        const CoordinateTable& table = turbine.system().model.coordinates();
+        CHECK(table[table.index("platform sway")].role == CoordinateRole::driven);
+        CHECK(table[table.index("platform surge")].role == CoordinateRole::free);
+        CHECK(table.of_part("tower").empty());
+    }
+    SECTION("on a platform: OC3-Hywind, the platform study; a rigid tower") {
+        TurbineDescription small = read_openfast(test::data_file("openfast/small.fst")).description;
+        small.platform = oc3_hywind();
+        small.platform->inertia.J(0, 1) = small.platform->inertia.J(1, 0) = 1.0 / 3;
+        small.platform->coordinates.roles[3] = CoordinateRole::driven;
+        check_same_platform(small);
+        TurbineDescription study = nrel5mw_platform_description(nrel5mw_platform_blade());
+        study.blade.line = teetered_description().blade.line;  // its own is a function
+        check_same_platform(study);
+        const TurbineDescription read = parse_description(to_yaml(study), "machine.yaml");
+        CHECK(read.tower.rigid);
+        CHECK(read.drive_train.spin == CoordinateRole::driven);
+        CHECK(read.platform->coordinates.directions[1] == -Vec3::UnitY());
+        CHECK(read.platform->coordinates.rotations[0] == BaseCoordinate::roll);
+        CHECK(assemble(read).summary() == assemble(study).summary());
     }
     SECTION("a hub without blades") {
         TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
@@ -206,6 +268,53 @@ TEST_CASE("description yaml: what the format does not define is refused with fil
     TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
     d.nacelle.tilt = std::numeric_limits<double>::quiet_NaN();
     CHECK_THAT(message_of([&] { (void)to_yaml(d); }), Contains("tilt: number = nan; allowed"));
+}
+
+TEST_CASE(
+    "description yaml: a bad platform is refused with file, line and what is allowed; what has a default may be "
+    "missing",
+    "[property]") {
+    const std::string whole =
+        test::bytes_of(std::string(CARDAN_SOURCE_DIR) + "/tests/fuzz/seeds/description/variants.yaml");
+    const auto after = [&](const std::string& old_text, const std::string& new_text) {
+        return message_after(whole, old_text, new_text);
+    };
+    CHECK_THAT(after("  rigid: true", "  rigid: yes"), Contains("tower.rigid: 'yes' is neither true nor false"));
+    CHECK_THAT(after("  spin: driven", "  spin: locked"),
+               Contains("drive_train.spin: 'locked'; allowed: free, driven"));
+    CHECK_THAT(after("  tower_foot: [0, 0, 4]", "  tower_foot: [0, 4]"),
+               Contains("machine.yaml:") && Contains("platform.tower_foot: 2 numbers; allowed: 3"));
+    CHECK_THAT(after("  hydrostatic: [[0, 0, 0, 0, 0, 0], ", "  hydrostatic: ["),
+               Contains("platform.hydrostatic: 5 rows; allowed: 6"));
+    CHECK_THAT(after("  mooring: [[5.0e+4, 0, ", "  mooring: [[5.0e+4, "),
+               Contains("platform.mooring[0]: 5 numbers; allowed: 6"));
+    CHECK_THAT(after("  buoyancy: ", "  bouyancy: "), Contains("platform: no 'buoyancy'; there are: "));
+    CHECK_THAT(after("    role: free", "    role: held"),
+               Contains("platform.coordinates.role: 'held'; allowed: free, driven"));
+    CHECK_THAT(after("    role: free\n", ""), Contains("platform.coordinates: no 'role'"));
+    CHECK_THAT(after("    sway: driven", "    sideways: driven"),
+               Contains("platform.coordinates.sideways: not a key of the format; allowed: directions, heave"));
+    CHECK_THAT(after("    directions: [[1, 0, 0], ", "    directions: ["),
+               Contains("platform.coordinates.directions: 5 entries; allowed: 6"));
+    CHECK_THAT(after("rotations: [roll, ", "rotations: [role, "),
+               Contains("platform.coordinates.rotations[0]: 'role'; allowed: surge, sway, heave, roll, pitch, yaw"));
+    CHECK_THAT(after("rotations: [roll, ", "rotations: ["),
+               Contains("platform.coordinates.rotations: 2 entries; allowed: 3"));
+
+    std::string shorter = whole;
+    for (const std::string& left_out :
+         {std::string("  rigid: true\n"), std::string("  spin: driven\n"),
+          std::string("    rotations: [roll, pitch, yaw]\n"),
+          std::string("    directions: [[1, 0, 0], [0, -1, 0], [0, 0, 1], [1, 0, 0], [0, -1, 0], [0, 0, 1]]\n")}) {
+        const std::size_t at = shorter.find(left_out);
+        REQUIRE(at != std::string::npos);
+        shorter.erase(at, left_out.size());
+    }
+    const TurbineDescription d = parse_description(shorter, "machine.yaml");
+    CHECK_FALSE(d.tower.rigid);
+    CHECK(d.drive_train.spin == CoordinateRole::free);
+    CHECK(d.platform->coordinates.directions == MovingBaseOptions().directions);
+    CHECK(d.platform->coordinates.rotations == MovingBaseOptions().rotations);
 }
 
 TEST_CASE("description yaml: the record of a machine that was assembled is that machine, changes included",

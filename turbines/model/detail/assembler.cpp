@@ -69,16 +69,16 @@ void Assembler::whole_machine() {
     lines.push_back({"shaft", 0, {top, shaft, hub}});
     tree.weld(hub, d_.hub.inertia, "hub");
     add_blades(hub);
-    if (layout.platform) add_water_forces(forces, tree, *layout.platform, *options_.platform, warnings);
-    if (!options_.rigid_tower) add_tower_axes();
+    if (layout.platform) add_water_forces(forces, tree, *layout.platform, *d_.platform, warnings);
+    if (!d_.tower.rigid) add_tower_axes();
 }
 
 void Assembler::one_blade(int number) {
     const BladeDescription* blade = number < 1 || number > d_.blades ? nullptr : d_.blade_at(number);
     if (blade == nullptr) throw InputError(d_.name, "number of the blade", number, "that of a blade of the machine");
     layout.shaft = Tree::base();
-    const JointedFrame spinner =
-        add_joint(tree, layout.shaft, JointKind::revolute, Axis::x, "spin", {"rotor"}, Vec3::Zero(), options_.spin);
+    const JointedFrame spinner = add_joint(tree, layout.shaft, JointKind::revolute, Axis::x, "spin", {"rotor"},
+                                           Vec3::Zero(), options_.spin.value_or(d_.drive_train.spin));
     spin = spinner.body;
     layout.azimuth = {{spinner.body, 1.0}};
     add_blade(add_hub(add_rotor_centre(spinner.frame, {})), number, *blade, false);
@@ -107,8 +107,8 @@ JointedFrame Assembler::jointed(FrameId carrier, JointKind kind, Axis axis, cons
 }
 
 void Assembler::add_platform() {
-    if (!options_.platform) return;
-    const PlatformFrames platform = turbines::add_platform(tree, *options_.platform);
+    if (!d_.platform) return;
+    const PlatformFrames platform = turbines::add_platform(tree, *d_.platform);
     layout.platform = platform.base;
     foundation_ = platform.tower_foot;
     if (platform.line.size() > 1) lines.push_back({"platform", 0, platform.line});
@@ -121,8 +121,7 @@ void Assembler::add_platform() {
 FrameId Assembler::add_tower() {
     const Mat3 upward = axis_rotation(Axis::y);  // x -> z, y -> x, z -> y
     layout.tower_foot = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
-    const FrameId tip =
-        options_.rigid_tower ? add_rigid_tower(layout.tower_foot) : add_flexible_tower(layout.tower_foot);
+    const FrameId tip = d_.tower.rigid ? add_rigid_tower(layout.tower_foot) : add_flexible_tower(layout.tower_foot);
     return layout.tower_top = tree.add_frame(tip, Placement::rotation(upward.transpose()), "tower top");
 }
 
@@ -138,7 +137,8 @@ FrameId Assembler::add_flexible_tower(FrameId foot) {
 FrameId Assembler::add_rigid_tower(FrameId foot) {
     const BeamLine& line = d_.tower.line;
     require_positive("tower", "length [m]", line.length);
-    if (line.section) tree.weld(foot, rigid_inertia(line), "tower");
+    const RigidInertia whole = line.section ? rigid_inertia(line) : RigidInertia{};
+    if (!whole.is_massless()) tree.weld(foot, whole, "tower");
     const FrameId tip = tree.add_frame(foot, line.pose(line.length), "tower tip");
     lines.push_back({"tower", 0, {foot, tip}});
     return tip;
@@ -181,8 +181,8 @@ FrameId Assembler::add_generator_and_gearbox(FrameId shaft) {
     const DriveTrainDescription& t = d_.drive_train;
     const double squared = t.gear_ratio * t.gear_ratio;
     const PartLabel label{"drive train"};
-    const JointedFrame generator =
-        add_joint(tree, shaft, JointKind::revolute, Axis::x, "generator azimuth", label, Vec3::Zero(), options_.spin);
+    const JointedFrame generator = add_joint(tree, shaft, JointKind::revolute, Axis::x, "generator azimuth", label,
+                                             Vec3::Zero(), options_.spin.value_or(d_.drive_train.spin));
     spin = generator.body;
     layout.generator = generator.body;
     layout.gear_ratio = t.gear_ratio;

@@ -2,6 +2,7 @@
 /// The fields of a description, listed once for both writing and reading. Internal to description_yaml: not installed.
 #pragma once
 
+#include "mbs/base/entry.hpp"
 #include "turbines/model/beam_table.hpp"
 #include "turbines/model/description.hpp"
 
@@ -33,6 +34,39 @@ inline const char* name_of(Bearing::Hold hold) {
     return "";
 }
 
+inline const char* name_of(CoordinateRole role) {
+    return role == CoordinateRole::free ? "free" : "driven";
+}
+
+inline constexpr std::array<const char*, 6> base_coordinate_names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+inline const char* name_of(BaseCoordinate coordinate) {
+    return entry(base_coordinate_names, coordinate);
+}
+
+template <class Archive, class Platform>
+void platform_fields(Archive& archive, Platform& p) {
+    archive.word("name", p.name);
+    archive.word("source", p.source);
+    archive.inertia("inertia", p.inertia);
+    archive.vector("tower_foot", p.tower_foot);
+    archive.matrix("added_mass", p.added_mass);
+    archive.matrix("hydrostatic", p.hydrostatic);
+    archive.matrix("mooring", p.mooring);
+    archive.matrix("damping", p.damping);
+    archive.number("buoyancy", p.buoyancy);
+    archive.vector("buoyancy_centre", p.buoyancy_centre);
+    archive.vector("mooring_pull", p.mooring_pull);
+    archive.group("coordinates", [&] {
+        archive.role("role", p.coordinates.role);
+        for (std::size_t i = 0; i < base_coordinate_names.size(); ++i)
+            archive.optional_role(base_coordinate_names.at(i), p.coordinates.roles.at(i));
+        archive.vectors("directions", p.coordinates.directions);
+        archive.choices("rotations", p.coordinates.rotations,
+                        {BaseCoordinate::surge, BaseCoordinate::sway, BaseCoordinate::heave, BaseCoordinate::roll,
+                         BaseCoordinate::pitch, BaseCoordinate::yaw});
+    });
+}
+
 template <class Archive, class Blade>
 void blade_fields(Archive& archive, Blade& blade) {
     archive.line("line", blade.line);
@@ -57,6 +91,7 @@ void description_fields(Archive& archive, Description& d) {
         archive.line("line", d.tower.line);
         archive.number("first_mode_damping", d.tower.first_mode_damping);
         archive.damping("damping", d.tower.damping);
+        archive.since(2, [&] { archive.optional_flag("rigid", d.tower.rigid); });
     });
     archive.group("yaw", [&] {
         archive.bearing("rotation", d.yaw.rotation);
@@ -75,7 +110,10 @@ void description_fields(Archive& archive, Description& d) {
         archive.number("gearbox_inertia", d.drive_train.gearbox_inertia);
         archive.bearing("high_speed_shaft", d.drive_train.high_speed_shaft);
         archive.bearing("main_shaft", d.drive_train.main_shaft);
-        archive.since(2, [&] { archive.inertia("shaft", d.drive_train.shaft); });
+        archive.since(2, [&] {
+            archive.inertia("shaft", d.drive_train.shaft);
+            archive.optional_role("spin", d.drive_train.spin);
+        });
     });
     archive.group("hub", [&] {
         archive.inertia("inertia", d.hub.inertia);
@@ -88,6 +126,9 @@ void description_fields(Archive& archive, Description& d) {
     });
     archive.group("blade", [&] { blade_fields(archive, d.blade); });
     archive.numbered_groups("own_blades", d.own_blades, d.blades, [&](auto& blade) { blade_fields(archive, blade); });
+    archive.since(2, [&] {
+        archive.optional_group("platform", d.platform, [&](auto& platform) { platform_fields(archive, platform); });
+    });
 }
 
 /// A column of the sections of a beam.

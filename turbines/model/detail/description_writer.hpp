@@ -50,6 +50,27 @@ public:
     }
     void number(const char* key, double value) { entry(key, digits(value, key)); }
     void flag(const char* key, bool value) { entry(key, value ? "true" : "false"); }
+    /// Those that a file may leave out are written all the same.
+    void optional_flag(const char* key, bool value) { flag(key, value); }
+    void role(const char* key, CoordinateRole value) { entry(key, name_of(value)); }
+    void optional_role(const char* key, CoordinateRole value) { role(key, value); }
+    void optional_role(const char* key, const std::optional<CoordinateRole>& value) {
+        if (value) role(key, *value);
+    }
+    void vector(const char* key, const Vec3& value) { entry(key, list(value)); }
+    void matrix(const char* key, const Mat6& value) { entry(key, rows(value)); }
+    template <std::size_t n>
+    void vectors(const char* key, const std::array<Vec3, n>& values) {
+        std::string all;
+        for (const Vec3& value : values) all += (all.empty() ? "" : ", ") + list(value);
+        entry(key, "[" + all + "]");
+    }
+    template <class Value, std::size_t n>
+    void choices(const char* key, const std::array<Value, n>& values, std::initializer_list<Value> /*allowed*/) {
+        std::string all;
+        for (Value value : values) all += text(all.empty() ? "" : ", ", name_of(value));
+        entry(key, "[" + all + "]");
+    }
     void bearing(const char* key, const Bearing& b) {
         const std::string damping = text("damping: ", digits(b.damping, key), "}");
         if (b.hold == Bearing::Hold::spring)

@@ -123,12 +123,11 @@ TEST_CASE("NREL 5 MW tower: with a rigid top it is the limit of a machine with s
 }
 
 TEST_CASE("NREL 5 MW tower: it includes neither a platform under the machine nor a rotor", "[property]") {
-    AssemblyOptions options = undamped(Nrel5mwVariant::report, 2, 2);
-    const double on_ground =
-        hz(diagram(isolated_tower(nrel5mw_description(), options, true), {0}), "1st tower fore-aft");
-    options.platform.emplace();
-    options.platform->inertia.mass = 1e6;
-    const Turbine tower = isolated_tower(nrel5mw_description(), options, true);
+    const AssemblyOptions options = undamped(Nrel5mwVariant::report, 2, 2);
+    TurbineDescription machine = nrel5mw_description();
+    const double on_ground = hz(diagram(isolated_tower(machine, options, true), {0}), "1st tower fore-aft");
+    machine.platform.emplace().inertia.mass = 1e6;
+    const Turbine tower = isolated_tower(machine, options, true);
     CHECK_FALSE(tower.layout().platform);
     CHECK(hz(diagram(tower, {0}), "1st tower fore-aft") == on_ground);
     CHECK_THROWS_AS(diagram(tower, {1.0}), InputError);

@@ -24,9 +24,10 @@ inline constexpr double teetered_speed = 6.02;  ///< nominal, rad/s
 /// @param ratio  of the tower's rigidity to the blade's
 inline turbines::Turbine teetered_machine(int elements, bool rigid_tower = false, double ratio = 100) {
     turbines::AssemblyOptions options = turbines::teetered_assembly(elements);
-    options.rigid_tower = rigid_tower;
     options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
-    return turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), ratio), options);
+    turbines::TurbineDescription machine = turbines::with_tower_rigidity(turbines::teetered_description(), ratio);
+    machine.tower.rigid = rigid_tower;
+    return turbines::assemble(machine, options);
 }
 
 }  // namespace cardan::testing

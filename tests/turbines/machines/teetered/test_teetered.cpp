@@ -216,7 +216,7 @@ TEST_CASE("teetered machine: half a revolution on, blades exchanged and teeter r
 }
 
 TEST_CASE("teetered machine: springs, dampers and gravity are where the description says", "[analytic]") {
-    const TurbineDescription d = general_description();
+    TurbineDescription d = general_description();
     AssemblyOptions options = general_options();
     options.gravity = {0, 0, -9.81};
     const auto derivatives = [&](const Turbine& machine) {
@@ -239,7 +239,7 @@ TEST_CASE("teetered machine: springs, dampers and gravity are where the descript
     CHECK(derivatives(assemble(d, options)).damping.isZero(0));
 
     // What stands on the ground has no energy: the tower is made rigid.
-    options.rigid_tower = true;
+    d.tower.rigid = true;
     const Turbine on_ground = assemble(d, options);
     Workspace workspace(on_ground.system().model);
     const Vector zero = Vector::Zero(on_ground.system().model.size());
@@ -251,9 +251,10 @@ TEST_CASE("teetered machine: springs, dampers and gravity are where the descript
 }
 
 TEST_CASE("teetered machine: a rigid tower has no coordinates, its mass stays in the summary", "[property]") {
-    AssemblyOptions options = turbines::teetered_assembly();
-    options.rigid_tower = true;
-    const Turbine machine = assemble(teetered_description(), options);
+    turbines::TurbineDescription d = teetered_description();
+    d.tower.rigid = true;
+    d.tower.first_mode_damping = 0.01;  // not used
+    const Turbine machine = assemble(d, turbines::teetered_assembly());
     CHECK(machine.system().model.size() == 3 + 2 * 30);
     CHECK(machine.system().model.coordinates().of_part("tower").empty());
     const Vec3 top = entry(machine.tree().frames(), machine.tree().frame("tower top").index).in_body.p;
@@ -372,7 +373,7 @@ TEST_CASE("teetered machine: bad descriptions and options are refused with the v
     check_machine_refused([](D& d, O&) { d.nacelle.inertia.mass = -6900; }, {"nacelle", "mass [kg] = -6900"});
     check_machine_refused([](D& d, O&) { d.hub.inertia.J = Vec3(1, 1, 5).asDiagonal(); }, {"hub", "inertia"});
     check_machine_refused([](D& d, O&) { d.tower.line.length = 0; }, {"tower", "length [m] = 0"});
-    check_machine_refused([](D& d, O& o) { d.tower.line.length = -27, o.rigid_tower = true; },
+    check_machine_refused([](D& d, O&) { d.tower.line.length = -27, d.tower.rigid = true; },
                           {"tower", "length [m] = -27"});
     check_machine_refused([](D& d, O&) { change_section(d.blade.line, [](EngineeringSection& s) { s.EI_flap = 0; }); },
                           {"blade", "EI flap [N m^2] = 0"});

@@ -62,10 +62,10 @@ private:
 struct Modes {
     explicit Modes(bool rigid_tower = false, double per_period = 46) {
         turbines::AssemblyOptions options = turbines::teetered_assembly(3);
-        options.rigid_tower = rigid_tower;
         options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
-        const auto machine =
-            turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);
+        auto description = turbines::with_tower_rigidity(turbines::teetered_description(), 100);
+        description.tower.rigid = rigid_tower;
+        const auto machine = turbines::assemble(description, options);
         for (int i = 0; i < machine.system().model.size(); ++i)
             if (i != machine.rotor().spin) unknowns.push_back(i);
         solvers::PeriodicOptions periodic;

@@ -1,0 +1,47 @@
+/// @file
+/// What the channels of loads have in common, and the loads of a rigid tower. Internal to channels: not installed.
+#pragma once
+
+#include "turbines/model/channels.hpp"
+
+#include <memory>
+
+namespace cardan::turbines {
+
+/// What channels are sampled from.
+struct ChannelSource {
+    Turbine turbine;
+    std::vector<ExternalWrench> external;
+
+    const MachineLayout& layout() const { return turbine.layout(); }
+};
+
+/// Adds a wrench about `from` as one about `to`.
+inline void add_moved(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double sign = 1) {
+    sum.force += sign * wrench.force;
+    sum.moment += sign * (wrench.moment + cross<double>(from - to, wrench.force));
+}
+
+/// Adds what the external wrenches on the subtree of a body contribute at a point.
+void add_external(Wrench& sum, const ChannelSource& source, const ChannelInput& in, int subtree, const Vec3& at);
+
+/// Loads at the ends of a tower without coordinates. It shares a body (or the ground) with what carries it and with
+/// what is fixed to its top, so they follow from the joints on that body and the parts that were welded to it.
+class RigidTower {
+public:
+    explicit RigidTower(const Turbine& turbine);
+    /// On the tower at its top, or on what carries it at its foot; base axes, about the frame's origin.
+    Wrench top_load(const ChannelSource& source, const ChannelInput& in) const;
+    Wrench foot_load(const ChannelSource& source, const ChannelInput& in) const;
+
+private:
+    Wrench load_above(FrameId cut, const ChannelSource& source, const ChannelInput& in) const;
+    void add_part(Wrench& sum, const RigidInertia& part, const ChannelInput& in, const Vec3& at) const;
+
+    FrameId carrier_;          // the body's own frame
+    int body_ = -1;            // of the model; -1: the ground
+    std::vector<int> joints_;  // of the model: bodies that move on it
+    RigidInertia tower_, head_;
+};
+
+}  // namespace cardan::turbines
