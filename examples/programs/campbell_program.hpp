@@ -41,13 +41,6 @@ inline void speed_progress(int done, int total) {
     progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
 }
 
-/// What the assembly has to say, before the work.
-template <class Turbine>
-void introduce(const Turbine& turbine, bool summary) {
-    if (summary) std::cout << turbine.summary() << "\n";
-    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
-}
-
 /// With progress, and to be stopped by Ctrl-C.
 inline solvers::CampbellOptions campbell_options(double max_frequency_hz) {
     solvers::CampbellOptions options;

@@ -44,7 +44,7 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_flag("--no-gravity", a.no_gravity, "leave out gravity");
     if (const int code = app.parse(argc, argv); code >= 0) return code;
     a.by_delay = brake_delay.given();
-    program::check_simulation_options(a.simulation);
+    program::check_run_options(a.simulation);
     if (speed.given()) require_positive("--rpm", "value", a.speed);
     require_positive("--brake-speed", "value", a.brake_speed);
     require_positive("--grid-loss", "value", a.loss);
@@ -157,7 +157,7 @@ double drift(const solvers::History& history, double loss) {
 }
 
 int run(const Arguments& given) {
-    program::check_outputs(given.simulation.out, program::simulation_outputs);
+    program::check_outputs(given.simulation.out, program::run_outputs);
     Arguments a = given;
     const turbines::Wt600Operation machine = machine_of(a, !a.no_gravity), calm = machine_of(a, false);
     const bool balanced = a.speed == 0;

@@ -1,5 +1,5 @@
 /// @file
-/// What the programs that simulate the 600 kW machine have in common: options, starts, rows, pictures.
+/// What the programs that simulate the 600 kW machine have in common: options, starts, pictures.
 #pragma once
 
 #include "mbs/base/outcome.hpp"
@@ -8,54 +8,26 @@
 #include "solvers/equilibrium/steady_state.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 
-#include "examples/shared/simulation.hpp"
+#include "examples/shared/simulation_run.hpp"
 
 namespace cardan::program {
 
-struct SimulationArguments {
+struct SimulationArguments : RunArguments {
     int blade_elements = 3, tower_elements = 3;
-    double duration = 60, step = 0.02, tolerance = 1e-6;
-    int order = 2;
-    std::string method = "dirk", out, data;
-    bool resume = false;
+    std::string data;
 };
 
 inline void add_simulation_options(CommandLine& app, SimulationArguments& a) {
-    app.add_option("--duration", a.duration, "simulated time, s");
+    add_run_options(app, a);
     app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
     app.add_option("--tower-elements", a.tower_elements, "beam elements of the tower");
-    app.add_option("--method", a.method, "method of integration").one_of(method_names);
-    app.add_option("--order", a.order, "highest order of bdf (beyond 2, weakly damped modes may grow)");
-    app.add_option("--tolerance", a.tolerance, "relative tolerance of a step");
-    app.add_option("--step", a.step, "time between outputs, s");
-    app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
 }
 
-/// Before any file is begun.  @throws InputError
-inline void check_simulation_options(const SimulationArguments& a) {
-    require_positive("--duration", "value", a.duration);
-    require_positive("--step", "value", a.step);
-}
-
-/// What makes a run but its length, for its file: who goes on with it must want the same.
+/// What makes a run but its length, for its file.
 inline std::string options_text(const SimulationArguments& a) {
-    return text("blade elements ", a.blade_elements, ", tower elements ", a.tower_elements, ", method ", a.method,
-                ", order ", a.order, ", tolerance ", a.tolerance, ", step ", a.step, " s, data '", a.data, "'");
-}
-
-/// The checkpoint that a run goes on from; none: it begins.
-/// @throws FileError, InputError if the file has no checkpoint or is of another run
-inline std::optional<solvers::Checkpoint> start_of(const SimulationArguments& a, const std::string& description) {
-    if (!a.resume) return std::nullopt;
-    const std::string path = a.out + ".h5";
-    const solvers::HistoryInfo info = solvers::read_history_info(path);
-    if (!info.checkpoint) throw InputError("--resume", path, "without a checkpoint", "a run that was broken off");
-    if (info.about.description != description)
-        throw InputError("--resume", text("options that ", path, " was made with"),
-                         info.about.description.substr(0, info.about.description.find('\n')),
-                         text("those of this run: ", description.substr(0, description.find('\n'))));
-    return info.checkpoint;
+    return text("blade elements ", a.blade_elements, ", tower elements ", a.tower_elements, ", ",
+                options_text(static_cast<const RunArguments&>(a)), ", data '", a.data, "'");
 }
 
 inline turbines::Wt600OperationOptions operation_options(const SimulationArguments& a) {
@@ -65,14 +37,6 @@ inline turbines::Wt600OperationOptions operation_options(const SimulationArgumen
     options.data = a.data;
     return options;
 }
-
-inline solvers::IntegrationOptions integration_options(const SimulationArguments& a) {
-    return integration_options(a.method, a.tolerance, a.order);
-}
-
-struct Start {
-    Vector q, qd;
-};
 
 /// Constant state under some forces; the spin is held at its azimuth or turns steadily.
 /// @param initial  where the iteration starts and driven coordinates are held; empty: zero
@@ -140,59 +104,6 @@ inline Start rotating_start(const turbines::Wt600Operation& machine, const turbi
     return start;
 }
 
-/// Receives the rows of a recorder: keeps them, writes them to PREFIX.h5 as they come, and shows on a terminal how far
-/// things are.
-class Rows {
-public:
-    /// @param description  of the machine, for the file
-    Rows(const std::string& title, const std::string& description, const SimulationArguments& a,
-         solvers::Integrator& integrator, const solvers::Recorder& recorder)
-        : history{title, recorder.channels(), {}, {}},
-          file(a.out + ".h5", {.title = title, .method = a.method, .description = description}, integrator, recorder),
-          duration_(a.duration) {
-        history.values.resize(history.channels.size());
-    }
-    /// Goes on with the file of the same name.
-    Rows(const SimulationArguments& a, solvers::Integrator& integrator, const solvers::Recorder& recorder)
-        : history(solvers::read_history(a.out + ".h5")),
-          file(a.out + ".h5", integrator, recorder),
-          duration_(a.duration) {
-        history.time.resize(file.rows());  // what came after the checkpoint comes again
-        for (std::vector<double>& values : history.values) values.resize(file.rows());
-    }
-    void operator()(double time, const std::vector<double>& values) {
-        if (!file.append(time, values)) return;
-        history.time.push_back(time);
-        for (std::size_t i = 0; i < values.size(); ++i) history.values[i].push_back(values[i]);
-        const double now = watch_.elapsed().wall;
-        if (now < told_ + 0.2) return;
-        told_ = now;
-        progress(text("\rtime ", std::round(time * 10) / 10, " of ", duration_, " s   "));
-    }
-
-    solvers::History history;
-    RowFile file;
-
-private:
-    double duration_, told_ = 0;
-    Stopwatch watch_;
-};
-
-/// Records at equal steps from `from`, as far as they are not past, to `to`.
-inline solvers::Advance record(solvers::Integrator& integrator, solvers::Recorder& recorder, double from, double to,
-                               double step, Rows& rows) {
-    std::vector<double> times = solvers::sample_times(from, to, step);
-    times.erase(times.begin(), std::ranges::lower_bound(times, integrator.time()));
-    solvers::Advance result = solvers::record(
-        integrator, recorder, times, [&](double time, const std::vector<double>& values) { rows(time, values); });
-    require_result(result);
-    return result;
-}
-
-/// Endings of everything a run leaves behind.
-inline const std::initializer_list<const char*> simulation_outputs{".h5", ".svg", ".png", "_energy.png",
-                                                                   "_spectrum.png"};
-
 /// Coordinates of the platform, if there is one, that are not at rest.
 inline std::vector<std::string> platform_motions(const solvers::History& history) {
     std::vector<std::string> moving;
@@ -210,27 +121,15 @@ inline std::vector<std::string> platform_motions(const solvers::History& history
 /// @param complete      the run came to its end
 /// @param spectra_from  s; the spectra are those of the stretch from there to the end
 inline void write_outputs(Rows& rows, const std::string& prefix, bool complete, double spectra_from) {
-    rows.file.close(complete);
-    const solvers::History& history = rows.history;
-    std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << history.channels.size()
-              << " channels)";
-    if (history.time.size() > 1) {
-        std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(history));
-        panels.insert(panels.end(), {{{"RotSpeed"}},
-                                     {{"BldPitch1"}},
-                                     {{"GenTq", "RotTorq"}},
-                                     {{"TTDspFA", "TTDspSS"}},
-                                     {{"TwrBsMyt", "TwrBsMxt"}},
-                                     {{"RootMyb1", "RootMxb1"}}});
-        for (const char* ending : {".svg", ".png"}) solvers::plot(history, panels, prefix + ending);
-        solvers::plot_energies(history, prefix + "_energy.png");
-        std::cout << ", .svg, .png, _energy.png";
-        const std::vector<solvers::HistoryPanel> spectra{{{"YawBrTAxp", "YawBrTAyp"}}, {{"RootMyb1", "RootMxb1"}}};
-        if (plot_spectra(history, spectra, prefix + "_spectrum.png",
-                         {.from = spectra_from, .rotor_speed = history["RotSpeed"].back(), .max_frequency_hz = 8}))
-            std::cout << ", _spectrum.png";
-    }
-    std::cout << "\n";
+    std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(rows.history));
+    panels.insert(panels.end(), {{{"RotSpeed"}},
+                                 {{"BldPitch1"}},
+                                 {{"GenTq", "RotTorq"}},
+                                 {{"TTDspFA", "TTDspSS"}},
+                                 {{"TwrBsMyt", "TwrBsMxt"}},
+                                 {{"RootMyb1", "RootMxb1"}}});
+    write_outputs(rows, prefix, complete, panels, {{{"YawBrTAxp", "YawBrTAyp"}}, {{"RootMyb1", "RootMxb1"}}},
+                  {.from = spectra_from, .max_frequency_hz = 8});
 }
 
 /// Powers of the machine's elements as recorded, added up over time: all but that of the thrust.

@@ -56,7 +56,7 @@ int parse(int argc, char** argv, Arguments& a) {
         "rows are those of an uninterrupted run, bit for bit with dirk, erk and alpha, within the tolerance with "
         "bdf and adams");
     if (const int code = app.parse(argc, argv); code >= 0) return code;
-    program::check_simulation_options(a.simulation);
+    program::check_run_options(a.simulation);
     require_positive("--pitch-rate", "value", a.pitch_rate);
     return -1;
 }
@@ -199,7 +199,7 @@ std::string options_of(const Arguments& a) {
 
 int run(const Arguments& a) {
     const program::SimulationArguments& s = a.simulation;
-    if (!s.resume) program::check_outputs(s.out, program::simulation_outputs);
+    if (!s.resume) program::check_outputs(s.out, program::run_outputs);
     const turbines::Wt600Operation machine = machine_of(a);
     const System& system = machine.turbine.system();
     const std::vector<solvers::Drive> platform = drives(a, machine.turbine);

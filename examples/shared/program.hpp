@@ -59,6 +59,13 @@ inline void check_outputs(const std::string& prefix, std::initializer_list<const
     }
 }
 
+/// What the assembly has to say, before the work.
+template <class Turbine>
+void introduce(const Turbine& turbine, bool summary) {
+    if (summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+}
+
 /// The body of main().
 /// @param parse  fills the arguments; an exit code >= 0 ends the program there, -1 goes on
 /// @param run    does the work; signals are caught from here on; returns 130 if it was interrupted

@@ -59,3 +59,7 @@ string(REPLACE " 3   NumBl" " 2   NumBl" elastodyn "${elastodyn}")
 file(WRITE ${test_output_dir}/two_blades/small_ElastoDyn.dat "${elastodyn}")
 add_example_test(example_openfast_two_blades openfast_campbell 0 "Floquet.*1st blade flap .antisymmetric" two_blades/small.fst
                  --rpm 0,45 ${coarse} --out example_openfast_two_blades)
+# Built-in machines have the numbers of their own programs (docs/wt600.md).
+add_example_test(example_openfast_wt600 openfast_campbell 0 "1st tower fore-aft +0.7129 .*1st blade edge .sine. +3.6496.*files" wt600 --rpm 0 --blade-elements 3
+                 --tower-elements 3 --out example_openfast_wt600)
+add_example_test(example_openfast_unknown openfast_campbell 1 "machine: name = wt601; allowed: wt600, teetered, " wt601)

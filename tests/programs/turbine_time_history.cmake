@@ -1,0 +1,62 @@
+# Any machine in time.
+set(models ${CMAKE_CURRENT_SOURCE_DIR}/data)
+set(options --blade-elements 1 --tower-elements 1 --tolerance 1e-5 --step 0.05)
+set(coarse ${options} --duration 3)
+add_example_test(example_turbine_time_wt600 turbine_time_history 0
+    "generator and yaw bearing free\n.*from 32.9229 rpm, rotor free, 3 s.*blade 3 root moment y.*energy lost.*ok.*example_turbine_time_wt600.h5 .61 samples.*_energy.png"
+    wt600 ${coarse} --out example_turbine_time_wt600)
+# Slows down: 2 N m for every N m s/rad of slope and rad/s; what the generator takes is what is missing.
+add_example_test(example_turbine_time_generator turbine_time_history 0
+    "generator torque.*energy lost.*ok.*recorded power of the generator against its work.*ok"
+    wt600 ${coarse} --rpm 20 --generator-torque 500 --generator-slope 20 --out example_turbine_time_generator)
+add_example_test(example_turbine_time_teetered turbine_time_history 0
+    "from 57.4868 rpm, rotor driven.*teeter angle.*blade 2 root moment x.*energy lost.*ok" teetered ${coarse}
+    --out example_turbine_time_teetered)
+add_example_test(example_turbine_time_teetered_free turbine_time_history 0 "rotor free.*yaw .*energy lost.*ok.*files" teetered
+    ${coarse} --generator free --azimuth 30 --q yaw=0.1 --qd teeter=0.01 --out example_turbine_time_teetered_free)
+add_example_test(example_turbine_time_nrel5mw turbine_time_history 0 "from 12.1 rpm.*energy lost.*ok" nrel5mw ${coarse}
+    --out example_turbine_time_nrel5mw)
+add_example_test(example_turbine_time_openfast turbine_time_history 0 "Blade.dat:[0-9]+: FlStTunr.*rpm, rotor driven.*energy lost.*ok"
+    ${models}/openfast/small.fst ${coarse} --generator locked --method alpha --out example_turbine_time_openfast)
+# A machine at rest in its equilibrium stays there; without gravity nothing moves at all.
+add_example_test(example_turbine_time_rest turbine_time_history 0 "rotor speed +[-.0-9e]+e-[01][0-9] .*of the most that is exchanged.*ok"
+    wt600 ${coarse} --rpm 0 --out example_turbine_time_rest)
+add_example_test(example_turbine_time_own turbine_time_history 0 "from 33.42[0-9]* rpm.*energy lost.*ok"
+    ${PROJECT_SOURCE_DIR}/examples/data/own_turbine.yaml ${coarse} --out example_turbine_time_own)
+# A blade that is missing, and all.
+file(READ ${PROJECT_SOURCE_DIR}/examples/data/own_turbine.yaml own_turbine)
+file(WRITE ${test_output_dir}/missing_blade.yaml "${own_turbine}own_blades: {1: missing}\n")
+string(REPLACE "blades: 3" "blades: 0" hub_alone "${own_turbine}")
+file(WRITE ${test_output_dir}/hub_alone.yaml "${hub_alone}")
+add_example_test(example_turbine_time_missing turbine_time_history 0 "blade 3 root moment x.*energy lost.*ok.*_spectrum.png"
+    missing_blade.yaml ${options} --duration 8 --out example_turbine_time_missing)
+add_example_test(example_turbine_time_hub_alone turbine_time_history 0 "rotor speed +3.5 .*energy lost.*ok" hub_alone.yaml
+    ${coarse} --out example_turbine_time_hub_alone)
+add_example_test(example_turbine_time_plot turbine_time_history 0 "example_turbine_time_plot.h5.*, .svg, .png" wt600 ${coarse}
+    --no-gravity --start undeformed --undamped --plot TTDspFA+TTDspSS --plot RotSpeed --out example_turbine_time_plot)
+add_example_test(example_turbine_time_list turbine_time_history 0 "blade 2 root moment y +RootMyb2 +N m" missing_blade.yaml --list)
+# Further, from the end of a run.
+set(resumed teetered ${options} --out example_turbine_time_resume)
+add_example_test(example_turbine_time_begin turbine_time_history 0 "61 samples" ${resumed} --duration 3)
+add_example_test(example_turbine_time_resume turbine_time_history 0 "energy lost.*ok.*81 samples" ${resumed} --duration 4 --resume)
+add_example_test(example_turbine_time_resume_other turbine_time_history 1 "--resume: options that .*azimuth 10 deg"
+    ${resumed} --duration 5 --resume --azimuth 10)
+set_tests_properties(example_turbine_time_begin PROPERTIES FIXTURES_SETUP begun_turbine_run)
+set_tests_properties(example_turbine_time_resume PROPERTIES FIXTURES_REQUIRED begun_turbine_run FIXTURES_SETUP resumed_turbine_run)
+set_tests_properties(example_turbine_time_resume_other PROPERTIES FIXTURES_REQUIRED "begun_turbine_run;resumed_turbine_run")
+# Bad usage.
+add_example_test(example_turbine_time_help turbine_time_history 0 "--generator-slope.*  teetered  " --help)
+add_example_test(example_turbine_time_no_machine turbine_time_history 2 "model is required")
+add_example_test(example_turbine_time_unknown turbine_time_history 1
+    "machine: name = wt60; allowed: wt600, teetered, nrel5mw, nrel5mw-fast, nrel5mw-beamdyn, or a file" wt60)
+add_example_test(example_turbine_time_no_file turbine_time_history 1 "no/such.yaml: cannot be read: No such file" no/such.yaml)
+add_example_test(example_turbine_time_not_one turbine_time_history 1 "[.]cmake:1: neither a main file of OpenFAST"
+    ${CMAKE_CURRENT_LIST_FILE})
+add_example_test(example_turbine_time_unknown_option turbine_time_history 2 "--nonsense" wt600 --nonsense)
+add_example_test(example_turbine_time_channel turbine_time_history 1 "channel = 'RotSped'; allowed: one of 'RotSpeed'" wt600 --plot
+    RotSped --out example_turbine_time_channel)
+add_example_test(example_turbine_time_coordinate turbine_time_history 1 "unknown coordinate 'jaw'" wt600 --q jaw=1 --out
+    example_turbine_time_coordinate)
+add_example_test(example_turbine_time_duration turbine_time_history 1 "--duration: value = 0" wt600 --duration 0)
+add_example_test(example_turbine_time_rpm turbine_time_history 1 "--rpm: value = nan; allowed: finite" wt600 --rpm nan)
+add_example_test(example_turbine_time_unwritable turbine_time_history 1 "the folder 'no/such' does not exist" wt600 --out no/such/x)
