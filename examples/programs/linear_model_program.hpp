@@ -102,6 +102,7 @@ inline solvers::PeriodicSteadyState periodic_state(const turbines::Turbine& turb
     solvers::PeriodicOptions options;
     options.rotor_speed = rotor_speed;
     options.harmonics = harmonics;
+    options.rotor = &turbine.rotor();
     solvers::PeriodicSteadyState state = solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
     if (!state.converged && state.residual < good) {  // where free yaw has hardly any equilibrium
         std::printf("note: the steady state is out of balance by %.1e (residual over stiffness, rad or m)\n",

@@ -105,20 +105,22 @@ ChannelGroup generator_channels(const ConstantGenerator& generator) {
     return group;
 }
 
-solvers::OperatingPoint at_rest(const System& system, int spin, double azimuth) {
+solvers::OperatingPoint at_rest(const turbines::Turbine& turbine, double azimuth) {
     solvers::SteadyOptions options;
     options.azimuth = azimuth;
-    const solvers::SteadyState state = solvers::steady_state(system, spin, options);
+    const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);
     require_result(state);
     return state.at;
 }
 
 // What is not quite in balance (free yaw, which nothing holds) still is a good start.
-solvers::OperatingPoint in_rotation(const System& system, int spin, double speed, double azimuth) {
+solvers::OperatingPoint in_rotation(const turbines::Turbine& turbine, double speed, double azimuth) {
     constexpr double good = 1e-6;  // rad or m
     solvers::PeriodicOptions options;
     options.rotor_speed = speed;
-    const solvers::PeriodicSteadyState state = solvers::harmonic_balance(system, spin, options);
+    options.rotor = &turbine.rotor();
+    const solvers::PeriodicSteadyState state =
+        solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
     if (!(state.residual < good)) require_result(state);
     if (!state.converged)
         std::cout << "note: start: out of balance by " << state.residual << " (residual over stiffness, rad or m)\n";
@@ -127,10 +129,10 @@ solvers::OperatingPoint in_rotation(const System& system, int spin, double speed
 }
 
 // Empty, with the reason printed: there is no steady state, or it was not found.
-std::optional<program::Start> steady_start(const System& system, int spin, double speed, double azimuth) {
+std::optional<program::Start> steady_start(const turbines::Turbine& turbine, double speed, double azimuth) {
     try {
         const solvers::OperatingPoint at =
-            speed == 0 ? at_rest(system, spin, azimuth) : in_rotation(system, spin, speed, azimuth);
+            speed == 0 ? at_rest(turbine, azimuth) : in_rotation(turbine, speed, azimuth);
         return program::Start{at.q, at.qd};
     } catch (const NumericalError& error) {
         std::cout << "note: the start is undeformed: " << error.what() << "\n";
@@ -143,7 +145,7 @@ program::Start start_of(const Arguments& a, const turbines::Turbine& turbine, do
     const int spin = turbine.rotor().spin;
     const double azimuth = a.azimuth * units::degree;
     std::optional<program::Start> start;
-    if (a.start == "steady") start = steady_start(system, spin, speed, azimuth);
+    if (a.start == "steady") start = steady_start(turbine, speed, azimuth);
     if (!start) start = {Vector::Zero(system.model.size()), Vector::Zero(system.model.size())};
     start->q(spin) = azimuth;
     start->qd(spin) = speed;
