@@ -1,5 +1,5 @@
 add_example_test(example_platform nrel5mw_platform 0
-              "energy lost.*ok.*reference case: pitch.*1 deg: reached.*files: example_platform.h5 .[0-9]+ samples of 88 channels., .svg, .png, _energy.png, _spectrum.png, .csv"
+              "energy lost.*ok.*reference case: pitch.*1 deg: reached.*files: example_platform.h5 .[0-9]+ samples of 117 channels., .svg, .png, _energy.png, _spectrum.png, .csv"
               --case pitch --elements 8 --tolerance 1e-6 --out example_platform)
 add_example_test(example_platform_history history 0
               "pitch amplitude=5,revolutions=2', finished.*checkpoint +at.*kinetic energy.*blade 1 tip flap.*platform pitch drive"

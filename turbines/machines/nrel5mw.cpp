@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/csv.hpp"
 #include "turbines/readers/detail/embedded_data.hpp"
 
@@ -37,7 +38,11 @@ BeamLine tower_line(const CsvTable& t) {
         section.j_flap = j_side[i];
         sections.push_back(section);
     }
-    return SectionTable("NREL 5 MW tower", {height.begin(), height.end()}, sections, Interpolation::linear).line();
+    BeamTable table;
+    table.name = "NREL 5 MW tower";
+    table.stations.assign(height.begin(), height.end());
+    table.sections = sections;
+    return beam_line(table);
 }
 
 NacelleDescription describe_nacelle(const CsvQuantities& q) {

@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 namespace cardan::platform {
 
@@ -74,8 +75,12 @@ void draw_last_periods(const turbines::Turbine& machine, const solvers::History&
 }  // namespace
 
 std::vector<ChannelGroup> recorded_channels(const turbines::Turbine& machine) {
-    return {turbines::blade_channels(machine), turbines::drive_channels(machine),
-            free_coordinates(machine.system().model.coordinates())};
+    std::vector<ChannelGroup> groups{turbines::blade_channels(machine), turbines::drive_channels(machine),
+                                     free_coordinates(machine.system().model.coordinates())};
+    // Rotor, platform and tower under OpenFAST's names; the blades have their own here.
+    for (ChannelGroup& group : turbines::channels(machine))
+        if (!group.channels.front().name.starts_with("blade ")) groups.push_back(std::move(group));
+    return groups;
 }
 
 solvers::RecorderOptions recorder_options() {

@@ -162,13 +162,11 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         CHECK(table.of_part("tower").empty());
     }
     SECTION("on a platform: OC3-Hywind, the platform study; a rigid tower") {
-        TurbineDescription small = read_openfast(test::data_file("openfast/small.fst")).description;
-        small.platform = oc3_hywind();
-        small.platform->inertia.J(0, 1) = small.platform->inertia.J(1, 0) = 1.0 / 3;
-        small.platform->coordinates.roles[3] = CoordinateRole::driven;
-        check_same_platform(small);
-        TurbineDescription study = nrel5mw_platform_description(nrel5mw_platform_blade());
-        study.blade.line = teetered_description().blade.line;  // its own is a function
+        TurbineDescription spar = nrel5mw_oc3_hywind_description();
+        spar.platform->inertia.J(0, 1) = spar.platform->inertia.J(1, 0) = 1.0 / 3;
+        spar.platform->coordinates.roles[3] = CoordinateRole::driven;
+        check_same_platform(spar);
+        const TurbineDescription study = nrel5mw_platform_description(nrel5mw_platform_blade());
         check_same_platform(study);
         const TurbineDescription read = parse_description(to_yaml(study), "machine.yaml");
         CHECK(read.tower.rigid);
