@@ -4,7 +4,6 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/csv.hpp"
 #include "turbines/readers/detail/embedded_data.hpp"
 
@@ -48,12 +47,8 @@ Nrel5mwBlade read_blade(const CsvTable& t, const Nrel5mwBladeOptions& options) {
     Nrel5mwBlade blade;
     blade.root_radius = radius.front();
     blade.tip_radius = radius.back();
-    BeamTable table;
-    table.name = "NREL 5 MW blade";
-    table.stations =
-        SectionTable(table.name, {radius.begin(), radius.end()}, sections, table.interpolation).line().breaks;
-    table.sections = sections;
-    blade.line = beam_line(table);
+    blade.line =
+        SectionTable("NREL 5 MW blade", {radius.begin(), radius.end()}, sections, Interpolation::linear).line();
     return blade;
 }
 
