@@ -130,7 +130,7 @@ std::string dofs_in_words(const turbines::TurbineFile& model) {
 void print(const std::vector<turbines::FileNote>& notes, bool all) {
     int groups = 0;
     for (const turbines::FileNote& note : notes) {
-        const bool group = note.line == 0;
+        const bool group = note.line == 0 && note.keyword != turbines::unusual_entries;
         if (group) ++groups;
         if (all || !group) std::cout << "note: " << to_text(note) << "\n";
     }

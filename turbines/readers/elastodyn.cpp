@@ -48,6 +48,7 @@ public:
         read_dofs();
         note_states();
         for (FileNote& note : file_.notes(ignored_by_elastodyn())) out_.notes.push_back(std::move(note));
+        admit_unusual(out_, file_.name());
         return std::move(out_);
     }
 
@@ -194,15 +195,28 @@ private:
         if (context_.blade) {
             ElastoDynBeam blade = *context_.blade;
             if (file_.has(blade_file)) file_.note(blade_file, "not read: the blades come from BeamDyn");
-            const double given = tip - d_.hub.radius;
-            if (std::abs(blade.line.length - given) > 1e-3 * given)
-                file_.note("TipRad", text("TipRad - HubRad = ", given, " m; the blade of BeamDyn is ",
-                                          blade.line.length, " m along its reference line"));
+            note_length(blade, tip - d_.hub.radius);
             set_blade(d_.blade, blade, "BeamDyn");
         } else {
             read_blade_file(d_.blade, blade_file, tip - d_.hub.radius);
         }
         for (int k = 2; k <= d_.blades; ++k) read_other_blade(k, tip - d_.hub.radius);
+    }
+
+    void note_length(const ElastoDynBeam& blade, double given) {
+        if (std::abs(blade.line.length - given) > 1e-3 * given)
+            file_.note("TipRad", text("TipRad - HubRad = ", given, " m; the blade of BeamDyn is ", blade.line.length,
+                                      " m along its reference line"));
+    }
+
+    // All blades have the same joints: one without a drive beside others with one is driven, and does not move.
+    void set_other_blade(BladeDescription& blade, ElastoDynOtherBlade other, double length) {
+        note_length(other.beam, length);
+        set_blade(blade, other.beam, other.file);
+        if (!d_.blade.pitch.is_rigid())
+            blade.pitch = other.pitch.is_rigid() ? driven_joint : other.pitch;
+        else if (!other.pitch.is_rigid())
+            out_.notes.push_back({other.file, 0, "UsePitchAct", "True", "rigid: the first blade has no pitch drive"});
     }
 
     void read_blade_file(BladeDescription& blade, const std::string& keyword, double length) {
@@ -226,8 +240,11 @@ private:
         if (file_.has(pitch)) own.pitch_setting = angle(pitch) - out_.pitch;
         const bool other_file =
             !context_.blade && file_.has(file) && file_.has(first) && file_.word(file) != file_.word(first);
+        const auto other_beam = context_.own_blades.find(k);
+        const bool has_beam = other_beam != context_.own_blades.end();
         if (other_file) read_blade_file(own, file, length);
-        if (other_file || own.cone != d_.blade.cone || own.pitch_setting != 0) d_.own_blades[k] = own;
+        if (has_beam) set_other_blade(own, other_beam->second, length);
+        if (other_file || has_beam || own.cone != d_.blade.cone || own.pitch_setting != 0) d_.own_blades[k] = own;
     }
 
     void note_blade(int k) {

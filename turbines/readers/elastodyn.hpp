@@ -30,11 +30,20 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length);
 /// Tower file, likewise. Beam axes: x up, y downwind.
 ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length);
 
+/// A blade and its pitch drive from another file than ElastoDyn's.
+struct ElastoDynOtherBlade {
+    ElastoDynBeam beam;
+    Bearing pitch = rigid_joint;
+    std::string file;
+};
+
 /// Data from other files of a model that replace ElastoDyn's.
 struct ElastoDynContext {
     std::optional<ElastoDynBeam> blade = std::nullopt;  ///< from BeamDyn; BldFile is not read then
     Bearing yaw = rigid_joint;                          ///< of the yaw drive (ServoDyn), where YawDOF is True
     Bearing pitch = rigid_joint;                        ///< of the pitch drive (BeamDyn)
+    std::map<int, ElastoDynOtherBlade> own_blades =
+        {};  ///< from BeamDyn, by number, where they have files of their own
 };
 
 /// The main file, with the blade and tower files it names.

@@ -50,6 +50,27 @@ Servo servo_of(OpenFastFile& main) {
     return servo;
 }
 
+// The blade of the first file, and those that have files of their own.
+void read_blades(OpenFastFile& main, const std::filesystem::path& elastodyn, ElastoDynContext& context) {
+    const auto keyword = [](int k) { return text("BDBldFile(", k, ")"); };
+    const auto read = [&](int k) {
+        return main.follow(keyword(k), [&] { return read_beamdyn(main.path(keyword(k))); });
+    };
+    BeamDynBlade first = read(1);
+    context.blade = std::move(first.beam);
+    context.pitch = first.pitch;
+    const int blades = main.follow("EDFile", [&] { return OpenFastFile::read(elastodyn).integer("NumBl", 1, 3); });
+    for (int k = 2; k <= 3; ++k) {
+        if (!main.has(keyword(k)) || main.word(keyword(k)) == main.word(keyword(1))) continue;
+        if (k > blades) {
+            main.note(keyword(k), "of a blade that the machine does not have");
+            continue;
+        }
+        BeamDynBlade own = read(k);
+        context.own_blades[k] = {std::move(own.beam), own.pitch, main.path(keyword(k)).string()};
+    }
+}
+
 }  // namespace
 
 TurbineFile read_openfast(const std::filesystem::path& path) {
@@ -68,15 +89,7 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     Servo servo = servo_of(main);
     ElastoDynContext context;
     context.yaw = servo.yaw;
-    if (kind == 2) {
-        constexpr auto first = "BDBldFile(1)";
-        BeamDynBlade blade = main.follow(first, [&] { return read_beamdyn(main.path(first)); });
-        for (const char* other : {"BDBldFile(2)", "BDBldFile(3)"})
-            if (main.has(other) && main.word(other) != main.word(first))
-                main.note(other, "all blades are the first one");
-        context.blade = std::move(blade.beam);
-        context.pitch = blade.pitch;
-    }
+    if (kind == 2) read_blades(main, elastodyn, context);
     TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
         main.note_unless(keyword, 0,

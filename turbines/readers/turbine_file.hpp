@@ -29,6 +29,9 @@ struct FileDofs {
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
 };
 
+/// Keyword of the note on angles and ratios that machines do not have: see admit_unusual().
+inline constexpr auto unusual_entries = "angles and ratios";
+
 /// A machine read from files.
 struct TurbineFile {
     TurbineDescription description;
@@ -40,5 +43,10 @@ struct TurbineFile {
     double rotor_speed = 0;  ///< rated or initial rotor speed, rad/s; 0: not given in the files
     double pitch = 0;        ///< pitch setting of the blades, leading edge upwind, rad
 };
+
+/// A description that only `TurbineDescription::unusual` admits becomes so, with a note (`unusual_entries`) that names
+/// the first such value: what a file says in its own units is meant.
+/// @param name  of the file, for the note
+void admit_unusual(TurbineFile& file, const std::string& name);
 
 }  // namespace cardan::turbines

@@ -117,9 +117,7 @@ public:
         d_.name = file_.get({"name"}).word();
         const auto blades = file_.find({"assembly.number_of_blades"});
         d_.blades = blades ? blades->integer(1, 10) : 3;
-        if (const auto side = file_.find({"assembly.rotor_orientation"})) {
-            if (lower_case(side->word()) != "upwind") side->fail(text("'", side->word(), "'; allowed: upwind"));
-        }
+        read_side();
         try {
             d_.tower.line = beam_line(windio_tower(file_));
         } catch (const InputError& error) {
@@ -138,10 +136,21 @@ public:
             out_.rotor_speed = d_.rotor_speed = not_negative(*speed) * file_.rotor_speed();
         for (FileNote& note : file_.notes) out_.notes.push_back(std::move(note));
         for (FileNote& note : file_.unused()) out_.notes.push_back(std::move(note));
+        admit_unusual(out_, file_.root().file());
         return std::move(out_);
     }
 
 private:
+    void read_side() {
+        const auto side = file_.find({"assembly.rotor_orientation"});
+        if (!side || lower_case(side->word()) == "upwind") return;
+        if (lower_case(side->word()) != "downwind")
+            side->fail(text("'", side->word(), "'; allowed: upwind and downwind"));
+        away_ = 1;
+        file_.note(*side, side->word(),
+                   "overhang, cone and tilt lead away from the tower, downwind; places of masses are taken with x "
+                   "downwind, as of an upwind rotor");
+    }
     // Cone and tilt, in rad.
     double small_angle(const YamlNode& node) const {
         const double value = node.number() * file_.angle();
@@ -155,9 +164,9 @@ private:
 
     void read_hub() {
         d_.hub.radius = positive(file_.get({"components.hub.diameter", "components.hub.outer_shape_bem.diameter"})) / 2;
-        // Away from the tower positive there.
+        // Away from the tower positive there, of upwind and downwind rotors.
         d_.blade.cone =
-            -small_angle(file_.get({"components.hub.cone_angle", "components.hub.outer_shape_bem.cone_angle"}));
+            away_ * small_angle(file_.get({"components.hub.cone_angle", "components.hub.outer_shape_bem.cone_angle"}));
         RigidInertia hub;
         hub.mass = not_negative(
             file_.get({"components.hub.elastic_properties.mass", "components.hub.elastic_properties_mb.system_mass"}));
@@ -173,7 +182,8 @@ private:
 
     void read_nacelle() {
         NacelleDescription& n = d_.nacelle;
-        n.tilt = small_angle(
+        // The rotor's end of the shaft up.
+        const double uptilt = small_angle(
             file_.get({"components.drivetrain.outer_shape.uptilt", "components.nacelle.drivetrain.uptilt"}));
         const double overhang =
             file_.get({"components.drivetrain.outer_shape.overhang", "components.nacelle.drivetrain.overhang"})
@@ -182,8 +192,9 @@ private:
                                   .get({"components.drivetrain.outer_shape.distance_tt_hub",
                                         "components.nacelle.drivetrain.distance_tt_hub"})
                                   .number();
-        n.overhang = overhang / std::cos(n.tilt);
-        n.shaft_height = height - overhang * std::tan(n.tilt);
+        n.tilt = -away_ * uptilt;
+        n.overhang = -away_ * overhang / std::cos(uptilt);
+        n.shaft_height = height - overhang * std::tan(uptilt);
         n.tilt_bearing = rigid_joint;
         RigidInertia& i = n.inertia;
         i.mass = not_negative(file_.get(
@@ -231,6 +242,7 @@ private:
     }
 
     WindioFile file_;
+    double away_ = -1;  ///< from the tower to the rotor, downwind: -1 upwind of it, 1 downwind
     TurbineFile out_;
     TurbineDescription& d_ = out_.description;
 };

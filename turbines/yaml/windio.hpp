@@ -14,7 +14,8 @@ namespace cardan::turbines {
 /// stations per interval of the given grids. Hub, nacelle, gearbox and generator: rigid bodies, gear ratio and
 /// torsional stiffness where given; what is missing is rigid, and noted. Angles: rad in version 1, degrees in version 2
 /// (windIO_version). In windIO the overhang is measured horizontally, and the hub height above the tower top at the
-/// rotor.
+/// rotor; overhang, cone and tilt are positive where they lead away from the tower, upwind or downwind
+/// (assembly.rotor_orientation).
 /// @throws ParseError, FileError, InputError
 TurbineFile read_windio(const std::filesystem::path& path);
 /// @param file  name for messages

@@ -184,6 +184,48 @@ TEST_CASE("openfast: with CompElast = 2 the blades come from BeamDyn", "[propert
                            read_beamdyn(test::data_file("openfast/small_BeamDyn.dat")).beam.line) == 0);
 }
 
+TEST_CASE("openfast: blades with BeamDyn files of their own are own_blades", "[property]") {
+    const test::ModelFolder model("openfast");
+    const auto copy = [&](const char* from, const char* to) { model.write(to, test::bytes_of(model / from)); };
+    copy("small_BeamDyn.dat", "other_BeamDyn.dat");
+    copy("small_BeamDyn_Blade.dat", "other_Blade.dat");
+    model.replace("other_BeamDyn.dat", "small_BeamDyn_Blade.dat", "other_Blade.dat");
+    model.replace("other_Blade.dat", "             1   damp_type", "             0   damp_type");
+    model.replace("small_BeamDyn.fst", "\"small_BeamDyn.dat\"    BDBldFile(2)",
+                  "\"other_BeamDyn.dat\"    BDBldFile(2)");
+    const TurbineFile file = read_openfast(model / "small_BeamDyn.fst");
+    const TurbineDescription& d = file.description;
+    REQUIRE(d.own_blades.size() == 1);
+    const BladeDescription& own = *d.own_blades.at(2);
+    CHECK(test::difference(own.line, read_beamdyn(model / "other_BeamDyn.dat").beam.line) == 0);
+    CHECK(own.damping.time_constants == std::array<double, 6>{});
+    CHECK_FALSE(d.blade.damping.time_constants == std::array<double, 6>{});
+    CHECK(own.cone == d.blade.cone);
+    CHECK(own.pitch.stiffness == d.blade.pitch.stiffness);
+    CHECK_THAT(d.source, Catch::Matchers::Contains("other_Blade.dat"));
+    CHECK_NOTHROW(d.check());
+    // Without a pitch drive beside others with one: it is held.
+    model.replace("other_BeamDyn.dat", "True   UsePitchAct", "False   UsePitchAct");
+    const TurbineDescription held = read_openfast(model / "small_BeamDyn.fst").description;
+    CHECK(held.own_blades.at(2)->pitch.hold == Bearing::Hold::driven);
+    CHECK_NOTHROW(held.check());
+    // And the other way round.
+    model.replace("small_BeamDyn.dat", "True   UsePitchAct", "False   UsePitchAct");
+    model.replace("other_BeamDyn.dat", "False   UsePitchAct", "True   UsePitchAct");
+    const TurbineFile rigid = read_openfast(model / "small_BeamDyn.fst");
+    CHECK(rigid.description.own_blades.at(2)->pitch.is_rigid());
+    CHECK(test::has_note(rigid.notes, "UsePitchAct", "rigid"));
+}
+
+TEST_CASE("openfast: the BeamDyn file of a blade that is not there is not read", "[property]") {
+    const test::ModelFolder model("openfast");
+    model.replace("small_ElastoDyn.dat", " 3   NumBl", " 2   NumBl");
+    model.replace("small_BeamDyn.fst", "\"small_BeamDyn.dat\"    BDBldFile(3)", "\"unused\"    BDBldFile(3)");
+    const TurbineFile file = read_openfast(model / "small_BeamDyn.fst");
+    CHECK(file.description.own_blades.empty());
+    CHECK(test::has_note(file.notes, "BDBldFile(3)", "does not have"));
+}
+
 TEST_CASE("beamdyn: files that do not describe a blade are refused with the line", "[property]") {
     const auto message = [](const char* file, const char* old_text, const char* new_text) {
         const test::ModelFolder model("openfast");

@@ -144,6 +144,22 @@ TEST_CASE("elastodyn: the machine has the masses of the files, summed by hand", 
     CHECK_THAT(turbine.summary(), Contains("nacelle"));
 }
 
+TEST_CASE("elastodyn: angles and ratios that machines do not have are taken as they are, and noted", "[property]") {
+    CHECK_FALSE(read_elastodyn(test::data_file("openfast/small_ElastoDyn.dat")).description.unusual);
+    const auto read = [](const char* old_text, const char* new_text) {
+        const test::ModelFolder model("openfast");
+        model.replace("small_ElastoDyn.dat", old_text, new_text);
+        return read_openfast(model / "small.fst");
+    };
+    const TurbineFile tilt = read("          -4.0   ShftTilt", "         -25.0   ShftTilt");
+    CHECK(tilt.description.unusual);
+    CHECK(test::has_note(tilt.notes, unusual_entries, "nacelle.tilt [rad] = 0.43"));
+    CHECK_NOTHROW(tilt.description.check());
+    const TurbineFile cone = read("          -2.0   PreCone(3)", "         -40.0   PreCone(3)");
+    CHECK(cone.description.unusual);
+    CHECK(test::has_note(cone.notes, unusual_entries, "own_blades[3].cone [rad] = -0.698"));
+}
+
 TEST_CASE("elastodyn: everything that is not in the description is noted, with file, line and value", "[property]") {
     const test::ModelFolder model("openfast");
     model.replace("small_ElastoDyn.dat", "             0   NacYaw", "            15   NacYaw");

@@ -114,8 +114,9 @@ TEST_CASE("openfast: structure that lies outside of the structure's files is not
     const auto main = [](const char* old_text, const char* new_text) {
         return with("small_BeamDyn.fst", "small_BeamDyn.fst", old_text, new_text);
     };
-    CHECK(has_note(main("\"small_BeamDyn.dat\"    BDBldFile(2)", "\"another.dat\"    BDBldFile(2)").notes,
-                   "BDBldFile(2)", "all blades are the first one"));
+    CHECK_THAT(
+        message_of([&] { (void)main("\"small_BeamDyn.dat\"    BDBldFile(2)", "\"another.dat\"    BDBldFile(2)"); }),
+        Contains("BDBldFile(2): ") && Contains("another.dat: cannot be read"));
     CHECK(has_note(main("             2   CompElast", "  True   MirrorRotor\n             2   CompElast").notes,
                    "MirrorRotor", "clockwise"));
     CHECK_THAT(
@@ -181,14 +182,13 @@ TEST_CASE("openfast: files of another kind, or missing, are reported where they 
           test::state(read_openfast(test::data_file("openfast/small_BeamDyn.fst"))));
 }
 
-TEST_CASE("windio: a downwind rotor is refused, and so is one of unknown orientation", "[property]") {
+TEST_CASE("windio: a rotor of unknown orientation is refused", "[property]") {
     const auto side = [](const char* word) {
         return message_of([&] {
             (void)windio_with("small_v2.yaml", "rotor_orientation: upwind", text("rotor_orientation: ", word));
         });
     };
-    CHECK_THAT(side("downwind"), Contains("assembly.rotor_orientation: 'downwind'; allowed: upwind"));
-    CHECK_THAT(side("sideways"), Contains("allowed: upwind"));
+    CHECK_THAT(side("sideways"), Contains("assembly.rotor_orientation: 'sideways'; allowed: upwind and downwind"));
     CHECK_NOTHROW((void)windio_with("small_v2.yaml", "rotor_orientation: upwind", "rotor_orientation: Upwind"));
     CHECK_THAT(message_of([] { (void)windio_with("small_v1.yaml", "cone_angle: 0.03", "cone_angle: 2.03"); }),
                Contains("below an eighth of a turn (version 1 counts in rad)"));

@@ -1,7 +1,9 @@
 // windIO files of both versions.
 #include "mbs/base/units.hpp"
+#include "mbs/kernels/kinematics.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
+#include "turbines/model/assembly.hpp"
 #include "turbines/model/beam_table.hpp"
 #include "turbines/readers/beamdyn.hpp"
 #include "turbines/yaml/windio.hpp"
@@ -68,6 +70,48 @@ TEST_CASE("windio: figures in the frames and units of the library", "[analytic]"
     CHECK(d.hub.inertia.J.isApprox(J, 1e-14));
     CHECK(d.nacelle.inertia.mass == 4650);
     CHECK(d.nacelle.inertia.com.isApprox(Vec3(0.2, 0.05, 0.6) * 4500 / 4650, 1e-14));
+}
+
+// In windIO all three lead away from the tower; WISDEM writes them to OpenFAST with the same signs downwind, and with
+// the opposite ones upwind.
+TEST_CASE("windio: a downwind rotor is on the other side of the tower, in both versions", "[analytic]") {
+    const test::ModelFolder model("windio");
+    model.replace("small_v1.yaml", "rotor_orientation: Upwind", "rotor_orientation: Downwind");
+    model.replace("small_v2.yaml", "rotor_orientation: upwind", "rotor_orientation: downwind");
+    for (const char* name : {"small_v1.yaml", "small_v2.yaml"}) {
+        CAPTURE(name);
+        const TurbineFile file = read_windio(model / name),
+                          upwind = read_windio(test::data_file(text("windio/", name)));
+        const TurbineDescription &d = file.description, &u = upwind.description;
+        CHECK(d.blade.cone == Approx(2 * degree));
+        CHECK(d.nacelle.tilt == Approx(-4 * degree));
+        CHECK(d.nacelle.overhang == -u.nacelle.overhang);
+        CHECK(d.nacelle.shaft_height == u.nacelle.shaft_height);
+        CHECK(test::difference(d.blade.line, u.blade.line) == 0);
+        CHECK(test::has_note(file.notes, "assembly.rotor_orientation", "away from the tower"));
+    }
+    // The rotor centre is 2 m downwind and 1.1 m above the tower top, 24 m up; tips that cone lie further downwind.
+    const TurbineDescription d = read_windio(model / "small_v2.yaml").description;
+    const Turbine turbine = assemble(d, {.tower_elements = 1, .blade_elements = 1});
+    Workspace workspace(turbine.system().model);
+    const Vector rest = Vector::Zero(turbine.system().model.size());
+    const Kinematics kin = kinematics(turbine.system().model, rest, workspace);
+    const MachineLayout& layout = turbine.layout();
+    CHECK((pose(kin, layout.rotor_centre).p - Vec3(2, 0, 25.1)).norm() < 1e-12);
+    // Blade 1, upward: the cone leads downwind by 2 degrees, and the tilt, whose rotor end is up, upwind by 4.
+    const Vec3 along = pose(kin, layout.pitch_axes[0]).R.col(0);
+    CHECK((along - Vec3(std::sin(-2 * degree), 0, std::cos(2 * degree))).norm() < 1e-12);
+}
+
+TEST_CASE("windio: angles that machines do not have are taken as they are, and noted", "[property]") {
+    const test::ModelFolder model("windio");
+    CHECK_FALSE(read_windio(model / "small_v2.yaml").description.unusual);
+    model.replace("small_v2.yaml", "cone_angle: 2.0", "cone_angle: 30.0");
+    const TurbineFile file = read_windio(model / "small_v2.yaml");
+    CHECK(file.description.unusual);
+    CHECK(file.description.blade.cone == Approx(-30 * degree));
+    CHECK(test::has_note(file.notes, unusual_entries, "blade.cone [rad] = -0.52"));
+    CHECK_NOTHROW(file.description.check());
 }
 
 // As windIO's own converters between its versions have it: rad/s in 1, rev/min from 2.0 on, other names from 2.1 on.
