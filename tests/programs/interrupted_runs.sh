@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# interrupted_runs.sh WT600_TIME_HISTORY HISTORY: signals save what was computed, a run that goes on is the uninterrupted
+# interrupted_runs.sh PROGRAM HISTORY OPTIONS...: signals save what was computed, a run that goes on is the uninterrupted
 # one bit for bit, and of two runs with the same --out the first one has the files.
 set -eum  # m: background jobs have signals of their own
 run=$1 history=$2
+shift 2
+options=$*
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-options="--mode fixed --pitch-rate 6 --blade-elements 1 --tower-elements 1 --tolerance 1e-5 --step 0.05"
 
 fail() {
     echo "FAILED: $*"

@@ -5,10 +5,14 @@ set(coarse ${options} --duration 3)
 add_example_test(example_turbine_time_wt600 turbine_time_history 0
     "generator and yaw bearing free\n.*from 32.9229 rpm, rotor free, 3 s.*blade 3 root moment y.*energy lost.*ok.*example_turbine_time_wt600.h5 .61 samples.*_energy.png"
     wt600 ${coarse} --out example_turbine_time_wt600)
-# Slows down: 2 N m for every N m s/rad of slope and rad/s; what the generator takes is what is missing.
 add_example_test(example_turbine_time_generator turbine_time_history 0
     "generator torque.*energy lost.*ok.*recorded power of the generator against its work.*ok"
     wt600 ${coarse} --rpm 20 --generator-torque 500 --generator-slope 20 --out example_turbine_time_generator)
+# The same by the library's own calls, written by hand: tests/regression/test_turbine_time_history.cpp.
+add_test(NAME example_turbine_time_by_hand COMMAND test_regression "turbine_time_history: the file of the program*"
+         WORKING_DIRECTORY ${test_output_dir})
+set_tests_properties(example_turbine_time_generator PROPERTIES FIXTURES_SETUP turbine_generator_run)
+set_tests_properties(example_turbine_time_by_hand PROPERTIES FIXTURES_REQUIRED turbine_generator_run)
 add_example_test(example_turbine_time_teetered turbine_time_history 0
     "from 57.4868 rpm, rotor driven.*teeter angle.*blade 2 root moment x.*energy lost.*ok" teetered ${coarse}
     --out example_turbine_time_teetered)
@@ -44,6 +48,16 @@ add_example_test(example_turbine_time_resume_other turbine_time_history 1 "--res
 set_tests_properties(example_turbine_time_begin PROPERTIES FIXTURES_SETUP begun_turbine_run)
 set_tests_properties(example_turbine_time_resume PROPERTIES FIXTURES_REQUIRED begun_turbine_run FIXTURES_SETUP resumed_turbine_run)
 set_tests_properties(example_turbine_time_resume_other PROPERTIES FIXTURES_REQUIRED "begun_turbine_run;resumed_turbine_run")
+add_test(NAME example_turbine_time_interrupted COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/programs/interrupted_runs.sh
+         $<TARGET_FILE:turbine_time_history> $<TARGET_FILE:history> ${test_output_dir}/hub_alone.yaml ${options} WORKING_DIRECTORY ${test_output_dir})
+# What a file holds beyond the ranges of machines is said without --notes.
+file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/unusual)
+file(READ ${models}/openfast/small_ElastoDyn.dat elastodyn)
+string(REPLACE "-4.0   ShftTilt" "-25.0   ShftTilt" elastodyn "${elastodyn}")
+file(WRITE ${test_output_dir}/unusual/small_ElastoDyn.dat "${elastodyn}")
+add_example_test(example_turbine_time_unusual turbine_time_history 0
+    "small_ElastoDyn.dat: angles and ratios = unusual: taken as they are: [^\n]*nacelle.tilt .rad. = 0.436.*energy lost.*ok"
+    unusual/small.fst ${coarse} --out example_turbine_time_unusual)
 # Bad usage.
 add_example_test(example_turbine_time_help turbine_time_history 0 "--generator-slope.*  teetered  " --help)
 add_example_test(example_turbine_time_no_machine turbine_time_history 2 "model is required")
