@@ -156,12 +156,6 @@ bool is_yaml(const std::filesystem::path& path) {
     return ending == ".yaml" || ending == ".yml";
 }
 
-std::vector<std::pair<std::string, std::string>> built_in_machines() {
-    std::vector<std::pair<std::string, std::string>> all;
-    for (const BuiltIn& one : machines) all.emplace_back(one.name, one.about);
-    return all;
-}
-
 std::string machine_help() {
     std::string help =
         "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own), or one of:\n";

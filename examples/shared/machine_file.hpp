@@ -6,10 +6,11 @@
 #include "turbines/readers/turbine_file.hpp"
 
 #include "examples/shared/command_line.hpp"
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace cardan::program {
 
@@ -29,10 +30,7 @@ struct MachineFile {
     std::function<turbines::AssemblyOptions(int blade_elements, int tower_elements)> beams = {};
 };
 
-/// Names of the built-in machines, each with a line about it.
-std::vector<std::pair<std::string, std::string>> built_in_machines();
-
-/// What may be given as a machine, with the names there are: for the help of a program.
+/// What may be given as a machine, with the names of the built-in ones: for the help of a program.
 std::string machine_help();
 
 /// A name of a built-in machine comes first: a file of that name is read as ./NAME.
