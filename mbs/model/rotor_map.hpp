@@ -39,6 +39,14 @@ struct RotorMap {
     int spin = -1;                         ///< coordinate that carries the rotor speed; -1: no rotor
     FrameId hub;                           ///< rotating frame: z along the rotor axis, x along blade 1 at azimuth 0
     std::vector<std::vector<int>> blades;  ///< coordinates of every blade, in corresponding order
+    /// The blades follow each other at 2 pi over their number about the rotor axis. If not (one of three is missing
+    /// from its place), there are no multi-blade coordinates, and no part of a turn puts every blade in the place of
+    /// another.
+    bool evenly_spaced = true;
+    std::vector<int> missing_blades = {};  ///< numbers of the places that are empty, for messages
+    /// The hub turns as it is made to whatever the blade does, and RotorSpin::free does not apply: one blade cut from
+    /// its machine, without what would turn with it.
+    bool hub_is_driven = false;
     /// Coordinates that change sign when a two-bladed rotor turns by half a revolution and its blades exchange places:
     /// teeter.
     std::vector<int> odd_coordinates = {};

@@ -22,6 +22,7 @@ struct Label {
     RotorPattern pattern = RotorPattern::none;
     int harmonic = 1;
     int row = -1;
+    double least = sure_blade;  // part of the blades' energy from which on one of them moves alone
 };
 
 // @param unequal_blades  their number, if one of them may move alone
@@ -41,7 +42,14 @@ std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whir
             labels.push_back({c, RotorPattern::none});
             continue;
         }
-        for (int blade = 1; blade <= unequal_blades; ++blade) labels.push_back({c, RotorPattern::single, blade});
+        // Without patterns the blades are all there is to name a mode after.
+        const double least = energy_shares.without_patterns() ? 0 : sure_blade;
+        for (int blade = 1; blade <= unequal_blades; ++blade)
+            labels.push_back({c, RotorPattern::single, blade, -1, least});
+        if (energy_shares.without_patterns()) {
+            labels.push_back({c, RotorPattern::collective});
+            continue;
+        }
         if (energy_shares.two_blades()) {
             for (const RotorPattern pattern : {RotorPattern::symmetric, RotorPattern::antisymmetric})
                 labels.push_back({c, pattern});
@@ -66,16 +74,16 @@ int unequal_blades(const std::vector<CampbellPoint>& points) {
 }
 
 // Part of the blades' energy that is in one of them, if it alone moves.
-double alone(const CampbellMode& mode, int blade) {
+double alone(const CampbellMode& mode, int blade, double least) {
     const double own = blade <= mode.blade_shares.size() ? mode.blade_shares(blade - 1) : 0;
-    return own >= sure_blade ? own : 0;
+    return own >= least ? own : 0;
 }
 
 // Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
 double part(const CampbellMode& mode, const Label& label) {
     if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
     const Share& share = entry(mode.shares, label.component);
-    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic) * share.total();
+    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, label.least) * share.total();
     return share.of(label.pattern, label.harmonic);
 }
 
@@ -266,7 +274,7 @@ std::string Naming::label_name(const Label& label, const CampbellMode& mode) con
 // localised in one blade of three has a third of each.
 double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
-    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic);
+    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, sure_blade);
     const Share& share = entry(mode.shares, label.component);
     const double total = share.total();
     return total > 0 ? share.of(label.pattern, label.harmonic) / total : 1;
@@ -291,7 +299,8 @@ void Naming::set(Branch& branch, const Label& label) const {
         const Label best = strongest(i, *m, label);
         branch.doubtful.back() = branch.mac[i] < min_reliable_mac ||
                                  held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
-                                 (points_[i].rotor_speed != 0 && own_pattern(*m, label) < sure_pattern);
+                                 ((points_[i].rotor_speed != 0 || label.pattern == RotorPattern::single) &&
+                                  own_pattern(*m, label) < sure_pattern);
         branch.mostly.back() = label_name(best, *m);
     }
 }

@@ -31,8 +31,8 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
     PendingFile pending(path);
     std::ofstream out(pending.partial());
     out.precision(10);
-    out << "# Campbell diagram: " << one_line(diagram.machine) << "; " << diagram.method << "; cardan " << version()
-        << "\n";
+    out << "# Campbell diagram: " << one_line(diagram.machine) << "; " << method_in_words(diagram) << "; cardan "
+        << version() << "\n";
     if (!diagram.warning.empty()) out << "# warning: " << one_line(diagram.warning) << "\n";
     if (!diagram.complete) out << "# the sweep was interrupted\n";
     out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"

@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/campbell/detail/blade_frame.hpp"
 #include "solvers/campbell/detail/floquet_mac.hpp"
 #include "solvers/campbell/detail/method.hpp"
 #include "solvers/campbell/detail/tracking.hpp"
@@ -178,7 +179,8 @@ void append(std::string& warning, const std::string& more) {
     if (!more.empty()) warning += (warning.empty() ? "" : "; ") + more;
 }
 
-std::string method_name(CampbellMethod method, std::size_t blades) {
+// @param fixed  the rows of the blades are those of the fixed frame
+std::string method_name(CampbellMethod method, std::size_t blades, bool fixed) {
     const char* rotating = "rotating frame of the blade";
     if (blades == 0 && method == CampbellMethod::coleman) return "fixed frame";
     switch (method) {
@@ -189,9 +191,9 @@ std::string method_name(CampbellMethod method, std::size_t blades) {
             return blades == 1 ? rotating : "frozen azimuth";
         case CampbellMethod::floquet:
             return text("Floquet (principal frequencies, ",
-                        blades != 2 && blades != 1 ? "fixed frame"
-                        : blades == 2              ? "blade modes in the rotating frame"
-                                                   : "rotating frame of the blade",
+                        blades == 1 ? "rotating frame of the blade"
+                        : fixed     ? "fixed frame"
+                                    : "blade modes in the rotating frame",
                         ")");
         case CampbellMethod::averaged:
             return blades == 1 ? text(rotating, ", mean over the azimuth")
@@ -218,6 +220,7 @@ public:
 
 private:
     void align(const EnergyShares& own, CampbellPoint& point);
+    PeriodicMac likeness_to_last(const PointMethod& solver, const CampbellPoint& point) const;
     void set_branches(const std::vector<const PointMethod*>& solvers);
     void set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
 
@@ -240,8 +243,9 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     const bool spin_is_unknown = std::find(unknowns.begin(), unknowns.end(), rotor.spin) != unknowns.end();
     diagram_.spin = spin_is_unknown ? RotorSpin::free : RotorSpin::prescribed;
     diagram_.blades = static_cast<int>(rotor.blades.size());
-    diagram_.method = rotor.spin < 0 ? "at rest" : method_name(options_.method, rotor.blades.size());
-    if (!why_.empty()) diagram_.method += text("; chosen: ", why_);
+    const bool fixed = rotor.blades.size() != 2 && without_multi_blade_coordinates(rotor, unknowns).empty();
+    diagram_.method = rotor.spin < 0 ? "at rest" : method_name(options_.method, rotor.blades.size(), fixed);
+    diagram_.method_reason = why_;
     diagram_.coordinates = system.model.coordinates();
     diagram_.unknowns = solver.unknowns();
     diagram_.rows = solver.row_names();
@@ -258,7 +262,7 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
     solver.solve(rotor_speed, point);
     align(*solver.energy_shares(), point);
     if (options_.method == CampbellMethod::floquet) {
-        const PeriodicMac likeness = periodic_mac(solver.system(), tracker_.last(), point.modes);
+        const PeriodicMac likeness = likeness_to_last(solver, point);
         tracker_.add(likeness.score, likeness.mac, point);
     } else {
         tracker_.add(solver.system(), point);
@@ -269,6 +273,24 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
     systems_.push_back(&system);
     if (options_.progress) options_.progress(static_cast<int>(diagram_.points.size()), static_cast<int>(points_));
     return true;
+}
+
+// A rotor that begins to turn takes its blades along, but not what a tower sees of them: a mode at standstill continues
+// in the fixed frame or, if it is one of single blades, with them.
+PeriodicMac Sweep::likeness_to_last(const PointMethod& solver, const CampbellPoint& point) const {
+    const std::vector<const CampbellMode*> last = tracker_.last();
+    PeriodicMac fixed = periodic_mac(solver.system(), last, point.modes);
+    const bool starts = !diagram_.points.empty() && diagram_.points.back().rotor_speed == 0 && point.rotor_speed != 0;
+    if (!starts || !solver.coleman()) return fixed;
+    std::vector<CampbellMode> turning;
+    for (const CampbellMode* mode : last)
+        turning.push_back(mode->blade_shares.size() > 0 && mode->row < 0
+                              ? carried_along(*mode, *solver.coleman(), point.rotor_speed)
+                              : *mode);
+    std::vector<const CampbellMode*> pointers;
+    for (const CampbellMode& mode : turning) pointers.push_back(&mode);
+    const PeriodicMac carried = periodic_mac(solver.system(), pointers, point.modes);
+    return {fixed.mac.cwiseMax(carried.mac), fixed.score.cwiseMax(carried.score)};
 }
 
 // Another machine may have its component modes in another order.
@@ -305,6 +327,7 @@ void Sweep::set_branches(const std::vector<const PointMethod*>& solvers) {
                                    [](const CampbellPoint& p) { return p.rotor_speed != 0; });
     diagram_.branches =
         tracker_.branches(diagram_.points, *energy_shares, diagram_.rows, whirl, neighbour_ ? &*neighbour_ : nullptr);
+    take_blade_frequencies(diagram_);
     std::erase_if(diagram_.branches,
                   [&](const Branch& b) { return lowest_frequency(diagram_, b) > options_.max_frequency_hz; });
     drop_high_modes(diagram_, options_.max_frequency_hz);
@@ -367,7 +390,7 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
     if (options.neighbour)
         throw InputError("Campbell diagram", text("neighbour of a diagram over ", parameter), "given",
                          "none: modes are followed from one machine to the next");
-    const MethodChoice choice = choose_method(cases, options);
+    const MethodChoice choice = choose_method(cases, parameter, options);
     CampbellOptions own = options;
     own.method = choice.method;
     Sweep sweep(own, choice.reason, cases.size(), parameter);

@@ -26,7 +26,8 @@ enum class CampbellMethod : std::uint8_t {
     frozen_azimuth,  ///< equations linearised at azimuth 0 with the rotor frozen there: not true motions of the machine
     floquet,  ///< motions about the periodic steady state by Floquet theory, in multi-blade rows: any number of blades,
               ///< gravity, unequal blades. The frequencies are principal ones: in the fixed frame, except those of
-              ///< blade modes of two-bladed rotors, which are in the rotating frame
+              ///< blade modes of rotors with two blades or without multi-blade coordinates, and of modes that are named
+              ///< after one blade, which are in the rotating frame
     averaged  ///< as `floquet`, but eigenvalues of the multi-blade system averaged over the azimuth: an approximation,
               ///< for comparison; three or more blades
 };
@@ -76,9 +77,12 @@ struct CampbellMode {
     Mode mode;
     std::vector<Share> shares;  ///< of the elastic energy, by component (sum over the harmonics)
     Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
-    /// Each blade's part of the elastic energy of all blades, averaged over the revolution; empty unless the method is
-    /// Floquet's and the blades differ.
+    /// Each blade's part of the elastic energy of all blades, averaged over the revolution; empty unless the blades
+    /// differ or are not evenly spaced, and the method is Floquet's or nothing turns.
     Vector blade_shares = {};
+    /// Floquet, with `blade_shares`: the harmonic, counted from the principal one, that holds most of the blades'
+    /// elastic energy in their own, turning coordinates.
+    int own_harmonic = 0;
     /// For a motion (almost) without elastic energy, the row with most kinetic energy, after which it is named: yaw,
     /// teeter. -1: named after its elastic energy.
     int row = -1;
@@ -136,6 +140,11 @@ struct FrameMotion {
 
 struct Campbell {
     std::string machine, source, method, warning;
+    /// Why CampbellMethod::automatic took Floquet theory: "the blades differ", "blade 2 of 3 is missing", "two blades",
+    /// "the equations are not constant in multi-blade coordinates", "there is no constant steady state" ...; and which
+    /// azimuth the modes at standstill belong to, where it matters. Empty: multi-blade coordinates make the equations
+    /// constant, or the method was asked for.
+    std::string method_reason;
     RotorSpin spin = RotorSpin::free;
     int blades = 0;
     CoordinateTable coordinates;    ///< all coordinates of the model
@@ -207,6 +216,9 @@ struct CampbellCase {
 /// or component modes have other names than those of the first, or a neighbour in the options
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter,
                   const CampbellOptions& options = {});
+
+/// "Coleman (fixed frame)", "Floquet (principal frequencies, fixed frame); chosen: the blades differ"
+std::string method_in_words(const Campbell& diagram);
 
 /// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings, for a
 /// terminal.

@@ -1,8 +1,9 @@
 #include "solvers/campbell/energy_shares.hpp"
 
-#include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/campbell/detail/blade_likeness.hpp"
+#include "solvers/campbell/detail/component_modes.hpp"
 
 #include <algorithm>
 #include <map>
@@ -12,57 +13,10 @@ namespace cardan::solvers {
 
 namespace {
 
-// Joint axes at q = 0, base axes; which of the part's axes each coordinate follows.
-std::vector<std::string> coordinate_families(const Model& model, const PartAxes& part, const std::vector<int>& own) {
-    Workspace workspace(model);
-    const Kinematics kin = kinematics(model, Vector::Zero(model.size()), workspace);
-    const Mat3 axes = pose(kin, part.axes).R;
-    std::vector<std::string> families;
-    for (int a : own) {
-        const Vec3 along = axes.transpose() * kin.axis(a);
-        Eigen::Index axis = 0;
-        along.cwiseAbs().maxCoeff(&axis);
-        const auto& names = model.body(a).revolute ? part.rotation : part.translation;
-        const std::string& name = entry(names, axis);
-        families.push_back(name.empty() ? part.part : name);
-    }
-    return families;
-}
-
-std::string family_of(const Vector& v, const Matrix& K, const std::vector<std::string>& families) {
-    std::map<std::string, double> energy;
-    const Vector force = K * v;
-    for (Eigen::Index i = 0; i < std::ssize(families); ++i) energy[entry(families, i)] += v(i) * force(i);
-    return std::max_element(energy.begin(), energy.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; })
-        ->first;
-}
-
-// Modes of a clamped part that store elastic energy, by frequency; shapes with x^T K x = 1.
-struct ComponentModes {
-    Vector omega;  // rad/s
-    Matrix shapes;
-};
-
-ComponentModes component_modes(const Matrix& K, const Matrix& M, const std::string& part) {
-    using Solver = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>;
-    const auto check = [&](const Solver& solver) {
-        if (solver.info() != Eigen::Success)
-            throw NumericalError(text("component modes of part '", part, "' could not be computed"));
-    };
-    const Eigen::Index n = K.rows();
-    if (Eigen::LLT<Matrix>(K).info() == Eigen::Success) {
-        // Every coordinate has a spring: as flexibilities the low modes are exact however stiff the high ones are.
-        const Solver solver(M, K);
-        check(solver);
-        return {solver.eigenvalues().reverse().cwiseSqrt().cwiseInverse(), solver.eigenvectors().rowwise().reverse()};
-    }
-    const Solver solver(K, M);
-    check(solver);
-    const Vector& squared = solver.eigenvalues();
-    const Eigen::Index rigid = (squared.array() <= 1e-12 * squared.cwiseAbs().maxCoeff()).count();
-    const Vector omega = squared.tail(n - rigid).cwiseSqrt();
-    return {omega, solver.eigenvectors().rightCols(n - rigid) * omega.cwiseInverse().asDiagonal()};
+bool is_of_blade(const RotorMap& rotor, int coordinate) {
+    return std::any_of(rotor.blades.begin(), rotor.blades.end(), [&](const std::vector<int>& blade) {
+        return std::find(blade.begin(), blade.end(), coordinate) != blade.end();
+    });
 }
 
 const char* ordinal_name(int n) {
@@ -105,14 +59,18 @@ double Share::total() const {
 
 EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                            const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
-    : two_blades_(rotor.blades.size() == 2) {
+    : two_blades_(rotor.blades.size() == 2), blades_differ_(!blades_alike(model, rotor, lin)) {
     check(rotor, model);
     require_count("energy shares", "rows", rows.size(), coordinates.size());
     require_size("energy shares", "elastic stiffness", lin.elastic, model.size(), model.size());
     for (const int coordinate : coordinates) require_index("energy shares", "coordinate", coordinate, model.size());
     for (const std::vector<int>& blade : rotor.blades)
         blade_numbers_.push_back(blade.empty() ? 0 : model.coordinates()[blade.front()].blade);
+    plain_ = rotor.blades.size() > 1 &&
+             std::none_of(rows.begin(), rows.end(), [](const MultiBladeRow& row) { return row.blade_coordinate >= 0; });
+    const bool apart = blades_differ_ || plain_;
     for (const PartAxes& part : rotor.parts) {
+        if (apart) add_blades(lin, model, rotor, {part, coordinates, rows});
         Block block{}, shaft{};
         std::vector<int> own_plane;  // of rotating pairs: the one plane tells the component modes of both
         const auto at_harmonic = [this](std::vector<std::vector<int>>& lists, int harmonic) -> std::vector<int>& {
@@ -124,7 +82,7 @@ EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const R
         bool blades = false;
         for (std::size_t i = 0; i < coordinates.size(); ++i) {
             const CoordinateInfo& info = lin.coordinates[coordinates[i]];
-            if (info.part != part.part) continue;
+            if (info.part != part.part || (apart && is_of_blade(rotor, coordinates[i]))) continue;
             const int row = static_cast<int>(i);
             if (rows[i].blade_coordinate < 0 && rows[i].kind != MultiBlade::none) {
                 const bool cosine = rows[i].kind == MultiBlade::cosine;
@@ -217,6 +175,12 @@ void EnergyShares::shares(const Mode& mode, std::vector<Share>& out) const {
             own = share(block, i, mode, std::move(own.higher));
             total += own.total();
         }
+    for (const BladeBlock& block : blade_blocks_)
+        for (Eigen::Index i = 0; i < block.weights[0].cols(); ++i) {
+            Share& own = entry(out, block.first_component + i);
+            own = blade_share(block, i, mode, std::move(own.higher));
+            total += own.total();
+        }
     divide_by(total, out);
 }
 
@@ -234,27 +198,7 @@ std::vector<Share> EnergyShares::shares(const Mode& mode) const {
     return all;
 }
 
-namespace {
-
-// A negative frequency reverses the sense of whirl. The whirl of a sum is the energy-weighted mean.
-WhirlShare sum_of(const WhirlShare& a, WhirlShare b, bool reversed) {
-    if (reversed) b.whirl = -b.whirl;
-    const double size_a = a.cosine + a.sine, size_b = b.cosine + b.sine, size = size_a + size_b;
-    return {a.cosine + b.cosine, a.sine + b.sine, size > 0 ? (size_a * a.whirl + size_b * b.whirl) / size : 0.0};
-}
-
-void add(Share& sum, const Share& one, bool reversed) {
-    sum.collective += one.collective;
-    sum.differential += one.differential;
-    const WhirlShare first = sum_of({sum.cosine, sum.sine, sum.whirl}, {one.cosine, one.sine, one.whirl}, reversed);
-    sum.cosine = first.cosine, sum.sine = first.sine, sum.whirl = first.whirl;
-    sum.higher.resize(one.higher.size());
-    for (std::size_t n = 0; n < one.higher.size(); ++n) sum.higher[n] = sum_of(sum.higher[n], one.higher[n], reversed);
-}
-
-}  // namespace
-
-std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics) const {
+std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics, double rotor_speed) const {
     std::vector<Share> all(components_.size());
     double total = 0;
     for (const Block& block : blocks_)
@@ -262,6 +206,12 @@ std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics) const {
             Share& own = entry(all, block.first_component + i);
             own.component = static_cast<int>(block.first_component + i);
             for (const Mode& one : harmonics) add(own, share(block, i, one, {}), one.eigenvalue.imag() < 0);
+            total += own.total();
+        }
+    for (const BladeBlock& block : blade_blocks_)
+        for (Eigen::Index i = 0; i < block.weights[0].cols(); ++i) {
+            Share& own = entry(all, block.first_component + i);
+            own = blade_share(block, i, harmonics, rotor_speed);
             total += own.total();
         }
     divide_by(total, all);

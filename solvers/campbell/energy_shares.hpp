@@ -5,6 +5,7 @@
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 
@@ -34,9 +35,9 @@ const char* pattern_name(RotorPattern pattern);
 /// One mode of a part with everything else clamped.
 struct Component {
     std::string part;
-    std::string family;  ///< "tower fore-aft", "blade flap", ...
-    int ordinal = 1;     ///< within its family, by frequency
-    double clamped_hz = 0;
+    std::string family;     ///< "tower fore-aft", "blade flap", ...
+    int ordinal = 1;        ///< within its family, by frequency
+    double clamped_hz = 0;  ///< where blades differ, of the first blade that has it
     bool of_blades = false;
     bool whirls = false;  ///< isotropic in two planes, like a shaft with a disc: only backward and forward patterns
 };
@@ -51,7 +52,8 @@ struct WhirlShare {
 /// The elastic energy of a mode in one component.
 struct Share {
     int component = -1;
-    /// Fractions of the total elastic energy; everything is in `collective` if there is no pattern.
+    /// Fractions of the total elastic energy; everything is in `collective` if there is no pattern. Of blades without
+    /// multi-blade coordinates that of the mean motion is in `collective`, the rest in `differential`.
     double collective = 0, cosine = 0, sine = 0, differential = 0;
     double whirl = 0;  ///< (forward - backward) / (forward + backward) in -1 ... 1 of the cosine and sine energy
     std::vector<WhirlShare> higher = {};  ///< harmonics 2, 3, ... (five and more blades)
@@ -60,22 +62,28 @@ struct Share {
 };
 
 /// Decomposes modes into component modes. In joint coordinates the elastic stiffness is block diagonal by part, and the
-/// component modes of a part are orthogonal in it: the shares add up to one exactly.
+/// component modes of a part are orthogonal in it: the shares add up to one exactly. Blades that differ have component
+/// modes of their own, each with its stiffness and mass; those of one name are one component, and patterns are those of
+/// their energy amplitudes.
 class EnergyShares {
 public:
     /// @param lin   linearisation whose elastic stiffness and mass define the component modes (e.g. at standstill)
-    /// @param rows  what the rows of the system are (ColemanTransform::rows)
+    /// @param rows  what the rows of the system are (ColemanTransform::rows); without kinds the blades have no
+    /// multi-blade
+    ///              coordinates
     EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                  const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 
     const std::vector<Component>& components() const { return components_; }
     /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it
-    ///             already held as many from this object
+    ///             already held as many from this object. Blades that differ: at azimuth 0
     void shares(const Mode& mode, std::vector<Share>& out) const;
     std::vector<Share> shares(const Mode& mode) const;
     /// Shares of a motion with several harmonics, each with its own shape and eigenvalue (the frequency may have either
-    /// sign): their energies are added up.
-    std::vector<Share> shares(std::span<const Mode> harmonics) const;
+    /// sign): their energies are added up. Blades that differ: over the revolution.
+    /// @param harmonics  one after another, at eigenvalues that differ by i rotor_speed
+    /// @param rotor_speed  rad/s; used where blades differ
+    std::vector<Share> shares(std::span<const Mode> harmonics, double rotor_speed = 0) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
     /// @param harmonic  for RotorPattern::single the place of the blade in RotorMap::blades, from 1
     std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
@@ -83,6 +91,9 @@ public:
     int harmonics() const { return harmonics_; }
     /// Patterns are symmetric and antisymmetric.
     bool two_blades() const { return two_blades_; }
+    bool blades_differ() const { return blades_differ_; }
+    /// Three or more blades that have none but the collective pattern.
+    bool without_patterns() const { return plain_ && !two_blades_; }
 
 private:
     // The rows of one part, by pattern (blades) or all together.
@@ -98,10 +109,43 @@ private:
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);
 
+    // The rows of one part of blades that differ or have no multi-blade coordinates. Columns of the weights are
+    // component modes, zero where the blade has none of that name.
+    struct BladeBlock {
+        std::vector<std::vector<int>> rows;  // [slot or blade][coordinate]
+        std::vector<MultiBladeRow> slots;    // empty: rows are those of the blades themselves
+        std::vector<Matrix> weights;         // by blade
+        Matrix at_zero;                      // pattern_matrix at azimuth 0
+        int first_component;
+    };
+    struct BladePart {
+        const PartAxes& axes;
+        const std::vector<int>& coordinates;
+        const std::vector<MultiBladeRow>& rows;
+    };
+    void add_blades(const Linearisation& lin, const Model& model, const RotorMap& rotor, const BladePart& part);
+    void add_modes(const BladePart& part, const Linearisation& lin, const std::vector<int>& own,
+                   const std::vector<std::string>& families, BladeBlock& block);
+    int component_of(const BladeBlock& block, const std::string& family, int ordinal, const BladePart& part,
+                     double clamped_hz);
+    static Matrix pattern_matrix(const BladeBlock& block, double psi);
+    using Patterns = std::array<Complex, ColemanTransform::max_blades>;
+    static Complex blade_amplitude(const BladeBlock& block, Eigen::Index component, Eigen::Index blade, const Matrix& T,
+                                   const ComplexVector& shape);
+    static Patterns patterns(const BladeBlock& block, Eigen::Index component, const Matrix& T,
+                             const ComplexVector& shape);
+    static Share pattern_share(const BladeBlock& block, const Patterns& amplitude, std::vector<WhirlShare> higher);
+    static Share mean_share(const BladeBlock& block, Eigen::Index component, const ComplexVector& shape);
+    static Share blade_share(const BladeBlock& block, Eigen::Index component, const Mode& mode,
+                             std::vector<WhirlShare> higher);
+    static Share blade_share(const BladeBlock& block, Eigen::Index component, std::span<const Mode> harmonics,
+                             double rotor_speed);
+
     static void divide_by(double total, std::vector<Share>& shares);
 
     int harmonics_ = 1;
-    bool two_blades_ = false;
+    bool two_blades_ = false, blades_differ_ = false, plain_ = false;
+    std::vector<BladeBlock> blade_blocks_;
     std::vector<int> blade_numbers_;
     std::vector<Component> components_;
     std::vector<Block> blocks_;

@@ -15,16 +15,35 @@ namespace cardan::solvers {
 
 namespace {
 
-std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
-    check(rotor, system.model);
+// What all methods need but Floquet's, if the rotor turns.
+void require_constant_rows(const RotorMap& rotor, const std::vector<int>& unknowns) {
     const std::size_t blades = rotor.blades.size();
-    if (blades == 2 && options.method != CampbellMethod::floquet)
+    if (blades == 2)
         throw InputError(rotor.machine, "number of blades", blades,
                          "3 or more, or 1 (two blades have a periodic system: CampbellMethod::floquet)");
-    const bool spin_is_unknown = options.spin == RotorSpin::free && blades != 1;
+    if (const std::string why = without_multi_blade_coordinates(rotor, unknowns); !why.empty())
+        throw InputError(rotor.machine, "multi-blade coordinates", text("none (", why, ")"),
+                         "blades at equal angles, all with the same free coordinates; else CampbellMethod::floquet or "
+                         "automatic");
+}
+
+std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
+    check(rotor, system.model);
+    const bool spin_is_unknown = options.spin == RotorSpin::free && !rotor.hub_is_driven;
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
     check_number_of_unknowns(rotor.machine, unknowns.size());
+    if (rotor.spin >= 0 && options.method != CampbellMethod::floquet) require_constant_rows(rotor, unknowns);
     return unknowns;
+}
+
+// Places of some coordinates among the unknowns, as far as they are there.
+std::vector<int> rows_among(const std::vector<int>& unknowns, const std::vector<int>& coordinates) {
+    std::vector<int> rows;
+    for (int coordinate : coordinates) {
+        const auto at = std::find(unknowns.begin(), unknowns.end(), coordinate);
+        if (at != unknowns.end()) rows.push_back(static_cast<int>(at - unknowns.begin()));
+    }
+    return rows;
 }
 
 // The coordinate alone, beside the lowest: ten times what no certain mode has.
@@ -62,7 +81,8 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       lineariser_(system),
       mode_solver_(std::ssize(unknowns_)) {
     const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
-    if (disc || rotor.blades.size() > 1) coleman_.emplace(rotor, unknowns_);
+    const bool blades = rotor.blades.size() > 1 && without_multi_blade_coordinates(rotor, unknowns_).empty();
+    if (disc || blades) coleman_.emplace(rotor, unknowns_);
 }
 
 void PointSolver::find_steady_state(double rotor_speed) {
@@ -126,9 +146,36 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
         energy_shares_->shares(m.mode, m.shares);
         m.row = -1;
         m.floquet.reset();
+        m.blade_shares.resize(0);
     }
+    if (rotor_speed == 0 && blades_stand_out()) set_blade_shares(point);
     point.periodic.reset();
     set_margin(point);
+}
+
+bool PointSolver::blades_stand_out() const {
+    return rotor_.blades.size() > 1 && (energy_shares_->blades_differ() || !rotor_.evenly_spaced || !coleman_);
+}
+
+void PointSolver::set_blade_shares(CampbellPoint& point) const {
+    const Matrix T = rotating_coordinates();
+    for (CampbellMode& m : point.modes) {
+        const ComplexVector shape = T * m.mode.shape;
+        m.blade_shares = blade_energies(lin_, shape);
+        if (const double sum = m.blade_shares.sum(); sum > 0) m.blade_shares /= sum;
+    }
+}
+
+Vector PointSolver::blade_energies(const Linearisation& lin, const ComplexVector& shape) const {
+    Vector energies = Vector::Zero(std::ssize(rotor_.blades));
+    for (Eigen::Index k = 0; k < energies.size(); ++k) {
+        const std::vector<int>& blade = entry(rotor_.blades, k);
+        const std::vector<int> rows = rows_among(unknowns_, blade);
+        std::vector<int> own;
+        for (const int row : rows) own.push_back(entry(unknowns_, row));
+        energies(k) = hermitian_form(Matrix(lin.elastic(own, own)), ComplexVector(shape(rows)));
+    }
+    return energies;
 }
 
 // The number of modes varies with rotor speed (a pair may turn into two aperiodic motions). Memory of modes that

@@ -31,6 +31,8 @@ public:
     virtual const EnergyShares* energy_shares() const = 0;
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     virtual Matrix rotating_coordinates() const = 0;
+    /// Null without multi-blade rows.
+    virtual const ColemanTransform* coleman() const = 0;
     /// A warning about the results so far; usually empty.
     virtual const std::string& warning() const = 0;
 };
@@ -48,11 +50,12 @@ void set_stability_margin(CampbellPoint& point);
 /// and machine; one per thread.
 class PointSolver : public PointMethod {
 public:
-    /// @throws InputError for two blades unless the method is Floquet's (then standstill only), and as ColemanTransform
+    /// @throws InputError for a rotor of two blades, or without multi-blade coordinates, unless the method is Floquet's
+    /// (then standstill only)
     PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
 
     /// The steady-state iteration starts from the previous point. From the second call on with the same `point` nothing
-    /// is allocated.
+    /// is allocated, but for the shares of blades that differ at standstill.
     /// @throws NumericalError where no constant steady state exists or is found, and as ModeSolver; the solver can be
     /// used again
     void solve(double rotor_speed, CampbellPoint& point) override;
@@ -67,8 +70,13 @@ public:
     /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
     /// solve().
     double periodic_remainder(double rotor_speed);
-    /// Null without blades to transform.
-    const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
+    const ColemanTransform* coleman() const override { return coleman_ ? &*coleman_ : nullptr; }
+    /// Of each blade, x^H K_elastic x of its own coordinates; allocates.
+    /// @param shape  in blade coordinates, by unknown
+    Vector blade_energies(const Linearisation& lin, const ComplexVector& shape) const;
+    /// One of the blades may move alone: they differ, or are not evenly spaced. From the first point on, or after
+    /// define_components().
+    bool blades_stand_out() const;
     /// Defines the components from this linearisation instead of that of the first point; call before the first point.
     void define_components(const Linearisation& lin);
 
@@ -78,6 +86,7 @@ private:
     void start();
     void note_rigid_springs();
     void set_margin(CampbellPoint& point) const;
+    void set_blade_shares(CampbellPoint& point) const;
     void set_system(double rotor_speed);
     void set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out);
     double remainder(double rotor_speed);

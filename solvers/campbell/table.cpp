@@ -103,6 +103,12 @@ std::string cell(const Campbell& diagram, const Branch& branch, std::size_t poin
     return out.str();
 }
 
+bool has_blade_frequencies(const Campbell& diagram) {
+    const auto turns = [](const CampbellPoint& point) { return point.rotor_speed != 0; };
+    return std::ranges::any_of(diagram.points, turns) &&
+           std::ranges::any_of(diagram.branches, [](const Branch& b) { return b.pattern == RotorPattern::single; });
+}
+
 std::string margins(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
     if (!std::isfinite(diagram.points[0].stability_margin)) return {};
     std::ostringstream out;
@@ -116,6 +122,10 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
 
 }  // namespace
 
+std::string method_in_words(const Campbell& diagram) {
+    return text(diagram.method, diagram.method_reason.empty() ? "" : "; chosen: ", diagram.method_reason);
+}
+
 std::string table(const Campbell& diagram) {
     std::ostringstream out;
     if (diagram.points.empty()) return "no rotor speeds computed\n";
@@ -125,7 +135,7 @@ std::string table(const Campbell& diagram) {
     std::size_t longest = 32;
     for (const Branch& branch : diagram.branches) longest = std::max(longest, branch.name.size());
     const int width = static_cast<int>(longest) + 2;
-    out << diagram.machine << ": natural frequency, Hz (damping ratio, %); " << diagram.method << "\n\n"
+    out << diagram.machine << ": natural frequency, Hz (damping ratio, %); " << method_in_words(diagram) << "\n\n"
         << (diagram.parameter.empty() ? std::string() : text("over ", diagram.parameter, "\n\n")) << std::left
         << std::setw(width) << "mode" << std::right << std::fixed;
     for (std::size_t i : shown) {
@@ -142,6 +152,7 @@ std::string table(const Campbell& diagram) {
     }
     out << margins(diagram, shown, width);
     out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";
+    if (has_blade_frequencies(diagram)) out << "modes of one blade: frequencies in its rotating frame\n";
     if (!diagram.crossings.empty()) {
         out << "\ncrossings with multiples of the rotor speed\n";
         for (const Crossing& crossing : diagram.crossings)

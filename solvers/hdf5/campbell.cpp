@@ -52,6 +52,7 @@ private:
                  {"title", "Campbell diagram: " + d_.machine},
                  {"machine", d_.machine},
                  {"method", d_.method},
+                 {"method_reason", d_.method_reason},
                  {"warning", d_.warning},
                  {"rotor_spin", d_.spin == RotorSpin::free ? "free" : "prescribed"},
                  {"Conventions", "CF-1.8"},

@@ -60,19 +60,48 @@ std::string multi_blade_name(const MultiBladeRow& row) {
     return {};
 }
 
+std::string uneven_spacing(const RotorMap& rotor) {
+    if (rotor.evenly_spaced) return {};
+    const std::size_t missing = rotor.missing_blades.size(), places = rotor.blades.size() + missing;
+    if (missing == 0) return "the blades are not evenly spaced";
+    if (missing == 1) return text("blade ", rotor.missing_blades[0], " of ", places, " is missing");
+    std::string numbers;
+    for (std::size_t i = 0; i < missing; ++i)
+        numbers += text(i == 0 ? "" : i + 1 == missing ? " and " : ", ", rotor.missing_blades[i]);
+    return text("blades ", numbers, " of ", places, " are missing");
+}
+
+namespace {
+
+// Of a blade by its place in the map, from 0.
+int blade_number(const RotorMap& rotor, std::size_t k) {
+    int number = static_cast<int>(k) + 1;
+    for (const int missing : rotor.missing_blades)
+        if (missing <= number) ++number;
+    return number;
+}
+
+}  // namespace
+
+std::string without_multi_blade_coordinates(const RotorMap& rotor, const std::vector<int>& coordinates) {
+    if (rotor.blades.size() < 2) return {};
+    if (!rotor.evenly_spaced && rotor.blades.size() > 2) return uneven_spacing(rotor);
+    const std::vector<int>& first = rotor.blades[0];
+    for (std::size_t k = 1; k < rotor.blades.size(); ++k) {
+        const std::vector<int>& blade = rotor.blades[k];
+        bool same = blade.size() == first.size();
+        for (std::size_t i = 0; same && i < blade.size(); ++i)
+            same = (row_of(coordinates, blade[i]) < 0) == (row_of(coordinates, first[i]) < 0);
+        if (!same)
+            return text("blade ", blade_number(rotor, k), " has other coordinates than blade ", blade_number(rotor, 0));
+    }
+    return {};
+}
+
 bool ColemanTransform::exists(const RotorMap& rotor, const std::vector<int>& coordinates) {
     const std::size_t blades = rotor.blades.size();
     if (blades == 0) return !rotor.rotating_pairs.empty();
-    if (blades == 1 || blades > max_blades) return false;
-    const std::size_t size = rotor.blades[0].size();
-    for (const std::vector<int>& blade : rotor.blades)
-        if (blade.size() != size) return false;
-    for (std::size_t i = 0; i < size; ++i) {
-        const auto is_free = [&](const std::vector<int>& blade) { return row_of(coordinates, blade[i]) >= 0; };
-        const auto free = std::count_if(rotor.blades.begin(), rotor.blades.end(), is_free);
-        if (free != 0 && free != std::ssize(rotor.blades)) return false;
-    }
-    return true;
+    return blades > 1 && blades <= max_blades && without_multi_blade_coordinates(rotor, coordinates).empty();
 }
 
 ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
@@ -80,17 +109,14 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))
         throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
     if (blades_ > max_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", max_blades));
-    for (const std::vector<int>& blade : rotor.blades)
-        if (blade.size() != rotor.blades[0].size())
-            throw InputError(rotor.machine, "coordinates of a blade", blade.size(),
-                             text(rotor.blades[0].size(), ", as blade 1 has"));
+    if (const std::string why = without_multi_blade_coordinates(rotor, coordinates); !why.empty())
+        throw InputError(rotor.machine, "multi-blade coordinates", text("none (", why, ")"),
+                         "blades at equal angles, all with the same free coordinates; Floquet theory needs neither");
     blade_block_ = block_at_zero(blades_);
     for (std::size_t i = 0; blades_ > 0 && i < rotor.blades[0].size(); ++i) {
         std::vector<int> rows;
         for (const std::vector<int>& blade : rotor.blades) rows.push_back(row_of(coordinates, blade[i]));
-        if (std::all_of(rows.begin(), rows.end(), [](int r) { return r < 0; })) continue;
-        if (std::any_of(rows.begin(), rows.end(), [](int r) { return r < 0; }))
-            throw InputError(rotor.machine, "blade coordinate number", i + 1, "free on all blades or on none of them");
+        if (rows[0] < 0) continue;  // held on all blades
         at_.push_back(rows);
         for (int k = 0; k < blades_; ++k) {
             const int row = entry(rows, k);

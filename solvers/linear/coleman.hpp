@@ -22,6 +22,14 @@ struct MultiBladeRow {
 /// "collective", "cosine 1", "sine 1", "differential"; empty for a coordinate itself.
 std::string multi_blade_name(const MultiBladeRow& row);
 
+/// What keeps blades from being evenly spaced: "blade 2 of 3 is missing", "the blades are not evenly spaced"; empty if
+/// they are.
+std::string uneven_spacing(const RotorMap& rotor);
+/// Why the blades of a rotor have no multi-blade coordinates over a set of coordinates; empty if they have:
+/// uneven_spacing() of three and more (sum and difference of two need no even spacing), or "blade 2 has other
+/// coordinates than blade 1".
+std::string without_multi_blade_coordinates(const RotorMap& rotor, const std::vector<int>& coordinates);
+
 /// x = T(psi) z over a set of coordinates: blade coordinate i of blade k at azimuth psi_k = psi + 2 pi (k - 1) / B is
 ///
 ///     x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
@@ -33,7 +41,7 @@ class ColemanTransform {
 public:
     /// Two blades have the collective and the differential row only; T is constant and the system stays periodic (see
     /// floquet()). Without blades only rotating pairs are transformed.
-    /// @throws InputError if there is one blade or more than 32, or if they differ in their number of coordinates.
+    /// @throws InputError if there is one blade or more than 32, and as without_multi_blade_coordinates()
     ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
     /// Whether the constructor accepts them.
     static bool exists(const RotorMap& rotor, const std::vector<int>& coordinates);
@@ -63,9 +71,9 @@ public:
     /// Transforms a copy.
     SecondOrderSystem transform(SecondOrderSystem system, double psi, double rotor_speed) const;
 
-private:
     static constexpr int max_blades = 32;
 
+private:
     void transform_columns(double psi, Matrix& A) const;
     void transform_rows(double psi, Matrix& A) const;
     void congruence(double psi, Matrix& A) const;

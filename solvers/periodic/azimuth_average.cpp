@@ -34,6 +34,9 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
     const double speed = options.rotor_speed;
     if (speed != 0 && options.azimuths < 3)
         throw InputError("mean over the azimuth", "number of azimuths", options.azimuths, ">= 3");
+    if (!rotor.evenly_spaced)
+        throw InputError(rotor.machine, "spacing of the blades", uneven_spacing(rotor),
+                         "equal angles, for a mean over the azimuth");
     const std::vector<int> unknowns = system.model.coordinates().free_without(rotor.spin);
     const ColemanTransform coleman(rotor, unknowns);
     AzimuthAverage mean;

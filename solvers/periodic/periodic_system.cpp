@@ -204,6 +204,8 @@ BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coor
                              const std::vector<int>& odd) {
     const std::size_t Q = rotor.blades.size();
     if (Q < 2) throw InputError(in_blade_symmetry, "number of blades", Q, ">= 2");
+    if (!rotor.evenly_spaced)
+        throw InputError(in_blade_symmetry, "spacing of the blades", uneven_spacing(rotor), "equal angles");
     if (!odd.empty() && Q != 2)
         throw InputError(in_blade_symmetry, "number of blades", Q,
                          "2 where coordinates change sign after a part of a turn");

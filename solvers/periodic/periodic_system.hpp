@@ -86,8 +86,9 @@ struct BladeSymmetry {
 /// Blade k + 1 takes the place of blade k (the other way round if the rotor turns backward); rotating pairs turn by 2
 /// pi / Q; the `odd` coordinates change sign, as the teeter angle of a two-bladed rotor does.
 /// @param coordinates  of the rows of the system
-/// @throws InputError if there are fewer than two blades, if they differ in their number of coordinates or have only
-/// some of them among `coordinates`, or if an odd coordinate does not exist or there are more than two blades
+/// @throws InputError if there are fewer than two blades, if they are not evenly spaced or differ in their number of
+/// coordinates or have only some of them among `coordinates`, or if an odd coordinate does not exist or there are more
+/// than two blades
 BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coordinates, double rotor_speed,
                              const std::vector<int>& odd = {});
 

@@ -1,11 +1,14 @@
 #include "turbines/model/assembly.hpp"
 
 #include "mbs/base/decompositions.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/summary.hpp"
 #include "turbines/model/assembly_settings.hpp"
 #include "turbines/model/description_text.hpp"
 #include "turbines/model/detail/assembler.hpp"
+
+#include <algorithm>
 
 namespace cardan::turbines {
 
@@ -90,9 +93,23 @@ std::string Turbine::summary() const {
 
 namespace {
 
+// Of places for blades, those that have none; whether the others follow each other at equal angles.
+void set_places(RotorMap& map, const std::vector<int>& numbers, int places) {
+    for (int k = 1; k <= places; ++k)
+        if (std::find(numbers.begin(), numbers.end(), k) == numbers.end()) map.missing_blades.push_back(k);
+    const int blades = static_cast<int>(numbers.size());
+    for (int i = 0; i < blades; ++i) {
+        const int gap =
+            i + 1 < blades ? entry(numbers, i + 1) - entry(numbers, i) : numbers.front() + places - entry(numbers, i);
+        if (gap * blades != places) map.evenly_spaced = false;
+    }
+}
+
 RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& name) {
     RotorMap map;
     map.machine = name;
+    set_places(map, a.layout.blade_numbers, a.places);
+    map.hub_is_driven = a.hub_is_driven;
     map.spin = a.spin ? model.index(*a.spin) : -1;
     map.hub = a.layout.rotor_centre;
     for (BodyId body : a.odd) map.odd_coordinates.push_back(model.index(body));

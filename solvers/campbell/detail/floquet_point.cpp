@@ -85,16 +85,6 @@ void leave_out_ends(FloquetMode& mode) {
     mode.first_harmonic += static_cast<int>(first);
 }
 
-// Places of some coordinates among the unknowns, as far as they are there.
-std::vector<int> rows_among(const std::vector<int>& unknowns, const std::vector<int>& coordinates) {
-    std::vector<int> rows;
-    for (int coordinate : coordinates) {
-        const auto at = std::find(unknowns.begin(), unknowns.end(), coordinate);
-        if (at != unknowns.end()) rows.push_back(static_cast<int>(at - unknowns.begin()));
-    }
-    return rows;
-}
-
 double lowest_elastic(const CampbellPoint& point) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const CampbellMode& m : point.modes)
@@ -192,7 +182,7 @@ void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
 // x(t + T/Q) in multi-blade rows, where equal blades look the same except for signs.
 BladeSymmetry PeriodicPointSolver::renumbering() const {
     const ColemanTransform* T = standstill_.coleman();
-    if (!T || rotor_.blades.empty()) return {};
+    if (!T || rotor_.blades.empty() || !rotor_.evenly_spaced) return {};
     std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd_coordinates : std::vector<int>();
     std::erase_if(odd, [&](int i) { return std::find(unknowns().begin(), unknowns().end(), i) == unknowns().end(); });
     BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
@@ -254,25 +244,26 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
 // Where blades differ, one may move alone. Multi-blade coordinates spread its motion over all patterns; back in the
 // blades' own coordinates, their elastic energies over the revolution tell.
 void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
-    constexpr int azimuths = 32;
-    const ColemanTransform& T = *standstill_.coleman();
-    const Matrix K = restrict_to(linearise(system_, point.at), unknowns()).K_elastic;
-    std::vector<std::vector<int>> rows;
-    for (const std::vector<int>& blade : rotor_.blades) rows.push_back(rows_among(unknowns(), blade));
-    for (CampbellMode& m : point.modes) m.blade_shares = Vector::Zero(std::ssize(rows));
-    for (int i = 0; i < azimuths; ++i) {
-        const double psi = 2 * pi * i / azimuths;
-        const Matrix at = T.matrix(psi);
-        for (CampbellMode& m : point.modes) {
-            const ComplexVector x = at * m.floquet->shape(m.floquet->period * i / azimuths);
-            for (Eigen::Index k = 0; k < m.blade_shares.size(); ++k) {
-                const std::vector<int>& own = entry(rows, k);
-                m.blade_shares(k) += hermitian_form(Matrix(K(own, own)), ComplexVector(x(own)));
-            }
+    constexpr int azimuths = 32, most = 8;  // most: harmonics that are compared
+    const ColemanTransform* T = standstill_.coleman();
+    const Linearisation lin = linearise(system_, point.at);
+    std::vector<Matrix> at;
+    for (int i = 0; i < azimuths; ++i)
+        at.push_back(T ? T->matrix(2 * pi * i / azimuths) : standstill_.rotating_coordinates());
+    for (CampbellMode& m : point.modes) {
+        m.blade_shares = Vector::Zero(std::ssize(rotor_.blades));
+        ComplexMatrix harmonics = ComplexMatrix::Zero(std::ssize(unknowns()), 2 * most + 1);
+        for (int i = 0; i < azimuths; ++i) {
+            const ComplexVector x = entry(at, i) * m.floquet->shape(m.floquet->period * i / azimuths);
+            m.blade_shares += standstill_.blade_energies(lin, x);
+            for (int j = -most; j <= most; ++j)
+                harmonics.col(j + most) += std::polar(1.0 / azimuths, -2 * pi * j * i / azimuths) * x;
         }
-    }
-    for (CampbellMode& m : point.modes)
         if (const double sum = m.blade_shares.sum(); sum > 0) m.blade_shares /= sum;
+        Vector energy(harmonics.cols());
+        for (Index j = 0; j < energy.size(); ++j) energy(j) = standstill_.blade_energies(lin, harmonics.col(j)).sum();
+        m.own_harmonic = largest(energy) - most;
+    }
 }
 
 CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
@@ -290,7 +281,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     if (rigid) mode.harmonics *= factor;
     out.mode = {mode.exponent, factor * principal};
     const std::vector<Mode> harmonics = harmonics_of(mode);
-    out.shares = energy_shares()->shares(harmonics);
+    out.shares = energy_shares()->shares(harmonics, 2 * pi / mode.period);
     if (rigid)
         for (Share& share : out.shares) share = Share{};
     Vector elastic = Vector::Zero(mean_.M.rows()), kinetic = elastic;

@@ -24,6 +24,7 @@ public:
     const SecondOrderSystem& system() const override { return mean_; }
     const EnergyShares* energy_shares() const override { return standstill_.energy_shares(); }
     Matrix rotating_coordinates() const override { return standstill_.rotating_coordinates(); }
+    const ColemanTransform* coleman() const override { return standstill_.coleman(); }
     const std::string& warning() const override { return warning_; }
 
 private:

@@ -11,14 +11,15 @@ namespace cardan::solvers {
 /// What CampbellMethod::automatic stands for.
 struct MethodChoice {
     CampbellMethod method;
-    std::string reason = {};  ///< why it is Floquet's; empty for Coleman's and for a method that was asked for
+    std::string reason = {};  ///< as Campbell::method_reason
 };
 
-/// @param rotor_speeds  of the sweep, rad/s; the fastest decides
+/// @param rotor_speeds  of the sweep, rad/s; the fastest and the slowest that turns decide
 /// @throws InputError as PointSolver
 MethodChoice choose_method(const System& system, const RotorMap& rotor, std::span<const double> rotor_speeds,
                            const CampbellOptions& options);
 /// Likewise for a diagram over another parameter: Coleman's if it suits all machines.
-MethodChoice choose_method(std::span<const CampbellCase> cases, const CampbellOptions& options);
+MethodChoice choose_method(std::span<const CampbellCase> cases, const std::string& parameter,
+                           const CampbellOptions& options);
 
 }  // namespace cardan::solvers

@@ -164,7 +164,7 @@ TEST_CASE("campbell: of an anisotropic rotor the mean over the azimuth is taken,
     // Unless Coleman's method is asked for, Floquet's is taken, and every blade has its frequency in rotation as well.
     const Campbell chosen = diagram_of(make_rotor({.stiffness = {1700, 2300, 2600}}), {3.0});
     CHECK(chosen.method.find("Floquet") == 0);
-    CHECK(chosen.method.find("chosen: the equations are not constant in multi-blade coordinates") != std::string::npos);
+    CHECK(chosen.method_reason == "the blades differ");
     const double stiffness[] = {1700, 2300, 2600};
     for (int k = 1; k <= 3; ++k) {
         const double own = flap_frequency(3, stiffness[k - 1]),
@@ -290,7 +290,7 @@ TEST_CASE("campbell: without a constant steady state Coleman's method has no dia
         message = error.what();
     }
     CHECK(message.find("periodic") != std::string::npos);
-    CHECK(diagram_of(rotor, {2.0}).method.find("chosen: there is no constant steady state") != std::string::npos);
+    CHECK(diagram_of(rotor, {2.0}).method_reason == "there is no constant steady state");
 }
 
 }  // namespace cardan::testing::hinged_rotors

@@ -113,7 +113,7 @@ TEST_CASE("campbell point: a rotor that is averaged over the azimuth allocates n
     CampbellPoint point;
     solver.solve(1, point);
     CHECK_THAT(solver.warning(), Catch::Contains("not isotropic"));
-    for (const double speed : {2.0, 0.0, 1.5}) CHECK(allocations([&, speed] { solver.solve(speed, point); }) == 0);
+    for (const double speed : {2.0, 1.5}) CHECK(allocations([&, speed] { solver.solve(speed, point); }) == 0);
 }
 
 TEST_CASE("campbell point: modes that turn aperiodic and back allocate nothing", "[property]") {

@@ -256,13 +256,19 @@ TEST_CASE("coleman: less than two blades and unequal blades are refused", "[prop
                       {"imagined rotor", text("number of blades = ", blades), "at least 2"});
     RotorMap unequal = imagined(3, 2);
     unequal.blades[1].pop_back();
-    check_refused([&] { ColemanTransform(unequal, first(8)); }, {"coordinates of a blade = 1", "2, as blade 1 has"});
+    check_refused([&] { ColemanTransform(unequal, first(8)); },
+                  {"multi-blade coordinates = none", "has other coordinates than blade 1"});
+    RotorMap uneven = imagined(3, 2);
+    uneven.evenly_spaced = false;
+    check_refused([&] { ColemanTransform(uneven, first(8)); }, {"the blades are not evenly spaced", "Floquet"});
+    uneven.missing_blades = {2};
+    check_refused([&] { ColemanTransform(uneven, first(8)); }, {"imagined rotor", "blade 2 of 4 is missing"});
     // A blade coordinate that is an unknown on two of three blades.
     check_refused(
         [&] {
             ColemanTransform(imagined(3, 1), {0, 1, 2, 4});
         },
-        {"blade coordinate number = 1", "all blades or on none"});
+        {"multi-blade coordinates = none", "other coordinates than blade 1", "the same free coordinates"});
     // On none of them it just does not appear.
     const ColemanTransform T(imagined(3, 2), {0, 1, 2, 4, 6});
     CHECK(T.rows()[4].kind == MultiBlade::sine);

@@ -80,6 +80,7 @@ void Assembler::one_blade(int number) {
     const JointedFrame spinner = add_joint(tree, layout.shaft, JointKind::revolute, Axis::x, "spin", {"rotor"},
                                            Vec3::Zero(), options_.spin.value_or(d_.drive_train.spin));
     spin = spinner.body;
+    hub_is_driven = true;
     layout.azimuth = {{spinner.body, 1.0}};
     add_blade(add_hub(add_rotor_centre(spinner.frame, {})), number, *blade, false);
 }
@@ -261,6 +262,7 @@ FrameId Assembler::add_teeter(FrameId rotor_centre, const TeeterDescription& tee
 }
 
 void Assembler::add_blades(FrameId hub) {
+    places = d_.blades;
     for (int k = 1; k <= d_.blades; ++k)
         if (const BladeDescription* blade = d_.blade_at(k)) add_blade(hub, k, *blade, !blade->pitch.is_rigid());
 }

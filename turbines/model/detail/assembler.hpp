@@ -26,6 +26,8 @@ public:
     Tree tree;
     ForceSet forces;
     std::optional<BodyId> spin;  ///< none: no rotor
+    bool hub_is_driven = false;  ///< see RotorMap
+    int places = 0;              ///< for blades
     std::vector<BodyId> odd;     ///< see RotorMap
     std::vector<std::vector<BodyId>> blades;
     std::vector<std::array<BodyId, 2>> rotating_pairs;

@@ -1,0 +1,196 @@
+// EnergyShares of blades that differ.
+#include "mbs/base/entry.hpp"
+#include "solvers/campbell/detail/blade_likeness.hpp"
+#include "solvers/campbell/detail/component_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace cardan::solvers {
+
+void EnergyShares::add_blades(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                              const BladePart& part) {
+    BladeBlock block{};
+    block.first_component = static_cast<int>(components_.size());
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, Vector::Zero(model.size()), workspace);
+    const std::vector<double> angles = blade_angles(kin, rotor);
+    const Mat3 hub = pose(kin, rotor.hub).R, axes = pose(kin, part.axes.axes).R;
+    for (std::size_t k = 0; k < rotor.blades.size(); ++k) {
+        std::vector<int> own;
+        std::vector<int>& rows = block.rows.emplace_back();
+        for (const int coordinate : rotor.blades[k]) {
+            const auto at = std::find(part.coordinates.begin(), part.coordinates.end(), coordinate);
+            if (at == part.coordinates.end() || lin.coordinates[coordinate].part != part.axes.part) continue;
+            own.push_back(coordinate);
+            rows.push_back(static_cast<int>(at - part.coordinates.begin()));
+        }
+        const Mat3 turned = hub * rot_z(angles[k]) * hub.transpose() * axes;
+        add_modes(part, lin, own, coordinate_families(kin, part.axes, turned, own), block);
+    }
+    const Eigen::Index count = std::ssize(components_) - block.first_component;
+    if (count == 0) return;
+    for (Matrix& weights : block.weights) {
+        const Eigen::Index known = weights.cols();
+        weights.conservativeResize(Eigen::NoChange, count);
+        weights.rightCols(count - known).setZero();
+    }
+    for (const std::vector<int>& rows : block.rows)
+        if (!plain_) block.slots.push_back(entry(part.rows, rows.at(0)));
+    for (const MultiBladeRow& slot : block.slots) harmonics_ = std::max(harmonics_, slot.harmonic);
+    block.at_zero = pattern_matrix(block, 0);
+    blade_blocks_.push_back(std::move(block));
+}
+
+// Component modes of one blade, under the names that others may have already.
+void EnergyShares::add_modes(const BladePart& part, const Linearisation& lin, const std::vector<int>& own,
+                             const std::vector<std::string>& families, BladeBlock& block) {
+    Matrix& weights = block.weights.emplace_back(Matrix::Zero(std::ssize(own), 0));
+    if (own.empty()) return;
+    const Matrix K = lin.elastic(own, own);
+    const ComponentModes modes = component_modes(K, lin.mass(own, own), part.axes.part);
+    std::map<std::string, int> count;
+    for (Eigen::Index i = 0; i < modes.shapes.cols(); ++i) {
+        const std::string family = family_of(modes.shapes.col(i), K, families);
+        const int c = component_of(block, family, ++count[family], part, modes.omega(i) / (2 * pi));
+        const Eigen::Index known = weights.cols(), wanted = std::max<Eigen::Index>(known, c + 1);
+        weights.conservativeResize(Eigen::NoChange, wanted);
+        weights.rightCols(wanted - known).setZero();
+        weights.col(c) = K * modes.shapes.col(i);
+    }
+}
+
+// Its column in the block.
+int EnergyShares::component_of(const BladeBlock& block, const std::string& family, int ordinal, const BladePart& part,
+                               double clamped_hz) {
+    const auto first = components_.begin() + block.first_component;
+    const auto found = std::find_if(first, components_.end(),
+                                    [&](const Component& c) { return c.family == family && c.ordinal == ordinal; });
+    const int column = static_cast<int>(found - first);
+    if (found == components_.end()) components_.push_back({part.axes.part, family, ordinal, clamped_hz, true, false});
+    return column;
+}
+
+// [blade][slot], as ColemanTransform has it.
+Matrix EnergyShares::pattern_matrix(const BladeBlock& block, double psi) {
+    const auto B = std::ssize(block.slots);
+    const double blades = static_cast<double>(B), once = std::sqrt(1 / blades), twice = std::sqrt(2 / blades);
+    Matrix T(B, B);
+    for (Eigen::Index k = 0; k < B; ++k)
+        for (Eigen::Index j = 0; j < B; ++j) {
+            const MultiBladeRow& slot = entry(block.slots, j);
+            const double angle = slot.harmonic * (psi + 2 * pi * static_cast<double>(k) / blades);
+            if (slot.kind == MultiBlade::cosine)
+                T(k, j) = twice * std::cos(angle);
+            else if (slot.kind == MultiBlade::sine)
+                T(k, j) = twice * std::sin(angle);
+            else
+                T(k, j) = slot.kind == MultiBlade::differential && k % 2 ? -once : once;
+        }
+    return T;
+}
+
+// Energy amplitude of one blade, sum_j T_kj (w_k . z_j), at the azimuth of T; without slots w_k . x_k.
+Complex EnergyShares::blade_amplitude(const BladeBlock& block, Eigen::Index component, Eigen::Index blade,
+                                      const Matrix& T, const ComplexVector& shape) {
+    const Matrix& weights = entry(block.weights, blade);
+    const auto worth = [&](const std::vector<int>& rows) {
+        Complex sum = 0;
+        for (Eigen::Index i = 0; i < weights.rows(); ++i) sum += weights(i, component) * shape(entry(rows, i));
+        return sum;
+    };
+    if (block.slots.empty()) return worth(entry(block.rows, blade));
+    Complex sum = 0;
+    for (Eigen::Index j = 0; j < T.cols(); ++j) sum += T(blade, j) * worth(entry(block.rows, j));
+    return sum;
+}
+
+// Energy amplitudes of the patterns, sum_k T_kl a_k.
+EnergyShares::Patterns EnergyShares::patterns(const BladeBlock& block, Eigen::Index component, const Matrix& T,
+                                              const ComplexVector& shape) {
+    Patterns out{};
+    for (Eigen::Index k = 0; k < T.rows(); ++k) {
+        const Complex own = blade_amplitude(block, component, k, T, shape);
+        for (Eigen::Index l = 0; l < T.cols(); ++l) entry(out, l) += T(k, l) * own;
+    }
+    return out;
+}
+
+Share EnergyShares::pattern_share(const BladeBlock& block, const Patterns& amplitude, std::vector<WhirlShare> higher) {
+    Share share;
+    higher.clear();
+    for (std::size_t j = 0; j < block.slots.size(); ++j) {
+        const MultiBladeRow& slot = block.slots[j];
+        if (slot.kind == MultiBlade::collective) share.collective = std::norm(amplitude[j]);
+        if (slot.kind == MultiBlade::differential) share.differential = std::norm(amplitude[j]);
+        if (slot.kind != MultiBlade::cosine) continue;
+        const Complex c = amplitude[j], s = amplitude[j + 1];
+        const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
+        const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
+        if (slot.harmonic == 1)
+            share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
+        else
+            higher.push_back({std::norm(c), std::norm(s), whirl});
+    }
+    share.higher = std::move(higher);
+    return share;
+}
+
+Share EnergyShares::mean_share(const BladeBlock& block, Eigen::Index component, const ComplexVector& shape) {
+    const auto blades = std::ssize(block.weights);
+    Complex sum = 0;
+    double all = 0;
+    for (Eigen::Index k = 0; k < blades; ++k) {
+        const Complex own = blade_amplitude(block, component, k, block.at_zero, shape);
+        sum += own;
+        all += std::norm(own);
+    }
+    Share share;
+    share.collective = std::norm(sum) / static_cast<double>(blades);
+    share.differential = std::max(0.0, all - share.collective);
+    return share;
+}
+
+// At azimuth 0. `higher` lends its memory.
+Share EnergyShares::blade_share(const BladeBlock& block, Eigen::Index component, const Mode& mode,
+                                std::vector<WhirlShare> higher) {
+    Share share = block.slots.empty()
+                      ? mean_share(block, component, mode.shape)
+                      : pattern_share(block, patterns(block, component, block.at_zero, mode.shape), std::move(higher));
+    share.component = static_cast<int>(block.first_component + component);
+    return share;
+}
+
+// Where blades differ, amplitudes of patterns have harmonics of the azimuth beside those of the rows, since T occurs in
+// them twice; the energy is that of all their harmonics.
+Share EnergyShares::blade_share(const BladeBlock& block, Eigen::Index component, std::span<const Mode> harmonics,
+                                double rotor_speed) {
+    Share sum;
+    sum.component = static_cast<int>(block.first_component + component);
+    if (block.slots.empty()) {
+        for (const Mode& one : harmonics) add(sum, mean_share(block, component, one.shape), false);
+        return sum;
+    }
+    int outer = 0;
+    for (const MultiBladeRow& slot : block.slots) outer = std::max(outer, 2 * slot.harmonic);
+    const int count = static_cast<int>(harmonics.size()), all = count + 2 * outer;
+    std::vector<Patterns> by_harmonic(static_cast<std::size_t>(all));
+    for (int s = 0; s < all; ++s) {
+        const double psi = 2 * pi * s / all;
+        ComplexVector shape = ComplexVector::Zero(harmonics[0].shape.size());
+        for (int h = 0; h < count; ++h) shape += std::polar(1.0, h * psi) * entry(harmonics, h).shape;
+        const Patterns now = patterns(block, component, pattern_matrix(block, psi), shape);
+        for (int m = 0; m < all; ++m)
+            for (std::size_t l = 0; l < block.slots.size(); ++l)
+                entry(by_harmonic, m)[l] += std::polar(1.0 / all, -(m - outer) * psi) * now[l];
+    }
+    for (int m = 0; m < all; ++m) {
+        const double frequency = harmonics[0].eigenvalue.imag() + (m - outer) * rotor_speed;
+        add(sum, pattern_share(block, entry(by_harmonic, m), {}), frequency < 0);
+    }
+    return sum;
+}
+
+}  // namespace cardan::solvers
