@@ -1,4 +1,5 @@
 // The modes up to a frequency against all modes.
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/linear/lowest_modes.hpp"
 #include "tests/solvers/small_rotor.hpp"
@@ -38,10 +39,10 @@ SecondOrderSystem random_machine(Random& random, Index blades, Index length, boo
             s.M(at, at) = mass(i);
             s.K(at, at) += stiffness(i);
             // The first mass of each blade holds on to the support, in directions that add up to zero.
-            const Index before = i > 0 ? at - 1 : 1 + k % 3;
-            s.K(before, before) += stiffness(i);
-            s.K(at, before) -= stiffness(i);
-            s.K(before, at) -= stiffness(i);
+            const Index inboard = i > 0 ? at - 1 : 1 + k % 3;
+            s.K(inboard, before) += stiffness(i);
+            s.K(at, inboard) -= stiffness(i);
+            s.K(inboard, at) -= stiffness(i);
         }
     for (Index i = 1; i < support; ++i) {
         s.C(i, i - 1) = coupling;
@@ -54,11 +55,14 @@ SecondOrderSystem random_machine(Random& random, Index blades, Index length, boo
     return s;
 }
 
-double rest_of_equation(const SecondOrderSystem& s, const Mode& mode) {
+// The displacement that balances what is left of (lambda^2 M + lambda C + K) x, beside x: the forces themselves say
+// little, since the stiffest springs turn a rounding error of the shape into a large one.
+double error_of_shape(const SecondOrderSystem& s, const Mode& mode) {
     const Complex l = mode.eigenvalue;
-    const ComplexVector inertia = l * l * (s.M * mode.shape), damping = l * (s.C * mode.shape),
-                        stiffness = s.K * mode.shape;
-    return (inertia + damping + stiffness).norm() / (inertia.norm() + damping.norm() + stiffness.norm());
+    const ComplexVector rest = l * l * (s.M * mode.shape) + l * (s.C * mode.shape) + s.K * mode.shape;
+    const Eigen::LLT<Matrix> regular(s.K + std::norm(l) * s.M);
+    const Vector re = regular.solve(Vector(rest.real())), im = regular.solve(Vector(rest.imag()));
+    return std::hypot(re.norm(), im.norm()) / mode.shape.norm();
 }
 
 // Every mode up to the limit is there once, in order, with the energy of the dense solver's.
@@ -70,7 +74,7 @@ void check_modes(const SecondOrderSystem& system, double largest) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         CAPTURE(i, found[i].eigenvalue, expected[i].eigenvalue);
         CHECK(std::abs(found[i].eigenvalue - expected[i].eigenvalue) < 1e-9 * std::abs(expected[i].eigenvalue));
-        CHECK(rest_of_equation(system, found[i]) < 10 * rest_of_equation(system, expected[i]) + 1e-10);
+        CHECK(error_of_shape(system, found[i]) < 1e-10);
         CHECK(std::abs(energy_product(system, found[i], found[i])) == Approx(2));
     }
 }
