@@ -78,14 +78,16 @@ void save(const Arguments& a, const program::MachineFile& machine) {
             *line = turbines::beam_line(turbines::sampled(*line));
     turbines::write_description(description, a.save);
     const turbines::FileDofs& f = model.dofs;
-    const bool has_speed = model.rotor_speed != 0 && machine.kind != program::MachineKind::description;
-    if (model.pitch != 0 || has_speed || !f.generator)
+    if (model.pitch != 0)
         std::cout << "note: " << a.save << " holds the machine, not how it runs: --pitch "
-                  << model.pitch * units::to_degrees << ", " << model.rotor_speed * units::to_rpm << " rpm"
-                  << (f.generator ? "" : ", --generator locked") << "\n";
-    if (!f.tower_fore_aft || !f.tower_side_side || !f.blades)
-        std::cout << "note: " << a.save
-                  << " holds tower and blades with their stiffness, not that they are rigid here\n";
+                  << model.pitch * units::to_degrees << "\n";
+    const bool partly_rigid = f.tower_fore_aft != f.tower_side_side;
+    if (partly_rigid || !f.blades)
+        std::cout << "note: " << a.save << " holds "
+                  << (partly_rigid && !f.blades ? "tower and blades"
+                      : f.blades                ? "the tower"
+                                                : "the blades")
+                  << " with the stiffness of the model, not what is rigid here\n";
 }
 
 // At standstill, where it costs least: the same modes with twice as many elements.

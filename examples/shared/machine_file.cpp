@@ -21,6 +21,7 @@ MachineFile built_in(turbines::TurbineDescription description, double rotor_spee
                      std::function<turbines::AssemblyOptions(int, int)> beams) {
     MachineFile machine;
     machine.file.yaw_drive = description.yaw.rotation;
+    machine.file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
     machine.file.description = std::move(description);
     machine.file.rotor_speed = rotor_speed;
     machine.beams = std::move(beams);
@@ -35,15 +36,12 @@ MachineFile wt600_machine() {
 
 MachineFile teetered_machine() {
     const turbines::TurbineDescription description = turbines::teetered_description();
-    MachineFile machine = built_in(description, description.rotor_speed, [](int blade, int tower) {
+    return built_in(description, description.rotor_speed, [](int blade, int tower) {
         turbines::AssemblyOptions options = turbines::teetered_assembly();
         options.blade_beam->elements = blade;
         options.tower_beam->elements = tower;
-        options.spin = CoordinateRole::free;  // FileDofs::generator says how it turns
         return options;
     });
-    machine.file.dofs.generator = false;
-    return machine;
 }
 
 MachineFile nrel5mw_as(turbines::Nrel5mwVariant variant) {
@@ -88,6 +86,8 @@ MachineFile read_file(const std::filesystem::path& path) {
         machine.file.description = turbines::read_description(path);
         machine.file.rotor_speed = machine.file.description.rotor_speed;
         machine.file.yaw_drive = machine.file.description.yaw.rotation;
+        machine.file.dofs.generator = machine.file.description.drive_train.spin == CoordinateRole::free;
+        machine.file.dofs.tower_fore_aft = machine.file.dofs.tower_side_side = !machine.file.description.tower.rigid;
     } else {
         machine.kind = MachineKind::windio;
         machine.file = turbines::read_windio(path);
@@ -109,6 +109,7 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
 void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
     turbines::Bearing& yaw = model.description.yaw.rotation;
     if (!a.generator.empty()) model.dofs.generator = a.generator == "free";
+    model.description.drive_train.spin = model.dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
     if (a.yaw == "locked") yaw = turbines::rigid_joint;
     if (a.yaw != "free" || !yaw.is_rigid()) return;
     if (model.yaw_drive.is_rigid())
@@ -141,9 +142,11 @@ void print(const std::vector<turbines::FileNote>& notes, bool all) {
 void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::AssemblyOptions& o) {
     const turbines::TurbineDescription& d = machine.file.description;
     const turbines::FileDofs& dofs = machine.file.dofs;
-    o.tower_beam = beam_options(d.tower.line, a.tower_elements, false);
-    o.tower_beam->held_y = !dofs.tower_side_side;
-    o.tower_beam->held_z = !dofs.tower_fore_aft;
+    if (!d.tower.rigid) {
+        o.tower_beam = beam_options(d.tower.line, a.tower_elements, false);
+        o.tower_beam->held_y = !dofs.tower_side_side;
+        o.tower_beam->held_z = !dofs.tower_fore_aft;
+    }
     if (d.blades == 0) return;
     o.blade_beam = beam_options(d.blade.line, a.blade_elements, true);
     o.blade_beam->held_y = o.blade_beam->held_z = !dofs.blades;
@@ -215,6 +218,7 @@ turbines::AssemblyOptions assembly_options(const MachineFile& machine, const Mac
         o = machine.beams(options.blade_elements, options.tower_elements);
     else
         set_beams(machine, options, o);
+    o.spin = CoordinateRole::free;  // how it turns (FileDofs::generator) is left to the analysis
     o.pitch = options.pitch ? *options.pitch * units::degree : machine.file.pitch;
     if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
     if (options.undamped) o.structural_damping = o.joint_damping = false;

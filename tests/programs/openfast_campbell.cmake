@@ -42,7 +42,12 @@ string(REPLACE "True   GenDOF" "False   GenDOF" elastodyn_locked "${elastodyn}")
 string(REPLACE "True   YawDOF" "False   YawDOF" elastodyn_locked "${elastodyn_locked}")
 file(WRITE ${test_output_dir}/locked/small_ElastoDyn.dat "${elastodyn_locked}")
 add_example_test(example_openfast_locked openfast_campbell 0 "degrees of freedom: generator locked, yaw bearing locked\n.*drive-train torsion +2[.].*mesh: at standstill 2 elements per blade"
-                 locked/small.fst --rpm 0,45 ${coarse} --out example_openfast_locked)
+                 locked/small.fst --rpm 0,45 ${coarse} --save example_openfast_locked.yaml --out example_openfast_locked)
+# The YAML has what the description holds: the generator, the speed.
+add_example_test(example_openfast_locked_own openfast_campbell 0 "degrees of freedom: generator locked, yaw bearing locked\n.*drive-train torsion +2[.]"
+                 example_openfast_locked.yaml ${coarse} --out example_openfast_locked_own)
+set_tests_properties(example_openfast_locked PROPERTIES FIXTURES_SETUP locked_yaml)
+set_tests_properties(example_openfast_locked_own PROPERTIES FIXTURES_REQUIRED locked_yaml)
 add_example_test(example_openfast_unlocked openfast_campbell 0 "degrees of freedom: generator and yaw bearing free\n" locked/small.fst
                  --generator free --yaw free --rpm 45 ${coarse} --out example_openfast_unlocked)
 add_example_test(example_openfast_yaw openfast_campbell 1 "--yaw: value = free; allowed: locked: the model gives no spring"

@@ -129,6 +129,7 @@ private:
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
         if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
         out_.dofs.generator = file_.flag("GenDOF");
+        if (!out_.dofs.generator) t.spin = CoordinateRole::driven;
         file_.note_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
@@ -275,6 +276,7 @@ private:
         f.tower_fore_aft = bends({"TwFADOF1", "TwFADOF2"}, "the tower is a beam and bends with all its fore-aft modes");
         f.tower_side_side =
             bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
+        d_.tower.rigid = !f.tower_fore_aft && !f.tower_side_side;
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
             if (file_.flag_or(keyword, false))
                 file_.note(keyword, "the tower stands on the ground; see TurbineDescription::platform");

@@ -22,7 +22,8 @@ struct FileNote {
 /// "file:12: NacYaw = 3: the nacelle points into the wind here"
 std::string to_text(const FileNote& note);
 
-/// Degrees of freedom that a file may switch off (ElastoDyn's flags); they are not part of the description.
+/// Degrees of freedom that a file may switch off (ElastoDyn's flags). Of these the description holds a locked generator
+/// (DriveTrainDescription::spin) and a tower that is rigid in both directions (TowerDescription::rigid).
 struct FileDofs {
     bool generator = true;  ///< false: the rotor turns at constant speed (RotorSpin::prescribed)
     /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, both of the blades).

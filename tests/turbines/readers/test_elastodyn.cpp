@@ -204,7 +204,10 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
     CHECK(as_it_is.dofs.tower_side_side);  // one of two
     CHECK(as_it_is.dofs.blades);
     CHECK(as_it_is.yaw_drive.stiffness == 2e7);
-    CHECK(!changed({"GenDOF"}).dofs.generator);
+    const TurbineFile locked = changed({"GenDOF"});
+    CHECK(!locked.dofs.generator);
+    CHECK(locked.description.drive_train.spin == CoordinateRole::driven);
+    CHECK(as_it_is.description.drive_train.spin == CoordinateRole::free);
     CHECK(changed({"DrTrDOF"}).description.drive_train.main_shaft.is_rigid());
     const TurbineFile yaw = changed({"YawDOF"}, "small.fst");
     CHECK(yaw.description.yaw.rotation.is_rigid());
@@ -216,6 +219,13 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
     CHECK(!fore_aft.dofs.tower_fore_aft);
     CHECK(fore_aft.dofs.tower_side_side);
     CHECK(!test::has_note(fore_aft.notes, "TwFADOF", ""));
+    CHECK(!fore_aft.description.tower.rigid);
+    const TurbineFile stiff = changed({"TwFADOF1", "TwFADOF2", "TwSSDOF1"});
+    CHECK(stiff.description.tower.rigid);
+    AssemblyOptions options;
+    options.blade_beam.emplace().torsion = false;
+    const Turbine turbine = assemble(stiff.description, options);
+    CHECK(turbine.system().model.coordinates().of_part("tower").empty());
     CHECK(!changed({"TwSSDOF1"}).dofs.tower_side_side);
     CHECK(changed({"FlapDOF1", "FlapDOF2"}).dofs.blades);
     CHECK(!changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).dofs.blades);
