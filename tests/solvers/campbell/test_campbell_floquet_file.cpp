@@ -74,6 +74,9 @@ TEST_CASE("campbell file by Floquet: participations are the shares of the harmon
     const Stored stored(d);
     const Hdf5File& file = *stored.file;
     CHECK(file.string_attribute("/", "method").starts_with("Floquet"));
+    CHECK(file.string_attribute("/", "method_reason").empty());  // it was asked for
+    const Stored chosen(campbell(rotor.system, rotor.map, {2.0}, {.max_frequency_hz = 3}));
+    CHECK(chosen.file->string_attribute("/", "method_reason") == "two blades");
     std::vector<std::int64_t> expected_harmonics(17);
     std::iota(expected_harmonics.begin(), expected_harmonics.end(), -8);
     CHECK(file.read_ints("harmonic") == expected_harmonics);
