@@ -103,6 +103,20 @@ TEST_CASE("windio: a downwind rotor is on the other side of the tower, in both v
     CHECK((along - Vec3(std::sin(-2 * degree), 0, std::cos(2 * degree))).norm() < 1e-12);
 }
 
+TEST_CASE("windio: a tower with matrices of bending and torsion alone is that of its layers, which is noted",
+          "[property]") {
+    const test::ModelFolder model("windio");
+    model.replace("small_v2.yaml", "      outfitting_factor: 1.05\n",
+                  "      outfitting_factor: 1.05\n"
+                  "      elastic_properties:\n"
+                  "        stiffness_matrix: {grid: [0.0, 1.0], K44: [1.0, 1.0], K55: [1.0, 1.0], K66: [1.0, 1.0]}\n"
+                  "        inertia_matrix: {grid: [0.0, 1.0], mass: [1.0, 1.0]}\n");
+    const TurbineFile file = read_windio(model / "small_v2.yaml");
+    const BeamLine layers = read_windio(test::data_file("windio/small_v2.yaml")).description.tower.line;
+    CHECK(test::difference(file.description.tower.line, layers) == 0);
+    CHECK(test::has_note(file.notes, "components.tower.structure.elastic_properties.stiffness_matrix", "its layers"));
+}
+
 TEST_CASE("windio: angles that machines do not have are taken as they are, and noted", "[property]") {
     const test::ModelFolder model("windio");
     CHECK_FALSE(read_windio(model / "small_v2.yaml").description.unusual);

@@ -298,6 +298,12 @@ void add_matrices(BeamTable& table, const YamlNode& stiffness, const YamlNode& i
     }
 }
 
+// Some files have bending and torsion only.
+bool is_whole(const YamlNode& stiffness) {
+    const auto has = [&](const char* key) { return stiffness.find(key).has_value(); };
+    return has("values") || (has("K11") && has("K22") && has("K33"));
+}
+
 }  // namespace
 
 BeamTable windio_tower(WindioFile& file) {
@@ -310,9 +316,12 @@ BeamTable windio_tower(WindioFile& file) {
     const double length = points.back()(2) - points.front()(2);
     BeamTable table;
     table.name = "tower";
-    if (const auto stiffness = file.find({"components.tower.structure.elastic_properties.stiffness_matrix",
-                                          "components.tower.elastic_properties.stiffness_matrix",
-                                          "components.tower.elastic_properties_mb.six_x_six.stiff_matrix"}))
+    const auto stiffness = file.find({"components.tower.structure.elastic_properties.stiffness_matrix",
+                                      "components.tower.elastic_properties.stiffness_matrix",
+                                      "components.tower.elastic_properties_mb.six_x_six.stiff_matrix"});
+    if (stiffness && !is_whole(*stiffness))
+        file.note(*stiffness, "", "without shear or axial stiffness: the tower is that of its layers");
+    if (stiffness && is_whole(*stiffness))
         add_matrices(table, *stiffness,
                      file.get({"components.tower.structure.elastic_properties.inertia_matrix",
                                "components.tower.elastic_properties.inertia_matrix",
