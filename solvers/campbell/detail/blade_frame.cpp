@@ -8,15 +8,14 @@
 
 namespace cardan::solvers {
 
-namespace {
-
-void conjugate(CampbellMode& m) {
-    FloquetMode& mode = *m.floquet;
+void conjugate(FloquetMode& mode) {
     mode.exponent = std::conj(mode.exponent);
     mode.harmonics = mode.harmonics.conjugate().rowwise().reverse().eval();
     mode.participation.reverseInPlace();
     mode.first_harmonic = -(mode.first_harmonic + static_cast<int>(mode.harmonics.cols()) - 1);
 }
+
+namespace {
 
 // False if it is the principal one already.
 bool take_own_harmonic(CampbellMode& m) {
@@ -26,7 +25,7 @@ bool take_own_harmonic(CampbellMode& m) {
     mode.exponent += Complex(0, 2 * pi * m.own_harmonic / mode.period);
     mode.first_harmonic -= m.own_harmonic;
     m.own_harmonic = 0;
-    if (mode.exponent.imag() < 0) conjugate(m);
+    if (mode.exponent.imag() < 0) conjugate(mode);
     m.mode = {mode.exponent, mode.harmonics.col(-mode.first_harmonic) / std::sqrt(mode.share(0))};
     return true;
 }

@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/campbell/detail/blade_frame.hpp"
 
 #include <algorithm>
 #include <array>
@@ -75,6 +76,52 @@ void find_displacement(FloquetMode& mode, const Matrix& M, double speed) {
     mode.first_harmonic = -static_cast<int>(at);
 }
 
+// Energy that the spin would have if its slow displacement, a multiple of the rotor speed from the principal harmonic,
+// vibrated once per revolution.
+double slow_spin(const FloquetMode& mode, const Matrix& M, double speed, Index spin) {
+    const double shift = std::round(mode.exponent.imag() / speed);
+    const Index at = -mode.first_harmonic - static_cast<Index>(shift);
+    const bool slow = std::abs(mode.exponent - Complex(0, shift * speed)) < free_spin_limit * speed;
+    if (!slow || at < 0 || at >= mode.harmonics.cols()) return 0;
+    return speed * speed * M(spin, spin) * std::norm(mode.harmonics(spin, at));
+}
+
+// Unbalance or gravity hold a free spin weakly, and then what it takes along once per revolution has more energy than
+// the spin itself. One motion is that of the spin, or two that do not oscillate: the slowest displacement of all.
+void find_weak_spin(std::vector<FloquetMode>& modes, const Matrix& M, double speed, Index spin) {
+    if (spin < 0) return;
+    constexpr double mostly = 10, alike = 0.5, energy = 2;
+    double most = mostly * energy;
+    for (const FloquetMode& mode : modes) most = std::max(most, slow_spin(mode, M, speed, spin));
+    for (FloquetMode& mode : modes) {
+        const double own = slow_spin(mode, M, speed, spin), shift = std::round(mode.exponent.imag() / speed);
+        const bool real = mode.kind != FloquetKind::oscillation;
+        if (shift == 0 || own < (real ? alike : 1) * most || own < mostly * energy) continue;
+        mode.exponent -= Complex(0, shift * speed);
+        mode.first_harmonic += static_cast<int>(shift);
+        if (mode.kind == FloquetKind::synchronous) mode.kind = FloquetKind::aperiodic;
+        if (mode.exponent.imag() < 0) conjugate(mode);
+    }
+}
+
+// A free spin that is held weakly has little energy of its own, and what it takes along has springs. Beside the slowest
+// vibration, which is much faster, it is a displacement.
+void name_weak_spin(std::vector<CampbellMode>& modes, const Matrix& M, Index spin) {
+    if (spin < 0) return;
+    for (CampbellMode& m : modes) {
+        if (m.row >= 0 || m.kind() == FloquetKind::rigid) continue;
+        const double own = std::abs(m.mode.eigenvalue), energy = 2;
+        double slowest = std::numeric_limits<double>::infinity();
+        for (const CampbellMode& other : modes) {
+            const double size = std::abs(other.mode.eigenvalue);
+            if (other.row < 0 && other.mode.oscillates() && size > own / free_spin_limit)
+                slowest = std::min(slowest, size);
+        }
+        const double displaced = slowest * slowest * M(spin, spin) * std::norm(m.mode.shape(spin));
+        if (std::isfinite(slowest) && displaced >= mostly_displacement * energy) m.row = static_cast<int>(spin);
+    }
+}
+
 void leave_out_ends(FloquetMode& mode) {
     Index first = 0, last = mode.harmonics.cols() - 1;
     const Index principal = -mode.first_harmonic;
@@ -120,6 +167,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
         standstill_.solve(0, point);
         mean_ = standstill_.system();
         for (CampbellMode& m : point.modes) m.row = naming_row(mean_, m.mode);
+        name_weak_spin(point.modes, mean_.M, spin_row());
         if (options_.method == CampbellMethod::averaged) leave_out_free_spin(lowest_elastic(point), point);
         return;
     }
@@ -223,10 +271,16 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
     return options;
 }
 
+Index PeriodicPointSolver::spin_row() const {
+    const auto at = std::find(unknowns().begin(), unknowns().end(), rotor_.spin);
+    return at == unknowns().end() ? -1 : at - unknowns().begin();
+}
+
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
     const FloquetOptions options = floquet_options(periodic);
     Floquet result = floquet(periodic, options);
     if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
+    find_weak_spin(result.modes, mean_.M, std::abs(state_->rotor_speed), spin_row());
     for (FloquetMode& mode : result.modes) {
         find_displacement(mode, mean_.M, std::abs(state_->rotor_speed));
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
@@ -235,6 +289,7 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
         if (slow && pair) point.modes.push_back(make(FloquetMode(mode)));
         point.modes.push_back(make(std::move(mode)));
     }
+    name_weak_spin(point.modes, mean_.M, spin_row());
     std::stable_sort(point.modes.begin(), point.modes.end(), [](const CampbellMode& a, const CampbellMode& b) {
         return a.mode.natural_hz() < b.mode.natural_hz();
     });

@@ -40,6 +40,7 @@ private:
     void leave_out_free_spin(double scale, CampbellPoint& point) const;
     CampbellMode make(FloquetMode&& found) const;
     void set_blade_shares(CampbellPoint& point) const;
+    Eigen::Index spin_row() const;
     void warn(const std::string& what);
 
     const System& system_;

@@ -160,6 +160,27 @@ TEST_CASE("unequal rotors: of three places one is empty, one blade has a held pi
     CHECK(campbell(alone.system(), alone.rotor(), {0.0}).spin == RotorSpin::prescribed);
 }
 
+TEST_CASE("unequal rotors: a free generator that unbalance or gravity hold weakly is named after itself",
+          "[property]") {
+    const double slow = 9 * units::rpm;
+    for (const bool gravity : {false, true}) {
+        D d = turbines::wt600_description();
+        d.own_blades[2] = std::nullopt;
+        if (gravity) (d.own_blades[2] = d.blade)->line = scaled(d.blade.line, 1.05, 1);
+        const Turbine turbine = turbines::assemble(d, small(gravity));
+        const Campbell diagram = campbell(turbine.system(), turbine.rotor(), {slow, 2 * slow},
+                                          {.max_frequency_hz = 0.6, .keep_shapes = false});
+        // Below the tower's frequencies there is nothing else.
+        REQUIRE_FALSE(diagram.branches.empty());
+        for (const Branch& branch : diagram.branches) {
+            CAPTURE(gravity, branch.name);
+            CHECK(branch.family == "generator azimuth");
+            for (std::size_t i = 0; i < 2; ++i)
+                if (branch.mode[i] >= 0) CHECK(diagram.natural_hz(branch, i) < 0.05);
+        }
+    }
+}
+
 TEST_CASE("unequal rotors: pitch bearings that only some blades have are named as such", "[property]") {
     D d = turbines::wt600_description();
     d.own_blades[1] = d.blade;
