@@ -14,7 +14,7 @@ using LinearOperator = std::function<void(const Vector& x, Vector& y)>;
 
 struct DominantOptions {
     double least = 0;          ///< magnitude from which on eigenvalues are wanted; > 0
-    double tolerance = 1e-13;  ///< residual of an eigenpair beside the eigenvalue
+    double tolerance = 1e-15;  ///< residual of an eigenpair beside the eigenvalue, as the Krylov space tells it
     int most = 200;            ///< limit of vectors in one Krylov space
 };
 

@@ -40,7 +40,7 @@ SecondOrderSystem random_machine(Random& random, Index blades, Index length, boo
             s.K(at, at) += stiffness(i);
             // The first mass of each blade holds on to the support, in directions that add up to zero.
             const Index inboard = i > 0 ? at - 1 : 1 + k % 3;
-            s.K(inboard, before) += stiffness(i);
+            s.K(inboard, inboard) += stiffness(i);
             s.K(at, inboard) -= stiffness(i);
             s.K(inboard, at) -= stiffness(i);
         }
@@ -66,7 +66,7 @@ double error_of_shape(const SecondOrderSystem& s, const Mode& mode) {
 }
 
 // Every mode up to the limit is there once, in order, with the energy of the dense solver's.
-void check_modes(const SecondOrderSystem& system, double largest) {
+void check_modes(const SecondOrderSystem& system, double largest, double shape_error = 1e-10) {
     std::vector<Mode> expected = modes(system);
     std::erase_if(expected, [&](const Mode& mode) { return std::abs(mode.eigenvalue) > largest; });
     const std::vector<Mode> found = lowest_modes(system, largest);
@@ -74,7 +74,7 @@ void check_modes(const SecondOrderSystem& system, double largest) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         CAPTURE(i, found[i].eigenvalue, expected[i].eigenvalue);
         CHECK(std::abs(found[i].eigenvalue - expected[i].eigenvalue) < 1e-9 * std::abs(expected[i].eigenvalue));
-        CHECK(error_of_shape(system, found[i]) < 1e-10);
+        CHECK(error_of_shape(system, found[i]) < shape_error);
         CHECK(std::abs(energy_product(system, found[i], found[i])) == Approx(2));
     }
 }
@@ -85,10 +85,12 @@ TEST_CASE("lowest modes: none of those of the dense solver is lost, on 200 machi
     Random random(200);
     for (int trial = 0; trial < 200; ++trial) {
         const Index blades = 3 + trial % 2, length = 12 + trial % 9;
-        const SecondOrderSystem system = random_machine(random, blades, length, trial % 5 == 0);
+        const bool loose = trial % 5 == 0;
+        const SecondOrderSystem system = random_machine(random, blades, length, loose);
         const double lowest = std::abs(modes(system).front().eigenvalue);
         CAPTURE(trial, blades, length);
-        check_modes(system, uniform(random, 2, 12) * lowest);
+        // A free displacement is a double eigenvalue with one vector, beside which others are known less well.
+        check_modes(system, uniform(random, 2, 12) * lowest, loose ? 1e-8 : 1e-10);
     }
 }
 
