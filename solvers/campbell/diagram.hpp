@@ -181,8 +181,9 @@ struct Campbell {
 
 /// Modes at every rotor speed: steady state, linearisation, Coleman transformation (or Floquet theory where that
 /// does not make the equations constant), eigenvalues; then identification
-/// and tracking by optimal assignment on the complex energy MAC. A rotor with one blade, the isolated blade, is taken
-/// in its rotating frame; a rotor without blades, a disc on a shaft, in the fixed frame, where it whirls.
+/// and tracking by optimal assignment on the complex energy MAC. A rotor with one blade is taken in its rotating
+/// frame (an isolated blade with prescribed spin, RotorMap::hub_is_driven); a rotor without blades, a disc on a shaft,
+/// in the fixed frame, where it whirls.
 ///
 /// With Floquet theory the steady state is periodic and its iteration starts from that of the previous speed; modes are
 /// named after the elastic energy of all harmonics, and the MAC compares all harmonics, allowing for shifts by

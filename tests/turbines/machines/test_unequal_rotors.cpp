@@ -5,7 +5,6 @@
 #include "tests/solvers/periodic/floquet_tools.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-#include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600.hpp"
 
