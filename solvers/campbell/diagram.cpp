@@ -283,11 +283,13 @@ PeriodicMac Sweep::likeness_to_last(const PointMethod& solver, const CampbellPoi
     const bool starts = !diagram_.points.empty() && diagram_.points.back().rotor_speed == 0 && point.rotor_speed != 0;
     if (!starts || !solver.coleman()) return fixed;
     std::vector<CampbellMode> turning;
+    turning.reserve(last.size());
     for (const CampbellMode* mode : last)
         turning.push_back(mode->blade_shares.size() > 0 && mode->row < 0
                               ? carried_along(*mode, *solver.coleman(), point.rotor_speed)
                               : *mode);
     std::vector<const CampbellMode*> pointers;
+    pointers.reserve(turning.size());
     for (const CampbellMode& mode : turning) pointers.push_back(&mode);
     const PeriodicMac carried = periodic_mac(solver.system(), pointers, point.modes);
     return {fixed.mac.cwiseMax(carried.mac), fixed.score.cwiseMax(carried.score)};

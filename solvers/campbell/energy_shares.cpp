@@ -57,17 +57,31 @@ double Share::total() const {
     return sum;
 }
 
+namespace {
+
+bool differing_blades(const Linearisation& lin, const Model& model, const RotorMap& rotor) {
+    check(rotor, model);
+    require_size("energy shares", "elastic stiffness", lin.elastic, model.size(), model.size());
+    return !blades_alike(model, rotor, lin);
+}
+
+// No row is a multi-blade coordinate.
+bool has_plain_blade_rows(const RotorMap& rotor, const std::vector<MultiBladeRow>& rows) {
+    const auto is_multi_blade = [](const MultiBladeRow& row) { return row.blade_coordinate >= 0; };
+    return rotor.blades.size() > 1 && std::none_of(rows.begin(), rows.end(), is_multi_blade);
+}
+
+}  // namespace
+
 EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                            const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
-    : two_blades_(rotor.blades.size() == 2), blades_differ_(!blades_alike(model, rotor, lin)) {
-    check(rotor, model);
+    : two_blades_(rotor.blades.size() == 2),
+      blades_differ_(differing_blades(lin, model, rotor)),
+      plain_(has_plain_blade_rows(rotor, rows)) {
     require_count("energy shares", "rows", rows.size(), coordinates.size());
-    require_size("energy shares", "elastic stiffness", lin.elastic, model.size(), model.size());
     for (const int coordinate : coordinates) require_index("energy shares", "coordinate", coordinate, model.size());
     for (const std::vector<int>& blade : rotor.blades)
         blade_numbers_.push_back(blade.empty() ? 0 : model.coordinates()[blade.front()].blade);
-    plain_ = rotor.blades.size() > 1 &&
-             std::none_of(rows.begin(), rows.end(), [](const MultiBladeRow& row) { return row.blade_coordinate >= 0; });
     const bool apart = blades_differ_ || plain_;
     for (const PartAxes& part : rotor.parts) {
         if (apart) add_blades(lin, model, rotor, {part, coordinates, rows});

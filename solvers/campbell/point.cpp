@@ -172,6 +172,7 @@ Vector PointSolver::blade_energies(const Linearisation& lin, const ComplexVector
         const std::vector<int>& blade = entry(rotor_.blades, k);
         const std::vector<int> rows = rows_among(unknowns_, blade);
         std::vector<int> own;
+        own.reserve(rows.size());
         for (const int row : rows) own.push_back(entry(unknowns_, row));
         energies(k) = hermitian_form(Matrix(lin.elastic(own, own)), ComplexVector(shape(rows)));
     }

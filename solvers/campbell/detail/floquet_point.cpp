@@ -303,6 +303,7 @@ void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
     const ColemanTransform* T = standstill_.coleman();
     const Linearisation lin = linearise(system_, point.at);
     std::vector<Matrix> at;
+    at.reserve(azimuths);
     for (int i = 0; i < azimuths; ++i)
         at.push_back(T ? T->matrix(2 * pi * i / azimuths) : standstill_.rotating_coordinates());
     for (CampbellMode& m : point.modes) {
