@@ -4,6 +4,7 @@
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/oc3_hywind.hpp"
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 #include "turbines/readers/openfast.hpp"
@@ -50,6 +51,13 @@ MachineFile nrel5mw_as(turbines::Nrel5mwVariant variant) {
                     [variant](int blade, int tower) { return turbines::nrel5mw_assembly(variant, blade, tower); });
 }
 
+MachineFile nrel5mw_spar() {
+    const turbines::TurbineDescription description = turbines::nrel5mw_oc3_hywind_description();
+    return built_in(description, description.rotor_speed, [](int blade, int tower) {
+        return turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, blade, tower);
+    });
+}
+
 struct BuiltIn {
     const char *name, *about;
     MachineFile (*machine)();
@@ -62,7 +70,8 @@ constexpr std::array machines{
     BuiltIn{"nrel5mw", "NREL 5 MW, three blades, as in its report", [] { return nrel5mw_as(Nrel5mwVariant::report); }},
     BuiltIn{"nrel5mw-fast", "likewise, as modelled in ElastoDyn", [] { return nrel5mw_as(Nrel5mwVariant::fast); }},
     BuiltIn{"nrel5mw-beamdyn", "likewise, with the blades of BeamDyn",
-            [] { return nrel5mw_as(Nrel5mwVariant::beamdyn); }}};
+            [] { return nrel5mw_as(Nrel5mwVariant::beamdyn); }},
+    BuiltIn{"nrel5mw-spar", "likewise, afloat on the OC3-Hywind spar; with --gravity", nrel5mw_spar}};
 
 std::string names() {
     std::string all;

@@ -173,6 +173,10 @@ Advance record(Integrator& integrator, Recorder& recorder, const std::vector<dou
     const auto same = [](const Channel& a, const Channel& b) { return a.name == b.name && a.units == b.units; };
     if (!std::ranges::equal(into.channels, recorder.channels(), same))
         throw InputError(in_recorder, "history to append to", text("'", into.title, "'"), "one with the same channels");
+    const std::size_t count = into.channels.size();
+    if (into.values.size() != count)
+        throw InputError(in_recorder, "lists of values of the history to append to", into.values.size(),
+                         text(count, ", one per channel"));
     return record(integrator, recorder, times, [&](double time, const std::vector<double>& values) {
         into.time.push_back(time);
         for (std::size_t i = 0; i < values.size(); ++i) into.values[i].push_back(values[i]);

@@ -66,7 +66,7 @@ using RecordRow = std::function<void(double time, const std::vector<double>& val
 /// @throws InputError for an empty function, descending times
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, const RecordRow& row);
 /// Records into memory, appending to the history.
-/// @throws InputError if the channels of `into` differ
+/// @throws InputError if the channels of `into` differ or it has not one list of values for each
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, History& into);
 
 }  // namespace cardan::solvers

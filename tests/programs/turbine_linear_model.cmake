@@ -15,7 +15,7 @@ add_example_test(example_turbine_linear_nrel5mw turbine_linear_model 0
 # Equal to rounding with 48 azimuths; the series converges as fast as the exponents do.
 set(equal "[^\n]* +[0-9.]+e-1[0-9]  ")
 add_example_test(example_turbine_linear_teetered turbine_linear_model 0
-    "two blades: the model is periodic[^\n]*48 azimuths[^\n]*frozen at the azimuth 30 deg.*\n${equal}1st tower side-side\n${equal}teeter .locked at 1 per rev and decaying.\n${equal}teeter .locked at 1 per rev and growing.\n${equal}1st blade edge .symmetric.\n.*48 files"
+    "two blades: the model is periodic[^\n]*48 azimuths[^\n]*frozen at the azimuth 30 deg.*\n${equal}1st tower side-side\n${equal}teeter .locked at 1 per rev and (decaying|growing).\n${equal}teeter .locked at 1 per rev and (growing|decaying).\n${equal}1st blade edge .symmetric.\n.*48 files"
     teetered --azimuths 48 --azimuth 33 --blade-elements 2 --tower-elements 2 --out example_turbine_linear_teetered)
 add_example_test(example_turbine_linear_gravity turbine_linear_model 0 "two blades.*\n${equal}1st tower side-side\n"
     teetered --gravity --yaw locked --azimuths 48 ${coarse} --max-frequency 3 --out example_turbine_linear_gravity)

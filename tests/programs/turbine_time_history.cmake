@@ -20,6 +20,8 @@ add_example_test(example_turbine_time_teetered_free turbine_time_history 0 "roto
     ${coarse} --generator free --azimuth 30 --q yaw=0.1 --qd teeter=0.01 --out example_turbine_time_teetered_free)
 add_example_test(example_turbine_time_nrel5mw turbine_time_history 0 "from 12.1 rpm.*energy lost.*ok" nrel5mw ${coarse}
     --out example_turbine_time_nrel5mw)
+add_example_test(example_turbine_time_spar turbine_time_history 0 "OC3-Hywind spar.*energy lost.*ok" nrel5mw-spar ${coarse}
+    --rpm 6 --out example_turbine_time_spar)
 add_example_test(example_turbine_time_openfast turbine_time_history 0 "Blade.dat:[0-9]+: FlStTunr.*rpm, rotor driven.*energy lost.*ok"
     ${models}/openfast/small.fst ${coarse} --generator locked --method alpha --out example_turbine_time_openfast)
 # A machine at rest in its equilibrium stays there; without gravity nothing moves at all.
@@ -62,7 +64,7 @@ add_example_test(example_turbine_time_unusual turbine_time_history 0
 add_example_test(example_turbine_time_help turbine_time_history 0 "--generator-slope.*  teetered  " --help)
 add_example_test(example_turbine_time_no_machine turbine_time_history 2 "model is required")
 add_example_test(example_turbine_time_unknown turbine_time_history 1
-    "machine: name = wt60; allowed: wt600, teetered, nrel5mw, nrel5mw-fast, nrel5mw-beamdyn, or a file" wt60)
+    "machine: name = wt60; allowed: wt600, teetered, nrel5mw, nrel5mw-fast, nrel5mw-beamdyn, nrel5mw-spar, or a file" wt60)
 add_example_test(example_turbine_time_no_file turbine_time_history 1 "no/such.yaml: cannot be read: No such file" no/such.yaml)
 add_example_test(example_turbine_time_not_one turbine_time_history 1 "[.]cmake:1: neither a main file of OpenFAST"
     ${CMAKE_CURRENT_LIST_FILE})

@@ -74,5 +74,9 @@ TEST_CASE("recorder: bad input is refused", "[solvers][recorder][property]") {
     History history;
     (void)record(integrator, recorder, {0.1}, history);
     check_refused([&] { (void)record(integrator, other, {0.2}, history); }, {"the same channels"});
+    History without_values;
+    without_values.channels = recorder.channels();
+    check_refused([&] { (void)record(integrator, recorder, {0.2}, without_values); },
+                  {"lists of values", "0", "one per"});
     check_refused([&] { (void)history.index("nonsense"); }, {"'nonsense'", "'hinge'"});
 }

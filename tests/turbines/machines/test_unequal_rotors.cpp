@@ -79,7 +79,9 @@ TEST_CASE(
             }
             if (uniform(random, 0, 1) < 0.6) continue;
             turbines::BladeDescription& own = *(d.own_blades[k] = d.blade);
-            own.line = scaled(d.blade.line, uniform(random, 0.8, 1.2), uniform(random, 0.8, 1.2));
+            // Drawn one by one: compilers differ in the order in which they evaluate arguments.
+            const double second = uniform(random, 0.8, 1.2), first = uniform(random, 0.8, 1.2);
+            own.line = scaled(d.blade.line, first, second);
             own.pitch_setting += uniform(random, 0, 1) < 0.3 ? 1.4 : 0;
             if (uniform(random, 0, 1) < 0.2 && !own.pitch.is_rigid()) own.pitch = turbines::driven_joint;
         }

@@ -51,14 +51,17 @@ TEST_CASE("teetered machine: masses and places are those of Table I", "[publishe
     const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
     const auto parts = masses_by_part(machine.tree());
     const auto part = [&](const std::string& name) {
-        return *std::find_if(parts.begin(), parts.end(), [&](const PartMass& p) { return p.part == name; });
+        const auto found = std::find_if(parts.begin(), parts.end(), [&](const PartMass& p) { return p.part == name; });
+        CAPTURE(name);
+        REQUIRE(found != parts.end());
+        return *found;
     };
     CHECK(part("tower").mass == Approx(27 * 67.5772).epsilon(1e-13));
     CHECK((part("tower").centre - Vec3(0, 0, 13.5)).norm() < 1e-12);
     CHECK(part("nacelle").mass == 6900);
     CHECK(part("nacelle").reduced);
     CHECK(part("hub").mass == 0);
-    CHECK(part("shaft").mass == 0);
+    CHECK(parts.size() == 5);  // a shaft has no mass, and is no part
     for (const char* blade : {"blade 1", "blade 2"}) CHECK(part(blade).mass == Approx(8.42 * 67.5772).epsilon(1e-13));
     CHECK((part("blade 1").centre - Vec3(2.388, 0, 27 + 1.8 + 4.21)).norm() < 1e-12);
     CHECK((part("blade 2").centre - Vec3(2.388, 0, 27 - 1.8 - 4.21)).norm() < 1e-12);
