@@ -17,6 +17,7 @@
 #include "turbines/model/channels.hpp"
 
 #include "examples/shared/program.hpp"
+#include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -96,26 +97,6 @@ enum class LinearisedAbout : std::uint8_t {
     automatic  ///< constant where there is one
 };
 
-inline solvers::PeriodicSteadyState periodic_state(const turbines::Turbine& turbine, double rotor_speed,
-                                                   int harmonics) {
-    constexpr double good = 1e-7;  // rad or m
-    solvers::PeriodicOptions options;
-    options.rotor_speed = rotor_speed;
-    options.harmonics = harmonics;
-    options.rotor = &turbine.rotor();
-    solvers::PeriodicSteadyState state = solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
-    if (!state.converged && state.residual < good) {  // where free yaw has hardly any equilibrium
-        std::printf("note: the steady state is out of balance by %.1e (residual over stiffness, rad or m)\n",
-                    state.residual);
-        options.tolerance = good;
-        options.start = state.coefficients;
-        state = solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
-    }
-    require_result(state);
-    if (!state.note.empty()) std::printf("note: steady state: %s\n", state.note.c_str());
-    return state;
-}
-
 /// At the rotor speed, rad/s.
 /// @throws InputError, NumericalError as the solvers do
 inline solvers::LinearModel linearise(const turbines::Turbine& turbine, const LinearModelArguments& a,
@@ -129,7 +110,7 @@ inline solvers::LinearModel linearise(const turbines::Turbine& turbine, const Li
     const auto list = linear_inputs(turbine, spin == solvers::RotorSpin::free);
     const auto channels = turbines::channels(turbine);
     const auto about_periodic = [&] {
-        const solvers::PeriodicSteadyState state = periodic_state(turbine, rotor_speed, a.harmonics);
+        const solvers::PeriodicSteadyState state = steady_rotation(turbine, rotor_speed, a.harmonics);
         return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);
     };
     if (about == LinearisedAbout::periodic && rotor_speed != 0) return about_periodic();

@@ -9,12 +9,12 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/periodic/steady_state.hpp"
 #include "turbines/model/channels.hpp"
 
 #include "examples/shared/machine_file.hpp"
 #include "examples/shared/named_values.hpp"
 #include "examples/shared/simulation_run.hpp"
+#include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
 
 using namespace cardan;
@@ -113,26 +113,14 @@ solvers::OperatingPoint at_rest(const turbines::Turbine& turbine, double azimuth
     return state.at;
 }
 
-// What is not quite in balance (free yaw, which nothing holds) still is a good start.
-solvers::OperatingPoint in_rotation(const turbines::Turbine& turbine, double speed, double azimuth) {
-    constexpr double good = 1e-6;  // rad or m
-    solvers::PeriodicOptions options;
-    options.rotor_speed = speed;
-    options.rotor = &turbine.rotor();
-    const solvers::PeriodicSteadyState state =
-        solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
-    if (!(state.residual < good)) require_result(state);
-    if (!state.converged)
-        std::cout << "note: start: out of balance by " << state.residual << " (residual over stiffness, rad or m)\n";
-    if (!state.note.empty()) std::cout << "note: start: " << state.note << "\n";
-    return state.at(azimuth);
-}
+constexpr double good_start = 1e-6;  // rad or m
 
 // Empty, with the reason printed: there is no steady state, or it was not found.
 std::optional<program::Start> steady_start(const turbines::Turbine& turbine, double speed, double azimuth) {
     try {
-        const solvers::OperatingPoint at =
-            speed == 0 ? at_rest(turbine, azimuth) : in_rotation(turbine, speed, azimuth);
+        const solvers::OperatingPoint at = speed == 0
+                                               ? at_rest(turbine, azimuth)
+                                               : program::steady_rotation(turbine, speed, 8, good_start).at(azimuth);
         return program::Start{at.q, at.qd};
     } catch (const NumericalError& error) {
         std::cout << "note: the start is undeformed: " << error.what() << "\n";

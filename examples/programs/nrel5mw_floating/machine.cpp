@@ -3,8 +3,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/periodic/steady_state.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 
+#include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
 
 namespace cardan::floating {
@@ -73,14 +74,7 @@ solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rot
         require_result(state, "equilibrium");
         return state.at;
     }
-    solvers::PeriodicOptions options;
-    options.rotor_speed = rotor_speed;
-    options.harmonics = 4;
-    options.rotor = &turbine.rotor();
-    const solvers::PeriodicSteadyState state =
-        solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, options);
-    require_result(state, "equilibrium");
-    return state.at(0);
+    return program::steady_rotation(turbine, rotor_speed, 4).at(0);
 }
 
 }  // namespace cardan::floating
