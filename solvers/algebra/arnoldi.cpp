@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace cardan::solvers {
@@ -24,6 +23,8 @@ constexpr Index first_look = 12;
 constexpr Index next_look(Index size) {
     return size + std::max<Index>(6, size / 3);
 }
+
+constexpr auto by_magnitude = [](const auto& a, const auto& b) { return std::abs(a.mu) > std::abs(b.mu); };
 
 class Search {
 public:
@@ -107,8 +108,7 @@ Index Search::ritz(Index size, bool& settled) {
     if (!eigen.compute(H_.topLeftCorner(size, size))) return 0;
     values_ = eigen.values();
     ritz_vectors_ = eigen.vectors();
-    std::sort(values_.begin(), values_.end(),
-              [](const auto& a, const auto& b) { return std::abs(a.mu) > std::abs(b.mu); });
+    std::sort(values_.begin(), values_.end(), by_magnitude);
     const auto residual = [&](const RealEigen::Value& value) {
         const Index columns = value.mu.imag() != 0 ? 2 : 1;
         const auto y = ritz_vectors_.middleCols(value.column, columns);
@@ -185,8 +185,7 @@ void Search::collect(DominantEigen& out) {
             x.imag().setZero();
         out.values.push_back({value.mu, x.normalized()});
     }
-    std::sort(out.values.begin(), out.values.end(),
-              [](const auto& a, const auto& b) { return std::abs(a.mu) > std::abs(b.mu); });
+    std::sort(out.values.begin(), out.values.end(), by_magnitude);
 }
 
 DominantEigen Search::run() {

@@ -2,6 +2,7 @@
 #include "mbs/base/entry.hpp"
 #include "solvers/campbell/detail/blade_likeness.hpp"
 #include "solvers/campbell/detail/component_modes.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +21,10 @@ void EnergyShares::add_blades(const Linearisation& lin, const Model& model, cons
     const Mat3 hub = pose(kin, rotor.hub).R, axes = pose(kin, part.axes.axes).R;
     for (std::size_t k = 0; k < rotor.blades.size(); ++k) {
         std::vector<int> own;
-        std::vector<int>& rows = block.rows.emplace_back();
-        for (const int coordinate : rotor.blades[k]) {
-            const auto at = std::find(part.coordinates.begin(), part.coordinates.end(), coordinate);
-            if (at == part.coordinates.end() || lin.coordinates[coordinate].part != part.axes.part) continue;
-            own.push_back(coordinate);
-            rows.push_back(static_cast<int>(at - part.coordinates.begin()));
-        }
+        for (const int coordinate : rotor.blades[k])
+            if (row_of(part.coordinates, coordinate) >= 0 && lin.coordinates[coordinate].part == part.axes.part)
+                own.push_back(coordinate);
+        block.rows.push_back(rows_of(part.coordinates, own));
         const Mat3 turned = hub * rot_z(angles[k]) * hub.transpose() * axes;
         add_modes(part, lin, own, coordinate_families(kin, part.axes, turned, own), block);
     }
@@ -40,7 +38,7 @@ void EnergyShares::add_blades(const Linearisation& lin, const Model& model, cons
     for (const std::vector<int>& rows : block.rows)
         if (!plain_) block.slots.push_back(entry(part.rows, rows.at(0)));
     for (const MultiBladeRow& slot : block.slots) harmonics_ = std::max(harmonics_, slot.harmonic);
-    block.at_zero = pattern_matrix(block, 0);
+    block.at_zero = multi_blade_block(block.slots);
     blade_blocks_.push_back(std::move(block));
 }
 
@@ -71,25 +69,6 @@ int EnergyShares::component_of(const BladeBlock& block, const std::string& famil
     const int column = static_cast<int>(found - first);
     if (found == components_.end()) components_.push_back({part.axes.part, family, ordinal, clamped_hz, true, false});
     return column;
-}
-
-// [blade][slot], as ColemanTransform has it.
-Matrix EnergyShares::pattern_matrix(const BladeBlock& block, double psi) {
-    const auto B = std::ssize(block.slots);
-    const double blades = static_cast<double>(B), once = std::sqrt(1 / blades), twice = std::sqrt(2 / blades);
-    Matrix T(B, B);
-    for (Eigen::Index k = 0; k < B; ++k)
-        for (Eigen::Index j = 0; j < B; ++j) {
-            const MultiBladeRow& slot = entry(block.slots, j);
-            const double angle = slot.harmonic * (psi + 2 * pi * static_cast<double>(k) / blades);
-            if (slot.kind == MultiBlade::cosine)
-                T(k, j) = twice * std::cos(angle);
-            else if (slot.kind == MultiBlade::sine)
-                T(k, j) = twice * std::sin(angle);
-            else
-                T(k, j) = slot.kind == MultiBlade::differential && k % 2 ? -once : once;
-        }
-    return T;
 }
 
 // Energy amplitude of one blade, sum_j T_kj (w_k . z_j), at the azimuth of T; without slots w_k . x_k.
@@ -126,13 +105,7 @@ Share EnergyShares::pattern_share(const BladeBlock& block, const Patterns& ampli
         if (slot.kind == MultiBlade::collective) share.collective = std::norm(amplitude[j]);
         if (slot.kind == MultiBlade::differential) share.differential = std::norm(amplitude[j]);
         if (slot.kind != MultiBlade::cosine) continue;
-        const Complex c = amplitude[j], s = amplitude[j + 1];
-        const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
-        const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
-        if (slot.harmonic == 1)
-            share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
-        else
-            higher.push_back({std::norm(c), std::norm(s), whirl});
+        add_pair(slot.harmonic, amplitude[j], amplitude[j + 1], share, higher);
     }
     share.higher = std::move(higher);
     return share;
@@ -181,7 +154,7 @@ Share EnergyShares::blade_share(const BladeBlock& block, Eigen::Index component,
         const double psi = 2 * pi * s / all;
         ComplexVector shape = ComplexVector::Zero(harmonics[0].shape.size());
         for (int h = 0; h < count; ++h) shape += std::polar(1.0, h * psi) * entry(harmonics, h).shape;
-        const Patterns now = patterns(block, component, pattern_matrix(block, psi), shape);
+        const Patterns now = patterns(block, component, multi_blade_block(block.slots, psi), shape);
         for (int m = 0; m < all; ++m)
             for (std::size_t l = 0; l < block.slots.size(); ++l)
                 entry(by_harmonic, m)[l] += std::polar(1.0 / all, -(m - outer) * psi) * now[l];

@@ -6,8 +6,10 @@
 #include "solvers/campbell/detail/blade_frame.hpp"
 #include "solvers/campbell/detail/floquet_mac.hpp"
 #include "solvers/campbell/detail/method.hpp"
+#include "solvers/campbell/detail/recorded_motions.hpp"
 #include "solvers/campbell/detail/tracking.hpp"
 #include "solvers/campbell/point.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +44,7 @@ void drop_high_modes(Campbell& diagram, double limit_hz) {
         std::vector<int> new_index(modes.size(), -1);
         std::vector<CampbellMode> kept;
         for (std::size_t m = 0; m < modes.size(); ++m) {
-            const bool needed =
-                std::find(of_branches.begin(), of_branches.end(), static_cast<int>(m)) != of_branches.end();
+            const bool needed = std::ranges::find(of_branches, static_cast<int>(m)) != of_branches.end();
             if (!needed && modes[m].mode.natural_hz() > limit_hz) continue;
             new_index[m] = static_cast<int>(kept.size());
             kept.push_back(std::move(modes[m]));
@@ -52,63 +53,6 @@ void drop_high_modes(Campbell& diagram, double limit_hz) {
         for (Branch& branch : diagram.branches)
             if (branch.mode[i] >= 0) branch.mode[i] = entry(new_index, branch.mode[i]);
     }
-}
-
-// Shapes in blade coordinates at azimuth 0.
-ComplexMatrix shapes_at_azimuth_0(const PointMethod& solver, const CampbellPoint& point,
-                                  const std::vector<int>& modes) {
-    const Matrix T = solver.rotating_coordinates();
-    ComplexMatrix shapes(T.rows(), std::ssize(modes));
-    for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
-        const CampbellMode& m = entry(point.modes, entry(modes, j));
-        if (m.floquet)
-            shapes.col(j) = T * m.floquet->shape(0);
-        else
-            shapes.col(j) = T * m.mode.shape;
-    }
-    return shapes;
-}
-
-// Motions of frames in some modes: the shapes times the frame Jacobians.
-std::vector<std::vector<FrameMotion>> motions(const System& system, const PointMethod& solver,
-                                              const CampbellPoint& point, const std::vector<int>& modes,
-                                              const std::vector<FrameId>& frames) {
-    Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, point.at.q, workspace);
-    const ComplexMatrix shapes = shapes_at_azimuth_0(solver, point, modes);
-    Matrix jacobian(6, system.model.size());
-    std::vector<std::vector<FrameMotion>> motions(point.modes.size());
-    for (FrameId frame : frames) {
-        frame_jacobian(kin, frame, jacobian);
-        const ComplexMatrix all = jacobian(Eigen::all, solver.unknowns()) * shapes;
-        for (Eigen::Index j = 0; j < all.cols(); ++j) entry(motions, entry(modes, j)).push_back({all.col(j)});
-    }
-    return motions;
-}
-
-// Frames on the lines of the machine (lines are renumbered to count in this list), then those of all bodies; each once.
-std::vector<FrameId> recorded_frames(const System& system, const RotorMap& rotor, Campbell& diagram) {
-    std::vector<FrameId> frames;
-    diagram.lines = rotor.lines;
-    for (Polyline& line : diagram.lines)
-        for (FrameId& frame : line.points) {
-            auto found = std::find(frames.begin(), frames.end(), frame);
-            if (found == frames.end()) found = frames.insert(frames.end(), frame);
-            frame = FrameId{static_cast<int>(found - frames.begin())};
-        }
-    const auto& all = system.model.frames();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const FrameId id{static_cast<int>(i)};
-        const bool own = all[i].body >= 0 && all[i].name == system.model.body(all[i].body).name;
-        if (own && std::find(frames.begin(), frames.end(), id) == frames.end()) frames.push_back(id);
-    }
-    Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, Vector::Zero(system.model.size()), workspace);
-    for (FrameId frame : frames) {
-        diagram.frames.push_back(system.model.frame(frame).name);
-        diagram.frame_positions.push_back(pose(kin, frame).p);
-    }
-    return frames;
 }
 
 // A vibration at two neighbouring points; a motion that is locked at a multiple of the rotor speed crosses nothing.
@@ -240,7 +184,7 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     diagram_.machine = rotor.machine;
     diagram_.source = rotor.description;
     const std::vector<int>& unknowns = solver.unknowns();
-    const bool spin_is_unknown = std::find(unknowns.begin(), unknowns.end(), rotor.spin) != unknowns.end();
+    const bool spin_is_unknown = row_of(unknowns, rotor.spin) >= 0;
     diagram_.spin = spin_is_unknown ? RotorSpin::free : RotorSpin::prescribed;
     diagram_.blades = static_cast<int>(rotor.blades.size());
     const bool fixed = rotor.blades.size() != 2 && without_multi_blade_coordinates(rotor, unknowns).empty();

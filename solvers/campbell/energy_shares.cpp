@@ -158,6 +158,16 @@ Complex EnergyShares::amplitude(const Block& block, Eigen::Index component, cons
     return {re, im};
 }
 
+// The pair of one harmonic, by the energy amplitudes of its cosine and its sine.
+void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share, std::vector<WhirlShare>& higher) {
+    const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
+    const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
+    if (harmonic == 1)
+        share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
+    else
+        higher.push_back({std::norm(c), std::norm(s), whirl});
+}
+
 // Energies, not yet divided by their sum. `higher` lends its memory.
 Share EnergyShares::share(const Block& block, Eigen::Index component, const Mode& mode,
                           std::vector<WhirlShare> higher) {
@@ -169,12 +179,7 @@ Share EnergyShares::share(const Block& block, Eigen::Index component, const Mode
     for (std::size_t n = 0; n < block.cosine.size(); ++n) {
         const Complex c = amplitude(block, component, block.cosine[n], mode),
                       s = amplitude(block, component, block.sine[n], mode);
-        const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
-        const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
-        if (n == 0)
-            share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
-        else
-            higher.push_back({std::norm(c), std::norm(s), whirl});
+        add_pair(static_cast<int>(n) + 1, c, s, share, higher);
     }
     share.higher = std::move(higher);
     return share;

@@ -69,8 +69,7 @@ class EnergyShares {
 public:
     /// @param lin   linearisation whose elastic stiffness and mass define the component modes (e.g. at standstill)
     /// @param rows  what the rows of the system are (ColemanTransform::rows); without kinds the blades have no
-    /// multi-blade
-    ///              coordinates
+    ///              multi-blade coordinates
     EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                  const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 
@@ -105,6 +104,7 @@ private:
     };
     static Complex amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
                              const Mode& mode);
+    static void add_pair(int harmonic, Complex c, Complex s, Share& share, std::vector<WhirlShare>& higher);
     static Share share(const Block& block, Eigen::Index component, const Mode& mode, std::vector<WhirlShare> higher);
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);
@@ -115,7 +115,7 @@ private:
         std::vector<std::vector<int>> rows;  // [slot or blade][coordinate]
         std::vector<MultiBladeRow> slots;    // empty: rows are those of the blades themselves
         std::vector<Matrix> weights;         // by blade
-        Matrix at_zero;                      // pattern_matrix at azimuth 0
+        Matrix at_zero;                      // multi_blade_block at azimuth 0
         int first_component;
     };
     struct BladePart {
@@ -128,7 +128,6 @@ private:
                    const std::vector<std::string>& families, BladeBlock& block);
     int component_of(const BladeBlock& block, const std::string& family, int ordinal, const BladePart& part,
                      double clamped_hz);
-    static Matrix pattern_matrix(const BladeBlock& block, double psi);
     using Patterns = std::array<Complex, ColemanTransform::max_blades>;
     static Complex blade_amplitude(const BladeBlock& block, Eigen::Index component, Eigen::Index blade, const Matrix& T,
                                    const ComplexVector& shape);

@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 #include "solvers/linear/problem_size.hpp"
 #include "solvers/periodic/periodic_system.hpp"
 
@@ -34,16 +35,6 @@ std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const 
     check_number_of_unknowns(rotor.machine, unknowns.size());
     if (rotor.spin >= 0 && options.method != CampbellMethod::floquet) require_constant_rows(rotor, unknowns);
     return unknowns;
-}
-
-// Places of some coordinates among the unknowns, as far as they are there.
-std::vector<int> rows_among(const std::vector<int>& unknowns, const std::vector<int>& coordinates) {
-    std::vector<int> rows;
-    for (int coordinate : coordinates) {
-        const auto at = std::find(unknowns.begin(), unknowns.end(), coordinate);
-        if (at != unknowns.end()) rows.push_back(static_cast<int>(at - unknowns.begin()));
-    }
-    return rows;
 }
 
 // The coordinate alone, beside the lowest: ten times what no certain mode has.
@@ -169,8 +160,7 @@ void PointSolver::set_blade_shares(CampbellPoint& point) const {
 Vector PointSolver::blade_energies(const Linearisation& lin, const ComplexVector& shape) const {
     Vector energies = Vector::Zero(std::ssize(rotor_.blades));
     for (Eigen::Index k = 0; k < energies.size(); ++k) {
-        const std::vector<int>& blade = entry(rotor_.blades, k);
-        const std::vector<int> rows = rows_among(unknowns_, blade);
+        const std::vector<int> rows = rows_of(unknowns_, entry(rotor_.blades, k));
         std::vector<int> own;
         own.reserve(rows.size());
         for (const int row : rows) own.push_back(entry(unknowns_, row));

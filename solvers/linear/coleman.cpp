@@ -2,19 +2,14 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 namespace cardan::solvers {
 
 namespace {
-
-int row_of(const std::vector<int>& coordinates, int coordinate) {
-    const auto found = std::find(coordinates.begin(), coordinates.end(), coordinate);
-    return found == coordinates.end() ? -1 : static_cast<int>(found - coordinates.begin());
-}
 
 // Which multi-blade coordinate stands in the place of blade k (from 0).
 MultiBladeRow row_kind(int k, int blades, int coordinate) {
@@ -23,26 +18,32 @@ MultiBladeRow row_kind(int k, int blades, int coordinate) {
     return {k % 2 == 1 ? MultiBlade::cosine : MultiBlade::sine, (k + 1) / 2, coordinate};
 }
 
-// [blade][multi-blade coordinate] at azimuth 0.
-Matrix block_at_zero(int blades) {
-    const double B = blades, once = std::sqrt(1 / B), twice = std::sqrt(2 / B);
+std::vector<MultiBladeRow> row_kinds(int blades) {
+    std::vector<MultiBladeRow> kinds;
+    for (int k = 0; k < blades; ++k) kinds.push_back(row_kind(k, blades, 0));
+    return kinds;
+}
+
+}  // namespace
+
+Matrix multi_blade_block(std::span<const MultiBladeRow> slots, double psi) {
+    const Eigen::Index blades = std::ssize(slots);
+    const double B = static_cast<double>(blades), once = std::sqrt(1 / B), twice = std::sqrt(2 / B);
     Matrix block(blades, blades);
-    for (int j = 0; j < blades; ++j) {
-        const MultiBladeRow z = row_kind(j, blades, 0);
-        for (int k = 0; k < blades; ++k) {
-            const double psi_k = 2 * pi * k / B;
+    for (Eigen::Index j = 0; j < blades; ++j) {
+        const MultiBladeRow& z = entry(slots, j);
+        for (Eigen::Index k = 0; k < blades; ++k) {
+            const double angle = z.harmonic * (psi + 2 * pi * static_cast<double>(k) / B);
             if (z.kind == MultiBlade::cosine)
-                block(k, j) = twice * std::cos(z.harmonic * psi_k);
+                block(k, j) = twice * std::cos(angle);
             else if (z.kind == MultiBlade::sine)
-                block(k, j) = twice * std::sin(z.harmonic * psi_k);
+                block(k, j) = twice * std::sin(angle);
             else
                 block(k, j) = z.kind == MultiBlade::differential && k % 2 ? -once : once;
         }
     }
     return block;
 }
-
-}  // namespace
 
 std::string multi_blade_name(const MultiBladeRow& row) {
     switch (row.kind) {
@@ -74,7 +75,7 @@ std::string uneven_spacing(const RotorMap& rotor) {
 namespace {
 
 // Of a blade by its place in the map, from 0.
-int blade_number(const RotorMap& rotor, std::size_t k) {
+int number_of_blade(const RotorMap& rotor, std::size_t k) {
     int number = static_cast<int>(k) + 1;
     for (const int missing : rotor.missing_blades)
         if (missing <= number) ++number;
@@ -93,7 +94,8 @@ std::string without_multi_blade_coordinates(const RotorMap& rotor, const std::ve
         for (std::size_t i = 0; same && i < blade.size(); ++i)
             same = (row_of(coordinates, blade[i]) < 0) == (row_of(coordinates, first[i]) < 0);
         if (!same)
-            return text("blade ", blade_number(rotor, k), " has other coordinates than blade ", blade_number(rotor, 0));
+            return text("blade ", number_of_blade(rotor, k), " has other coordinates than blade ",
+                        number_of_blade(rotor, 0));
     }
     return {};
 }
@@ -112,7 +114,7 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     if (const std::string why = without_multi_blade_coordinates(rotor, coordinates); !why.empty())
         throw InputError(rotor.machine, "multi-blade coordinates", text("none (", why, ")"),
                          "blades at equal angles, all with the same free coordinates; Floquet theory needs neither");
-    blade_block_ = block_at_zero(blades_);
+    blade_block_ = multi_blade_block(row_kinds(blades_));
     for (std::size_t i = 0; blades_ > 0 && i < rotor.blades[0].size(); ++i) {
         std::vector<int> rows;
         for (const std::vector<int>& blade : rotor.blades) rows.push_back(row_of(coordinates, blade[i]));

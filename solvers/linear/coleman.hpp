@@ -5,6 +5,7 @@
 #include "mbs/model/rotor_map.hpp"
 #include "solvers/linear/linearise.hpp"
 
+#include <span>
 #include <string>
 
 namespace cardan::solvers {
@@ -21,6 +22,10 @@ struct MultiBladeRow {
 
 /// "collective", "cosine 1", "sine 1", "differential"; empty for a coordinate itself.
 std::string multi_blade_name(const MultiBladeRow& row);
+
+/// T(psi) of one blade coordinate (see ColemanTransform): a row for every blade, a column for every slot.
+/// @param slots  as many as blades
+Matrix multi_blade_block(std::span<const MultiBladeRow> slots, double psi = 0);
 
 /// What keeps blades from being evenly spaced: "blade 2 of 3 is missing", "the blades are not evenly spaced"; empty if
 /// they are.

@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,11 +79,10 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
             out.K_elastic(i, j) = lin.elastic(a, b);
         }
     }
-    const auto row = std::find(coordinates.begin(), coordinates.end(), spin);
-    if (row == coordinates.end()) return;
-    const auto at = row - coordinates.begin();
+    const int at = row_of(coordinates, spin);
+    if (at < 0) return;
     if (out.K.col(at).norm() < 1e-9 * out.K.norm() && out.K_elastic.col(at).isZero(0)) {
-        out.cyclic = static_cast<int>(at);
+        out.cyclic = at;
         out.K.col(at).setZero();
     }
 }

@@ -1,6 +1,7 @@
 #include "solvers/periodic/periodic_system.hpp"
 
 #include "mbs/base/error.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -159,10 +160,8 @@ public:
     Matrix P;
 
 private:
-    Index row(int coordinate) const {
-        return std::find(coordinates_.begin(), coordinates_.end(), coordinate) - coordinates_.begin();
-    }
-    bool has(int coordinate) const { return row(coordinate) < P.rows(); }
+    Index row(int coordinate) const { return row_of(coordinates_, coordinate); }
+    bool has(int coordinate) const { return row(coordinate) >= 0; }
 
     const std::vector<int>& coordinates_;
 };

@@ -5,6 +5,7 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/detail/blade_frame.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -232,7 +233,7 @@ BladeSymmetry PeriodicPointSolver::renumbering() const {
     const ColemanTransform* T = standstill_.coleman();
     if (!T || rotor_.blades.empty() || !rotor_.evenly_spaced) return {};
     std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd_coordinates : std::vector<int>();
-    std::erase_if(odd, [&](int i) { return std::find(unknowns().begin(), unknowns().end(), i) == unknowns().end(); });
+    std::erase_if(odd, [&](int i) { return row_of(unknowns(), i) < 0; });
     BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
     found.P = (T->matrix(0).transpose() * found.P * T->matrix(2 * pi / found.parts)).eval();
     found.P = found.P.unaryExpr([](double p) { return std::abs(p - std::round(p)) < 1e-12 ? std::round(p) : p; });
@@ -272,8 +273,7 @@ FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& period
 }
 
 Index PeriodicPointSolver::spin_row() const {
-    const auto at = std::find(unknowns().begin(), unknowns().end(), rotor_.spin);
-    return at == unknowns().end() ? -1 : at - unknowns().begin();
+    return row_of(unknowns(), rotor_.spin);
 }
 
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {

@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
+#include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -45,8 +46,7 @@ RotorEquations::RotorEquations(const System& system, int spin, const PeriodicOpt
 }
 
 Index RotorEquations::row_of(int coordinate) const {
-    const auto at = std::find(unknowns_.begin(), unknowns_.end(), coordinate);
-    return at == unknowns_.end() ? -1 : at - unknowns_.begin();
+    return solvers::row_of(unknowns_, coordinate);
 }
 
 const std::string& RotorEquations::name(Index row) const {
