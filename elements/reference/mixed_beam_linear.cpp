@@ -249,7 +249,7 @@ std::vector<DescriptorMode> finite_modes(const DescriptorPencil& pencil) {
     // (A + s E)^-1 E has the eigenvalues mu = 1/(s - lambda): slow motions come out to full precision.
     constexpr double s = 0.73;
     const Eigen::PartialPivLU<Matrix> lu(A + s * E);
-    const Eigen::EigenSolver<Matrix> solver(lu.solve(E));
+    const Eigen::EigenSolver<Matrix> solver(Matrix(lu.solve(E)));
     if (solver.info() != Eigen::Success) throw NumericalError("eigenvalues of the pencil: iteration failed");
     for (Index i = 0; i < E.rows(); ++i) {
         const Complex eigenvalue = s - 1.0 / solver.eigenvalues()(i);

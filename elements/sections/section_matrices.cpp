@@ -34,7 +34,7 @@ void check_stiffness(const Mat6& K, const std::string& where) {
     const Mat6 unit = d.asDiagonal() * K * d.asDiagonal();
     if ((unit - unit.transpose()).cwiseAbs().maxCoeff() > 1e-6)
         throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "symmetric");
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(unit);
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver{Matrix(unit)};
     if (!(solver.eigenvalues()(0) > 1e-12)) {
         const Vec6 direction = d.asDiagonal() * solver.eigenvectors().col(0);
         throw InputError(where, "smallest eigenvalue of the 6 x 6 stiffness (scaled to unit diagonal)",
@@ -76,7 +76,7 @@ Mat3 plane_inertia(Mat3 J, double rounding, const std::string& where) {
                          text(J(0, 1), ", ", J(0, 2)), "0 for a plane section");
     J(0, 0) = sum;
     J(0, 1) = J(1, 0) = J(0, 2) = J(2, 0) = 0;
-    const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(J.bottomRightCorner<2, 2>()).eigenvalues()(0);
+    const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(J.bottomRightCorner<2, 2>())).eigenvalues()(0);
     if (lowest < -1e-9 * std::abs(sum) - rounding)
         throw InputError(where, "smallest eigenvalue of the inertia per length about the mass centre [kg m]", lowest,
                          ">= 0");
@@ -136,7 +136,7 @@ SectionMatrices section_matrices(const BeamSection& section) {
     Vec6 d;
     for (Eigen::Index i = 0; i < 6; ++i) d(i) = unit_scale(section.compliance(i, i));
     const Mat6 unit = d.asDiagonal() * section.compliance * d.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(unit);
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver{Matrix(unit)};
     if (!(solver.eigenvalues()(0) > 1e-13))
         throw InputError("section matrices", "smallest eigenvalue of the compliance (scaled)", solver.eigenvalues()(0),
                          "> 0: a rigid direction has no stiffness matrix");

@@ -303,7 +303,7 @@ ElastodynTurbine::Modes ElastodynTurbine::modes(double rotor_speed, int azimuths
         z -= Eigen::MatrixXd(system.K).completeOrthogonalDecomposition().solve(Eigen::VectorXd(system.residual));
         system = mean(machine, z, rotor_speed, azimuths);
     }
-    Eigen::Matrix<double, 2 * all, 2 * all> A = decltype(A)::Zero();
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * all, 2 * all);
     const Eigen::PartialPivLU<Eigen::MatrixXd> M(system.M);
     A.topRightCorner(all, all).setIdentity();
     A.bottomLeftCorner(all, all) = -M.solve(system.K);

@@ -196,7 +196,7 @@ void PlanarRodMotion::bend(const std::function<double(double)>& theta) {
     VectorXd values(s_.size());
     for (Index i = 0; i < s_.size(); ++i) values[i] = theta(s_[i]);
     y_.segment(translations(), phi_.cols()) =
-        (phi_.transpose() * w_.asDiagonal() * phi_).llt().solve(phi_.transpose() * w_.asDiagonal() * values);
+        MatrixXd(phi_.transpose() * w_.asDiagonal() * phi_).llt().solve(phi_.transpose() * w_.asDiagonal() * values);
 }
 
 }  // namespace cardan::oracles

@@ -40,7 +40,7 @@ std::array<std::complex<double>, 4> RigidTeeteredRotor::half_turn_multipliers(in
     }
     x.row(1) *= -1;
     x.row(3) *= -1;
-    const Eigen::Vector4cd mu = x.eigenvalues();
+    const Eigen::Vector4cd mu = Eigen::MatrixXd(x).eigenvalues();
     std::array<std::complex<double>, 4> sorted{mu(0), mu(1), mu(2), mu(3)};
     std::sort(sorted.begin(), sorted.end(),
               [](const auto& a, const auto& b) { return std::abs(a - 1.0) > std::abs(b - 1.0); });

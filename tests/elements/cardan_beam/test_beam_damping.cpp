@@ -218,7 +218,7 @@ TEST_CASE("beam damping: a tip load that changes is dissipated as by the section
             const Mat6 unit = d.cwiseInverse().asDiagonal() * S * d.cwiseInverse().asDiagonal();
             const Mat6 strain = unit * d.asDiagonal() * turn.transpose() * X;  // scaled, by tip load
             const Mat6 loss = root.asDiagonal() * strain;
-            exact += L / 2 * rule.weight[i] * loss.transpose() * unit.fullPivLu().solve(loss);
+            exact += L / 2 * rule.weight[i] * loss.transpose() * unit.partialPivLu().solve(loss);
         }
         for (const int elements : {1, 3}) {
             const Clamped full = clamp(line, damped(elements, by_direction(tau)));
@@ -241,7 +241,8 @@ TEST_CASE("beam damping: it never adds energy, whatever the coefficients", "[pro
         const Matrix& D = beam.lin.damping;
         CHECK((D - D.transpose()).norm() <= 1e-15 * D.norm());
         const Vector d = beam.lin.elastic.diagonal().cwiseSqrt().cwiseInverse();
-        const Vector loss = Eigen::SelfAdjointEigenSolver<Matrix>(d.asDiagonal() * D * d.asDiagonal()).eigenvalues();
+        const Vector loss =
+            Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(d.asDiagonal() * D * d.asDiagonal())).eigenvalues();
         CHECK(loss(0) >= -1e-12 * loss(loss.size() - 1));
         for (const solvers::Mode& mode : beam.modes) CHECK(mode.damping_ratio() > -1e-10);
     }

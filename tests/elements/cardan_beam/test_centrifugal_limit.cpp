@@ -33,7 +33,8 @@ BeamLine straight_blade() {
 
 double least_stiffness(const RotatingBeam& rotor, double rotor_speed) {
     const Matrix K = rotor.at(rotor_speed).K;
-    return Eigen::SelfAdjointEigenSolver<Matrix>((K + K.transpose()) / 2, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    return Eigen::SelfAdjointEigenSolver<Matrix>(Matrix((K + K.transpose()) / 2), Eigen::EigenvaluesOnly)
+        .eigenvalues()(0);
 }
 
 // The speed at which the least eigenvalue of the stiffness passes through zero.

@@ -86,7 +86,7 @@ struct Chain {
         Matrix J(6, n);
         frame_jacobian(kinematics(system.model, zero, workspace), tip, J);
         const Matrix K = solvers::linearise(system, {zero, zero, zero, 0}).elastic;
-        return J * K.fullPivLu().solve(Matrix(J.transpose()));
+        return J * K.partialPivLu().solve(Matrix(J.transpose()));
     }
 };
 

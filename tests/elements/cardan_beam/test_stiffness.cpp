@@ -66,7 +66,7 @@ Mat6 chain_tip_compliance(const BeamLine& line, const CardanBeamOptions& options
     const Matrix K = solvers::linearise(system, {zero, zero, zero, 0}).elastic;
     const Vector d = K.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix scaled = J * d.asDiagonal();
-    return scaled * (d.asDiagonal() * K * d.asDiagonal()).llt().solve(scaled.transpose());
+    return scaled * Matrix(d.asDiagonal() * K * d.asDiagonal()).llt().solve(Matrix(scaled.transpose()));
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ TEST_CASE("stiffness: clamping the extension instead of condensing it would stif
     const Mat6 f = joint_flexibility(general_line(), 0, 2.5, 0.21);
     const Matrix condensed = joint_stiffness(f, {phi, ay1, ay2, az1, az2}, ""),
                  clamped = joint_stiffness(f, {u, phi, ay1, ay2, az1, az2}, "").bottomRightCorner(5, 5);
-    const Eigen::SelfAdjointEigenSolver<Matrix> stiffer(clamped - condensed);
+    const Eigen::SelfAdjointEigenSolver<Matrix> stiffer(Matrix(clamped - condensed));
     CHECK(stiffer.eigenvalues()(4) > 0.01 * condensed(1, 1));  // one load path more: rank one
     CHECK(stiffer.eigenvalues().head(4).cwiseAbs().maxCoeff() < 1e-12 * clamped.norm());
 }

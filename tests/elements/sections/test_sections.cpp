@@ -55,7 +55,7 @@ TEST_CASE("section: bending and extension are those of a bundle of stringers", "
     }
     const Eigen::Vector2d centre = first / EA;
     const Eigen::Matrix2d about_centre = second - EA * centre * centre.transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix> principal(about_centre);
+    const Eigen::SelfAdjointEigenSolver<Matrix> principal{Matrix(about_centre)};
     const Eigen::Vector2d edge = principal.eigenvectors().col(1);  // y' along the greater extent
     EngineeringSection e;
     e.EA = EA;
@@ -103,7 +103,7 @@ TEST_CASE("section: the compliance of any section is symmetric and positive", "[
         CHECK((S - S.transpose()).norm() < 1e-15 * S.norm());
         const Vec6 d = S.diagonal().cwiseSqrt().cwiseInverse();
         const Mat6 scaled = d.asDiagonal() * S * d.asDiagonal();
-        CHECK(Eigen::SelfAdjointEigenSolver<Matrix>(scaled).eigenvalues().minCoeff() > 0);
+        CHECK(Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(scaled)).eigenvalues().minCoeff() > 0);
     }
 }
 

@@ -103,7 +103,7 @@ Rotor rotor_of(const Spec& spec) {
 }
 
 Campbell diagram_of(const Rotor& rotor, const std::vector<double>& speeds, CampbellOptions options = {}) {
-    options.max_frequency_hz = 100;
+    options.max_frequency_hz = 20;  // beyond all of them
     return campbell(rotor.system, rotor.map, speeds, options);
 }
 

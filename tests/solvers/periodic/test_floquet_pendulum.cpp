@@ -109,7 +109,7 @@ TEST_CASE("Floquet: a pendulum whose support moves sideways: exponents about its
         CHECK(std::abs(end(1) - start.qd(pendulum.row)) < 1e-8 * shaken.Omega);
         Eigen::Matrix2d Phi;
         Phi << end.segment<2>(2).transpose(), end.segment<2>(4).transpose();
-        const Eigen::Vector2cd multipliers = Phi.eigenvalues();
+        const Eigen::Vector2cd multipliers = Matrix(Phi).eigenvalues();
         const double period = 2 * pi / shaken.Omega;
         const std::vector<Complex> expected{std::log(multipliers(0)) / period, std::log(multipliers(1)) / period};
         const Floquet result = floquet(linearised(*pendulum.system, state));

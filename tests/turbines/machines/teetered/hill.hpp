@@ -72,7 +72,7 @@ public:
             H(j + 1, j) = w.norm();
             V.col(j + 1) = w.normalized();
         }
-        const Eigen::ComplexEigenSolver<ComplexMatrix> ritz(H.topRows(dimension));
+        const Eigen::ComplexEigenSolver<ComplexMatrix> ritz(ComplexMatrix(H.topRows(dimension)));
         std::vector<Mode> modes;
         for (Eigen::Index i = 0; i < dimension; ++i) {
             const Complex nu = ritz.eigenvalues()(i);
