@@ -128,8 +128,8 @@ void plot(const BladeShapes& shapes, const std::filesystem::path& path) {
     for (std::size_t i = 0; i < count; ++i)
         script += panel(shapes.modes[i], i, i % per_row == 0, i % per_row == per_row - 1 || i + 1 == count,
                         i + per_row >= count);
-    static_cast<void>(Gnuplot().write_picture(path, script + legend(height) + "unset multiplot\n",
-                                              {1300, static_cast<int>(std::lround(height))}));
+    static_cast<void>(Gnuplot::of_this_thread().write_picture(path, script + legend(height) + "unset multiplot\n",
+                                                              {1300, static_cast<int>(std::lround(height))}));
 }
 
 }  // namespace cardan::solvers

@@ -207,7 +207,7 @@ void plot(const Campbell& diagram, const std::filesystem::path& path, const Camp
     } else {
         script += "set tmargin at screen 0.94\nset bmargin at screen 0.09\n" + panels.frequency_panel(true, true);
     }
-    static_cast<void>(Gnuplot().write_picture(path, script + "unset multiplot\n", {1200, 860}));
+    static_cast<void>(Gnuplot::of_this_thread().write_picture(path, script + "unset multiplot\n", {1200, 860}));
 }
 
 void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
@@ -220,8 +220,8 @@ void plot_panels(const Campbell& diagram, const std::filesystem::path& path,
     script += text("set multiplot layout ", rows, ",2\nset lmargin 9\nset rmargin 4\nset bmargin 9\n");
     for (std::size_t i = 0; i < panels.size(); ++i)
         script += Panels(diagram, panels[i], text(i)).frequency_panel(false, true);
-    static_cast<void>(
-        Gnuplot().write_picture(path, script + "unset multiplot\n", {1200, static_cast<int>(520 * rows)}));
+    static_cast<void>(Gnuplot::of_this_thread().write_picture(path, script + "unset multiplot\n",
+                                                              {1200, static_cast<int>(520 * rows)}));
 }
 
 }  // namespace cardan::solvers

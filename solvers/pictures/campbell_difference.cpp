@@ -68,7 +68,7 @@ void plot_differences(const Campbell& diagram, const Campbell& reference, const 
         "\nset ylabel 'difference of damping ratio, %'\n"
         "plot 0 with lines lc rgb '#999999' lw 1 notitle",
         all.damping, "\nunset multiplot\n");
-    static_cast<void>(Gnuplot().write_picture(path, script, {1200, 860}));
+    static_cast<void>(Gnuplot::of_this_thread().write_picture(path, script, {1200, 860}));
 }
 
 }  // namespace cardan::solvers

@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
+#include "solvers/pictures/detail/conversation.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +13,6 @@
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -51,7 +51,6 @@ public:
         ::unlink(path_.c_str());
     }
 
-    [[nodiscard]] int fd() const { return fd_; }
     [[nodiscard]] const std::string& path() const { return path_; }
 
     void write(std::string_view all) const {
@@ -63,47 +62,16 @@ public:
         }
     }
 
-    /// The contents without blanks and line ends around them.
-    [[nodiscard]] std::string trimmed() const {
-        std::ifstream in(path_, std::ios::binary);
-        std::string all{std::istreambuf_iterator<char>(in), {}};
-        const char* const blanks = " \t\r\n\f";
-        all.erase(0, all.find_first_not_of(blanks));
-        all.erase(all.find_last_not_of(blanks) + 1);
-        return all;
-    }
-
 private:
     std::string path_;
     int fd_ = -1;
 };
 
-/// Starts the program with nothing to read and all it prints going to `log`; waits for it.
-/// @return what waitpid says
-int run_and_wait(const std::string& program, const std::string& script_path, int log) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
-    std::vector<std::string> words{program, "-d", script_path};
-    std::vector<char*> arguments;
-    arguments.reserve(words.size() + 1);
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    const int code = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    // EACCES for a bare name: a folder of PATH that may not be searched.
-    if (code == ENOENT || (code == EACCES && program.find('/') == std::string::npos)) {
-        throw FileError(program, "not found; pictures need gnuplot (Debian: apt install gnuplot-nox)");
-    }
-    if (code != 0) throw FileError(program, text("cannot be run: ", system_reason(code)));
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) throw Error(text(program, ": cannot be waited for: ", system_reason(errno)));
-    }
-    return status;
+std::string trimmed(std::string all) {
+    const char* const blanks = " \t\r\n\f";
+    all.erase(0, all.find_first_not_of(blanks));
+    all.erase(all.find_last_not_of(blanks) + 1);
+    return all;
 }
 
 struct Kind {
@@ -191,19 +159,36 @@ std::string gnuplot_data(std::string_view name, std::span<const std::span<const 
     return block + "EOD\n";
 }
 
+Gnuplot::Gnuplot(std::string program) : program_(std::move(program)) {}
+Gnuplot::Gnuplot(Gnuplot&&) noexcept = default;
+Gnuplot& Gnuplot::operator=(Gnuplot&&) noexcept = default;
+Gnuplot::~Gnuplot() = default;
+
+const Gnuplot& Gnuplot::of_this_thread() {
+    thread_local const Gnuplot gnuplot;
+    return gnuplot;
+}
+
+// A script is loaded from a file: within, an error ends it, and the process goes on.
 std::string Gnuplot::run(std::string_view script) const {
+    static const std::string end = "cardan: end of script";
     const ScratchFile commands;
-    const ScratchFile log;
     commands.write(script);
     commands.write("\n");
-    const int status = run_and_wait(program_, commands.path(), log.fd());
-    std::string said = log.trimmed();
+    if (!process_) process_ = std::make_unique<Conversation>(std::vector<std::string>{program_, "-d"});
+    process_->say(text("reset session\nreset errors\nload '", commands.path(), "'\nset print\nprint \"\\n", end,
+                       "\", GPVAL_ERRNO\n"));
+    std::string said, line;
+    const bool alive = process_->listen(end, said, line);
+    said = trimmed(std::move(said));
     for (std::size_t at = said.find(commands.path()); at != std::string::npos; at = said.find(commands.path())) {
         said.replace(at, commands.path().size(), "script");
     }
+    if (alive && line == end + " 0") return said;
+    const int status = alive ? 0 : process_->status();
+    process_.reset();
     if (WIFSIGNALED(status)) throw Error(text(program_, ": ended by signal ", WTERMSIG(status), "\n", said));
-    if (WEXITSTATUS(status) != 0) throw Error(text(program_, ": failed:\n", said));
-    return said;
+    throw Error(text(program_, ": failed:\n", said));
 }
 
 std::string Gnuplot::write_picture(const fs::path& path, std::string_view body, PictureSize size) const {

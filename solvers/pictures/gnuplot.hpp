@@ -1,10 +1,11 @@
 /// @file
-/// Pictures by gnuplot, run as a child process: one script, with its data inside, makes one picture.
+/// Pictures by gnuplot, a child process: one script, with its data inside, makes one picture.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,11 +46,21 @@ inline constexpr std::array<Colour, 7> palette{{{"blue", "#0072b2"},
 /// non-finite values as NaN, which leaves a gap in a line. Throws InputError for an invalid name or unequal lengths.
 [[nodiscard]] std::string gnuplot_data(std::string_view name, std::span<const std::span<const double>> columns);
 
-/// Runs gnuplot without a shell and without the user's settings (gnuplot -d).
+class Conversation;
+
+/// Runs gnuplot without a shell and without the user's settings (gnuplot -d). The process starts with the first script
+/// and ends with the object: pictures of one run are drawn by one, whose start takes longer than most pictures. Every
+/// script finds the same defaults and nothing of the scripts before. One per thread.
 class Gnuplot {
 public:
     /// @param program  a name looked up in PATH, or a path
-    explicit Gnuplot(std::string program = "gnuplot") : program_(std::move(program)) {}
+    explicit Gnuplot(std::string program = "gnuplot");
+    Gnuplot(Gnuplot&&) noexcept;
+    Gnuplot& operator=(Gnuplot&&) noexcept;
+    ~Gnuplot();
+
+    /// What all pictures of this library are drawn by, so that those of one run have one process. Ends with the thread.
+    static const Gnuplot& of_this_thread();
 
     /// Runs a script from beginning to end and returns what gnuplot printed: warnings and the output of `print`.
     /// Throws Error with gnuplot's message if a command fails, FileError if gnuplot is not installed. The script is
@@ -65,6 +76,7 @@ public:
 
 private:
     std::string program_;
+    mutable std::unique_ptr<Conversation> process_;  // none before the first script, and after one that failed
 };
 
 }  // namespace cardan::solvers

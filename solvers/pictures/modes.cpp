@@ -115,7 +115,7 @@ void plot_mode(const Campbell& diagram, const Branch& branch, std::size_t point,
                        "lc rgb '", colour(4).hex, "' lw 1 dt 2 ", titled("a quarter period later"), ", $now", columns,
                        "lc rgb '", colour(0).hex, "' lw 2 ", titled("largest displacement"), "\n");
     }
-    static_cast<void>(Gnuplot().write_picture(path, script + "unset multiplot\n", {1300, 620}));
+    static_cast<void>(Gnuplot::of_this_thread().write_picture(path, script + "unset multiplot\n", {1300, 620}));
 }
 
 }  // namespace cardan::solvers

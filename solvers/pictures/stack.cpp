@@ -286,7 +286,7 @@ private:
 
 void draw(const PanelStack& stack, const std::filesystem::path& path) {
     const Picture picture(stack);
-    static_cast<void>(Gnuplot().write_picture(path, picture.script(), picture.size()));
+    static_cast<void>(Gnuplot::of_this_thread().write_picture(path, picture.script(), picture.size()));
 }
 
 }  // namespace cardan::solvers

@@ -195,14 +195,14 @@ bool draw_figures(const Campbell& diagram, const std::vector<KnownMode>& modes, 
         ++number;
     }
     if (number == 0) return false;
-    static_cast<void>(solvers::Gnuplot().write_picture(path, script + "unset multiplot\n",
-                                                       {static_cast<int>(width), static_cast<int>(height)}));
+    static_cast<void>(solvers::Gnuplot::of_this_thread().write_picture(
+        path, script + "unset multiplot\n", {static_cast<int>(width), static_cast<int>(height)}));
     return true;
 }
 
 void draw_twist(const Campbell& diagram, const Branch& branch, const std::filesystem::path& path) {
     const std::string title = text(branch.name, ", ", per_rev(diagram, branch));
-    static_cast<void>(solvers::Gnuplot().write_picture(
+    static_cast<void>(solvers::Gnuplot::of_this_thread().write_picture(
         path,
         "set ylabel 'twist about the axis from root to tip, largest 1'\n" + twist_panel(diagram, branch, title, 0),
         {900, 420}));

@@ -143,7 +143,7 @@ void draw(const Figure& figure, const std::vector<Result>& results, const std::f
                    "nomirror 100 font ',11'\nset format y '%g'\nset grid noxtics\nset samples 2\nset mytics 1\nset "
                    "ylabel offset 2.5,0\nset xlabel offset 0,0.6\nset title "
                    "offset 0,-0.4 font ',12'\nunset key\n");
-    static_cast<void>(solvers::Gnuplot().write_picture(
+    static_cast<void>(solvers::Gnuplot::of_this_thread().write_picture(
         path, script + panels + legend(keys, height, legend_rows) + "unset multiplot\n",
         {static_cast<int>(width), static_cast<int>(height)}));
 }

@@ -79,9 +79,9 @@ void draw(const std::vector<ShapeSet>& sets, const std::filesystem::path& path) 
                    "xrange [0:1]\nset xtics 0.2\nset ytics 0.5\nunset key\n");
     for (std::size_t i = 0; i < sets.size(); ++i)
         for (std::size_t k = 0; k < 4; ++k) script += panel(sets[i], i, k, i + 1 == sets.size());
-    static_cast<void>(solvers::Gnuplot().write_picture(path,
-                                                       script + legend(sets.front().rpm, height) + "unset multiplot\n",
-                                                       {1300, static_cast<int>(std::lround(height))}));
+    static_cast<void>(solvers::Gnuplot::of_this_thread().write_picture(
+        path, script + legend(sets.front().rpm, height) + "unset multiplot\n",
+        {1300, static_cast<int>(std::lround(height))}));
 }
 
 void write_csv(const std::vector<ShapeSet>& sets, const std::filesystem::path& path) {

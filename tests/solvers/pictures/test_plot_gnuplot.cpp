@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <unistd.h>
 #include <vector>
 
@@ -139,6 +140,41 @@ TEST_CASE("gnuplot: a script that fails stops there and is an error with gnuplot
     CHECK_THROWS_WITH(Gnuplot().write_picture(folder / "a.svg", "x = 1"), Contains("the picture is not complete"));
     CHECK(bytes_of(folder / "a.svg") == "older picture");
     CHECK(folder.files() == 1);
+}
+
+TEST_CASE("gnuplot: one process draws many pictures, each as if it were the first", "[property]") {
+    // Of groups the terminal for SVG repeats the last colour, before it sets the next one.
+    const auto drawn = [](const std::string& svg) {
+        std::istringstream lines(svg);
+        std::string all, line;
+        while (std::getline(lines, line))
+            if (!line.starts_with("<g fill=")) all += line + "\n";
+        return all;
+    };
+    const Folder folder;
+    const Gnuplot one;
+    const std::string asked = "print system('echo $PPID')", process = one.run(asked);
+    CHECK(one.run("y = 3\nset logscale x\nset xlabel 'other'\n" + columns("d", {{1.0}}) + "print y") == "3");
+    CHECK(one.run("print exists('y'), ' ', exists('$d')") == "0   0");
+    for (const char* name : {"a.svg", "b.svg", "a.png", "b.png"})
+        CHECK(one.write_picture(folder / name, two_lines()).empty());
+    CHECK(one.run(asked) == process);
+    (void)Gnuplot().write_picture(folder / "c.svg", two_lines());
+    (void)Gnuplot().write_picture(folder / "c.png", two_lines());
+    for (const char* name : {"b", "c"}) {
+        CHECK(drawn(bytes_of(folder / (std::string(name) + ".svg"))) == drawn(bytes_of(folder / "a.svg")));
+        CHECK(bytes_of(folder / (std::string(name) + ".png")) == bytes_of(folder / "a.png"));
+    }
+    // After an error nothing is left of the script: another process.
+    CHECK_THROWS_WITH(one.run("set multiplot\nbogus"), Contains("line 2: invalid command"));
+    CHECK(one.run(asked) != process);
+}
+
+TEST_CASE("gnuplot: a process that was killed is started again", "[property]") {
+    const Gnuplot one;
+    CHECK(one.run("print 1") == "1");
+    CHECK_THROWS_WITH(one.run("system('kill -9 ' . system('echo $PPID'))"), Contains("ended by signal 9"));
+    CHECK(one.run("print 2") == "2");
 }
 
 TEST_CASE("gnuplot: a missing or broken program is an error that says what to do", "[property]") {
