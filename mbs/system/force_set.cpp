@@ -84,9 +84,27 @@ Forces::Forces(const ForceSet& set, const Model& model)
         }
         laws_.push_back(std::move(bound));
     }
+    springs_ = rows_of(&Law::K);
+    dampers_ = rows_of(&Law::D);
     for (const FrameLoad& load : loads_)
         if (load.frame.index < 0 || load.frame.index >= static_cast<int>(model.frames().size()))
             throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
+}
+
+Forces::Rows Forces::rows_of(Matrix Law::*matrix) const {
+    std::vector<std::vector<Coefficient>> by_row(static_cast<std::size_t>(size_));
+    for (const Law& law : laws_)
+        for (Eigen::Index i = 0; i < std::ssize(law.at); ++i)
+            for (Eigen::Index j = 0; j < std::ssize(law.at); ++j)
+                if (const double value = (law.*matrix)(i, j); value != 0)
+                    entry(by_row, entry(law.at, i)).push_back({entry(law.at, j), value, law.rest(j)});
+    Rows rows;
+    rows.begin.push_back(0);
+    for (const std::vector<Coefficient>& row : by_row) {
+        rows.coefficients.insert(rows.coefficients.end(), row.begin(), row.end());
+        rows.begin.push_back(static_cast<int>(rows.coefficients.size()));
+    }
+    return rows;
 }
 
 std::string Forces::stiffest_law(int coordinate) const {

@@ -60,11 +60,24 @@ void Forces::require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<
 }
 
 template <class S>
-void Forces::add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
+void Forces::add_laws(VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
+    const Coefficient *spring = springs_.coefficients.data(), *damper = dampers_.coefficients.data();
+    const Coefficient *const first_spring = spring, *const first_damper = damper;
+    for (int a = 0; a < size_; ++a) {
+        S sum(0);
+        for (const Coefficient* end = first_spring + entry(springs_.begin, a + 1); spring != end; ++spring)
+            sum += spring->value * (q(spring->column) - spring->rest);
+        for (const Coefficient* end = first_damper + entry(dampers_.begin, a + 1); damper != end; ++damper)
+            sum += damper->value * qd(damper->column);
+        Q(a) -= sum;
+    }
+}
+
+void Forces::add_law(const Law& law, const Vector& q, const Vector& qd, Vector& Q) {
     const auto n = std::ssize(law.at);
     for (Eigen::Index j = 0; j < n; ++j) {
         const int b = entry(law.at, j);
-        const S x = q(b) - law.rest(j), v = qd(b);
+        const double x = q(b) - law.rest(j), v = qd(b);
         for (Eigen::Index i = 0; i < n; ++i) Q(entry(law.at, i)) -= law.K(i, j) * x + law.D(i, j) * v;
     }
 }
@@ -100,7 +113,7 @@ void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT
     require_state<S>(kin, q, qd);
     require_size("forces", "Q", Q, size_);
     Q.setZero();
-    for (const Law& law : laws_) add_law<S>(law, q, qd, Q);
+    add_laws<S>(q, qd, Q);
     if (has_gravity()) add_gravity<S>(kin, Q);
     for (const FrameLoad& load : loads_) add_wrench<S>(load, kin, Q);
 }
@@ -229,7 +242,7 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
     for (const Law& law : laws_) {
         Vector x(law.K.rows());
         for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = q(entry(law.at, i)) - law.rest(i);
-        add_law<double>(law, q, qd, Q);
+        add_law(law, q, qd, Q);
         reports.push_back({law.name, x.dot(law.K * x) / 2, power()});
     }
     if (has_gravity()) {

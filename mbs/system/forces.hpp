@@ -147,8 +147,21 @@ private:
         UserForce own;
         double factor = 1;
     };
+    // One coefficient of a law: of the coordinate `column`, counted from `rest` (springs).
+    struct Coefficient {
+        int column;
+        double value, rest;
+    };
+    // The coefficients of all laws that are not zero, by row: those of row a from begin[a] to begin[a + 1].
+    struct Rows {
+        std::vector<int> begin;
+        std::vector<Coefficient> coefficients;
+    };
+    Rows rows_of(Matrix Law::*matrix) const;
     template <class S>
-    void add_law(const Law& law, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const;
+    void add_laws(VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const;
+    // The plain twin of add_laws() for one of them.
+    static void add_law(const Law& law, const Vector& q, const Vector& qd, Vector& Q);
     template <class S>
     void add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const;
     template <class S>
@@ -162,6 +175,7 @@ private:
     void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;
 
     std::vector<Law> laws_;
+    Rows springs_, dampers_;
     std::vector<FrameLoad> loads_;
     std::vector<User> users_;
     Vec3 gravity_;

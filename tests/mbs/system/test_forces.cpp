@@ -208,16 +208,20 @@ TEST_CASE("forces: rows and columns of a coupled block belong to its coordinates
     const Vec3 rest(0.1, 0.2, 0.3);
     ForcedTree s(8, [&](ForcedTree&, ForceSet& set) {
         set.add_law({"block", {BodyId{6}, BodyId{0}, BodyId{3}}, K, D, rest});
+        set.add_spring("beside", BodyId{0}, 2, 0.25, -0.4);
     });
     const std::vector<int> at{s.model().index(BodyId{6}), s.model().index(BodyId{0}), s.model().index(BodyId{3})};
     Vector expected = Vector::Zero(s.n);
     expected(at) = -K * (s.q(at) - rest) - D * s.qd(at);
+    expected(at[1]) -= 2 * (s.q(at[1]) + 0.4) + 0.25 * s.qd(at[1]);
     CHECK((s.Q() - expected).cwiseAbs().maxCoeff() < 1e-14);
     ForceDerivatives d;
     s.forces().derivatives(s.kin(), s.time, s.q, s.qd, d);
     Matrix expected_K = Matrix::Zero(s.n, s.n), expected_D = expected_K;
     expected_K(at, at) = K;
     expected_D(at, at) = D;
+    expected_K(at[1], at[1]) += 2;
+    expected_D(at[1], at[1]) += 0.25;
     CHECK((d.elastic - expected_K).isZero(0));
     CHECK((d.damping - expected_D).isZero(0));
     CHECK(d.gravity.isZero(0));
