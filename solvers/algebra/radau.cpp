@@ -81,21 +81,20 @@ void RadauStage::solve(Matrix& f) const {
     f = lu_.solve(f).eval();
 }
 
-void RadauStage::advance(double h, Matrix& X) {
+void RadauStage::transition(double h, Matrix& Phi) {
     const Index s = method_->stages();
-    const auto q = X.topRows(n_), v = X.bottomRows(n_);
-    right_.resize(s * n_, X.cols());
+    right_.resize(s * n_, 2 * n_);
     for (Index i = 0; i < s; ++i) {
-        auto f = right_.middleRows(i * n_, n_);
-        f.noalias() = -entry(K_, i) * (q + method_->c(i) * h * v);
-        f.noalias() -= entry(C_, i) * v;
+        right_.block(i * n_, 0, n_, n_) = -entry(K_, i);
+        right_.block(i * n_, n_, n_, n_) = -method_->c(i) * h * entry(K_, i) - entry(C_, i);
     }
     solve(right_);
-    X.topRows(n_) += h * v;
+    Phi.setIdentity(2 * n_, 2 * n_);
+    Phi.topRightCorner(n_, n_).diagonal().setConstant(h);
     for (Index j = 0; j < s; ++j) {
         const auto a = right_.middleRows(j * n_, n_);
-        X.topRows(n_) += h * h * method_->A2(s - 1, j) * a;
-        X.bottomRows(n_) += h * method_->A(s - 1, j) * a;
+        Phi.topRows(n_) += h * h * method_->A2(s - 1, j) * a;
+        Phi.bottomRows(n_) += h * method_->A(s - 1, j) * a;
     }
 }
 

@@ -36,9 +36,9 @@ public:
     void factorise();
     /// Accelerations at the stages from right-hand sides f at the stages, in place, s n rows.
     void solve(Matrix& f) const;
-    /// Solutions of the homogeneous equations at the end of the step, by column.
-    /// @param X  in and out: positions above rates, 2 n rows
-    void advance(double h, Matrix& X);
+    /// Solutions of the homogeneous equations at the end of the step, from unit positions and unit rates.
+    /// @param Phi  out, 2 n x 2 n: positions above rates
+    void transition(double h, Matrix& Phi);
 
 private:
     const RadauIIA* method_;

@@ -2,8 +2,6 @@
 
 #include "mbs/base/sizes.hpp"
 
-#include <Eigen/Householder>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,26 +20,8 @@ Complex at_least(Complex pivot, double small) {
 }  // namespace
 
 RealEigen::RealEigen(Index size, Index rows)
-    : hessenberg_(std::max<Index>(size, 1)),
-      T_(size, size),
-      Z_(rows, size),
-      vectors_(rows, size),
-      y_(size, 2),
-      row_(rows) {
+    : hessenberg_(size), T_(size, size), Z_(rows, size), vectors_(rows, size), y_(size, 2) {
     values_.reserve(static_cast<std::size_t>(size));
-}
-
-// T = Q^T A Q, and the first rows of Q = H_0 H_1 ... in Z.
-void RealEigen::reduce_to_hessenberg(const Matrix& A) {
-    const Index n = A.rows();
-    hessenberg_.compute(A);
-    const auto& packed = hessenberg_.packedMatrix();
-    const auto& tau = hessenberg_.householderCoefficients();
-    T_ = packed;
-    for (Index j = 0; j + 2 < n; ++j) T_.col(j).tail(n - j - 2).setZero();
-    Z_.setIdentity();
-    for (Index k = 0; k + 2 < n; ++k)
-        Z_.rightCols(n - k - 1).applyHouseholderOnTheRight(packed.col(k).tail(n - k - 2), tau(k), row_.data());
 }
 
 bool RealEigen::compute(const Matrix& A) {
@@ -49,7 +29,10 @@ bool RealEigen::compute(const Matrix& A) {
     require_size("eigenvalues", "A", A, T_.rows(), T_.rows());
     values_.clear();
     if (n == 0) return true;
-    reduce_to_hessenberg(A);
+    // The first rows of Q.
+    T_ = A;
+    Z_.setIdentity();
+    hessenberg_.reduce(T_, Z_);
     if (!schur_.reduce(T_, Z_)) return false;
     small_ = std::numeric_limits<double>::epsilon() * std::max(T_.cwiseAbs().maxCoeff(), 1e-140);
     for (Index j = 0; j < n; ++j) {
@@ -68,9 +51,17 @@ bool RealEigen::compute(const Matrix& A) {
     return true;
 }
 
+// A double eigenvalue whose blocks are coupled by rounding only has two vectors. Divided by a difference that is
+// rounding too, that coupling would make them any mixture, nearly parallel at times.
+bool RealEigen::is_rounding(Complex value) const {
+    constexpr double errors = 100;
+    return std::abs(value) < errors * small_;
+}
+
 // (T - mu) y = 0 from the block of mu, which begins at row `top`, upwards.
 void RealEigen::back_substitute(Complex mu, Index top) {
     y_.setZero();
+    size_ = 1;
     if (mu.imag() == 0) {
         set_y(top, 1);
     } else {
@@ -79,6 +70,7 @@ void RealEigen::back_substitute(Complex mu, Index top) {
         const bool first = std::abs(b) > std::abs(c);
         set_y(top, first ? Complex(b) : mu - T_(top + 1, top + 1));
         set_y(top + 1, first ? mu - T_(top, top) : Complex(c));
+        size_ = std::max(std::abs(y(top)), std::abs(y(top + 1)));
         subtract_column(top + 1, top);
     }
     subtract_column(top, top);
@@ -89,12 +81,14 @@ void RealEigen::back_substitute(Complex mu, Index top) {
             eliminate(mu, i);
         // Nearly equal eigenvalues make vectors grow; their length is free.
         const double size = std::max(std::abs(y_(i, 0)), std::abs(y_(i, 1)));
-        if (size > 1e100) y_ /= size;
+        size_ = std::max(size_, size);
+        if (size > 1e100) y_ /= size, size_ /= size;
     }
 }
 
 void RealEigen::eliminate(Complex mu, Index i) {
-    set_y(i, y(i) / at_least(T_(i, i) - mu, small_));
+    const Complex pivot = T_(i, i) - mu;
+    set_y(i, is_rounding(pivot) && is_rounding(y(i) / size_) ? 0 : y(i) / at_least(pivot, small_));
     subtract_column(i, i);
 }
 
@@ -102,9 +96,19 @@ void RealEigen::eliminate(Complex mu, Index i) {
 void RealEigen::eliminate_pair(Complex mu, Index i) {
     const Complex a = T_(i - 1, i - 1) - mu, d = T_(i, i) - mu, r = y(i - 1), s = y(i);
     const double b = T_(i - 1, i), c = T_(i, i - 1);
-    const Complex determinant = at_least(a * d - b * c, small_ * small_);
-    set_y(i - 1, (r * d - b * s) / determinant);
-    set_y(i, (a * s - c * r) / determinant);
+    const Complex exact = a * d - b * c, upper = r * d - b * s, lower = a * s - c * r;
+    // The determinant is (nu - mu) (conj nu - mu) of the block's own nu; of a block of rank one the pseudo-inverse.
+    const double apart = 2 * mu.imag();
+    const auto vanishes = [&](Complex x, double size) { return apart != 0 && is_rounding(x / (apart * size)); };
+    if (vanishes(exact, 1) && vanishes(upper, size_) && vanishes(lower, size_)) {
+        const double norm = std::norm(a) + b * b + c * c + std::norm(d);
+        set_y(i - 1, (std::conj(a) * r + c * s) / norm);
+        set_y(i, (b * r + std::conj(d) * s) / norm);
+    } else {
+        const Complex determinant = at_least(exact, small_ * small_);
+        set_y(i - 1, upper / determinant);
+        set_y(i, lower / determinant);
+    }
     subtract_column(i, i - 1);
     subtract_column(i - 1, i - 1);
 }

@@ -2,7 +2,8 @@
 /// Eigenvalues and eigenvectors of a sequence of real matrices, in the same memory.
 #pragma once
 
-#include "mbs/base/decompositions.hpp"
+#include "mbs/base/types.hpp"
+#include "solvers/algebra/hessenberg.hpp"
 #include "solvers/algebra/schur.hpp"
 
 #include <vector>
@@ -35,20 +36,20 @@ public:
     const Matrix& vectors() const { return vectors_; }
 
 private:
-    void reduce_to_hessenberg(const Matrix& A);
     void back_substitute(Complex mu, Eigen::Index top);
+    bool is_rounding(Complex value) const;
     void eliminate(Complex mu, Eigen::Index i);
     void eliminate_pair(Complex mu, Eigen::Index i);
     void subtract_column(Eigen::Index i, Eigen::Index above);
     Complex y(Eigen::Index i) const { return {y_(i, 0), y_(i, 1)}; }
     void set_y(Eigen::Index i, Complex value) { y_(i, 0) = value.real(), y_(i, 1) = value.imag(); }
 
-    Eigen::HessenbergDecomposition<Matrix> hessenberg_;
+    Hessenberg hessenberg_;
     SchurIteration schur_;
     Matrix T_, Z_, vectors_;
     Eigen::Matrix<double, Eigen::Dynamic, 2> y_;  // eigenvector of T: real and imaginary part
-    Vector row_;
-    double small_ = 0;  // smaller pivots than this are rounding
+    double small_ = 0;                            // smaller pivots than this are rounding
+    double size_ = 1;                             // of the eigenvector of T so far
     std::vector<Value> values_;
 };
 

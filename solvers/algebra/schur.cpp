@@ -1,6 +1,7 @@
 #include "solvers/algebra/schur.hpp"
 
 #include "mbs/base/entry.hpp"
+#include "mbs/base/vectorised.hpp"
 #include "solvers/algebra/dense.hpp"
 
 #include <Eigen/Jacobi>
@@ -28,13 +29,13 @@ SchurIteration::Reflector SchurIteration::reflector(const Column& v, double& bet
     return {v[1] / (v[0] - beta), v[2] / (v[0] - beta), (beta - v[0]) / beta};
 }
 
-// Applies the reflectors from the right to the columns from `first` on, for this many rows.
-void SchurIteration::turn_columns(double* first, Index stride, Index rows, const Reflector* h, Index count,
-                                  Index width) {
+// Applies the reflectors from the right, for this many rows.
+CARDAN_VECTORISED void SchurIteration::turn(double* columns, Index stride, Index rows, const Reflector* h, Index count,
+                                            Index width) {
     Index k = 0;
     // Two reflectors at a time: four columns instead of six are read and written.
     for (; k + 1 < count && k + 3 < width; k += 2) {
-        double* __restrict a0 = first + k * stride, * __restrict a1 = a0 + stride, * __restrict a2 = a1 + stride, * __restrict a3 = a2 + stride;
+        double* __restrict a0 = columns + k * stride, * __restrict a1 = a0 + stride, * __restrict a2 = a1 + stride, * __restrict a3 = a2 + stride;
         const Reflector g = h[k], e = h[k + 1];
         for (Index i = 0; i < rows; ++i) {
             const double x = g.tau * (a0[i] + g.v1 * a1[i] + g.v2 * a2[i]);
@@ -48,7 +49,7 @@ void SchurIteration::turn_columns(double* first, Index stride, Index rows, const
     }
     for (; k < count; ++k) {
         const Reflector g = h[k];
-        double* __restrict a0 = first + k * stride, * __restrict a1 = a0 + stride;
+        double* __restrict a0 = columns + k * stride, * __restrict a1 = a0 + stride;
         const bool three = k + 2 < width;
         double* __restrict a2 = a1 + (three ? stride : 0);
         for (Index i = 0; three && i < rows; ++i) {
@@ -67,30 +68,35 @@ void SchurIteration::turn_columns(double* first, Index stride, Index rows, const
 
 void SchurIteration::turn_columns(Matrix& A, const Batch& batch, Index rows) const {
     for (Index from = 0; from < rows; from += row_block)
-        turn_columns(A.data() + from + batch.first * A.rows(), A.rows(), std::min(row_block, rows - from),
-                     reflectors_.data(), batch.count, batch.width);
+        turn(A.data() + from + batch.first * A.rows(), A.rows(), std::min(row_block, rows - from), reflectors_.data(),
+             batch.count, batch.width);
+}
+
+// From the left; the rows of a strip of columns stand one after another.
+CARDAN_VECTORISED void SchurIteration::turn_strip(double* rows, const Reflector* h, Index count) {
+    for (Index k = 0; k < count; ++k) {
+        const Reflector g = h[k];
+        double* __restrict x0 = rows + k * strip, * __restrict x1 = x0 + strip, * __restrict x2 = x1 + strip;
+        for (int c = 0; c < strip; ++c) {
+            const double y = g.tau * (x0[c] + g.v1 * x1[c] + g.v2 * x2[c]);
+            x0[c] -= y;
+            x1[c] -= g.v1 * y;
+            x2[c] -= g.v2 * y;
+        }
+    }
 }
 
 // Applies the reflectors from the left to all columns from one on.
 void SchurIteration::turn_rows(Matrix& A, const Batch& batch, Index from_column) const {
-    std::array<std::array<double, strip>, most + 2> x{};
+    std::array<double, (most + 2) * strip> x{};
     for (Index j = from_column; j < A.cols(); j += strip) {
         const Index columns = std::min<Index>(strip, A.cols() - j);
         double* a = A.data() + batch.first + j * A.rows();
         for (Index c = 0; c < columns; ++c)
-            for (Index i = 0; i < batch.width; ++i) entry(entry(x, i), c) = a[i + c * A.rows()];
-        for (std::size_t k = 0; k < static_cast<std::size_t>(batch.count); ++k) {
-            const Reflector g = reflectors_[k];
-            double* __restrict x0 = x[k].data(), * __restrict x1 = x[k + 1].data(), * __restrict x2 = x[k + 2].data();
-            for (int c = 0; c < strip; ++c) {
-                const double y = g.tau * (x0[c] + g.v1 * x1[c] + g.v2 * x2[c]);
-                x0[c] -= y;
-                x1[c] -= g.v1 * y;
-                x2[c] -= g.v2 * y;
-            }
-        }
+            for (Index i = 0; i < batch.width; ++i) entry(x, i * strip + c) = a[i + c * A.rows()];
+        turn_strip(x.data(), reflectors_.data(), batch.count);
         for (Index c = 0; c < columns; ++c)
-            for (Index i = 0; i < batch.width; ++i) a[i + c * A.rows()] = entry(entry(x, i), c);
+            for (Index i = 0; i < batch.width; ++i) a[i + c * A.rows()] = entry(x, i * strip + c);
     }
 }
 
@@ -149,7 +155,7 @@ void SchurIteration::chase(Matrix& T, const Batch& batch, Index last, Index star
             a[1] -= h.v1 * y;
             if (size == 3) a[2] -= h.v2 * y;
         }
-        turn_columns(&T(batch.first, k), T.rows(), std::min(last, k + 3) + 1 - batch.first, &h, 1, size);
+        turn(&T(batch.first, k), T.rows(), std::min(last, k + 3) + 1 - batch.first, &h, 1, size);
     }
 }
 

@@ -44,8 +44,9 @@ private:
     void chase(Matrix& T, const Batch& batch, Eigen::Index last, Eigen::Index start, const Column& v);
     void turn_rows(Matrix& A, const Batch& batch, Eigen::Index from_column) const;
     void turn_columns(Matrix& A, const Batch& batch, Eigen::Index rows) const;
-    static void turn_columns(double* first, Eigen::Index stride, Eigen::Index rows, const Reflector* h,
-                             Eigen::Index count, Eigen::Index width);
+    static void turn(double* columns, Eigen::Index stride, Eigen::Index rows, const Reflector* h, Eigen::Index count,
+                     Eigen::Index width);
+    static void turn_strip(double* rows, const Reflector* h, Eigen::Index count);
     static void split(Matrix& T, Matrix& Z, Eigen::Index last);
 
     std::array<Reflector, most> reflectors_{};

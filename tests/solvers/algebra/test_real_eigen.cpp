@@ -168,3 +168,25 @@ TEST_CASE("real eigen and dense kernels: nothing is allocated, for large matrice
         CHECK(converged);
     }
 }
+
+TEST_CASE("real eigen: a double pair without coupling has two independent vectors", "[property]") {
+    // The same 2 x 2 block twice, among others, in random axes; vectors that were any mixture would be nearly parallel
+    // at times.
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        const Eigen::Index n = 6 + seed % 15;
+        Matrix A = random_matrix(n, n, seed).triangularView<Eigen::Upper>();
+        A.topLeftCorner(4, 4).setZero();
+        for (const Eigen::Index at : {0, 2}) A.block(at, at, 2, 2) << -0.1, 3, -2, 0.3;
+        const Matrix Q = Matrix(random_matrix(n, n, seed + 1000)).householderQr().householderQ();
+        RealEigen solver(n, n);
+        REQUIRE(solver.compute(Q * A * Q.transpose()));
+        CAPTURE(seed, n);
+        CHECK(largest_residual(Q * A * Q.transpose(), solver) < 1e-13);
+        std::vector<ComplexVector> pair;
+        for (const RealEigen::Value& value : solver.values())
+            if (std::abs(value.mu - Complex(0.1, std::sqrt(5.96))) < 1e-9)
+                pair.push_back(vector_of(solver, value).normalized());
+        REQUIRE(pair.size() == 2);
+        CHECK(std::abs(pair[0].dot(pair[1])) < 0.99);
+    }
+}
