@@ -146,17 +146,40 @@ void EnergyShares::add_part(const Linearisation& lin, const Model& model, const 
     blocks_.push_back(std::move(block));
 }
 
-Complex EnergyShares::amplitude(const Block& block, Eigen::Index component, const std::vector<int>& rows,
-                                const Mode& mode) {
-    const auto weights = block.weights.col(component);
-    double re = 0, im = 0;
-    for (Eigen::Index i = 0; i < std::ssize(rows); ++i) {
-        const Complex x = mode.shape(entry(rows, i));
-        re += weights(i) * x.real();
-        im += weights(i) * x.imag();
+namespace {
+
+// The entries of a shape in some rows, side by side: each is needed for every component.
+class Gathered {
+public:
+    void set(const std::vector<int>& rows, const ComplexVector& shape) {
+        rows_ = &rows;
+        shape_ = &shape;
+        if (rows.size() > most) return;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const Complex x = shape(rows[i]);
+            re_[i] = x.real(), im_[i] = x.imag();
+        }
     }
-    return {re, im};
-}
+    // sum_i w_i x_i
+    template <class Column>
+    Complex times(const Column& w) const {
+        const auto n = std::ssize(*rows_);
+        if (rows_->size() <= most)
+            return {w.head(n).dot(Eigen::Map<const Vector>(re_.data(), n)),
+                    w.head(n).dot(Eigen::Map<const Vector>(im_.data(), n))};
+        Complex sum = 0;
+        for (Eigen::Index i = 0; i < n; ++i) sum += w(i) * (*shape_)(entry(*rows_, i));
+        return sum;
+    }
+
+private:
+    static constexpr std::size_t most = 256;
+    const std::vector<int>* rows_ = nullptr;
+    const ComplexVector* shape_ = nullptr;
+    std::array<double, most> re_, im_;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled as far as needed
+};
+
+}  // namespace
 
 // The pair of one harmonic, by the energy amplitudes of its cosine and its sine.
 void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share, std::vector<WhirlShare>& higher) {
@@ -168,32 +191,37 @@ void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share, st
         higher.push_back({std::norm(c), std::norm(s), whirl});
 }
 
-// Energies, not yet divided by their sum. `higher` lends its memory.
-Share EnergyShares::share(const Block& block, Eigen::Index component, const Mode& mode,
-                          std::vector<WhirlShare> higher) {
-    Share share;
-    share.component = static_cast<int>(block.first_component + component);
-    share.collective = std::norm(amplitude(block, component, block.collective, mode));
-    share.differential = std::norm(amplitude(block, component, block.differential, mode));
-    higher.clear();
-    for (std::size_t n = 0; n < block.cosine.size(); ++n) {
-        const Complex c = amplitude(block, component, block.cosine[n], mode),
-                      s = amplitude(block, component, block.sine[n], mode);
-        add_pair(static_cast<int>(n) + 1, c, s, share, higher);
+// Energies of all components of a block, not yet divided by their sum. Shares keep the memory of their pairs.
+void EnergyShares::block_shares(const Block& block, const Mode& mode, std::vector<Share>& out) {
+    const Eigen::Index count = block.weights.cols();
+    const auto share = [&](Eigen::Index i) -> Share& { return entry(out, block.first_component + i); };
+    Gathered x, y;
+    x.set(block.collective, mode.shape);
+    y.set(block.differential, mode.shape);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        Share& own = share(i);
+        own.component = static_cast<int>(block.first_component + i);
+        own.collective = std::norm(x.times(block.weights.col(i)));
+        own.differential = std::norm(y.times(block.weights.col(i)));
+        own.cosine = own.sine = own.whirl = 0;
+        own.higher.clear();
     }
-    share.higher = std::move(higher);
-    return share;
+    for (std::size_t n = 0; n < block.cosine.size(); ++n) {
+        x.set(block.cosine[n], mode.shape);
+        y.set(block.sine[n], mode.shape);
+        for (Eigen::Index i = 0; i < count; ++i)
+            add_pair(static_cast<int>(n) + 1, x.times(block.weights.col(i)), y.times(block.weights.col(i)), share(i),
+                     share(i).higher);
+    }
 }
 
 void EnergyShares::shares(const Mode& mode, std::vector<Share>& out) const {
     out.resize(components_.size());
     double total = 0;
-    for (const Block& block : blocks_)
-        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
-            Share& own = entry(out, block.first_component + i);
-            own = share(block, i, mode, std::move(own.higher));
-            total += own.total();
-        }
+    for (const Block& block : blocks_) {
+        block_shares(block, mode, out);
+        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) total += entry(out, block.first_component + i).total();
+    }
     for (const BladeBlock& block : blade_blocks_)
         for (Eigen::Index i = 0; i < block.weights[0].cols(); ++i) {
             Share& own = entry(out, block.first_component + i);
@@ -220,13 +248,18 @@ std::vector<Share> EnergyShares::shares(const Mode& mode) const {
 std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics, double rotor_speed) const {
     std::vector<Share> all(components_.size());
     double total = 0;
-    for (const Block& block : blocks_)
-        for (Eigen::Index i = 0; i < block.weights.cols(); ++i) {
-            Share& own = entry(all, block.first_component + i);
-            own.component = static_cast<int>(block.first_component + i);
-            for (const Mode& one : harmonics) add(own, share(block, i, one, {}), one.eigenvalue.imag() < 0);
-            total += own.total();
+    std::vector<Share> one(components_.size());
+    for (const Block& block : blocks_) {
+        const int first = block.first_component, end = first + static_cast<int>(block.weights.cols());
+        for (const Mode& mode : harmonics) {
+            block_shares(block, mode, one);
+            for (int i = first; i < end; ++i) add(entry(all, i), entry(one, i), mode.eigenvalue.imag() < 0);
         }
+        for (int i = first; i < end; ++i) {
+            entry(all, i).component = i;
+            total += entry(all, i).total();
+        }
+    }
     for (const BladeBlock& block : blade_blocks_)
         for (Eigen::Index i = 0; i < block.weights[0].cols(); ++i) {
             Share& own = entry(all, block.first_component + i);

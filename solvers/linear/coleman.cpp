@@ -2,9 +2,12 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/vectorised.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace cardan::solvers {
@@ -20,6 +23,7 @@ MultiBladeRow row_kind(int k, int blades, int coordinate) {
 
 std::vector<MultiBladeRow> row_kinds(int blades) {
     std::vector<MultiBladeRow> kinds;
+    kinds.reserve(static_cast<std::size_t>(blades));
     for (int k = 0; k < blades; ++k) kinds.push_back(row_kind(k, blades, 0));
     return kinds;
 }
@@ -140,49 +144,85 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
     }
 }
 
+namespace {
+
+using Index = Eigen::Index;
+constexpr int strip = 16;  // rows or columns that are transformed together
+
+// x_j = sum_k x_k T_kj for every entry of a strip; T by columns.
+CARDAN_VECTORISED void combine(const double* x, double* out, int blades, const double* T) {
+    for (int j = 0; j < blades; ++j) {
+        double* __restrict y = out + j * strip;
+        for (int c = 0; c < strip; ++c) y[c] = 0;
+        for (int k = 0; k < blades; ++k) {
+            const double t = T[k + j * blades];
+            const double* __restrict in = x + k * strip;
+            for (int c = 0; c < strip; ++c) y[c] += in[c] * t;
+        }
+    }
+}
+
+// Cosine and sine of factor * psi; those of neighbouring pairs are mostly the same.
+class Turn {
+public:
+    explicit Turn(double psi) : psi_(psi) {}
+    void set(double factor) {
+        if (factor == factor_) return;
+        factor_ = factor;
+        c = std::cos(factor * psi_);
+        s = std::sin(factor * psi_);
+    }
+    double c = 1, s = 0;
+
+private:
+    double psi_, factor_ = 0;
+};
+
+}  // namespace
+
 // A T: every row alike.
 void ColemanTransform::transform_columns(double psi, Matrix& A) const {
-    std::array<double, max_blades> x{};
+    std::array<double, max_blades * strip> x{}, y{};
     for (const std::vector<int>& rows : at_)
-        for (Eigen::Index i = 0; i < A.rows(); ++i) {
-            for (int k = 0; k < blades_; ++k) entry(x, k) = A(i, entry(rows, k));
-            for (int j = 0; j < blades_; ++j) {
-                double sum = 0;
-                for (int k = 0; k < blades_; ++k) sum += entry(x, k) * blade_block_(k, j);
-                A(i, entry(rows, j)) = sum;
-            }
+        for (Index i = 0; i < A.rows(); i += strip) {
+            const Index count = std::min<Index>(strip, A.rows() - i);
+            for (int k = 0; k < blades_; ++k) std::copy_n(&A(i, entry(rows, k)), count, &entry(x, k * strip));
+            combine(x.data(), y.data(), blades_, blade_block_.data());
+            for (int k = 0; k < blades_; ++k) std::copy_n(&entry(y, k * strip), count, &A(i, entry(rows, k)));
         }
     if (psi == 0) return;
+    Turn turn(psi);
     for (const TurningPair& pair : pairs_) {
-        const double c = std::cos(pair.factor * psi), s = std::sin(pair.factor * psi);
-        for (Eigen::Index i = 0; i < A.rows(); ++i) {
+        turn.set(pair.factor);
+        for (Index i = 0; i < A.rows(); ++i) {
             const double a = A(i, pair.a), b = A(i, pair.b);
-            A(i, pair.a) = c * a - s * b;
-            A(i, pair.b) = s * a + c * b;
+            A(i, pair.a) = turn.c * a - turn.s * b;
+            A(i, pair.b) = turn.s * a + turn.c * b;
         }
     }
 }
 
 // T^T A: every column alike.
 void ColemanTransform::transform_rows(double psi, Matrix& A) const {
-    std::array<double, max_blades> x{};
-    for (Eigen::Index column = 0; column < A.cols(); ++column) {
+    std::array<double, max_blades * strip> x{}, y{};
+    Turn turn(psi);
+    for (Index from = 0; from < A.cols(); from += strip) {
+        const Index count = std::min<Index>(strip, A.cols() - from);
         for (const std::vector<int>& rows : at_) {
-            for (int k = 0; k < blades_; ++k) entry(x, k) = A(entry(rows, k), column);
-            for (int j = 0; j < blades_; ++j) {
-                double sum = 0;
-                for (int k = 0; k < blades_; ++k) sum += entry(x, k) * blade_block_(k, j);
-                A(entry(rows, j), column) = sum;
-            }
+            for (int k = 0; k < blades_; ++k)
+                for (Index c = 0; c < count; ++c) entry(x, k * strip + c) = A(entry(rows, k), from + c);
+            combine(x.data(), y.data(), blades_, blade_block_.data());
+            for (int k = 0; k < blades_; ++k)
+                for (Index c = 0; c < count; ++c) A(entry(rows, k), from + c) = entry(y, k * strip + c);
         }
-    }
-    if (psi == 0) return;
-    for (const TurningPair& pair : pairs_) {
-        const double c = std::cos(pair.factor * psi), s = std::sin(pair.factor * psi);
-        for (Eigen::Index j = 0; j < A.cols(); ++j) {
-            const double a = A(pair.a, j), b = A(pair.b, j);
-            A(pair.a, j) = c * a - s * b;
-            A(pair.b, j) = s * a + c * b;
+        if (psi == 0) continue;
+        for (const TurningPair& pair : pairs_) {
+            turn.set(pair.factor);
+            for (Index j = from; j < from + count; ++j) {
+                const double a = A(pair.a, j), b = A(pair.b, j);
+                A(pair.a, j) = turn.c * a - turn.s * b;
+                A(pair.b, j) = turn.s * a + turn.c * b;
+            }
         }
     }
 }

@@ -43,16 +43,36 @@ void require_shape(const SecondOrderSystem& system, const Mode& mode) {
 
 }  // namespace
 
-Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y) {
-    require_shape(system, x);
+namespace {
+
+// A x in real arithmetic.
+ComplexVector product(const Matrix& A, const ComplexVector& x) {
+    ComplexVector y(A.rows());
+    y.real() = A * x.real();
+    y.imag() = A * x.imag();
+    return y;
+}
+
+}  // namespace
+
+EnergyProduct::EnergyProduct(const SecondOrderSystem& system, const Mode& y) {
     require_shape(system, y);
-    return x.shape.dot(system.K_elastic * y.shape) +
-           std::conj(x.eigenvalue) * y.eigenvalue * x.shape.dot(system.M * y.shape);
+    elastic_ = product(system.K_elastic, y.shape);
+    momentum_ = y.eigenvalue * product(system.M, y.shape);
+}
+
+Complex EnergyProduct::with(const Mode& x) const {
+    require_size("modes", "shape of a mode", x.shape, elastic_.size());
+    return x.shape.dot(elastic_) + std::conj(x.eigenvalue) * x.shape.dot(momentum_);
+}
+
+Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y) {
+    return EnergyProduct(system, y).with(x);
 }
 
 Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
     require_shape(system, mode);
-    const ComplexVector force = system.K_elastic * mode.shape;
+    const ComplexVector force = product(system.K_elastic, mode.shape);
     const Vector energy = (mode.shape.conjugate().array() * force.array()).real();
     const double total = energy.sum();
     return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());

@@ -64,7 +64,17 @@ private:
 /// All modes, with a temporary ModeSolver.
 std::vector<Mode> modes(const SecondOrderSystem& system);
 
-/// Energy product x^H K_e y + conj(lambda_x) lambda_y x^H M y of two modes; complex MAC = |xy|^2 / (xx yy).
+/// Energy products x^H K_e y + conj(lambda_x) lambda_y x^H M y of many modes x with one mode y.
+class EnergyProduct {
+public:
+    EnergyProduct(const SecondOrderSystem& system, const Mode& y);
+    Complex with(const Mode& x) const;
+
+private:
+    ComplexVector elastic_, momentum_;  // K_e y, lambda_y M y
+};
+
+/// That of two modes; complex MAC = |xy|^2 / (xx yy).
 Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y);
 
 /// Share of every row in the elastic energy of a mode, Re conj(x_i) (K_e x)_i over the total: sums to one. Entries of

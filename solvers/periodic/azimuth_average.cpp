@@ -62,10 +62,11 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
 NearestMode nearest_mode(const SecondOrderSystem& system, const std::vector<Mode>& modes, const Mode& mode) {
     if (modes.empty()) throw InputError("nearest mode", "number of modes", 0, ">= 1");
     NearestMode nearest;
-    const double own = std::real(energy_product(system, mode, mode));
+    const EnergyProduct product(system, mode);
+    const double own = std::real(product.with(mode));
     for (std::size_t i = 0; i < modes.size(); ++i) {
         const double other = std::real(energy_product(system, modes[i], modes[i]));
-        const double mac = std::norm(energy_product(system, modes[i], mode)) / (own * other);
+        const double mac = std::norm(product.with(modes[i])) / (own * other);
         if (mac > nearest.mac) nearest = {i, mac};
     }
     return nearest;

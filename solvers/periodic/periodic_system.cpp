@@ -136,12 +136,36 @@ PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform trans
         });
 }
 
-SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples) {
+namespace {
+
+bool is_identity(const Matrix& P) {
+    return P == Matrix::Identity(P.rows(), P.cols());
+}
+
+Matrix renumbered(const Matrix& P, const Matrix& A) {
+    return P * A * P.transpose();
+}
+
+}  // namespace
+
+SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples, const BladeSymmetry& symmetry) {
     if (samples < 1) throw InputError("mean over a period", "number of samples", samples, ">= 1");
+    const int Q = symmetry.parts, of_part = (samples + Q - 1) / Q;
     SecondOrderSystem mean, scratch;
     system.at(0, mean);
-    const auto at = [&](int i, SecondOrderSystem& out) { system.at(system.period() * i / samples, out); };
-    average(samples, at, mean, scratch);
+    const auto at = [&](int i, SecondOrderSystem& out) { system.at(system.period() * i / (Q * of_part), out); };
+    average(of_part, at, mean, scratch);
+    if (Q == 1 || is_identity(symmetry.P)) return mean;
+    // One part later the matrices are P^T A P.
+    const Matrix back = symmetry.P.transpose();
+    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) {
+        Matrix part = *m;
+        for (int k = 1; k < Q; ++k) {
+            part = renumbered(back, part);
+            *m += part;
+        }
+        *m /= Q;
+    }
     return mean;
 }
 
@@ -226,8 +250,9 @@ double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
     if (symmetry.P.rows() != n || symmetry.P.cols() != n)
         throw InputError(in_blade_symmetry, "size of P", text(symmetry.P.rows(), " x ", symmetry.P.cols()),
                          text(n, " x ", n));
+    const bool same_places = is_identity(symmetry.P);  // three and more blades in multi-blade rows
     Matrix all = symmetry.P;
-    for (int i = 1; i < symmetry.parts; ++i) all = all * symmetry.P;
+    for (int i = 1; i < symmetry.parts && !same_places; ++i) all = all * symmetry.P;
     const double off = (all - Matrix::Identity(n, n)).cwiseAbs().maxCoeff();
     if (!(off < 1e-9))
         throw InputError(in_blade_symmetry, text("difference of P^", symmetry.parts, " and the unit matrix"), off,
@@ -238,7 +263,8 @@ double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
         const Coefficients now(system, fraction * part), later(system, (fraction + 1) * part);
         const Vector size = now.size(omega);
         for (std::size_t m = 0; m < now.matrices.size(); ++m) {
-            const Matrix difference = symmetry.P * later.matrices[m] * symmetry.P.transpose() - now.matrices[m];
+            const Matrix& own = later.matrices[m];
+            const Matrix difference = (same_places ? own : renumbered(symmetry.P, own)) - now.matrices[m];
             const double factor = std::pow(omega, static_cast<double>(m));
             for (Index j = 0; j < n; ++j)
                 for (Index i = 0; i < n; ++i)

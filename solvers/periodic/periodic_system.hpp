@@ -72,16 +72,18 @@ void average(int samples, const At& at, SecondOrderSystem& mean, SecondOrderSyst
     for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
 }
 
-/// average() over the period of a system.
-/// @throws InputError for a system of first order or fewer than one sample
-SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples);
-
 /// Q identical parts that take each other's places after a Q-th of the period: if x(t) is a solution, P x(t + T/Q) is
 /// one. P is orthogonal, P^Q = 1, and acts on positions and on rates (on states in a system of first order).
 struct BladeSymmetry {
     int parts = 1;
     Matrix P = {};  ///< empty: none
 };
+
+/// average() over the period of a system.
+/// @param samples  of the whole period, rounded up to a multiple of the number of parts
+/// @param symmetry  of the system: only the samples of one part are evaluated
+/// @throws InputError for a system of first order or fewer than one sample
+SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples, const BladeSymmetry& symmetry = {});
 
 /// Blade k + 1 takes the place of blade k (the other way round if the rotor turns backward); rotating pairs turn by 2
 /// pi / Q; the `odd` coordinates change sign, as the teeter angle of a two-bladed rotor does.

@@ -39,6 +39,7 @@ private:
     Vector scale_;          // of residuals
     Matrix right_;          // residuals at the stages
     Matrix transition_;     // derivative of x_ by start_
+    Matrix of_step_;        // of x_ after a step by x_ before
     Matrix path_;           // positions at the beginnings of the steps
     SecondOrderSystem at_;
     std::string why_ = "the limit of iterations was reached";
@@ -120,7 +121,8 @@ bool Shooting::step(double psi) {
         why_ = text("the integration fails at azimuth ", psi, " rad");
         return false;
     }
-    algebra_.advance(h, transition_);
+    algebra_.transition(h, of_step_);
+    transition_ = (of_step_ * transition_).eval();
     x_.head(n) += h * x_.tail(n) + h * h * (accelerations_ * method_.A2.row(s - 1).transpose());
     x_.tail(n) += h * (accelerations_ * method_.A.row(s - 1).transpose());
     return true;

@@ -14,7 +14,8 @@ using Index = Eigen::Index;
 class Step {
 public:
     virtual ~Step() = default;
-    virtual void advance(double t, double h, Matrix& X) = 0;
+    /// Phi from t to t + h, overwritten.
+    virtual void set(double t, double h, Matrix& Phi) = 0;
 };
 
 class RadauSecondOrder : public Step {
@@ -22,13 +23,13 @@ public:
     RadauSecondOrder(const PeriodicSystem& system, int stages)
         : system_(system), method_(stages), algebra_(method_, system.rows()) {}
 
-    void advance(double t, double h, Matrix& X) override {
+    void set(double t, double h, Matrix& Phi) override {
         for (Index i = 0; i < method_.stages(); ++i) {
             system_.at(t + method_.c(i) * h, at_);
             algebra_.set(i, h, at_.M, at_.C, at_.K);
         }
         algebra_.factorise();
-        algebra_.advance(h, X);
+        algebra_.transition(h, Phi);
     }
 
 private:
@@ -38,23 +39,24 @@ private:
     SecondOrderSystem at_;
 };
 
-// Unknowns are the rates at the stages: E_i k_i = A_i (x + h sum_j a_ij k_j). For algebraic rows, where E is zero, the
-// last stage makes them hold at the end of the step.
+// Unknowns are the rates at the stages: E_i k_i = A_i (x + h sum_j a_ij k_j), for all unit vectors x. For algebraic
+// rows, where E is zero, the last stage makes them hold at the end of the step.
 class RadauFirstOrder : public Step {
 public:
     RadauFirstOrder(const PeriodicSystem& system, int stages) : system_(system), method_(stages) {}
 
-    void advance(double t, double h, Matrix& X) override {
+    void set(double t, double h, Matrix& Phi) override {
         const Index n = system_.rows(), s = method_.stages();
-        Matrix left(s * n, s * n), right(s * n, X.cols());
+        Matrix left(s * n, s * n), right(s * n, n);
         for (Index i = 0; i < s; ++i) {
             system_.at(t + method_.c(i) * h, E_, A_);
             for (Index j = 0; j < s; ++j) left.block(i * n, j * n, n, n) = -h * method_.A(i, j) * A_;
             left.block(i * n, i * n, n, n) += E_;
-            right.middleRows(i * n, n).noalias() = A_ * X;
+            right.middleRows(i * n, n) = A_;
         }
         const Matrix k = left.partialPivLu().solve(right);
-        for (Index j = 0; j < s; ++j) X += h * method_.A(s - 1, j) * k.middleRows(j * n, n);
+        Phi.setIdentity(n, n);
+        for (Index j = 0; j < s; ++j) Phi += h * method_.A(s - 1, j) * k.middleRows(j * n, n);
     }
 
 private:
@@ -68,14 +70,14 @@ class Midpoint : public Step {
 public:
     explicit Midpoint(const PeriodicSystem& system) : system_(system) {}
 
-    void advance(double t, double h, Matrix& X) override {
+    void set(double t, double h, Matrix& Phi) override {
         system_.at(t + h / 2, E_, A_);
-        const Matrix middle = Matrix(E_ - h / 2 * A_).partialPivLu().solve(E_ * X);
-        for (Index i = 0; i < X.rows(); ++i) {
-            if (E_.col(i).isZero(0))
-                X.row(i) = middle.row(i);
-            else
-                X.row(i) = 2 * middle.row(i) - X.row(i);
+        const Matrix middle = Matrix(E_ - h / 2 * A_).partialPivLu().solve(E_);
+        Phi = middle;
+        for (Index i = 0; i < Phi.rows(); ++i) {
+            if (E_.col(i).isZero(0)) continue;
+            Phi.row(i) *= 2;
+            Phi(i, i) -= 1;
         }
     }
 
@@ -100,11 +102,19 @@ std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double 
     const Index n = system.states();
     const double h = (t1 - t0) / intervals / steps;
     std::vector<Matrix> all;
+    Matrix Phi(n, n), product(n, n);
     for (int i = 0; i < intervals; ++i) {
-        Matrix X = Matrix::Identity(n, n);
+        Matrix X;
         for (int j = 0; j < steps; ++j) {
             const double t = t0 + h * (static_cast<double>(i) * steps + j);
-            step->advance(t, h, X);
+            // From unit vectors, whose right-hand sides are the matrices themselves.
+            step->set(t, h, Phi);
+            if (j == 0) {
+                X = Phi;
+            } else {
+                product.noalias() = Phi * X;
+                X.swap(product);
+            }
             if (!X.allFinite())
                 throw NumericalError(text("transition matrix: no solution of the step at ", t,
                                           " s (singular matrices, or the step is too long)"));

@@ -174,6 +174,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     }
     find_steady_state(rotor_speed);
     const PeriodicSystem periodic = multi_blade_system();
+    set_symmetry(periodic);
     set_mean(periodic);
     if (!energy_shares()) standstill_.define_components(linearise(system_, state_->at(0)));
     point.rotor_speed = rotor_speed;
@@ -181,7 +182,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     point.periodic = state_;
     point.modes.clear();
     if (options_.method == CampbellMethod::averaged) {
-        warn_of_differing_blades(periodic);
+        warn_of_differing_blades();
         set_mean_modes(point);
     } else {
         set_floquet_modes(periodic, point);
@@ -225,7 +226,7 @@ PeriodicSystem PeriodicPointSolver::multi_blade_system() const {
 
 void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
     const int samples = std::max({24, 2 * static_cast<int>(rotor_.blades.size()) + 1, 4 * (state_->harmonics() + 1)});
-    mean_ = mean_over_period(periodic, samples);
+    mean_ = mean_over_period(periodic, samples, symmetry_);
 }
 
 // x(t + T/Q) in multi-blade rows, where equal blades look the same except for signs.
@@ -241,25 +242,25 @@ BladeSymmetry PeriodicPointSolver::renumbering() const {
 }
 
 // None if the blades differ.
-BladeSymmetry PeriodicPointSolver::symmetry(const PeriodicSystem& periodic) const {
-    BladeSymmetry found = renumbering();
-    return asymmetry(periodic, found) < 1e-8 ? found : BladeSymmetry{};
+void PeriodicPointSolver::set_symmetry(const PeriodicSystem& periodic) {
+    symmetry_ = renumbering();
+    difference_ = asymmetry(periodic, symmetry_);
+    if (!(difference_ < 1e-8)) symmetry_ = {};
 }
 
 // A mode localised in one blade has no frequency in the fixed frame: the average invents one.
-void PeriodicPointSolver::warn_of_differing_blades(const PeriodicSystem& periodic) {
-    const double difference = asymmetry(periodic, renumbering());
-    if (difference > small_difference)
+void PeriodicPointSolver::warn_of_differing_blades() {
+    if (difference_ > small_difference)
         warn(text("at ", state_->rotor_speed * units::to_rpm,
-                  " rpm the rotor is not the same when its blades are renumbered (", difference,
+                  " rpm the rotor is not the same when its blades are renumbered (", difference_,
                   " of the diagonals): blades or hub differ, and the mean over the azimuth may have "
                   "frequencies that no motion of the machine has. Take CampbellMethod::floquet"));
 }
 
-FloquetOptions PeriodicPointSolver::floquet_options(const PeriodicSystem& periodic) const {
+FloquetOptions PeriodicPointSolver::floquet_options() const {
     const CampbellFloquetOptions& own = options_.floquet;
     FloquetOptions options;
-    options.symmetry = symmetry(periodic);
+    options.symmetry = symmetry_;
     options.per_period =
         own.per_period > 0 ? own.per_period : options_.max_frequency_hz * 2 * pi / std::abs(state_->rotor_speed);
     if (options.per_period > 1e4)
@@ -277,7 +278,7 @@ Index PeriodicPointSolver::spin_row() const {
 }
 
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
-    const FloquetOptions options = floquet_options(periodic);
+    const FloquetOptions options = floquet_options();
     Floquet result = floquet(periodic, options);
     if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
     find_weak_spin(result.modes, mean_.M, std::abs(state_->rotor_speed), spin_row());

@@ -32,9 +32,9 @@ private:
     PeriodicSystem multi_blade_system() const;
     void set_mean(const PeriodicSystem& periodic);
     BladeSymmetry renumbering() const;
-    void warn_of_differing_blades(const PeriodicSystem& periodic);
-    BladeSymmetry symmetry(const PeriodicSystem& periodic) const;
-    FloquetOptions floquet_options(const PeriodicSystem& periodic) const;
+    void set_symmetry(const PeriodicSystem& periodic);
+    void warn_of_differing_blades();
+    FloquetOptions floquet_options() const;
     void set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point);
     void set_mean_modes(CampbellPoint& point) const;
     void leave_out_free_spin(double scale, CampbellPoint& point) const;
@@ -48,6 +48,8 @@ private:
     CampbellOptions options_;
     PointSolver standstill_;  // also: rows, names, energy shares
     std::optional<PeriodicSteadyState> state_;
+    BladeSymmetry symmetry_;  // of the last point; none if the blades differ
+    double difference_ = 0;   // of the blades
     SecondOrderSystem mean_;
     std::string warning_;
 };

@@ -4,6 +4,9 @@
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 namespace cardan::solvers {
@@ -22,6 +25,59 @@ bool begins(const CampbellMode& mode) {
     }
 }
 
+// Real and imaginary parts of shapes x and of lambda x, one above another: energy products in real arithmetic.
+Matrix states(const std::vector<CampbellMode>& modes, Eigen::Index n) {
+    Matrix X(4 * n, std::ssize(modes));
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+        const Mode& mode = entry(modes, j).mode;
+        const ComplexVector rate = mode.eigenvalue * mode.shape;
+        X.col(j) << mode.shape.real(), mode.shape.imag(), rate.real(), rate.imag();
+    }
+    return X;
+}
+
+// Lower Cholesky factor of a few modes' energy products with each other; empty if they are nearly parallel.
+ComplexMatrix factor_of(const SecondOrderSystem& system, std::span<const CampbellMode> modes) {
+    constexpr double energy = 2, least = 1e-2 * energy;
+    const auto size = std::ssize(modes);
+    ComplexMatrix L = ComplexMatrix::Zero(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const EnergyProduct with_i(system, entry(modes, i).mode);
+        for (Eigen::Index j = i; j < size; ++j) {
+            const Complex left = with_i.with(entry(modes, j).mode) - L.row(i).head(i).dot(L.row(j).head(i));
+            if (j == i && !(left.real() > least)) return {};
+            L(j, i) = j == i ? Complex(std::sqrt(left.real())) : left / L(i, i);
+        }
+    }
+    return L;
+}
+
+// Any mixture of modes with the same eigenvalue is a mode (collective and differential flap of four blades): a track
+// goes on in each of them as far as it lies in their space.
+// @param products  of tracks with modes
+void take_spaces(const SecondOrderSystem& system, const std::vector<CampbellMode>& modes, const ComplexMatrix& products,
+                 Matrix& mac) {
+    constexpr double same = 1e-8, energy = 2;
+    const auto count = std::ssize(modes);
+    for (Eigen::Index from = 0, to = 0; from < count; from = to) {
+        const Complex first = entry(modes, from).mode.eigenvalue;
+        for (to = from + 1; to < count; ++to)
+            if (std::abs(entry(modes, to).mode.eigenvalue - first) > same * std::abs(first)) break;
+        const Eigen::Index size = to - from;
+        if (size < 2) continue;
+        const ComplexMatrix L =
+            factor_of(system, std::span(modes).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(size)));
+        for (Eigen::Index t = 0; t < mac.rows() && L.size() > 0; ++t) {
+            ComplexVector p = products.row(t).segment(from, size).adjoint();
+            for (Eigen::Index j = 0; j < size; ++j) {
+                for (Eigen::Index k = 0; k < j; ++k) p(j) -= L(j, k) * p(k);
+                p(j) /= L(j, j);
+            }
+            mac.row(t).segment(from, size).setConstant(std::min(1.0, p.squaredNorm() / energy));
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<const CampbellMode*> Tracker::last() const {
@@ -35,20 +91,20 @@ void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
     Matrix mac = Matrix::Zero(std::ssize(tracks_), count);
     if (mac.size() > 0) {
         const Eigen::Index n = system.M.rows();
-        ComplexMatrix X(n, mac.rows()), Y(n, count);
-        ComplexVector lx(mac.rows()), ly(count);
-        const auto set = [](const CampbellMode& from, ComplexMatrix& shapes, ComplexVector& eigenvalues,
-                            Eigen::Index i) {
-            shapes.col(i) = from.mode.shape;
-            eigenvalues(i) = from.mode.eigenvalue;
-        };
-        for (Eigen::Index i = 0; i < mac.rows(); ++i) set(entry(last_, i), X, lx, i);
-        for (Eigen::Index j = 0; j < count; ++j) set(entry(point.modes, j), Y, ly, j);
+        const Matrix X = states(last_, n), Y = states(point.modes, n);
+        Matrix Z(4 * n, count), turned(4 * n, count);  // K_e y, lambda_y M y; -i times as much
+        for (Eigen::Index part = 0; part < 4; ++part)
+            Z.middleRows(part * n, n).noalias() = (part < 2 ? system.K_elastic : system.M) * Y.middleRows(part * n, n);
+        for (Eigen::Index part = 0; part < 4; part += 2) {
+            turned.middleRows(part * n, n) = Z.middleRows((part + 1) * n, n);
+            turned.middleRows((part + 1) * n, n) = -Z.middleRows(part * n, n);
+        }
         // Modes have energy norm 2 (their own at their own speed), so |product|^2 / 4 is the MAC up to the change of M.
-        const ComplexMatrix elastic = X.adjoint() * (system.K_elastic * Y), kinetic = X.adjoint() * (system.M * Y);
-        for (Eigen::Index i = 0; i < mac.rows(); ++i)
-            for (Eigen::Index j = 0; j < count; ++j)
-                mac(i, j) = std::min(1.0, std::norm(elastic(i, j) + std::conj(lx(i)) * ly(j) * kinetic(i, j)) / 4);
+        ComplexMatrix products(mac.rows(), count);
+        products.real() = X.transpose() * Z;
+        products.imag() = X.transpose() * turned;
+        mac = (products.cwiseAbs2() / 4).cwiseMin(1.0);
+        take_spaces(system, point.modes, products, mac);
     }
     add(mac, mac, point);
 }

@@ -72,6 +72,26 @@ TEST_CASE("Floquet: bending of a rotating shaft is turned with the blades", "[cr
     CHECK(asymmetry(periodic, blade_symmetry(map, unknowns, Omega)) > 1e-3);
 }
 
+TEST_CASE("periodic system: the mean over one of several identical parts gives that over the period", "[crosscheck]") {
+    const double Omega = 4;
+    const SmallRotor rotor = small_rotor({.damping = 2, .elastic_support = true});
+    const PeriodicSystem blades =
+        linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
+    const PeriodicSystem fixed = in_multi_blade_rows(blades, ColemanTransform(rotor.map, rotor.unknowns()), Omega);
+    const Eigen::Index n = blades.rows();
+    const BladeSymmetry next = blade_symmetry(rotor.map, rotor.unknowns(), Omega), same{3, Matrix::Identity(n, n)};
+    for (const auto& [system, symmetry] : {std::pair(&blades, &next), std::pair(&fixed, &same)}) {
+        const SecondOrderSystem whole = mean_over_period(*system, 24), part = mean_over_period(*system, 24, *symmetry);
+        CHECK((part.M - whole.M).norm() < 1e-13 * whole.M.norm());
+        CHECK((part.C - whole.C).norm() < 1e-13 * whole.C.norm());
+        CHECK((part.K - whole.K).norm() < 1e-13 * whole.K.norm());
+        CHECK((part.K_elastic - whole.K_elastic).norm() < 1e-13 * whole.K_elastic.norm());
+    }
+    // In blade rows a third of a revolution alone is another mean.
+    const SecondOrderSystem whole = mean_over_period(blades, 24);
+    CHECK((mean_over_period(blades, 24, same).M - whole.M).norm() > 1e-3 * whole.M.norm());
+}
+
 TEST_CASE("Floquet: the symmetry of a system of first order acts on its states", "[property]") {
     const double Omega = 4;
     const SmallRotor rotor = small_rotor({.damping = 2, .elastic_support = true});
