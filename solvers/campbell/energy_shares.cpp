@@ -149,6 +149,7 @@ void EnergyShares::add_part(const Linearisation& lin, const Model& model, const 
 namespace {
 
 // The entries of a shape in some rows, side by side: each is needed for every component.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): memory is filled as far as it is used
 class Gathered {
 public:
     void set(const std::vector<int>& rows, const ComplexVector& shape) {
@@ -176,7 +177,7 @@ private:
     static constexpr std::size_t most = 256;
     const std::vector<int>* rows_ = nullptr;
     const ComplexVector* shape_ = nullptr;
-    std::array<double, most> re_, im_;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled as far as needed
+    std::array<double, most> re_, im_;
 };
 
 }  // namespace

@@ -147,17 +147,17 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
 namespace {
 
 using Index = Eigen::Index;
-constexpr int strip = 16;  // rows or columns that are transformed together
+constexpr Index strip = 16;  // rows or columns that are transformed together
 
 // x_j = sum_k x_k T_kj for every entry of a strip; T by columns.
-CARDAN_VECTORISED void combine(const double* x, double* out, int blades, const double* T) {
-    for (int j = 0; j < blades; ++j) {
+CARDAN_VECTORISED void combine(const double* x, double* out, Index blades, const double* T) {
+    for (Index j = 0; j < blades; ++j) {
         double* __restrict y = out + j * strip;
-        for (int c = 0; c < strip; ++c) y[c] = 0;
-        for (int k = 0; k < blades; ++k) {
+        for (Index c = 0; c < strip; ++c) y[c] = 0;
+        for (Index k = 0; k < blades; ++k) {
             const double t = T[k + j * blades];
             const double* __restrict in = x + k * strip;
-            for (int c = 0; c < strip; ++c) y[c] += in[c] * t;
+            for (Index c = 0; c < strip; ++c) y[c] += in[c] * t;
         }
     }
 }
@@ -186,9 +186,9 @@ void ColemanTransform::transform_columns(double psi, Matrix& A) const {
     for (const std::vector<int>& rows : at_)
         for (Index i = 0; i < A.rows(); i += strip) {
             const Index count = std::min<Index>(strip, A.rows() - i);
-            for (int k = 0; k < blades_; ++k) std::copy_n(&A(i, entry(rows, k)), count, &entry(x, k * strip));
+            for (Index k = 0; k < blades_; ++k) std::copy_n(&A(i, entry(rows, k)), count, &entry(x, k * strip));
             combine(x.data(), y.data(), blades_, blade_block_.data());
-            for (int k = 0; k < blades_; ++k) std::copy_n(&entry(y, k * strip), count, &A(i, entry(rows, k)));
+            for (Index k = 0; k < blades_; ++k) std::copy_n(&entry(y, k * strip), count, &A(i, entry(rows, k)));
         }
     if (psi == 0) return;
     Turn turn(psi);
@@ -209,10 +209,10 @@ void ColemanTransform::transform_rows(double psi, Matrix& A) const {
     for (Index from = 0; from < A.cols(); from += strip) {
         const Index count = std::min<Index>(strip, A.cols() - from);
         for (const std::vector<int>& rows : at_) {
-            for (int k = 0; k < blades_; ++k)
+            for (Index k = 0; k < blades_; ++k)
                 for (Index c = 0; c < count; ++c) entry(x, k * strip + c) = A(entry(rows, k), from + c);
             combine(x.data(), y.data(), blades_, blade_block_.data());
-            for (int k = 0; k < blades_; ++k)
+            for (Index k = 0; k < blades_; ++k)
                 for (Index c = 0; c < count; ++c) A(entry(rows, k), from + c) = entry(y, k * strip + c);
         }
         if (psi == 0) continue;

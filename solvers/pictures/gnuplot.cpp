@@ -23,10 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string system_reason(int number) {
-    return std::generic_category().message(number);
-}
-
 bool is_control(char c) {
     return std::iscntrl(static_cast<unsigned char>(c)) != 0;
 }
@@ -96,6 +92,9 @@ const Kind& kind_of(const fs::path& path) {
     }
     throw FileError(path.string(), "a picture ends in .svg, .png or .pdf");
 }
+
+// The terminal for SVG begins with the last colour of the picture before. After this one it is always the same.
+constexpr std::string_view after_the_same = "set output '/dev/null'\nplot [0:1] [0:1] 0 notitle\nset output\nreset\n";
 
 std::string terminal(const Kind& kind, PictureSize size) {
     if (kind.ending != ".pdf")
@@ -206,7 +205,8 @@ std::string Gnuplot::write_picture(const fs::path& path, std::string_view body, 
     std::string output;
     for (const char c : file.partial()) output += c == '\'' ? "''" : std::string(1, c);
     const std::string script = text(
-        "set encoding utf8\nset terminal ", terminal(kind, size), "\n", line_types(),
+        "set encoding utf8\nset terminal ", terminal(kind, size), "\n", kind.ending == ".svg" ? after_the_same : "",
+        line_types(),
         "set border linewidth 1 linecolor rgb '#404040'\nset grid linetype 1 linecolor rgb '#e4e4e4' linewidth 0.6\n",
         "set output '", output, "'\n", body, "\nunset multiplot\nset output\n");
     try {

@@ -55,6 +55,8 @@ class Gnuplot {
 public:
     /// @param program  a name looked up in PATH, or a path
     explicit Gnuplot(std::string program = "gnuplot");
+    Gnuplot(const Gnuplot&) = delete;
+    Gnuplot& operator=(const Gnuplot&) = delete;
     Gnuplot(Gnuplot&&) noexcept;
     Gnuplot& operator=(Gnuplot&&) noexcept;
     ~Gnuplot();

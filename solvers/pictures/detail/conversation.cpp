@@ -12,11 +12,11 @@
 
 namespace cardan::solvers {
 
-namespace {
-
 std::string system_reason(int number) {
     return std::generic_category().message(number);
 }
+
+namespace {
 
 // @return what posix_spawnp says
 int spawn(std::vector<std::string>& words, int socket, pid_t& child) {
@@ -65,7 +65,7 @@ void Conversation::say(std::string_view words) const {
     }
 }
 
-bool Conversation::listen(const std::string& last, std::string& said, std::string& line) {
+bool Conversation::listen(const std::string& last, std::string& said, std::string& line) const {
     std::array<char, 4096> buffer{};
     std::size_t searched = 0;
     while (true) {

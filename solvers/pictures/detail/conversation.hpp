@@ -9,6 +9,9 @@
 
 namespace cardan::solvers {
 
+/// What the system says of an error number.
+std::string system_reason(int number);
+
 /// Runs a program whose standard input, output and errors are one socket; it ends when the object goes away.
 class Conversation {
 public:
@@ -25,7 +28,7 @@ public:
     void say(std::string_view words) const;
     /// Appends what the program says until a line begins with `last`, which is cut off and returned without its end.
     /// @return  false if the program ended before; see status()
-    bool listen(const std::string& last, std::string& said, std::string& line);
+    bool listen(const std::string& last, std::string& said, std::string& line) const;
     /// Waits for the end of the program. @return what waitpid says
     int status();
 
