@@ -168,7 +168,8 @@ const Gnuplot& Gnuplot::of_this_thread() {
     return gnuplot;
 }
 
-// A script is loaded from a file: within, an error ends it, and the process goes on.
+// A script is loaded from a file, which an error ends, so that its end can be told. After one the process may be within
+// a multiplot: the next script gets another.
 std::string Gnuplot::run(std::string_view script) const {
     static const std::string end = "cardan: end of script";
     const ScratchFile commands;

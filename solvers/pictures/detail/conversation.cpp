@@ -67,16 +67,17 @@ void Conversation::say(std::string_view words) const {
 
 bool Conversation::listen(const std::string& last, std::string& said, std::string& line) const {
     std::array<char, 4096> buffer{};
-    std::size_t searched = 0;
     while (true) {
-        for (std::size_t at = said.find(last, searched); at != std::string::npos; at = said.find(last, at + 1)) {
-            const std::size_t end = said.find('\n', at);
-            if ((at > 0 && said[at - 1] != '\n') || end == std::string::npos) continue;
-            line = said.substr(at, end - at);
-            said.erase(at);
-            return true;
+        // It is the last thing that is said.
+        if (said.ends_with('\n')) {
+            const std::size_t before = said.find_last_of('\n', said.size() - 2);
+            const std::size_t at = said.size() < 2 || before == std::string::npos ? 0 : before + 1;
+            if (said.compare(at, last.size(), last) == 0) {
+                line = said.substr(at, said.size() - 1 - at);
+                said.erase(at);
+                return true;
+            }
         }
-        searched = said.size() > last.size() + 80 ? said.size() - last.size() - 80 : 0;
         const ssize_t n = ::recv(socket_, buffer.data(), buffer.size(), 0);
         if (n < 0 && errno == EINTR) continue;
         if (n <= 0) return false;

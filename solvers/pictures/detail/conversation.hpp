@@ -26,7 +26,8 @@ public:
 
     /// A program that has ended hears nothing: listen() says so.
     void say(std::string_view words) const;
-    /// Appends what the program says until a line begins with `last`, which is cut off and returned without its end.
+    /// Appends what the program says until its last line begins with `last`, which is cut off and returned without its
+    /// end.
     /// @return  false if the program ended before; see status()
     bool listen(const std::string& last, std::string& said, std::string& line) const;
     /// Waits for the end of the program. @return what waitpid says
