@@ -229,8 +229,9 @@ std::vector<DescriptorMode> finite_modes(const DescriptorPencil& pencil) {
         range.compute(E);
         const Index rank = range.rank(), constraints = E.rows() - rank;
         if (constraints == 0) break;
-        E.applyOnTheLeft(range.householderQ().adjoint());
-        A.applyOnTheLeft(range.householderQ().adjoint());
+        const Matrix Q_range = orthogonal_factor(range);
+        E = Q_range.transpose() * E;
+        A = Q_range.transpose() * A;
         const Matrix constraint = A.bottomRows(constraints).rowwise().normalized().transpose();
         Eigen::ColPivHouseholderQR<Matrix> normal(constraint.rows(), constraint.cols());
         normal.setThreshold(rank_tolerance);
@@ -238,8 +239,7 @@ std::vector<DescriptorMode> finite_modes(const DescriptorPencil& pencil) {
         if (normal.rank() < constraints)
             throw NumericalError(text("singular pencil: ", constraints - normal.rank(), " of ", constraints,
                                       " constraints depend on the others"));
-        const Matrix Q = normal.householderQ();
-        const Matrix free = Q.rightCols(rank);
+        const Matrix free = orthogonal_factor(normal).rightCols(rank);
         E = (E.topRows(rank) * free).eval();
         A = (A.topRows(rank) * free).eval();
         basis = (basis * free).eval();

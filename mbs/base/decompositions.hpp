@@ -56,3 +56,12 @@ CARDAN_EIGENVALUES(extern template)
 CARDAN_GENERAL_EIGENVALUES(extern template)
 CARDAN_COMPLEX_DECOMPOSITIONS(extern template)
 }  // namespace Eigen
+
+namespace cardan {
+
+/// Q of A = Q R, with Q [rows x rows] orthogonal. Eigen's product of reflections, compiled once.
+Matrix orthogonal_factor(const Matrix& A);
+/// Q of A P = Q R.
+Matrix orthogonal_factor(const Eigen::ColPivHouseholderQR<Matrix>& qr);
+
+}  // namespace cardan

@@ -3,3 +3,15 @@
 namespace Eigen {
 CARDAN_FACTORISATIONS(template)
 }
+
+namespace cardan {
+
+Matrix orthogonal_factor(const Matrix& A) {
+    return A.householderQr().householderQ();
+}
+
+Matrix orthogonal_factor(const Eigen::ColPivHouseholderQR<Matrix>& qr) {
+    return qr.householderQ();
+}
+
+}  // namespace cardan

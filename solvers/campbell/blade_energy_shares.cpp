@@ -99,15 +99,15 @@ EnergyShares::Patterns EnergyShares::patterns(const BladeBlock& block, Eigen::In
 
 Share EnergyShares::pattern_share(const BladeBlock& block, const Patterns& amplitude, std::vector<WhirlShare> higher) {
     Share share;
-    higher.clear();
+    share.higher = std::move(higher);
+    share.higher.clear();
     for (std::size_t j = 0; j < block.slots.size(); ++j) {
         const MultiBladeRow& slot = block.slots[j];
         if (slot.kind == MultiBlade::collective) share.collective = std::norm(amplitude[j]);
         if (slot.kind == MultiBlade::differential) share.differential = std::norm(amplitude[j]);
         if (slot.kind != MultiBlade::cosine) continue;
-        add_pair(slot.harmonic, amplitude[j], amplitude[j + 1], share, higher);
+        add_pair(slot.harmonic, amplitude[j], amplitude[j + 1], share);
     }
-    share.higher = std::move(higher);
     return share;
 }
 

@@ -183,13 +183,13 @@ private:
 }  // namespace
 
 // The pair of one harmonic, by the energy amplitudes of its cosine and its sine.
-void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share, std::vector<WhirlShare>& higher) {
+void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share) {
     const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
     const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
     if (harmonic == 1)
         share.cosine = std::norm(c), share.sine = std::norm(s), share.whirl = whirl;
     else
-        higher.push_back({std::norm(c), std::norm(s), whirl});
+        share.higher.push_back({std::norm(c), std::norm(s), whirl});
 }
 
 // Energies of all components of a block, not yet divided by their sum. Shares keep the memory of their pairs.
@@ -211,8 +211,7 @@ void EnergyShares::block_shares(const Block& block, const Mode& mode, std::vecto
         x.set(block.cosine[n], mode.shape);
         y.set(block.sine[n], mode.shape);
         for (Eigen::Index i = 0; i < count; ++i)
-            add_pair(static_cast<int>(n) + 1, x.times(block.weights.col(i)), y.times(block.weights.col(i)), share(i),
-                     share(i).higher);
+            add_pair(static_cast<int>(n) + 1, x.times(block.weights.col(i)), y.times(block.weights.col(i)), share(i));
     }
 }
 

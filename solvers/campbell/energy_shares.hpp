@@ -102,7 +102,7 @@ private:
         Matrix weights;                              // K V: energy amplitude of each component mode by column
         int first_component;
     };
-    static void add_pair(int harmonic, Complex c, Complex s, Share& share, std::vector<WhirlShare>& higher);
+    static void add_pair(int harmonic, Complex c, Complex s, Share& share);
     static void block_shares(const Block& block, const Mode& mode, std::vector<Share>& out);
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);

@@ -9,8 +9,15 @@
 
 namespace cardan::testing {
 
+Mat3 shortest_turn(const Vec3& from, const Vec3& to) {
+    const Vec3 normal = from.cross(to);
+    const double sine = normal.norm(), cosine = from.dot(to);
+    const Vec3 axis = sine > 0 ? Vec3(normal / sine) : from.unitOrthogonal();
+    return Eigen::AngleAxisd(std::atan2(sine, cosine), axis).toRotationMatrix();
+}
+
 Mat3 axis_frame(const Vec3& axis) {
-    return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+    return shortest_turn(Vec3::UnitZ(), axis);
 }
 
 BodySpec joint_spec(std::string name, FrameId inboard, JointKind kind, const Vec3& axis) {

@@ -6,7 +6,10 @@
 
 namespace cardan::testing {
 
-/// Rotation that carries z onto `axis`.
+/// The rotation by the smallest angle that carries the direction `from` onto that of `to`.
+Mat3 shortest_turn(const Vec3& from, const Vec3& to);
+
+/// The shortest turn that carries z onto `axis`.
 Mat3 axis_frame(const Vec3& axis);
 
 /// A massless body on a joint along or about `axis` of `inboard`; its own frame has z along the axis.

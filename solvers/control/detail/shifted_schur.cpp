@@ -54,7 +54,7 @@ ShiftedSchur::ShiftedSchur(const Matrix& A, double sigma) : sigma_(sigma) {
     inverse_ = shifted.partialPivLu().inverse();
     if (!inverse_.allFinite())
         throw NumericalError(text("state matrix: the shift ", sigma_, " 1/s is one of its eigenvalues"));
-    const Eigen::ComplexSchur<ComplexMatrix> schur(inverse_.cast<Complex>());
+    const Eigen::ComplexSchur<ComplexMatrix> schur(ComplexMatrix(inverse_.cast<Complex>()));
     if (schur.info() != Eigen::Success) throw NumericalError("state matrix: Schur's iteration fails");
     T_ = schur.matrixT();
     U_ = schur.matrixU();
@@ -101,7 +101,7 @@ Matrix ShiftedSchur::subspace(std::vector<bool> chosen) const {
     // The span is closed under conjugation: real and imaginary parts of its basis span it over the real numbers.
     Matrix parts(n, 2 * count);
     parts << U.leftCols(count).real(), U.leftCols(count).imag();
-    return Matrix(parts.colPivHouseholderQr().householderQ()).leftCols(count);
+    return orthogonal_factor(parts.colPivHouseholderQr()).leftCols(count);
 }
 
 namespace {

@@ -31,7 +31,7 @@ Mat6 random_stiffness(Random& random) {
 Mat6 tapered(Random& random, const Mat6& stiffness) {
     const Mat6 root = Matrix(stiffness).llt().matrixL();
     const Mat6 A = Mat6::NullaryExpr([&] { return uniform(random, -1, 1); });
-    const Mat6 Q = Matrix(A).householderQr().householderQ();
+    const Mat6 Q = orthogonal_factor(A);
     const Vec6 factor = Vec6::NullaryExpr([&] { return std::exp2(uniform(random, -1, 1)); });
     return root * Q * factor.asDiagonal() * Q.transpose() * root.transpose();
 }

@@ -28,7 +28,7 @@ public:
             for (Index i = 0; i < n; ++i) A(i, j) = next();
         return A;
     }
-    Matrix orthogonal(Index n) { return Eigen::HouseholderQR<Matrix>(matrix(n)).householderQ(); }
+    Matrix orthogonal(Index n) { return orthogonal_factor(matrix(n)); }
 
 private:
     std::mt19937 engine_;

@@ -1,12 +1,12 @@
 // Platforms for tests, and the rigid machine on them by hand.
 #pragma once
 
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "turbines/model/assembly.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <complex>

@@ -1,5 +1,6 @@
 // The slip of the induction generator in linearised machines: the slope of its law, and drive-train torsion against a
 // chain of three inertias written by hand, with the generator free, slipping and locked.
+#include "mbs/base/decompositions.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
@@ -7,8 +8,6 @@
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/generator_slip.hpp"
-
-#include <Eigen/Eigenvalues>
 
 using namespace cardan;
 using namespace cardan::testing;
