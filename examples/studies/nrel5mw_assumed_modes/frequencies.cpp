@@ -7,6 +7,8 @@
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/linear/modes.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace cardan::paper2018 {
