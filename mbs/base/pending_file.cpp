@@ -104,9 +104,9 @@ PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(
 
 // False if the partial file was renamed while we waited for the lock: then a new one has to be created.
 bool PendingFile::lock_partial() {
-    Opened file(partial_, O_WRONLY | O_CREAT | O_EXCL);
+    Opened file(partial_, O_RDWR | O_CREAT | O_EXCL);
     left_over_ = file.fd() < 0 && errno == EEXIST;
-    if (left_over_) file.open(partial_, O_WRONLY | O_CREAT);
+    if (left_over_) file.open(partial_, O_RDWR | O_CREAT);
     if (file.fd() < 0)
         throw FileError(path_,
                         text("cannot be written: ", std::generic_category().message(errno), " (", partial_, ")"));
@@ -126,6 +126,10 @@ PendingFile::~PendingFile() {
 
 void PendingFile::hand_over() const noexcept {
     if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+}
+
+int PendingFile::release() const noexcept {
+    return std::exchange(fd_, -1);
 }
 
 void PendingFile::commit(bool replace) const {
@@ -158,15 +162,15 @@ void PendingFile::give_name(bool replace) const {
     }
 }
 
+// Removed while it is locked: who waits for the lock sees that the file has gone.
 void PendingFile::discard() const noexcept {
-    if (fd_ < 0) {
-        const int fd = ::open(partial_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-        const bool others = fd >= 0 && is_locked(fd, LOCK_EX);
-        if (fd >= 0) ::close(fd);
-        if (others) return;
-    }
     std::error_code ignored;
-    fs::remove(partial_, ignored);
+    if (fd_ < 0) {
+        const Opened file(partial_, O_RDONLY | O_NONBLOCK);
+        if (file.fd() >= 0 && !is_locked(file.fd(), LOCK_EX)) fs::remove(partial_, ignored);
+    } else {
+        fs::remove(partial_, ignored);
+    }
 }
 
 void write_file(const fs::path& path, std::string_view contents) {

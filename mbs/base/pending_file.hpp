@@ -28,8 +28,11 @@ public:
     /// True if a killed program had left a partial file behind.
     [[nodiscard]] bool left_over() const { return left_over_; }
 
-    /// Releases the lock on the partial file, for a library that locks it itself.
+    /// Releases the lock on the partial file, for a library that locks it itself. In between another program may take
+    /// it.
     void hand_over() const noexcept;
+    /// The descriptor that holds the lock, for reading and writing; closing it is now up to the caller.
+    [[nodiscard]] int release() const noexcept;
     /// Syncs the partial file to disk and renames it, replacing an older file. Throws FileError, also if another
     /// program has begun to write that file.
     /// @param replace  false: an older file is an error

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <set>
+#include <unistd.h>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -56,8 +58,9 @@ Hdf5File create_journaled(const PendingFile& pending, detail::JournalLink& link)
     const detail::Handle list = detail::creation_list(*impl);
     const detail::Handle access = detail::journaled_access(link);
     impl->ok(access.get(), "", "be created");
-    pending.hand_over();
+    link.held = pending.release();
     impl->file = H5Fcreate(pending.partial().c_str(), H5F_ACC_TRUNC, list.get(), access.get());
+    if (link.held >= 0) ::close(std::exchange(link.held, -1));  // not even opened
     impl->ok(impl->file, "", "be created");
     return Hdf5File::Impl::wrap(std::move(impl));
 }

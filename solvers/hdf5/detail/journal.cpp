@@ -113,12 +113,12 @@ JournaledFile::~JournaledFile() {
     close();
 }
 
-int JournaledFile::open(const char* path, Mode mode) {
+int JournaledFile::open(const char* path, Mode mode, int held) {
     mode_ = mode;
     const int access = mode == Mode::read ? O_RDONLY : mode == Mode::change ? O_RDWR : O_RDWR | O_CREAT;
-    fd_ = ::open(path, access | O_CLOEXEC, 0666);
+    fd_ = held >= 0 ? held : ::open(path, access | O_CLOEXEC, 0666);
     if (fd_ < 0) return errno;
-    if (const int reason = lock_for(mode); reason != 0) return reason;
+    if (const int reason = held >= 0 ? 0 : lock_for(mode); reason != 0) return reason;
     if (::fstat(fd_, &found_) != 0) return errno;
     // The file may have got another name while this waited for its lock.
     if (mode == Mode::create) return is_at(path, found_) ? set_size(fd_, 0) : EWOULDBLOCK;

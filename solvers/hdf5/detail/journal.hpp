@@ -45,7 +45,10 @@ public:
 
     /// Creates or empties the file, opens it for changes (first completing an interrupted commit), or opens it for
     /// reading. EWOULDBLOCK: another program or object is writing it, or reading it while this one wants to write.
-    int open(const char* path, Mode mode);
+    /// @param held  descriptor of this file that is open for reading and writing and holds its lock, which is taken
+    /// over;
+    ///              negative: none
+    int open(const char* path, Mode mode, int held = -1);
     int close();
 
     /// Bytes of the contents as of opening.

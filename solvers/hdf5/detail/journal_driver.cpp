@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <exception>
+#include <fcntl.h>
 #include <functional>
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
 
 namespace cardan::solvers::detail {
 namespace {
@@ -50,7 +52,7 @@ struct JournalDriver {
             using Mode = JournaledFile::Mode;
             const bool create = (flags & (H5F_ACC_CREAT | H5F_ACC_TRUNC)) != 0;
             const Mode mode = link.reading ? Mode::read : create ? Mode::create : Mode::change;
-            if (made != nullptr) reason = made->file.open(name, mode);
+            if (made != nullptr) reason = made->file.open(name, mode, descriptor(link, create));
         } catch (const std::exception&) {  // no memory
         }
         if (reason != 0) {
@@ -62,6 +64,12 @@ struct JournalDriver {
         made->link = &link;
         link.file = &made->file;
         return made.release();
+    }
+
+    // The lock stays with the first descriptor until the file is opened for good.
+    static int descriptor(JournalLink& link, bool create) {
+        if (link.held < 0) return -1;
+        return create ? std::exchange(link.held, -1) : ::fcntl(link.held, F_DUPFD_CLOEXEC, 0);
     }
 
     static herr_t close(H5FD_t* file) noexcept {

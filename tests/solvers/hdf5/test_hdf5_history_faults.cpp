@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <iostream>
 #include <poll.h>
 #include <random>
 #include <sys/mount.h>
@@ -211,8 +212,10 @@ TEST_CASE("history: of programs that begin one file at once the first gets it, t
             } catch (const FileError& error) {
                 const std::string message = error.what();
                 if (message.find("has it open (process ") == std::string::npos &&
-                    message.find("is there already") == std::string::npos)
+                    message.find("is there already") == std::string::npos) {
                     answer = 'x';
+                    std::cerr << message << "\n";
+                }
                 (void)!::write(told[1], &answer, 1);
             }
             ::_exit(answer == 'w' ? 0 : 1);
