@@ -2,9 +2,40 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/vector_loops.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
+#include <algorithm>
+
 namespace cardan {
+
+namespace {
+
+template <class S>
+CARDAN_INLINE void multiply_branches(int n, const Model::Link* links, const std::size_t* offset, const Packed3<S>* rows,
+                                     const Packed3<S>* columns, const S* x, S* y) {
+    for (int m = 0; m < n; ++m) {
+        const S *const row = numbers(rows + offset[m]), *const column = numbers(columns + offset[m]);
+        S sum = row[links[m].depth - 1] * x[m];
+        for_ancestors(links, m, [&](int first, int position, int count) CARDAN_INLINE_LAMBDA {
+            sum += dot(row + position, x + first, count);
+            add_multiple(count, x[m], column + position, y + first);
+        });
+        y[m] = sum;  // what lies behind m has yet to come
+    }
+}
+
+CARDAN_VECTORISED void multiply_all(int n, const Model::Link* links, const std::size_t* offset,
+                                    const Packed3<double>* rows, const Packed3<double>* columns, const double* x,
+                                    double* y) {
+    multiply_branches<double>(n, links, offset, rows, columns, x, y);
+}
+void multiply_all(int n, const Model::Link* links, const std::size_t* offset, const Packed3<Complex>* rows,
+                  const Packed3<Complex>* columns, const Complex* x, Complex* y) {
+    multiply_branches<Complex>(n, links, offset, rows, columns, x, y);
+}
+
+}  // namespace
 
 template <class S>
 BranchMatrixT<S>::BranchMatrixT(const Model& model) : model_(&model) {
@@ -68,17 +99,52 @@ template <class S>
 void BranchMatrixT<S>::multiply(const Eigen::Ref<const VectorT<S>>& x, Eigen::Ref<VectorT<S>> y) const {
     require_size("branch matrix", "x", x, size());
     require_size("branch matrix", "y", y, size());
-    y.setZero();
+    multiply_all(size(), model_->links().data(), offset_.data(), rows_.data(), columns_.data(), x.data(), y.data());
+}
+
+template <class S>
+bool BranchMatrixT<S>::add(const Eigen::Ref<const MatrixT<S>>& A) {
+    require_size("branch matrix", "A", A, size(), size());
+    Eigen::Index on_branches = 0;
     for (int m = 0; m < size(); ++m) {
-        const std::span<const S> left = row(m), above = column(m);
-        std::size_t i = left.size() - 1;
-        S sum = left[i] * x(m);
-        for (int a = model_->body(m).parent; a >= 0; a = model_->body(a).parent) {
-            --i;
-            sum += left[i] * x(a);
-            y(a) += above[i] * x(m);
+        S *const own_row = reinterpret_cast<S*>(rows_.data() + entry(offset_, m)), *const own_column =
+                                                                                       reinterpret_cast<S*>(
+                                                                                           columns_.data() +
+                                                                                           entry(offset_, m));
+        for (int a = m; a >= 0; a = own_parent(*model_, a)) {
+            const int position = entry(model_->links(), a).depth - 1;
+            own_row[position] += A(m, a);
+            on_branches += A(m, a) != S(0);
+            if (a == m) continue;
+            own_column[position] += A(a, m);
+            on_branches += A(a, m) != S(0);
         }
-        y(m) += sum;
+    }
+    return on_branches == (A.array() != S(0)).count();
+}
+
+template <class S>
+void BranchMatrixT<S>::set_sum(const S& a, const BranchMatrixT& A, const S& b, const BranchMatrixT& B, const S& c,
+                               const BranchMatrixT& C) {
+    for (const BranchMatrixT* m : {&A, &B, &C})
+        require_model("sum of branch matrices", "matrix", m->model_->serial(), model_->serial());
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        rows_[i] = a * A.rows_[i] + b * B.rows_[i] + c * C.rows_[i];
+        columns_[i] = a * A.columns_[i] + b * B.columns_[i] + c * C.columns_[i];
+    }
+}
+
+template <class S>
+void BranchMatrixT<S>::set_unit(int m) {
+    require_index("branch matrix", "row", m, size());
+    const auto clear = [](S* numbers, int count) { std::fill(numbers, numbers + count, S(0)); };
+    const int position = model_->body(m).depth - 1;
+    clear(reinterpret_cast<S*>(rows_.data() + entry(offset_, m)), position);
+    clear(reinterpret_cast<S*>(columns_.data() + entry(offset_, m)), position);
+    rows_[entry(offset_, m) + static_cast<std::size_t>(position / 4)].lanes[position % 4] = S(1);
+    for (int k = m + 1; k < entry(model_->links(), m).subtree_end; ++k) {
+        const std::size_t block = entry(offset_, k) + static_cast<std::size_t>(position / 4);
+        rows_[block].lanes[position % 4] = columns_[block].lanes[position % 4] = S(0);
     }
 }
 

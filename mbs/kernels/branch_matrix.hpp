@@ -38,9 +38,19 @@ public:
     /// Raw storage for the kernels: rows and columns by coordinate, those of m starting at offset()[m].
     Packed3<S>* rows() { return rows_.data(); }
     Packed3<S>* columns() { return columns_.data(); }
+    const Packed3<S>* rows() const { return rows_.data(); }
+    const Packed3<S>* columns() const { return columns_.data(); }
     const std::size_t* offset() const { return offset_.data(); }
     /// Adds to A_ab; a and b must lie on one path.
     void add(int a, int b, const S& value);
+    /// Adds what a full matrix has on the branches.
+    /// @return whether that is all of it: false if it has other entries that are not zero.  Cost O(n^2), no allocation
+    bool add(const Eigen::Ref<const MatrixT<S>>& A);
+    /// a A + b B + c C, all of one model; this may be one of them.
+    void set_sum(const S& a, const BranchMatrixT& A, const S& b, const BranchMatrixT& B, const S& c,
+                 const BranchMatrixT& C);
+    /// Row and column m of the unit matrix.
+    void set_unit(int m);
 
 private:
     const Model* model_;

@@ -35,6 +35,30 @@ CARDAN_INLINE void merge(std::ptrdiff_t n, const Model::Link* links, const typen
     }
 }
 
+template <class S>
+CARDAN_INLINE void centres(std::ptrdiff_t n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
+                           typename WorkspaceT<S>::Inertia* composite) {
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        composite[k].M = S(links[k].subtree_mass);
+        composite[k].C = frame[k].r;
+    }
+    for (std::ptrdiff_t k = n - 1; k >= 0; --k) {
+        const Model::Link& link = links[k];
+        if (link.parent < 0) continue;
+        Packed3<S>& parent = composite[link.parent].C;
+        parent += S(link.share) * (composite[k].C - parent);
+    }
+}
+
+CARDAN_VECTORISED void run_centres(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
+                                   Workspace::Inertia* composite) {
+    centres<double>(n, links, frame, composite);
+}
+void run_centres(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
+                 WorkspaceT<Complex>::Inertia* composite) {
+    centres<Complex>(n, links, frame, composite);
+}
+
 CARDAN_VECTORISED void run_rotate(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
                                   Packed33<double>* J) {
     rotate<double>(n, links, frame, J);
@@ -65,17 +89,27 @@ void body_inertias(const KinematicsT<S>& kin) {
 }
 
 template <class S>
+void subtree_centres(const KinematicsT<S>& kin) {
+    WorkspaceT<S>& ws = kin.workspace();
+    if (ws.centre_generation == ws.generation) return;
+    const Model& model = kin.model();
+    run_centres(model.size(), model.links().data(), ws.frame.data(), ws.composite.data());
+    ws.centre_generation = ws.generation;
+}
+
+template <class S>
 void composites(const KinematicsT<S>& kin) {
     WorkspaceT<S>& ws = kin.workspace();
     if (ws.composite_generation == ws.generation) return;
     body_inertias(kin);
     const Model& model = kin.model();
     run_merge(model.size(), model.links().data(), ws.frame.data(), ws.J.data(), ws.composite.data());
-    ws.composite_generation = ws.generation;
+    ws.centre_generation = ws.composite_generation = ws.generation;
 }
 
-#define CARDAN_INSTANTIATE(S)                              \
-    template void body_inertias<S>(const KinematicsT<S>&); \
+#define CARDAN_INSTANTIATE(S)                                \
+    template void body_inertias<S>(const KinematicsT<S>&);   \
+    template void subtree_centres<S>(const KinematicsT<S>&); \
     template void composites<S>(const KinematicsT<S>&);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)

@@ -10,6 +10,10 @@ namespace cardan {
 template <class S>
 void body_inertias(const KinematicsT<S>& kin);
 
+/// Masses and centres of the subtrees alone. Idempotent per q.
+template <class S>
+void subtree_centres(const KinematicsT<S>& kin);
+
 /// Subtrees as composite rigid bodies (mass, centre, Binet tensor about the centre), tip to base. Idempotent per q.
 template <class S>
 void composites(const KinematicsT<S>& kin);

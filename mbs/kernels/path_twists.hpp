@@ -79,6 +79,17 @@ CARDAN_INLINE int set_run(const PathTwists<S>& path, const Model::Link* links,
     return end;
 }
 
+/// Calls visit(first, position, count) for the runs of consecutive indices that the ancestors of body m are, from its
+/// parent to the base: first, first + 1, ... stand at `position`, `position` + 1, ... of its row.
+template <class Visit>
+CARDAN_INLINE void for_ancestors(const Model::Link* links, int m, Visit&& visit) {
+    for (int last = links[m].parent; last >= 0;) {
+        const int first = links[last].run;
+        visit(first, links[first].depth - 1, last - first + 1);
+        last = links[first].parent;
+    }
+}
+
 /// Writes what belongs to body m into an n x n matrix (column-major): row m left of the diagonal and column m above it,
 /// given by depth; the diagonal from `row`. Zero where m and the other body are not on one path from the base.
 template <class S>

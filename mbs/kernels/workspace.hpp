@@ -53,7 +53,7 @@ public:
     std::vector<Frame> frame;
     VectorT<S> sine, cosine;
 
-    std::uint64_t inertia_generation = 0, composite_generation = 0;
+    std::uint64_t inertia_generation = 0, centre_generation = 0, composite_generation = 0;
     std::vector<Packed33<S>> J;      ///< inertia tensors about the centres of mass
     std::vector<Inertia> composite;  ///< subtrees, Binet tensors
 

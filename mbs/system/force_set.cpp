@@ -3,7 +3,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/system/forces.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cardan {
 
@@ -84,27 +86,44 @@ Forces::Forces(const ForceSet& set, const Model& model)
         }
         laws_.push_back(std::move(bound));
     }
-    springs_ = rows_of(&Law::K);
-    dampers_ = rows_of(&Law::D);
+    springs_ = runs_of(&Law::K);
+    dampers_ = runs_of(&Law::D);
     for (const FrameLoad& load : loads_)
         if (load.frame.index < 0 || load.frame.index >= static_cast<int>(model.frames().size()))
             throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
 }
 
-Forces::Rows Forces::rows_of(Matrix Law::*matrix) const {
-    std::vector<std::vector<Coefficient>> by_row(static_cast<std::size_t>(size_));
-    for (const Law& law : laws_)
-        for (Eigen::Index i = 0; i < std::ssize(law.at); ++i)
-            for (Eigen::Index j = 0; j < std::ssize(law.at); ++j)
-                if (const double value = (law.*matrix)(i, j); value != 0)
-                    entry(by_row, entry(law.at, i)).push_back({entry(law.at, j), value, law.rest(j)});
-    Rows rows;
-    rows.begin.push_back(0);
-    for (const std::vector<Coefficient>& row : by_row) {
-        rows.coefficients.insert(rows.coefficients.end(), row.begin(), row.end());
-        rows.begin.push_back(static_cast<int>(rows.coefficients.size()));
+// A law's coordinates in ascending order, cut where an index is left out.
+Forces::Runs Forces::runs_of(Matrix Law::*matrix) const {
+    Runs out;
+    Run run{};
+    const auto close = [&] {
+        for (; run.size > 0 && out.values.back() == 0; --run.size) {
+            out.values.pop_back();
+            out.rest.pop_back();
+        }
+        if (run.size > 0) out.runs.push_back(run);
+        run.size = 0;
+    };
+    for (const Law& law : laws_) {
+        std::vector<Eigen::Index> order(law.at.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::sort(order.begin(), order.end(), [&](auto i, auto j) { return entry(law.at, i) < entry(law.at, j); });
+        for (Eigen::Index i = 0; i < std::ssize(law.at); ++i) {
+            run.row = entry(law.at, i);
+            for (const Eigen::Index j : order) {
+                const double value = (law.*matrix)(i, j);
+                if (entry(law.at, j) != run.column + run.size) close();
+                if (run.size == 0 && value == 0) continue;
+                if (run.size == 0) run.column = entry(law.at, j);
+                ++run.size;
+                out.values.push_back(value);
+                out.rest.push_back(law.rest(j));
+            }
+            close();
+        }
     }
-    return rows;
+    return out;
 }
 
 std::string Forces::stiffest_law(int coordinate) const {

@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/vector_loops.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
 #include <utility>
@@ -50,7 +51,40 @@ void difference(const UserForce& user, const ForceInput& at, MatrixOut by_q, Mat
     }
 }
 
+// One run of coefficients after the other: rows of dense matrices of any size, in whole registers.
+template <class S, class Run>
+CARDAN_INLINE void springs(std::ptrdiff_t n, const Run* run, const double* K, const double* rest, const S* q, S* Q) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        Q[run[i].row] -= dot_from(K, q + run[i].column, rest, run[i].size);
+        K += run[i].size;
+        rest += run[i].size;
+    }
+}
+template <class S, class Run>
+CARDAN_INLINE void dampers(std::ptrdiff_t n, const Run* run, const double* D, const S* qd, S* Q) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        Q[run[i].row] -= dot(D, qd + run[i].column, run[i].size);
+        D += run[i].size;
+    }
+}
+
 }  // namespace
+
+CARDAN_VECTORISED void Forces::add_springs(std::ptrdiff_t n, const Run* runs, const double* K, const double* rest,
+                                           const double* q, double* Q) {
+    springs(n, runs, K, rest, q, Q);
+}
+CARDAN_VECTORISED void Forces::add_dampers(std::ptrdiff_t n, const Run* runs, const double* D, const double* qd,
+                                           double* Q) {
+    dampers(n, runs, D, qd, Q);
+}
+void Forces::add_springs(std::ptrdiff_t n, const Run* runs, const double* K, const double* rest, const Complex* q,
+                         Complex* Q) {
+    springs(n, runs, K, rest, q, Q);
+}
+void Forces::add_dampers(std::ptrdiff_t n, const Run* runs, const double* D, const Complex* qd, Complex* Q) {
+    dampers(n, runs, D, qd, Q);
+}
 
 template <class S>
 void Forces::require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const {
@@ -61,16 +95,9 @@ void Forces::require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<
 
 template <class S>
 void Forces::add_laws(VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const {
-    const Coefficient *spring = springs_.coefficients.data(), *damper = dampers_.coefficients.data();
-    const Coefficient *const first_spring = spring, *const first_damper = damper;
-    for (int a = 0; a < size_; ++a) {
-        S sum(0);
-        for (const Coefficient* end = first_spring + entry(springs_.begin, a + 1); spring != end; ++spring)
-            sum += spring->value * (q(spring->column) - spring->rest);
-        for (const Coefficient* end = first_damper + entry(dampers_.begin, a + 1); damper != end; ++damper)
-            sum += damper->value * qd(damper->column);
-        Q(a) -= sum;
-    }
+    add_springs(std::ssize(springs_.runs), springs_.runs.data(), springs_.values.data(), springs_.rest.data(), q.data(),
+                Q.data());
+    add_dampers(std::ssize(dampers_.runs), dampers_.runs.data(), dampers_.values.data(), qd.data(), Q.data());
 }
 
 void Forces::add_law(const Law& law, const Vector& q, const Vector& qd, Vector& Q) {
@@ -82,10 +109,11 @@ void Forces::add_law(const Law& law, const Vector& q, const Vector& qd, Vector& 
     }
 }
 
-// Every coordinate lifts its subtree as one body: Q_a = M_a g . v_a(C_a).
+// Every coordinate lifts its subtree as one body: Q_a = M_a g . v_a(C_a). Of the composites only masses and centres are
+// needed, a fifth of the work.
 template <class S>
 void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
-    composites(kin);
+    subtree_centres(kin);
     const Vec3T<S> g = gravity_.template cast<S>();
     for (int a = 0; a < kin.model().size(); ++a) {
         const auto& subtree = entry(kin.workspace().composite, a);
@@ -163,15 +191,19 @@ void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matr
     const auto [force, moment] = at_frame(load, kin);
     const Model& model = kin.model();
     const int tip = model.frame(load.frame).body;
-    for (int a = tip; a >= 0; a = own_parent(model, a))
+    // The force turns with a follower's frame, and the twist of a turns with coordinate b if b is proximal to a; where
+    // both do, nothing changes. If it is distal, its velocity moves the point.
+    for (int a = tip; a >= 0; a = own_parent(model, a)) {
+        const PointTwist<double> ta = own_twist_at(kin, a, at.p);
+        const Vec3 turned = cross<double>(ta.v, force) + cross<double>(ta.w, moment),
+                   moved = cross<double>(force, ta.w);
         for (int b = tip; b >= 0; b = own_parent(model, b)) {
-            const PointTwist<double> ta = own_twist_at(kin, a, at.p), tb = own_twist_at(kin, b, at.p);
-            const bool b_proximal = b <= a;
-            double dQ = force.dot(b_proximal ? cross<double>(tb.w, ta.v) : cross<double>(ta.w, tb.v));
-            if (b_proximal) dQ += moment.dot(cross<double>(tb.w, ta.w));
-            if (follower) dQ += cross<double>(tb.w, force).dot(ta.v) + cross<double>(tb.w, moment).dot(ta.w);
+            const PointTwist<double> tb = own_twist_at(kin, b, at.p);
+            double dQ = b > a ? moved.dot(tb.v) : 0;
+            if (follower == (b > a)) dQ += (follower ? -1 : 1) * turned.dot(tb.w);
             K(a, b) -= dQ;
         }
+    }
 }
 
 void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const {
@@ -216,10 +248,11 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
 double Forces::dissipation(const Vector& qd) const {
     require_size("dissipation", "qd", qd, size_);
     double power = 0;
-    for (const Law& law : laws_)
-        for (Eigen::Index j = 0; j < law.D.cols(); ++j)
-            for (Eigen::Index i = 0; i < law.D.rows(); ++i)
-                power += qd(entry(law.at, i)) * law.D(i, j) * qd(entry(law.at, j));
+    const double* D = dampers_.values.data();
+    for (const Run& run : dampers_.runs) {
+        power += qd(run.row) * dot(D, qd.data() + run.column, run.size);
+        D += run.size;
+    }
     return power;
 }
 

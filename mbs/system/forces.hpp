@@ -147,19 +147,24 @@ private:
         UserForce own;
         double factor = 1;
     };
-    // One coefficient of a law: of the coordinate `column`, counted from `rest` (springs).
-    struct Coefficient {
-        int column;
-        double value, rest;
+    // Coefficients of one row of a law's matrix, of consecutive coordinates.
+    struct Run {
+        int row, column, size;
     };
-    // The coefficients of all laws that are not zero, by row: those of row a from begin[a] to begin[a + 1].
-    struct Rows {
-        std::vector<int> begin;
-        std::vector<Coefficient> coefficients;
+    // Those of all laws, zeros at the ends of a run left out, one run after the other.
+    struct Runs {
+        std::vector<Run> runs;
+        std::vector<double> values, rest;  ///< rest: that of the coordinate of each value
     };
-    Rows rows_of(Matrix Law::*matrix) const;
+    Runs runs_of(Matrix Law::*matrix) const;
     template <class S>
     void add_laws(VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q) const;
+    static void add_springs(std::ptrdiff_t n, const Run* runs, const double* K, const double* rest, const double* q,
+                            double* Q);
+    static void add_springs(std::ptrdiff_t n, const Run* runs, const double* K, const double* rest, const Complex* q,
+                            Complex* Q);
+    static void add_dampers(std::ptrdiff_t n, const Run* runs, const double* D, const double* qd, double* Q);
+    static void add_dampers(std::ptrdiff_t n, const Run* runs, const double* D, const Complex* qd, Complex* Q);
     // The plain twin of add_laws() for one of them.
     static void add_law(const Law& law, const Vector& q, const Vector& qd, Vector& Q);
     template <class S>
@@ -175,7 +180,7 @@ private:
     void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;
 
     std::vector<Law> laws_;
-    Rows springs_, dampers_;
+    Runs springs_, dampers_;
     std::vector<FrameLoad> loads_;
     std::vector<User> users_;
     Vec3 gravity_;
