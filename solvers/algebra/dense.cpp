@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/sizes.hpp"
+#include "solvers/algebra/detail/block_product.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,31 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Eigen copies both factors of a product: depth * 256 * 8 bytes stay below its limit for the stack, 128 KiB.
-constexpr Index tile = 256, depth = 48;
+// Panels of so many columns are eliminated one column after the other.
+constexpr Index narrow = 8;
 
-// Columns [from, to) of A by elimination with row exchanges, which the other columns follow and `exchanged` is told.
+double* at(Matrix& A, Index row, Index column) {
+    return A.data() + row + column * A.rows();
+}
+
+// The part of columns [to, last) beside and below the factors that stand in columns [from, to).
+void follow(Matrix& A, Index from, Index to, Index last) {
+    const Index n = A.rows(), block = to - from;
+    solve_unit_lower(block, at(A, from, from), n, last - to, at(A, from, to), n);
+    add_block_product(n - to, last - to, block, -1, at(A, to, from), n, at(A, from, to), n, at(A, to, to), n);
+}
+
+// Columns [from, to) of A, `product_depth` of them at most, by elimination with row exchanges, which the other columns
+// follow and `exchanged` is told.
 template <class Exchanged>
 void factor_panel(Matrix& A, Index from, Index to, Exchanged&& exchanged) {
+    if (to - from > narrow) {
+        const Index middle = from + (to - from) / 2;
+        factor_panel(A, from, middle, exchanged);
+        follow(A, from, middle, to);
+        factor_panel(A, middle, to, exchanged);
+        return;
+    }
     const Index n = A.rows();
     for (Index k = from; k < to; ++k) {
         Index pivot = 0;
@@ -31,15 +51,33 @@ void factor_panel(Matrix& A, Index from, Index to, Exchanged&& exchanged) {
     }
 }
 
-// Rows [from, to) of a column: L^-1 and U^-1 of the diagonal block of A.
-void solve_lower(const Matrix& A, Index from, Index to, double* b) {
-    for (Index k = from; k < to; ++k)
-        for (Index i = k + 1; i < to; ++i) b[i] -= A(i, k) * b[k];
+// A = L U in place.
+template <class Exchanged>
+void factor(Matrix& A, Exchanged&& exchanged) {
+    const Index n = A.rows();
+    for (Index k = 0; k < n; k += product_depth) {
+        const Index end = std::min(n, k + product_depth);
+        factor_panel(A, k, end, exchanged);
+        follow(A, k, end, n);
+    }
 }
-void solve_upper(const Matrix& A, Index from, Index to, double* b) {
-    for (Index k = to - 1; k >= from; --k) {
-        b[k] /= A(k, k);
-        for (Index i = from; i < k; ++i) b[i] -= A(i, k) * b[k];
+
+// B := L^-1 B and U^-1 B, block by block of the factors.
+void solve_lower_factor(const Matrix& A, double* B, Index columns) {
+    const Index n = A.rows();
+    for (Index k = 0; k < n; k += product_depth) {
+        const Index block = std::min(product_depth, n - k), end = k + block;
+        solve_unit_lower(block, A.data() + k * (n + 1), n, columns, B + k, n);
+        add_block_product(n - end, columns, block, -1, A.data() + end + k * n, n, B + k, n, B + end, n);
+    }
+}
+void solve_upper_factor(const Matrix& A, double* B, Index columns) {
+    const Index n = A.rows();
+    for (Index end = n; end > 0;) {
+        const Index k = (end - 1) / product_depth * product_depth, block = end - k;
+        solve_upper(block, A.data() + k * (n + 1), n, columns, B + k, n);
+        add_block_product(k, columns, block, -1, A.data() + k * n, n, B + k, n, B, n);
+        end = k;
     }
 }
 
@@ -48,60 +86,44 @@ void solve_upper(const Matrix& A, Index from, Index to, double* b) {
 void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign) {
     require_size("product", "B", B, A.cols(), B.cols());
     require_size("product", "C", C, A.rows(), B.cols());
-    for (Index k = 0; k < A.cols(); k += depth)
-        for (Index j = 0; j < B.cols(); j += tile)
-            for (Index i = 0; i < A.rows(); i += tile) {
-                const Index d = std::min(depth, A.cols() - k), columns = std::min(tile, B.cols() - j),
-                            rows = std::min(tile, A.rows() - i);
-                C.block(i, j, rows, columns).noalias() += sign * A.block(i, k, rows, d) * B.block(k, j, d, columns);
-            }
+    for (Index k = 0; k < A.cols(); k += product_depth)
+        add_block_product(A.rows(), B.cols(), std::min(product_depth, A.cols() - k), sign,
+                          A.data() + k * A.outerStride(), A.outerStride(), B.data() + k, B.outerStride(), C.data(),
+                          C.outerStride());
 }
-
-namespace {
-
-// Columns [from, to) of A, and what they leave of the columns behind.
-template <class Exchanged>
-void eliminate(Matrix& A, Index from, Index to, Exchanged&& exchanged) {
-    const Index n = A.rows(), rest = n - to, block = to - from;
-    factor_panel(A, from, to, exchanged);
-    for (Index j = to; j < n; ++j) solve_lower(A, from, to, A.col(j).data());
-    add_product(A.bottomRightCorner(rest, rest), A.block(to, from, rest, block), A.block(from, to, block, rest), -1);
-}
-
-}  // namespace
 
 void LuFactors::factorise() {
-    const Index n = lu_.rows();
-    const auto exchange = [&](Index k, Index pivot) { entry(exchanges_, k) = pivot; };
-    for (Index k = 0; k < n; k += depth) eliminate(lu_, k, std::min(n, k + depth), exchange);
+    factor(lu_, [&](Index k, Index pivot) { entry(exchanges_, k) = pivot; });
+}
+
+bool LuFactors::regular() const {
+    return lu_.diagonal().allFinite() && (lu_.diagonal().array() != 0).all();
 }
 
 void LuFactors::solve(Vector& b) const {
     require_size("solution of equations", "b", b, lu_.rows());
     for (Index k = 0; k < b.size(); ++k) std::swap(b(k), b(entry(exchanges_, k)));
-    lu_.triangularView<Eigen::UnitLower>().solveInPlace(b);
-    lu_.triangularView<Eigen::Upper>().solveInPlace(b);
+    solve_unit_lower(b.size(), lu_.data(), lu_.rows(), 1, b.data(), b.size());
+    solve_upper(b.size(), lu_.data(), lu_.rows(), 1, b.data(), b.size());
+}
+
+void LuFactors::solve(Matrix& B) const {
+    require_size("solution of equations", "B", B, lu_.rows(), B.cols());
+    for (Index k = 0; k < B.rows(); ++k)
+        if (const Index other = entry(exchanges_, k); other != k) B.row(k).swap(B.row(other));
+    solve_lower_factor(lu_, B.data(), B.cols());
+    solve_upper_factor(lu_, B.data(), B.cols());
 }
 
 void solve_in_place(Matrix& A, Matrix& B) {
     const Index n = A.rows();
     require_size("solution of equations", "A", A, n, n);
     require_size("solution of equations", "B", B, n, B.cols());
-    const auto exchange = [&](Index k, Index pivot) {
+    factor(A, [&](Index k, Index pivot) {
         if (pivot != k) B.row(k).swap(B.row(pivot));
-    };
-    for (Index k = 0; k < n; k += depth) {
-        const Index end = std::min(n, k + depth), block = end - k, rest = n - end;
-        eliminate(A, k, end, exchange);
-        for (Index j = 0; j < B.cols(); ++j) solve_lower(A, k, end, B.col(j).data());
-        add_product(B.bottomRows(rest), A.block(end, k, rest, block), B.middleRows(k, block), -1);
-    }
-    for (Index end = n; end > 0;) {
-        const Index k = (end - 1) / depth * depth, block = end - k;
-        for (Index j = 0; j < B.cols(); ++j) solve_upper(A, k, end, B.col(j).data());
-        add_product(B.topRows(k), A.block(0, k, k, block), B.middleRows(k, block), -1);
-        end = k;
-    }
+    });
+    solve_lower_factor(A, B.data(), B.cols());
+    solve_upper_factor(A, B.data(), B.cols());
 }
 
 bool positive_definite(Matrix& A) {

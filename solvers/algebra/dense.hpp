@@ -1,8 +1,9 @@
 /// @file
-/// Dense kernels that allocate nothing on the heap, whatever the size.
+/// Dense kernels that allocate nothing on the heap, whatever the size, and use the vector instructions of the
+/// processor.
 ///
-/// Eigen's blocked products and factorisations do so for more than about a hundred rows; these kernels split the same
-/// products into pieces small enough for the stack.
+/// Eigen's blocked products and factorisations allocate for more than about a hundred rows, and are compiled for any
+/// x86-64.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -31,8 +32,12 @@ public:
     Matrix& matrix() { return lu_; }
     /// By elimination with row exchanges. Zero pivots give infinite or undefined solutions.  Cost 2/3 n^3
     void factorise();
+    /// Whether no pivot is zero or not finite.
+    bool regular() const;
     /// b := A^-1 b.  Cost 2 n^2
     void solve(Vector& b) const;
+    /// B := A^-1 B.  Cost 2 n^2 columns of B
+    void solve(Matrix& B) const;
 
 private:
     Matrix lu_;

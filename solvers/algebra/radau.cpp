@@ -59,26 +59,26 @@ RadauIIA::RadauIIA(int stages) {
 RadauStage::RadauStage(const RadauIIA& method, Index coordinates)
     : method_(&method),
       n_(coordinates),
-      left_(method.stages() * coordinates, method.stages() * coordinates),
       C_(static_cast<std::size_t>(method.stages())),
-      K_(C_.size()) {}
+      K_(C_.size()),
+      factors_(method.stages() * coordinates) {}
 
 void RadauStage::set(Index stage, double h, const Matrix& M, const Matrix& C, const Matrix& K) {
     entry(C_, stage) = C;
     entry(K_, stage) = K;
     for (Index j = 0; j < method_->stages(); ++j) {
-        auto block = left_.block(stage * n_, j * n_, n_, n_);
+        auto block = factors_.matrix().block(stage * n_, j * n_, n_, n_);
         block.noalias() = h * method_->A(stage, j) * C + h * h * method_->A2(stage, j) * K;
         if (j == stage) block += M;
     }
 }
 
 void RadauStage::factorise() {
-    lu_.compute(left_);
+    factors_.factorise();
 }
 
 void RadauStage::solve(Matrix& f) const {
-    f = lu_.solve(f).eval();
+    factors_.solve(f);
 }
 
 void RadauStage::transition(double h, Matrix& Phi) {

@@ -2,8 +2,7 @@
 /// Radau's collocation methods for equations of second order whose matrices differ from stage to stage.
 #pragma once
 
-#include "mbs/base/decompositions.hpp"
-#include "mbs/base/types.hpp"
+#include "solvers/algebra/dense.hpp"
 
 namespace cardan::solvers {
 
@@ -43,9 +42,9 @@ public:
 private:
     const RadauIIA* method_;
     Eigen::Index n_;
-    Matrix left_, right_;
+    Matrix right_;
     std::vector<Matrix> C_, K_;
-    Eigen::PartialPivLU<Matrix> lu_;
+    LuFactors factors_;
 };
 
 }  // namespace cardan::solvers

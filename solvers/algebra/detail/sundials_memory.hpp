@@ -6,7 +6,6 @@
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
-#include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nonlinearsolver.h>
 
@@ -25,9 +24,6 @@ struct SundialsDeleter {
 inline void free_sundials_context(SUNContext c) {
     SUNContext_Free(&c);
 }
-inline void free_sundials_linear(SUNLinearSolver s) {
-    SUNLinSolFree(s);
-}
 inline void free_sundials_nonlinear(SUNNonlinearSolver s) {
     SUNNonlinSolFree(s);
 }
@@ -35,7 +31,6 @@ inline void free_sundials_nonlinear(SUNNonlinearSolver s) {
 using SundialsContext = std::unique_ptr<std::remove_pointer_t<SUNContext>, SundialsDeleter<free_sundials_context>>;
 using SundialsVector = std::unique_ptr<std::remove_pointer_t<N_Vector>, SundialsDeleter<N_VDestroy>>;
 using SundialsMatrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, SundialsDeleter<SUNMatDestroy>>;
-using SundialsLinear = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, SundialsDeleter<free_sundials_linear>>;
 using SundialsNonlinear =
     std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, SundialsDeleter<free_sundials_nonlinear>>;
 

@@ -1,0 +1,84 @@
+// Dense kernels against Eigen's.
+#include "mbs/base/decompositions.hpp"
+#include "solvers/algebra/dense.hpp"
+#include "solvers/algebra/detail/complex_rotation.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random_tree.hpp"
+
+using namespace cardan;
+using namespace cardan::solvers;
+using namespace cardan::testing;
+
+namespace {
+
+Matrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
+    return random_state(random, static_cast<int>(rows * columns)).reshaped(rows, columns);
+}
+
+}  // namespace
+
+TEST_CASE("dense kernels: products of all sizes are Eigen's", "[solvers][property]") {
+    Random random(1);
+    for (const Eigen::Index m : {1, 3, 11, 12, 13, 25, 100})
+        for (const Eigen::Index n : {1, 2, 4, 7, 61})
+            for (const Eigen::Index depth : {0, 1, 5, 48, 49, 130}) {
+                const Matrix A = random_matrix(random, m, depth), B = random_matrix(random, depth, n),
+                             before = random_matrix(random, m, n);
+                Matrix whole = random_matrix(random, m + 2, n + 1);
+                auto C = whole.block(1, 1, m, n);
+                C = before;
+                const Matrix frame = whole;
+                add_product(C, A, B, -2);
+                CAPTURE(m, n, depth);
+                const double size = A.norm() * B.norm() + before.norm();
+                CHECK((Matrix(C) - (before - 2 * A * B)).norm() <= 1e-15 * size);
+                whole.block(1, 1, m, n) = before;
+                CHECK(whole == frame);  // nothing beside it
+            }
+}
+
+TEST_CASE("dense kernels: solutions of all sizes have the residual of Eigen's", "[solvers][property]") {
+    Random random(2);
+    for (const Eigen::Index n : {1, 2, 7, 8, 9, 16, 47, 48, 49, 96, 131}) {
+        const Matrix A = random_matrix(random, n, n), B = random_matrix(random, n, 5);
+        const Vector b = B.col(0);
+        LuFactors factors(n);
+        factors.matrix() = A;
+        factors.factorise();
+        Matrix X = B, Y = B, destroyed = A;
+        Vector x = b;
+        factors.solve(X);
+        factors.solve(x);
+        solve_in_place(destroyed, Y);
+        const auto residual = [&](const Matrix& solution) {
+            return (A * solution - B).norm() / (A.norm() * solution.norm());
+        };
+        const double eigen = residual(A.partialPivLu().solve(B));
+        CAPTURE(n, eigen);
+        CHECK(residual(X) < 3 * eigen + 1e-16);
+        CHECK(residual(Y) < 3 * eigen + 1e-16);
+        CHECK((A * x - b).norm() < 1e-15 * static_cast<double>(n) * A.norm() * x.norm());
+    }
+}
+
+TEST_CASE("dense kernels: complex rotations of columns and rows are Eigen's", "[solvers][property]") {
+    Random random(3);
+    for (const Eigen::Index n : {2, 3, 8, 13}) {
+        const ComplexMatrix A = random_matrix(random, n, n) + Complex(0, 1) * random_matrix(random, n, n);
+        const Complex p(0.3, -0.7), q(-1.1, 0.4);
+        Eigen::JacobiRotation<Complex> G;
+        G.makeGivens(p, q);
+        ComplexMatrix own = A, other = A;
+        rotate_columns(n, G, &own(0, 0), &own(0, 1));
+        other.applyOnTheRight(0, 1, G);
+        CHECK((own - other).norm() < 1e-15 * A.norm());
+        rotate_rows(n - 1, G, &own(n - 2, 1), n);
+        other.rightCols(n - 1).applyOnTheLeft(n - 2, n - 1, G.adjoint());
+        CHECK((own - other).norm() < 1e-15 * A.norm());
+        // A general c, which is not what makeGivens() returns for real numbers.
+        const Eigen::JacobiRotation<Complex> turned(Complex(0.36, 0.48), Complex(-0.64, 0.48));
+        rotate_columns(n, turned, &own(0, 0), &own(0, 1));
+        other.applyOnTheRight(0, 1, turned);
+        CHECK((own - other).norm() < 1e-15 * A.norm());
+    }
+}
