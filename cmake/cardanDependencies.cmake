@@ -26,8 +26,7 @@ macro(cardan_find_eigen)
     endif()
 endmacro()
 
-set(CARDAN_SUNDIALS_COMPONENTS kinsol cvode arkode nvecserial sunmatrixdense sunlinsoldense
-                               sunnonlinsolfixedpoint)
+set(CARDAN_SUNDIALS_COMPONENTS kinsol cvode arkode nvecserial sunmatrixdense sunnonlinsolfixedpoint)
 
 # SUNDIALS' own config asks for OpenMP, which clang has only with libomp, and which none of our components uses.
 # Its targets exist by then, so the targets are what is asked for here, not SUNDIALS_FOUND.

@@ -3,16 +3,18 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
+#include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/detail/sundials_memory.hpp"
 
 #include <kinsol/kinsol.h>
-#include <sunlinsol/sunlinsol_dense.h>
+#include <sundials/sundials_linearsolver.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace cardan::solvers {
 
@@ -109,6 +111,48 @@ int jacobian_callback(N_Vector x, N_Vector, SUNMatrix J, void* user, N_Vector, N
     });
 }
 
+// LuFactors as SUNDIALS' linear solver. Its own goes number by number.
+class StiffnessSolver {
+public:
+    StiffnessSolver(Eigen::Index n, SUNContext context) : factors_(n), b_(n), solver_(SUNLinSolNewEmpty(context)) {
+        if (!solver_) throw NumericalError("SUNDIALS: no memory for a linear solver");
+        solver_->content = this;
+        solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+        solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+        solver_->ops->setup = setup;
+        solver_->ops->solve = solve;
+    }
+    StiffnessSolver(const StiffnessSolver&) = delete;  // the handle refers to this object
+    StiffnessSolver& operator=(const StiffnessSolver&) = delete;
+    ~StiffnessSolver() = default;
+
+    SUNLinearSolver handle() { return solver_.get(); }
+
+private:
+    static StiffnessSolver& self(SUNLinearSolver s) { return *static_cast<StiffnessSolver*>(s->content); }
+    static int setup(SUNLinearSolver s, SUNMatrix A) {
+        LuFactors& factors = self(s).factors_;
+        const Eigen::Index n = self(s).b_.size();
+        factors.matrix() = Eigen::Map<const Matrix>(SUNDenseMatrix_Data(A), n, n);
+        factors.factorise();
+        return factors.regular() ? 0 : 1;
+    }
+    static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+        Vector& own = self(s).b_;
+        own = Eigen::Map<const Vector>(N_VGetArrayPointer(b), own.size());
+        self(s).factors_.solve(own);
+        Eigen::Map<Vector>(N_VGetArrayPointer(x), own.size()) = own;
+        return 0;
+    }
+
+    struct FreeSolver {
+        void operator()(SUNLinearSolver s) const { SUNLinSolFreeEmpty(s); }
+    };
+    LuFactors factors_;
+    Vector b_;
+    std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeSolver> solver_;
+};
+
 const char* reason(int flag) {
     switch (flag) {
         case KIN_LINESEARCH_NONCONV:
@@ -151,7 +195,7 @@ private:
     SundialsContext context_;
     SundialsVector x_, x_scale_, f_scale_;
     SundialsMatrix J_;
-    SundialsLinear linear_;
+    std::optional<StiffnessSolver> linear_;
     std::unique_ptr<void, SundialsDeleter<free_kinsol>> kinsol_;
 };
 
@@ -166,14 +210,14 @@ SteadySolver::Memory::Memory(const System& system, int spin)
     for (SundialsVector* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
     N_VConst(1.0, x_scale_.get());
     J_.reset(SUNDenseMatrix(n, n, context));
-    linear_.reset(SUNLinSol_Dense(x_.get(), J_.get(), context));
+    linear_.emplace(n, context);
     kinsol_.reset(KINCreate(context));
     void* kin = kinsol_.get();
     const bool ok = KINInit(kin, residual_callback, x_.get()) == 0 && KINSetUserData(kin, &residual_) == 0 &&
                     KINSetErrHandlerFn(kin, sundials_quiet, nullptr) == 0 &&
-                    KINSetLinearSolver(kin, linear_.get(), J_.get()) == 0 && KINSetJacFn(kin, jacobian_callback) == 0 &&
-                    KINSetMaxSetupCalls(kin, 1) == 0 && KINSetScaledStepTol(kin, 1e-14) == 0 &&
-                    KINSetMaxNewtonStep(kin, 10.0) == 0;
+                    KINSetLinearSolver(kin, linear_->handle(), J_.get()) == 0 &&
+                    KINSetJacFn(kin, jacobian_callback) == 0 && KINSetMaxSetupCalls(kin, 1) == 0 &&
+                    KINSetScaledStepTol(kin, 1e-14) == 0 && KINSetMaxNewtonStep(kin, 10.0) == 0;
     if (!ok) throw NumericalError("SUNDIALS: KINSOL could not be set up");
 }
 

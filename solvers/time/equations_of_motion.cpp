@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
+#include "mbs/kernels/metric.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -59,14 +60,17 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
       driven_(flags(system.model, drives_)),
       workspace_(system.model),
       forward_(system.model, driven_),
-      derivatives_(system.model, driven_),
+      factor_(system.model, driven_),
+      g_(system.model),
+      tau_q_(system.model),
+      tau_qd_(system.model),
+      stiffness_(system.model),
+      damping_(system.model),
       inside_(time) {
     const int n = system.model.size();
     for (int i = 0; i < n; ++i)
         if (!entry(driven_, i)) free_.push_back(i);
-    for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_}) v->setZero(n);
-    for (Matrix* m : {&g_, &tau_q_, &tau_qd_}) m->setZero(n, n);
-    for (Matrix* m : {&by_q_, &by_qd_}) m->setZero(size(), size());
+    for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_, &all_, &product_}) v->setZero(n);
 }
 
 void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
@@ -142,23 +146,6 @@ bool EquationsOfMotion::accelerations(double time, const double* x, double* qdd)
     return true;
 }
 
-bool EquationsOfMotion::jacobian(double time, const double* x) {
-    if (!solve(time, x)) return false;
-    const Kinematics& kin = *kin_;
-    forces_->derivatives(kin, time, q_, qd_, force_derivatives_);
-    if (const PivotStatus status = derivatives_.compute(kin, qd_, qdd_, &force_derivatives_); !status) {
-        problem_ = text("at ", time, " s: ", status.message());
-        return false;
-    }
-    for (int b = 0; b < size(); ++b)
-        for (int a = 0; a < size(); ++a) {
-            const int i = entry(free_, a), j = entry(free_, b);
-            by_q_(a, b) = derivatives_.dqdd_dq()(i, j);
-            by_qd_(a, b) = derivatives_.dqdd_dqd()(i, j);
-        }
-    return true;
-}
-
 bool EquationsOfMotion::residual(double time, const double* x, const double* qdd, double* r) {
     expand(time, x);
     for (std::size_t i = 0; i < free_.size(); ++i) qdd_(free_[i]) = qdd[i];
@@ -170,18 +157,75 @@ bool EquationsOfMotion::residual(double time, const double* x, const double* qdd
     return all_finite(tau_, "inertial force") && all_finite(Q_, "generalised force");
 }
 
-void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) {
+bool EquationsOfMotion::linearise(double time, const double* x) {
+    if (!solve(time, x)) return false;
+    differentiate();
+    const PivotStatus status = factor_.factorise(g_);
+    if (!status) problem_ = text("at ", time, " s: ", status.message());
+    return status.ok();
+}
+
+void EquationsOfMotion::linearise_residual() {
+    differentiate();
+}
+
+// At the state that kin_, qd_ and qdd_ are of.
+void EquationsOfMotion::differentiate() {
     const Kinematics& kin = *kin_;
-    forces_->derivatives(kin, time_, q_, qd_, force_derivatives_);
+    ForceDerivatives& forces = force_derivatives_;
+    forces_->derivatives(kin, time_, q_, qd_, forces);
     metric<double>(kin, g_);
     inverse_dynamics_derivatives<double>(kin, qd_, qdd_, tau_q_, tau_qd_);
-    const ForceDerivatives& d = force_derivatives_;
+    stiffness_ = tau_q_;
+    damping_ = tau_qd_;
+    on_branches_ = damping_.add(forces.damping);
+    for (const Matrix* part : {&forces.elastic, &forces.gravity, &forces.loads})
+        on_branches_ = stiffness_.add(*part) && on_branches_;
+}
+
+void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) const {
+    require_size("tangent", "K", K, size(), size());
+    const ForceDerivatives& forces = force_derivatives_;
     for (int b = 0; b < size(); ++b)
         for (int a = 0; a < size(); ++a) {
             const int i = entry(free_, a), j = entry(free_, b);
-            K(a, b) = c_qdd * g_(i, j) + c_qd * (tau_qd_(i, j) + d.damping(i, j)) +
-                      c_q * (tau_q_(i, j) + d.elastic(i, j) + d.gravity(i, j) + d.loads(i, j));
+            K(a, b) = c_qdd * g_(i, j) + c_qd * (tau_qd_(i, j) + forces.damping(i, j)) +
+                      c_q * (tau_q_(i, j) + forces.elastic(i, j) + forces.gravity(i, j) + forces.loads(i, j));
         }
+}
+
+bool EquationsOfMotion::tangent_on_branches(double c_qdd, double c_qd, double c_q, BranchMatrix& K) const {
+    if (!on_branches_) return false;
+    K.set_sum(c_qdd, g_, c_qd, damping_, c_q, stiffness_);
+    for (const Drive& drive : drives_) K.set_unit(drive.coordinate);
+    return true;
+}
+
+void EquationsOfMotion::multiply_metric(const Vector& v, Vector& y) {
+    spread(v, all_);
+    g_.multiply(all_, product_);
+    gather(product_, y);
+}
+
+void EquationsOfMotion::subtract_stiffness(double c, const Vector& v, Vector& y) {
+    spread(v, all_);
+    if (on_branches_) {
+        stiffness_.multiply(all_, product_);
+    } else {
+        tau_q_.multiply(all_, product_);
+        const ForceDerivatives& forces = force_derivatives_;
+        for (const Matrix* part : {&forces.elastic, &forces.gravity, &forces.loads}) product_.noalias() += *part * all_;
+    }
+    for (std::size_t i = 0; i < free_.size(); ++i) y(static_cast<Eigen::Index>(i)) -= c * product_(free_[i]);
+}
+
+void EquationsOfMotion::spread(const Vector& unknowns, Vector& all) const {
+    for (std::size_t i = 0; i < free_.size(); ++i) all(free_[i]) = unknowns(static_cast<Eigen::Index>(i));
+    for (const Drive& drive : drives_) all(drive.coordinate) = 0;
+}
+
+void EquationsOfMotion::gather(const Vector& all, Vector& unknowns) const {
+    for (std::size_t i = 0; i < free_.size(); ++i) unknowns(static_cast<Eigen::Index>(i)) = all(free_[i]);
 }
 
 bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out) {

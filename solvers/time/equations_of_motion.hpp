@@ -3,8 +3,9 @@
 #pragma once
 
 #include "mbs/base/entry.hpp"
+#include "mbs/kernels/branch_matrix.hpp"
 #include "mbs/kernels/dynamics.hpp"
-#include "mbs/system/forward_derivatives.hpp"
+#include "mbs/kernels/metric_factor.hpp"
 #include "mbs/system/system.hpp"
 #include "solvers/time/motion.hpp"
 
@@ -74,19 +75,29 @@ public:
     /// @param qdd  out, size()
     /// @return false if a number in the state or in the result is not finite; problem() says which
     bool accelerations(double time, const double* x, double* qdd);
-    /// Exact derivatives of the accelerations by positions and rates. Results in by_q(), by_qd(), size() x size().
-    /// @return false if the metric is not positive definite at the state; problem() says where
-    bool jacobian(double time, const double* x);
-    const Matrix& by_q() const { return by_q_; }
-    const Matrix& by_qd() const { return by_qd_; }
-
     /// Residual of the unknowns at given accelerations.
     /// @param x, qdd  as above;  @param r  out, size()
     bool residual(double time, const double* x, const double* qdd, double* r);
-    /// Tangent at the last residual(), which must be the preceding call: c_qdd dr/dqdd + c_qd dr/dqd + c_q dr/dq,
-    /// exact.
-    /// @param K  out, size() x size()
-    void tangent(double c_qdd, double c_qd, double c_q, MatrixOut K);
+
+    /// Exact derivatives of the residual at a state and its accelerations: dr/dqdd = g, dr/dqd = C, dr/dq = S, kept
+    /// until the next call. Those of the accelerations are -g^-1 S and -g^-1 C.
+    /// @return false if the metric is not positive definite at the state; problem() says where
+    bool linearise(double time, const double* x);
+    /// Likewise at the last residual(), which must be the preceding call; its metric need not be positive definite.
+    void linearise_residual();
+    /// K = c_qdd g + c_qd C + c_q S.
+    /// @param K  out, size() x size().  Cost O(n^2)
+    void tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) const;
+    /// The same on the branches of the tree, ones on the diagonal for driven coordinates.
+    /// @param K  out, of all coordinates
+    /// @return false, K being undefined, if forces couple coordinates that are not on one branch.  Cost O(n d)
+    bool tangent_on_branches(double c_qdd, double c_qd, double c_q, BranchMatrix& K) const;
+    /// y = g v and y -= c S v; v and y by unknowns.
+    void multiply_metric(const Vector& v, Vector& y);
+    void subtract_stiffness(double c, const Vector& v, Vector& y);
+    /// From the unknowns to all coordinates, zero for the driven ones, and back.
+    void spread(const Vector& unknowns, Vector& all) const;
+    void gather(const Vector& all, Vector& unknowns) const;
 
     /// All coordinates, accelerations and drive forces at a state. @return false, with `out` unchanged, if a number is
     /// not finite; problem() says which
@@ -109,6 +120,7 @@ private:
     void drive_at(double time);
     void expand(double time, const double* x);
     bool solve(double time, const double* x);
+    void differentiate();
     bool all_finite(const Vector& values, const char* quantity);
 
     const System* system_;
@@ -119,11 +131,13 @@ private:
     Workspace workspace_;
     std::optional<Kinematics> kin_;  ///< at the last state
     ForwardDynamics forward_;
-    ForwardDynamicsDerivatives derivatives_;
+    MetricFactor factor_;
     ForceDerivatives force_derivatives_;
+    BranchMatrix g_, tau_q_, tau_qd_;   ///< of the inertial forces
+    BranchMatrix stiffness_, damping_;  ///< with what the forces add on the branches
+    bool on_branches_ = true;           ///< and that is all of it
     double inside_, time_ = 0;
-    Vector q_, qd_, qdd_, Q_, tau_, actuator_;
-    Matrix by_q_, by_qd_, g_, tau_q_, tau_qd_;
+    Vector q_, qd_, qdd_, Q_, tau_, actuator_, all_, product_;
     std::string problem_;
 };
 

@@ -29,8 +29,10 @@ int solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, re
 
 NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
     : equations_(equations),
+      start_(equations.size()),
+      change_(equations.size()),
       rates_(equations.size()),
-      reduced_(equations.size()),
+      reduced_(equations),
       matrix_(SUNMatNewEmpty(context)),
       solver_(SUNLinSolNewEmpty(context)) {
     if (!matrix_ || !solver_) throw NumericalError("SUNDIALS: no memory for a linear solver");
@@ -45,29 +47,28 @@ NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
 bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
     if (fresh || !has_jacobian_) {
         has_jacobian_ = false;
-        if (!equations_.jacobian(time, x)) return false;
+        if (!equations_.linearise(time, x)) return false;
         has_jacobian_ = true;
         ++jacobians;
     }
     c_ = c;
-    reduced_.matrix() = -c * equations_.by_qd() - c * c * equations_.by_q();
-    reduced_.matrix().diagonal().array() += 1;
-    reduced_.factorise();
+    reduced_.form(1, c, c * c);
     ++factorisations;
     return true;
 }
 
 void NewtonMatrix::solve(const double* b, double* x) {
     const Eigen::Index m = rates_.size();
-    const Eigen::Map<const Vector> b1(b, m), b2(b + m, m);
-    rates_ = b2;
+    start_ = Eigen::Map<const Vector>(b, m);
+    change_ = Eigen::Map<const Vector>(b + m, m);
+    equations_.multiply_metric(change_, rates_);
     // The rows of the positions are linear: the first iteration leaves of their residual nothing but rounding. It
-    // reaches the rates as b_1 / c at most, however stiff A is.
-    if (b1.lpNorm<Eigen::Infinity>() > 1e-6 * c_ * b2.lpNorm<Eigen::Infinity>())
-        rates_.noalias() += c_ * (equations_.by_q() * b1);
+    // reaches the rates as b_1 / c at most, however stiff S is.
+    if (start_.lpNorm<Eigen::Infinity>() > 1e-6 * c_ * change_.lpNorm<Eigen::Infinity>())
+        equations_.subtract_stiffness(c_, start_, rates_);
     reduced_.solve(rates_);
     for (Eigen::Index i = 0; i < m; ++i) {
-        x[i] = b[i] + c_ * rates_(i);
+        x[i] = start_(i) + c_ * rates_(i);
         x[m + i] = rates_(i);
     }
 }

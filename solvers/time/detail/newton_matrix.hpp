@@ -2,8 +2,7 @@
 /// The matrix of Newton's method for implicit methods of first order, as SUNDIALS' linear solver. For sources only.
 #pragma once
 
-#include "solvers/algebra/dense.hpp"
-#include "solvers/time/equations_of_motion.hpp"
+#include "solvers/time/detail/tangent_factors.hpp"
 
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -12,16 +11,16 @@
 
 namespace cardan::solvers {
 
-/// M = I - c J of x = (q, qd), J = [0 I; A B], A = dqdd/dq, B = dqdd/dqd. The positions are eliminated:
-///   (I - c B - c^2 A) x_2 = b_2 + c A b_1,   x_1 = b_1 + c x_2,
-/// so that a matrix of half the size is factorised: an eighth of the work.
+/// M = I - c J of x = (q, qd), J = [0 I; -g^-1 S, -g^-1 C] with the derivatives S, C of the residual. The positions are
+/// eliminated, and the rest is multiplied by the metric, which gives it the pattern of the tree:
+///   (g + c C + c^2 S) x_2 = g b_2 - c S b_1,   x_1 = b_1 + c x_2.
 ///
-/// Cost O(n^3) to form, O(n^2) to solve; allocates nothing.
+/// Cost O(n d^2) to form, O(n d) to solve, d the depth of the tree; allocates nothing.
 class NewtonMatrix {
 public:
     NewtonMatrix(EquationsOfMotion& equations, SUNContext context);
 
-    /// @param fresh  evaluates A and B at the state; otherwise the previous ones are reused
+    /// @param fresh  evaluates g, C and S at the state; otherwise the previous ones are reused
     /// @return false if they cannot be evaluated; problem() of the equations says why
     bool form(double time, const double* x, double c, bool fresh);
     /// x = M^-1 b, both of size 2 n; may be the same
@@ -44,8 +43,8 @@ private:
     EquationsOfMotion& equations_;
     double c_ = 0;
     bool has_jacobian_ = false;
-    Vector rates_;
-    LuFactors reduced_;
+    Vector start_, change_, rates_;  ///< b_1, b_2, x_2
+    TangentFactors reduced_;
     std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix> matrix_;
     std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeSolver> solver_;
 };

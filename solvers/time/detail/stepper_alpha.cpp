@@ -1,6 +1,6 @@
 #include "mbs/base/error.hpp"
-#include "solvers/algebra/dense.hpp"
 #include "solvers/time/detail/stepper.hpp"
+#include "solvers/time/detail/tangent_factors.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -70,7 +70,7 @@ private:
     End from_, to_;
     Vector a_start_, jerk_, change_, w_, errors_;
     bool has_jerk_ = false;
-    LuFactors matrix_;
+    TangentFactors matrix_;
     double matrix_step_ = 0;  ///< it was formed for; 0: it has to be formed anew
     double contraction_ = 1;  ///< of the iteration with it
     IntegrationStatistics statistics_;
@@ -85,7 +85,7 @@ AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOption
       max_step_(options.max_step > 0 ? options.max_step : std::numeric_limits<double>::max()),
       wanted_first_(options.first_step),
       fixed_step_(options.fixed_step),
-      matrix_(m_) {
+      matrix_(equations) {
     for (End* end : {&from_, &to_}) {
         end->x.setZero(2 * m_);
         end->qdd.setZero(m_);
@@ -178,8 +178,8 @@ void AlphaStepper::predict(double h) {
 
 // The tangent by the positions at the end, at the last residual.
 void AlphaStepper::form_matrix(double h) {
-    equations_.tangent(per_position(h), per_rate(h), 1, matrix_.matrix());
-    matrix_.factorise();
+    equations_.linearise_residual();
+    matrix_.form(per_position(h), per_rate(h), 1);
     matrix_step_ = h;
     contraction_ = 1;
     ++statistics_.jacobians;

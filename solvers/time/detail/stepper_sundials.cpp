@@ -1,5 +1,7 @@
 #include "solvers/time/detail/stepper_sundials.hpp"
 
+#include "solvers/time/detail/sundials_vector.hpp"
+
 #include <algorithm>
 #include <arkode/arkode.h>
 #include <cmath>
@@ -16,10 +18,8 @@ SundialsStepper::SundialsStepper(const char* library, EquationsOfMotion& equatio
       first_step_(options.first_step),
       library_(library),
       context_(make_sundials_context()) {
-    for (SundialsVector* v : {&x_, &errors_, &error_weights_}) {
-        v->reset(N_VNew_Serial(weights_.size(), context_.get()));
-        N_VConst(0, v->get());
-    }
+    for (SundialsVector* v : {&x_, &errors_, &error_weights_})
+        *v = make_sundials_vector(weights_.size(), context_.get());
 }
 
 int SundialsStepper::rates(realtype t, N_Vector x, N_Vector xd, void* user) {

@@ -1,6 +1,8 @@
 #include "mbs/base/units.hpp"
-#include "solvers/time/equations_of_motion.hpp"
+#include "solvers/algebra/dense.hpp"
+#include "solvers/time/detail/tangent_factors.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -48,16 +50,23 @@ TEST_CASE("equations of motion: the Jacobian and the tangent are the derivatives
     REQUIRE(m == 3);
     Vector x(2 * m), qdd(m), plus(m), minus(m);
     x << 0.3, 0.1, -0.5, 1, -0.7, 2;
-    REQUIRE(equations.jacobian(0.3, x.data()));
-    const Matrix by_q = equations.by_q(), by_qd = equations.by_qd();
-    REQUIRE(equations.accelerations(0.3, x.data(), qdd.data()));
-    const Vector at = qdd;
+    REQUIRE(equations.linearise(0.3, x.data()));
     Matrix K_q(m, m), K_qd(m, m), g(m, m);
-    REQUIRE(equations.residual(0.3, x.data(), at.data(), plus.data()));
-    CHECK(plus.norm() < 1e-12 * 100);  // forces of some 100 N
     equations.tangent(0, 0, 1, K_q);
     equations.tangent(0, 1, 0, K_qd);
     equations.tangent(1, 0, 0, g);
+    Matrix by_q = -K_q, by_qd = -K_qd, factors = g;
+    solve_in_place(factors, by_q);
+    factors = g;
+    solve_in_place(factors, by_qd);
+    REQUIRE(equations.accelerations(0.3, x.data(), qdd.data()));
+    const Vector at = qdd;
+    REQUIRE(equations.residual(0.3, x.data(), at.data(), plus.data()));
+    CHECK(plus.norm() < 1e-12 * 100);  // forces of some 100 N
+    Matrix again(m, m);
+    equations.linearise_residual();
+    equations.tangent(2, 3, 5, again);
+    CHECK((again - (2 * g + 3 * K_qd + 5 * K_q)).norm() < 1e-13 * again.norm());
     constexpr double h = 1e-5;
     for (int i = 0; i < 2 * m; ++i) {
         Vector up = x, down = x;
@@ -73,9 +82,56 @@ TEST_CASE("equations of motion: the Jacobian and the tangent are the derivatives
         const Vector tangent = i < m ? K_q.col(i) : K_qd.col(i - m);
         CHECK((tangent - (plus - minus) / (2 * h)).norm() < 1e-7 * (1 + tangent.norm()));
     }
-    // r = g qdd + ..., so that J = -g^-1 K
-    CHECK((g * by_q + K_q).norm() < 1e-11 * K_q.norm());
-    CHECK((g * by_qd + K_qd).norm() < 1e-11 * K_qd.norm());
+}
+
+TEST_CASE("equations of motion: factors on branches, and of full matrices where a spring joins two branches",
+          "[solvers][integrate][property]") {
+    for (const bool joined : {false, true}) {
+        Random random(7);
+        const Tree tree = random_tree(random, {.bodies = 14});
+        ForceSet forces;
+        forces.set_gravity({0, 0, -units::standard_gravity});
+        const Model model(tree);
+        int left = -1, right = -1;
+        for (int a = 1; a < model.size() && left < 0; ++a)
+            for (int b = a + 1; b < model.size(); ++b)
+                if (!model.precedes(a, b)) left = a, right = b;
+        REQUIRE(left >= 0);
+        const auto body = [&](int index) {
+            BodyId id{0};
+            while (model.index(id) != index) ++id.index;
+            return id;
+        };
+        for (int a = 0; a < model.size(); ++a) forces.add_spring(text("spring ", a), body(a), 50, 2);
+        if (joined)
+            forces.add_law({"joins", {body(left), body(right)}, 30 * Matrix::Ones(2, 2), 4 * Matrix::Ones(2, 2), {}});
+        const System system(tree, forces);
+        const int n = model.size();
+        const Vector q = random_state(random, n), qd = random_state(random, n);
+        EquationsOfMotion equations(system, {{2, Motion::constant_rate(q(2), qd(2))}}, 0, q, qd);
+        const int m = equations.size();
+        Vector x(2 * m);
+        for (int i = 0; i < m; ++i)
+            x(i) = q(entry(equations.unknowns(), i)), x(m + i) = qd(entry(equations.unknowns(), i));
+        REQUIRE(equations.linearise(0, x.data()));
+        BranchMatrix on_branches(system.model);
+        CHECK(equations.tangent_on_branches(1, 0.1, 0.01, on_branches) == !joined);
+        TangentFactors factors(equations);
+        factors.form(1, 0.1, 0.01);
+        Matrix K(m, m), g(m, m), S(m, m);
+        equations.tangent(1, 0.1, 0.01, K);
+        equations.tangent(1, 0, 0, g);
+        equations.tangent(0, 0, 1, S);
+        const Vector b = random_state(random, m);
+        Vector solution = b, product(m);
+        factors.solve(solution);
+        CAPTURE(joined);
+        CHECK((K * solution - b).norm() < 1e-13 * (b.norm() + K.norm() * solution.norm()));
+        equations.multiply_metric(b, product);
+        CHECK((product - g * b).norm() < 1e-14 * g.norm() * b.norm());
+        equations.subtract_stiffness(0.5, b, product);
+        CHECK((product - (g * b - 0.5 * S * b)).norm() < 1e-14 * (g.norm() + S.norm()) * b.norm());
+    }
 }
 
 TEST_CASE("equations of motion: the power of all forces is the rate of kinetic energy",
