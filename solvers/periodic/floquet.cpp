@@ -2,12 +2,14 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace cardan::solvers {
@@ -58,7 +60,8 @@ PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
 
 Normalised::Normalised(const PeriodicSystem& raw) : system(normalised(raw, units(raw))), unit(units(raw)) {}
 
-// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each.
+// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each; 0: to be
+// doubled, from one step in two samples.
 struct Grid {
     int samples, factors, steps;
 };
@@ -73,8 +76,8 @@ Grid make_grid(const FloquetOptions& options) {
     const int Q = options.symmetry.parts;
     const int wanted = static_cast<int>(std::ceil((4 * options.per_period + 8) / Q));
     if (options.steps == 0) {
-        const int factors = std::min(options.factors, wanted);
-        return {(wanted + factors - 1) / factors * factors, factors, 1};
+        const int factors = std::min(options.factors, (wanted + 1) / 2), each = 2 * factors;
+        return {(wanted + each - 1) / each * each, factors, 0};
     }
     const int steps = options.steps / Q, samples = smallest_divisor(steps, wanted);
     int factors = std::min(options.factors, samples);
@@ -125,6 +128,13 @@ ComplexMatrix fourier_transform(const ComplexMatrix& samples) {
     return harmonics / static_cast<double>(S);
 }
 
+// What one step of Radau's method is off by for x' = lambda x, relative: the error of its approximation of exp(z).
+double step_error(double z, int stages) {
+    const double s = stages;
+    return std::min(1.0, std::exp(2 * s * std::log(z) + 2 * std::lgamma(s + 1) - std::log(s) -
+                                  2 * std::lgamma(2 * s + 1) + std::log(2 * s)));
+}
+
 class Analysis {
 public:
     Analysis(const PeriodicSystem& system, const FloquetOptions& options)
@@ -137,16 +147,24 @@ public:
 
 private:
     void set_permutation();
-    std::vector<Matrix> integrate(int steps) const;
     std::vector<Matrix> factors(const std::vector<Matrix>& samples) const;
     void analyse(const ProductEigen& eigen, Floquet& result) const;
-    FloquetSolution solution(const ProductEigen& eigen, const Representative& which) const;
-    double error(const ProductEigen::Vectors& v) const;
-    ComplexMatrix periodic_vector(const ProductEigen::Vectors& v, Complex exponent) const;
+    struct Motion {
+        Representative which;
+        ProductEigen::Vectors vectors;
+        Complex exponent;  // of the normalised system
+        ComplexMatrix p;   // at the samples over the whole period, in raw states
+    };
+    Motion motion(const ProductEigen& eigen, const Representative& which) const;
+    void integrate(std::span<Motion> motions) const;
+    FloquetSolution solution(const Motion& motion) const;
+    double change(const ProductEigen::Vectors& v) const;
+    double error(const FloquetMode& mode, double change) const;
+    double step() const { return angle_ / grid_.samples / grid_.steps; }
     void transform(const ComplexMatrix& samples, FloquetSolution& out) const;
     bool wanted(const FloquetMode& mode) const;
     bool accurate(const FloquetMode& mode) const;
-    bool improvable(const FloquetMode& mode) const;
+    double worst(const std::vector<FloquetMode>& modes) const;
     /// Rounding error of an exponent over the frequency.
     double rounding(double condition) const { return 1e-15 * condition / angle_; }
 
@@ -167,52 +185,86 @@ void Analysis::set_permutation() {
     permutation_ = normalised_.unit.cwiseInverse().asDiagonal() * raw_permutation_ * normalised_.unit.asDiagonal();
 }
 
-std::vector<Matrix> Analysis::integrate(int steps) const {
-    return transitions(normalised_.system, 0, angle_, grid_.samples, steps, options_.transition);
-}
-
 // P Phi(T/Q) as a product.
 std::vector<Matrix> Analysis::factors(const std::vector<Matrix>& samples) const {
     const std::size_t each = samples.size() / static_cast<std::size_t>(grid_.factors);
     std::vector<Matrix> product;
     for (std::size_t k = 0; k < samples.size(); k += each) {
         Matrix F = samples[k];
-        for (std::size_t i = k + 1; i < k + each; ++i) F = samples[i] * F;
+        for (std::size_t i = k + 1; i < k + each; ++i) {
+            Matrix next = Matrix::Zero(F.rows(), F.cols());
+            add_product(next, samples[i], F);
+            F.swap(next);
+        }
         product.push_back(std::move(F));
     }
     if (permutation_.size() > 0) product.back() = permutation_ * product.back();
     return product;
 }
 
-// Largest first-order change of log mu from the coarse integration to the fine one, over what the order makes of it; a
-// factor of two per order of the method is taken off for steps that are not short yet.
-double Analysis::error(const ProductEigen::Vectors& v) const {
+// First-order change of the exponent from steps twice as long to these.
+double Analysis::change(const ProductEigen::Vectors& v) const {
     if (difference_.empty()) return std::numeric_limits<double>::quiet_NaN();
-    Complex change = 0;
+    Complex sum = 0;
     const Index p = v.growth.size();
     for (Index k = 0; k < p; ++k)
-        change +=
-            (v.left.col((k + 1) % p).transpose() * (entry(difference_, k) * v.right.col(k))).value() / v.growth(k);
-    const int stages = options_.transition.method == TransitionMethod::radau ? options_.transition.stages : 1;
-    return std::abs(change) / angle_ / std::pow(2.0, stages) + rounding(v.condition);
+        sum += (v.left.col((k + 1) % p).transpose() * (entry(difference_, k) * v.right.col(k))).value() / v.growth(k);
+    return std::abs(sum) / angle_;
 }
 
-// p at the samples over the whole period, in raw states. From one factor to the next the vectors are known; between,
-// they are integrated.
-ComplexMatrix Analysis::periodic_vector(const ProductEigen::Vectors& v, Complex exponent) const {
-    const int Q = options_.symmetry.parts, S = grid_.samples, each = S / grid_.factors;
-    ComplexMatrix p(raw_.states(), Q * S);
-    Complex grown = 0;  // logarithm
-    ComplexVector x;
-    for (int s = 0; s < S; ++s) {
-        if (s % each == 0) x = v.right.col(s / each);
-        const Complex factor = std::exp(grown - exponent * (angle_ * s / S));
-        p.col(s) = factor * normalised_.unit.cwiseProduct(x);
-        x = entry(fine_, s) * x;
-        if ((s + 1) % each == 0) grown += std::log(v.growth(s / each));
+// What is left of that change. Harmonics of the motion are motions of frequency |lambda_j| for the method, whose error
+// for each is known, long steps included; if this is not what changed, a factor of two per stage is what is certain.
+double Analysis::error(const FloquetMode& mode, double change) const {
+    const bool radau = options_.transition.method == TransitionMethod::radau;
+    const int stages = radau ? options_.transition.stages : 1;
+    double gain = std::pow(2.0, stages);
+    if (radau && raw_.is_second_order()) {
+        double coarse = 0, fine = 0;
+        for (Index i = 0; i < mode.participation.size(); ++i) {
+            const double j = mode.first_harmonic + static_cast<double>(i);
+            const double z = std::abs(mode.exponent / raw_.frequency() + Complex(0, j)) * step();
+            coarse += mode.participation(i) * step_error(2 * z, stages) / (2 * step());
+            fine += mode.participation(i) * step_error(z, stages) / step();
+        }
+        constexpr double doubt = 4, alike = 10;  // the model's error, that of what it says has changed
+        if (change < alike * coarse) gain = std::max(gain, coarse / fine / doubt);
     }
-    for (int s = S; s < Q * S; ++s) p.col(s) = raw_permutation_.transpose() * p.col(s - S);
-    return p;
+    return raw_.frequency() * (change / gain + rounding(mode.condition));
+}
+
+Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representative& which) const {
+    const auto i = static_cast<Index>(which.index);
+    Complex logarithm = eigen.logarithm(i);
+    if (which.real) logarithm.imag(std::abs(logarithm.imag()) < pi / 2 ? 0 : pi);
+    return {which, eigen.vectors(i), logarithm / angle_, {}};
+}
+
+// Sets p of motions, all at once. From one factor to the next their vectors are known; between, they are integrated.
+void Analysis::integrate(std::span<Motion> motions) const {
+    const int Q = options_.symmetry.parts, S = grid_.samples, each = S / grid_.factors;
+    const Index count = std::ssize(motions), n = raw_.states();
+    Matrix x(n, 2 * count), next(n, 2 * count);  // real and imaginary parts side by side
+    std::vector<Complex> grown(motions.size());  // logarithms
+    for (Motion& m : motions) m.p.resize(n, Q * S);
+    for (int s = 0; s < S; ++s) {
+        for (Index k = 0; k < count; ++k) {
+            Motion& m = entry(motions, k);
+            if (s % each == 0) {
+                x.col(2 * k) = m.vectors.right.col(s / each).real();
+                x.col(2 * k + 1) = m.vectors.right.col(s / each).imag();
+            }
+            const Complex factor = std::exp(entry(grown, k) - m.exponent * (angle_ * s / S));
+            m.p.col(s).real() = factor.real() * x.col(2 * k) - factor.imag() * x.col(2 * k + 1);
+            m.p.col(s).imag() = factor.real() * x.col(2 * k + 1) + factor.imag() * x.col(2 * k);
+            m.p.col(s).array() *= normalised_.unit.array();
+            if ((s + 1) % each == 0) entry(grown, k) += std::log(m.vectors.growth(s / each));
+        }
+        next.setZero();
+        add_product(next, entry(fine_, s), x);
+        x.swap(next);
+    }
+    for (Motion& m : motions)
+        for (int s = S; s < Q * S; ++s) m.p.col(s) = raw_permutation_.transpose() * m.p.col(s - S);
 }
 
 // Harmonics of the positions; rates that are not their derivatives belong to motions too fast for the samples.
@@ -237,18 +289,13 @@ void Analysis::transform(const ComplexMatrix& samples, FloquetSolution& out) con
     out.resolved = off <= 0.2 * all + at_rest;
 }
 
-FloquetSolution Analysis::solution(const ProductEigen& eigen, const Representative& which) const {
-    const auto i = static_cast<Index>(which.index);
-    const ProductEigen::Vectors v = eigen.vectors(i);
-    Complex logarithm = eigen.logarithm(i);
-    if (which.real) logarithm.imag(std::abs(logarithm.imag()) < pi / 2 ? 0 : pi);
-    const Complex scaled = logarithm / angle_;
+FloquetSolution Analysis::solution(const Motion& motion) const {
     FloquetSolution out;
-    out.exponent = raw_.frequency() * scaled;
-    out.real_multiplier = which.real;
-    out.condition = v.condition;
-    out.error = raw_.frequency() * error(v);
-    transform(periodic_vector(v, scaled), out);
+    out.exponent = raw_.frequency() * motion.exponent;
+    out.real_multiplier = motion.which.real;
+    out.condition = motion.vectors.condition;
+    out.error = change(motion.vectors);
+    transform(motion.p, out);
     return out;
 }
 
@@ -260,9 +307,13 @@ bool Analysis::accurate(const FloquetMode& mode) const {
     return !wanted(mode) || mode.error <= options_.tolerance * raw_.frequency();
 }
 
-// Whether shorter steps would make a mode accurate that is not.
-bool Analysis::improvable(const FloquetMode& mode) const {
-    return !accurate(mode) && !(mode.error <= 2 * raw_.frequency() * rounding(mode.condition));
+// Largest error of modes that are not accurate, and not for rounding; 0 without any.
+double Analysis::worst(const std::vector<FloquetMode>& modes) const {
+    double largest = 0;
+    for (const FloquetMode& mode : modes)
+        if (!accurate(mode) && !(mode.error <= 2 * raw_.frequency() * rounding(mode.condition)))
+            largest = std::max(largest, std::isnan(mode.error) ? std::numeric_limits<double>::infinity() : mode.error);
+    return largest;
 }
 
 void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
@@ -279,10 +330,20 @@ void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
     result.modes.clear();
     result.unresolved.clear();
     result.damped_out = static_cast<int>(eigen.size()) - static_cast<int>(at.size());
-    for (Representative which : representatives(logarithms)) {
-        which.index = at[which.index];
-        const FloquetSolution one = solution(eigen, which);
-        (one.resolved ? result.modes : result.unresolved).push_back(make_mode(one, weights, raw_.period()));
+    constexpr std::size_t at_once = 16;
+    const std::vector<Representative> all = representatives(logarithms);
+    std::vector<Motion> motions;
+    for (std::size_t first = 0; first < all.size(); first += at_once) {
+        motions.clear();
+        for (std::size_t i = first; i < std::min(all.size(), first + at_once); ++i)
+            motions.push_back(motion(eigen, {at[all[i].index], all[i].real}));
+        integrate(motions);
+        for (const Motion& m : motions) {
+            const FloquetSolution one = solution(m);
+            FloquetMode& mode =
+                (one.resolved ? result.modes : result.unresolved).emplace_back(make_mode(one, weights, raw_.period()));
+            mode.error = error(mode, one.error);
+        }
     }
     sort_modes(result.modes);
     sort_modes(result.unresolved);
@@ -292,25 +353,28 @@ Floquet Analysis::compute() {
     const int parts = options_.symmetry.parts;
     Floquet result;
     result.period = raw_.period();
-    int steps = grid_.steps;
-    fine_ = integrate(steps);
-    std::vector<Matrix> product = factors(fine_);
-    const bool refine = options_.steps == 0;
+    const bool refine = grid_.steps == 0;
+    double before = std::numeric_limits<double>::infinity();  // worst() with half the steps
+    std::vector<Matrix> product;
+    if (refine)
+        product = factors(transitions(normalised_.system, 0, angle_, grid_.samples / 2, 1, options_.transition));
     while (true) {
-        if (refine) {
-            difference_ = std::move(product);
-            steps *= 2;
-            fine_ = integrate(steps);
-            product = factors(fine_);
-            for (std::size_t k = 0; k < product.size(); ++k) difference_[k] -= product[k];
-        }
+        if (refine) grid_.steps = std::max(1, 2 * grid_.steps);
+        difference_ = std::move(product);
+        fine_ = transitions(normalised_.system, 0, angle_, grid_.samples, grid_.steps, options_.transition);
+        product = factors(fine_);
+        for (std::size_t k = 0; k < difference_.size(); ++k) difference_[k] -= product[k];
         ProductEigen eigen;
         if (!eigen.compute(product))
             throw NumericalError("Floquet theory: the eigenvalue iteration on the monodromy matrix did not converge");
         analyse(eigen, result);
-        result.steps = steps * grid_.samples * parts;
-        const bool enough = std::none_of(result.modes.begin(), result.modes.end(),
-                                         [&](const FloquetMode& mode) { return improvable(mode); });
+        result.steps = grid_.steps * grid_.samples * parts;
+        // Half the steps leave a small part of an error. What does not fall comes from rounding in an ill-conditioned
+        // mode (a free displacement that unbalance holds weakly), and steps to the limit would not change it.
+        constexpr double least_gain = 4;
+        const double left = worst(result.modes);
+        const bool enough = left == 0 || left * least_gain > before;
+        before = left;
         if (!refine || enough || 2 * result.steps > options_.max_steps) break;
     }
     const auto rough = std::count_if(result.modes.begin(), result.modes.end(),

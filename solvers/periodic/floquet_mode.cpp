@@ -1,6 +1,7 @@
 #include "solvers/periodic/floquet_mode.hpp"
 
 #include "mbs/base/error.hpp"
+#include "solvers/algebra/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,23 @@ constexpr double rigid_per_period = 1e-4;
 // Rounding of a logarithm.
 constexpr double own_conjugate = 1e-12;
 
+// x^H A x of every column, real and imaginary parts side by side.
+Vector hermitian_forms(const Matrix& A, const Matrix& parts) {
+    const Index count = parts.cols() / 2;
+    Matrix product = Matrix::Zero(parts.rows(), parts.cols());
+    add_product(product, A, parts);
+    const Vector forms = parts.cwiseProduct(product).colwise().sum();
+    return forms.head(count) + forms.tail(count);
+}
+
 Vector energies(const FloquetSolution& s, const EnergyWeights& w, double omega) {
-    const Index J = s.harmonics.cols() / 2;
-    Vector e(s.harmonics.cols());
-    for (Index i = 0; i < e.size(); ++i) {
-        const Complex lambda = s.exponent + Complex(0, omega * static_cast<double>(i - J));
-        const ComplexVector c = s.harmonics.col(i);
-        e(i) = hermitian_form(w.K, c) + std::norm(lambda) * hermitian_form(w.M, c);
-    }
+    const Index count = s.harmonics.cols(), J = count / 2;
+    Matrix parts(s.harmonics.rows(), 2 * count);
+    parts << s.harmonics.real(), s.harmonics.imag();
+    Vector e = hermitian_forms(w.K, parts);
+    const Vector kinetic = hermitian_forms(w.M, parts);
+    for (Index i = 0; i < count; ++i)
+        e(i) += std::norm(s.exponent + Complex(0, omega * static_cast<double>(i - J))) * kinetic(i);
     return e.cwiseMax(0);
 }
 

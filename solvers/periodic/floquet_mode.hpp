@@ -59,7 +59,7 @@ struct FloquetSolution {
     Complex exponent;
     bool real_multiplier = false;  ///< over the integrated part of the period
     ComplexMatrix harmonics;       ///< c_j from j = -J to J
-    double condition = 0, error = 0;
+    double condition = 0, error = 0;  ///< in the units of FloquetMode, which takes them over
     bool resolved = true;  ///< by the samples over the period
 };
 

@@ -1,6 +1,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/periodic/detail/half_turn.hpp"
 #include "solvers/periodic/detail/mean_jacobian.hpp"
 #include "solvers/periodic/detail/rotor_equations.hpp"
 
@@ -32,9 +33,12 @@ private:
     void set_scales();
     bool evaluate(const Matrix& x, Matrix& R);
     Matrix jacobian();
+    Matrix half_jacobian();
+    bool half_holds();
     double largest(const Matrix& R) const;
     double norm(const Matrix& R) const;
     bool step(Matrix& dx);
+    bool solve(Matrix& J, Vector& right, const Vector& unit, const std::vector<Index>& held);
     Vector shortest_solution(const Matrix& J, const Vector& right);
     void describe(const Vector& null_vector);
     bool search(const Matrix& dx);
@@ -49,6 +53,7 @@ private:
     Matrix weights_;   // of the projection on the harmonics: a column per azimuth
     std::vector<Index> held_;
     std::optional<MeanJacobian> mean_;  // none: Newton's steps only
+    std::optional<HalfTurn> half_;      // of two alike blades, as long as the residual has no other harmonics
     bool stale_ = true;                 // it belongs to another state
     Vector scale_, unit_;               // of residuals, per unknown; of entries for the linear system
     Matrix x_, R_;
@@ -74,8 +79,11 @@ Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
     hold();
     x_ = equations_.start(options.harmonics);
     if (options.rotor) mean_ = MeanJacobian::make(*options.rotor, equations_, options.harmonics);
-    for (Index row : held_)
+    if (options.rotor) half_ = HalfTurn::make(*options.rotor, equations_, options.harmonics);
+    for (Index row : held_) {
         if (mean_ && !mean_->hold(row)) mean_.reset();
+        if (half_ && half_->mean_of(row) < 0) half_.reset();
+    }
     R_.setZero(x_.rows(), x_.cols());
 }
 
@@ -132,6 +140,29 @@ Matrix Balance::jacobian() {
     return J;
 }
 
+// Of the coefficients that two alike blades leave; the second half of the azimuths adds what the first one does.
+Matrix Balance::half_jacobian() {
+    Matrix J = Matrix::Zero(half_->size(), half_->size());
+    SecondOrderSystem at;
+    const int parts = samples() % 2 == 0 ? 2 : 1;
+    for (int s = 0; s < samples() / parts; ++s) {
+        equations_.set_azimuth(entry(azimuths_, s));
+        equations_.set(x_ * basis_[0].col(s), x_ * basis_[1].col(s), x_ * basis_[2].col(s));
+        equations_.linearise(at);
+        half_->add(at, {basis_[0].col(s), basis_[1].col(s), basis_[2].col(s)}, parts * weights_.col(s), J);
+    }
+    return J;
+}
+
+// The blades may differ, and so may their start: once that is seen, all coefficients are unknowns.
+bool Balance::half_holds() {
+    if (!half_) return false;
+    const Matrix residual = R_.array().colwise() / scale_.array();
+    const bool start = half_->outside(x_) <= 1e-12 * x_.cwiseAbs().maxCoeff();
+    if (!start || half_->outside(residual) > std::max(1e-3 * largest(R_), 0.1 * options_.tolerance)) half_.reset();
+    return half_.has_value();
+}
+
 // Held means have no equation.
 double Balance::largest(const Matrix& R) const {
     if (R.size() == 0) return 0;
@@ -146,24 +177,44 @@ double Balance::norm(const Matrix& R) const {
     return over.allFinite() ? over.norm() : std::numeric_limits<double>::infinity();
 }
 
-// Newton's step, by elimination or, if the Jacobian is singular, the shortest of all.
+// Newton's step.
 bool Balance::step(Matrix& dx) {
-    Matrix J = unit_.asDiagonal() * jacobian() * unit_.asDiagonal();
+    if (half_holds()) {
+        Matrix J = half_jacobian();
+        Vector y = half_->reduced(R_);
+        Vector unit(y.size());
+        for (Index i = 0; i < y.size(); ++i) unit(i) = unit_(half_->place(i));
+        std::vector<Index> held;
+        for (Index row : held_) held.push_back(half_->mean_of(row));
+        if (!solve(J, y, unit, held)) return false;
+        dx = half_->expanded(y);
+    } else {
+        Matrix J = jacobian();
+        Vector y = R_.reshaped();
+        if (!solve(J, y, unit_, held_)) return false;
+        dx = y.reshaped(x_.rows(), x_.cols());
+    }
+    return dx.allFinite();
+}
+
+// r := -J^-1 r, by elimination or, if the Jacobian is singular, the shortest solution of all.
+bool Balance::solve(Matrix& J, Vector& r, const Vector& unit, const std::vector<Index>& held) {
+    J = (unit.asDiagonal() * J * unit.asDiagonal()).eval();
     if (!J.allFinite()) {
         why_ = "a derivative is not finite";
         return false;
     }
-    Vector right = -unit_.cwiseProduct(R_.reshaped());
-    for (Index row : held_) {
+    r = -unit.cwiseProduct(r);
+    for (Index row : held) {
         J.row(row).setZero();
         J.col(row).setZero();
         J(row, row) = 1;
-        right(row) = 0;
+        r(row) = 0;
     }
     const Eigen::PartialPivLU<Matrix> lu(J);
-    const Vector y = lu.rcond() > 1e-14 ? Vector(lu.solve(right)) : shortest_solution(J, right);
-    dx = unit_.cwiseProduct(y).reshaped(x_.rows(), x_.cols());
-    return dx.allFinite();
+    r = lu.rcond() > 1e-14 ? Vector(lu.solve(r)) : shortest_solution(J, r);
+    r = unit.cwiseProduct(r).eval();
+    return true;
 }
 
 Vector Balance::shortest_solution(const Matrix& J, const Vector& right) {
@@ -183,6 +234,7 @@ Vector Balance::shortest_solution(const Matrix& J, const Vector& right) {
 void Balance::describe(const Vector& null_vector) {
     Index at = 0;
     null_vector.cwiseAbs().maxCoeff(&at);
+    if (null_vector.size() < x_.size()) at = half_->place(at);
     const Index harmonic = (at / x_.rows() + 1) / 2;
     const std::string& name = equations_.name(at % x_.rows());
     open_mean_ = open_mean_ || harmonic == 0;

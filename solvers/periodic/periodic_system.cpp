@@ -1,6 +1,7 @@
 #include "solvers/periodic/periodic_system.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/finite.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ void check(const char* name, double time, const Matrix& A, Index rows) {
     if (A.rows() != rows || A.cols() != rows)
         throw NumericalError(text("periodic system: ", name, " at ", time, " s is ", A.rows(), " x ", A.cols(),
                                   "; wanted: ", rows, " x ", rows));
-    if (!A.allFinite()) throw NumericalError(text("periodic system: ", name, " at ", time, " s is not finite"));
+    if (!all_finite(A)) throw NumericalError(text("periodic system: ", name, " at ", time, " s is not finite"));
 }
 
 // The matrices at a time, that of the highest derivative last.

@@ -25,8 +25,8 @@ struct PeriodicOptions {
     /// Harmonic balance: coordinates whose mean is held at that of `start` by a load, which is part of the result. For
     /// unrestrained coordinates, such as free yaw.
     std::vector<int> held = {};
-    /// Harmonic balance: the blades. With three or more alike, steps cost a small part of Newton's; the steady state is
-    /// the same to the tolerance. Null: Newton's steps only.
+    /// Harmonic balance: the blades. With two or more alike, steps cost a small part of Newton's for all coefficients;
+    /// the steady state is the same to the tolerance. Null: Newton's steps for all coefficients.
     const RotorMap* rotor = nullptr;
     /// Shooting: steps per revolution (0: 8 harmonics, at least 64) and stages of Radau's method (order 2 s - 1).
     int steps = 0, stages = 5;
@@ -72,7 +72,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 ///
 /// Cost per iteration O(samples harmonics^2 n^2) and a linear system of n (2 harmonics + 1) rows. If `rotor` is given,
 /// the Jacobian is the mean of that over the revolution in multi-blade coordinates as long as the residual falls well:
-/// an iteration then costs a linear system of n complex rows for every harmonic that matters.
+/// an iteration then costs a linear system of n complex rows for every harmonic that matters. Two alike blades leave half
+/// of the coefficients: even harmonics of their sum, odd ones of their difference.
 /// @throws InputError for options out of range; user forces must have the period of a revolution and are not checked
 PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options);
 

@@ -1,6 +1,7 @@
 #include "solvers/periodic/transition.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/finite.hpp"
 #include "solvers/algebra/radau.hpp"
 
 #include <memory>
@@ -54,9 +55,9 @@ public:
             left.block(i * n, i * n, n, n) += E_;
             right.middleRows(i * n, n) = A_;
         }
-        const Matrix k = left.partialPivLu().solve(right);
+        solve_in_place(left, right);
         Phi.setIdentity(n, n);
-        for (Index j = 0; j < s; ++j) Phi += h * method_.A(s - 1, j) * k.middleRows(j * n, n);
+        for (Index j = 0; j < s; ++j) Phi += h * method_.A(s - 1, j) * right.middleRows(j * n, n);
     }
 
 private:
@@ -72,8 +73,9 @@ public:
 
     void set(double t, double h, Matrix& Phi) override {
         system_.at(t + h / 2, E_, A_);
-        const Matrix middle = Matrix(E_ - h / 2 * A_).partialPivLu().solve(E_);
-        Phi = middle;
+        Matrix left = E_ - h / 2 * A_;
+        Phi = E_;
+        solve_in_place(left, Phi);
         for (Index i = 0; i < Phi.rows(); ++i) {
             if (E_.col(i).isZero(0)) continue;
             Phi.row(i) *= 2;
@@ -112,10 +114,11 @@ std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double 
             if (j == 0) {
                 X = Phi;
             } else {
-                product.noalias() = Phi * X;
+                product.setZero(n, n);
+                add_product(product, Phi, X);
                 X.swap(product);
             }
-            if (!X.allFinite())
+            if (!all_finite(X))
                 throw NumericalError(text("transition matrix: no solution of the step at ", t,
                                           " s (singular matrices, or the step is too long)"));
         }

@@ -235,6 +235,10 @@ TEST_CASE("Floquet: errors are estimated from above, and fall with the steps", "
         }
     const Floquet rough = floquet(system, {.transition = {.stages = 2}, .max_steps = 200});
     CHECK(rough.note.find("less accurate than wanted") != std::string::npos);
+    // Below rounding no steps help, and none are wasted.
+    const Floquet vain = floquet(system, {.tolerance = 1e-19, .max_steps = 1000000});
+    CHECK(vain.steps < 5000);
+    CHECK(vain.note.find("less accurate than wanted") != std::string::npos);
 }
 
 TEST_CASE("Floquet: motions too fast for the samples are distinguished from the others", "[analytic]") {
