@@ -362,13 +362,16 @@ std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, 
         branch.mac = track.mac;
     }
     std::vector<Branch> branches = Naming(points, energy_shares, rows, whirl, neighbour).name(std::move(tracked));
-    const auto first_frequency = [&](const Branch& branch) {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            if (branch.mode[i] >= 0) return entry(points[i].modes, branch.mode[i]).mode.natural_hz();
-        return std::numeric_limits<double>::infinity();
+    // By frequency but for rounding, what decays before what grows.
+    const auto place = [&](const Branch& branch) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (branch.mode[i] < 0) continue;
+            const Mode& mode = entry(points[i].modes, branch.mode[i]).mode;
+            return std::pair(static_cast<float>(mode.natural_hz()), static_cast<float>(mode.eigenvalue.real()));
+        }
+        return std::pair(std::numeric_limits<float>::infinity(), 0.0F);
     };
-    std::stable_sort(branches.begin(), branches.end(),
-                     [&](const Branch& a, const Branch& b) { return first_frequency(a) < first_frequency(b); });
+    std::ranges::stable_sort(branches, {}, place);
     return branches;
 }
 

@@ -53,8 +53,12 @@ inline constexpr double min_reliable_mac = 0.6;
 struct CampbellOptions {
     RotorSpin spin = RotorSpin::free;
     CampbellMethod method = CampbellMethod::automatic;
-    double max_frequency_hz =
-        10;                   ///< branches that stay above are left out (all modes take part in tracking and naming)
+    double max_frequency_hz = 10;  ///< branches that stay above are left out
+    /// Constant systems: all modes at every rotor speed take part in tracking, naming and stability margin. Otherwise
+    /// all at the first one; at the others the lowest 24 at least, those up to one and a half times the largest
+    /// frequency, and as many more as move into these by two per revolution: a small part of the cost for large
+    /// machines. What is faster is not known to be stable there.
+    bool all_modes = false;
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
     CampbellFloquetOptions floquet = {};
     /// Diagram of a similar variant of the machine, with the same method, blades and rows: branches take over the names
@@ -100,7 +104,7 @@ struct CampbellPoint {
     double rotor_speed = 0;           ///< rad/s
     OperatingPoint at;                ///< steady state, at azimuth 0
     std::vector<CampbellMode> modes;  ///< by natural frequency
-    /// Smallest decay rate of all motions except rigid ones, 1/s; negative: unstable. NaN where eigenvalues do not
+    /// Smallest decay rate of the modes except rigid ones, 1/s; negative: unstable. NaN where eigenvalues do not
     /// describe motions (frozen azimuth).
     double stability_margin = std::numeric_limits<double>::quiet_NaN();
     std::optional<PeriodicSteadyState> periodic = {};  ///< where the method is `floquet` or `averaged`

@@ -65,7 +65,7 @@ void set_stability_margin(CampbellPoint& point) {
 PointSolver::PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
     : system_(system),
       rotor_(rotor),
-      method_(options.method),
+      options_(options),
       unknowns_(unknowns_of(system, rotor, options)),
       plain_rows_(unknowns_.size()),
       steady_solver_(system, rotor.spin),
@@ -115,7 +115,7 @@ void PointSolver::define_components(const Linearisation& lin) {
 
 // Eigenvalues at a frozen azimuth tell nothing about stability.
 void PointSolver::set_margin(CampbellPoint& point) const {
-    const bool motions = method_ != CampbellMethod::frozen_azimuth || rotor_.blades.size() < 3;
+    const bool motions = options_.method != CampbellMethod::frozen_azimuth || rotor_.blades.size() < 3;
     if (motions)
         set_stability_margin(point);
     else
@@ -129,7 +129,7 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     set_system(rotor_speed);
     point.rotor_speed = rotor_speed;
     point.at = steady_.at;
-    set_count(point.modes, mode_solver_.solve(current_));
+    set_count(point.modes, mode_solver_.solve(current_, range_.largest(options_, rotor_speed)));
     for (std::size_t i = 0; i < point.modes.size(); ++i) {
         CampbellMode& m = point.modes[i];
         mode_solver_.copy(i, m.mode);
@@ -139,6 +139,7 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
         m.floquet.reset();
         m.blade_shares.resize(0);
     }
+    range_.set(point.modes, rotor_speed);
     if (rotor_speed == 0 && blades_stand_out()) set_blade_shares(point);
     point.periodic.reset();
     set_margin(point);
@@ -191,7 +192,7 @@ void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count)
 
 void PointSolver::set_system(double rotor_speed) {
     restrict_to(lin_, unknowns_, rotor_.spin, current_);
-    const bool frozen = method_ == CampbellMethod::frozen_azimuth;
+    const bool frozen = options_.method == CampbellMethod::frozen_azimuth;
     if (coleman_) coleman_->transform_in_place(current_, 0, frozen ? 0 : rotor_speed);
     if (frozen || rotor_speed == 0 || rotor_.spin < 0) return;
     const double changing = remainder(rotor_speed);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell/mode_range.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 
 #include <memory>
@@ -55,7 +56,8 @@ public:
     PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
 
     /// The steady-state iteration starts from the previous point. From the second call on with the same `point` nothing
-    /// is allocated, but for the shares of blades that differ at standstill.
+    /// is allocated, but for the shares of blades that differ at standstill and where few of many modes are wanted
+    /// (ModeSolver).
     /// @throws NumericalError where no constant steady state exists or is found, and as ModeSolver; the solver can be
     /// used again
     void solve(double rotor_speed, CampbellPoint& point) override;
@@ -98,7 +100,8 @@ private:
 
     const System& system_;
     const RotorMap& rotor_;
-    CampbellMethod method_;
+    CampbellOptions options_;
+    ModeRange range_;
     std::vector<int> unknowns_;
     std::optional<ColemanTransform> coleman_;
     std::vector<MultiBladeRow> plain_rows_;

@@ -1,7 +1,7 @@
 #include "solvers/linear/modes.hpp"
 
 #include "mbs/base/error.hpp"
-#include "solvers/algebra/dense.hpp"
+#include "solvers/algebra/arnoldi.hpp"
 #include "solvers/linear/detail/shifted_state.hpp"
 
 #include <algorithm>
@@ -30,9 +30,10 @@ double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda
 
 constexpr double largest_rest = 0.01;  // of the equations' terms
 
-}  // namespace
-
-namespace {
+// Below this size the dense solver takes no longer for few modes than for all.
+constexpr Eigen::Index least_for_few = 40;
+// Values just beyond the limit are found as well, so that rounding does not decide.
+constexpr double beyond = 1.01;
 
 void require_shape(const SecondOrderSystem& system, const Mode& mode) {
     const Eigen::Index n = system.M.rows();
@@ -40,10 +41,6 @@ void require_shape(const SecondOrderSystem& system, const Mode& mode) {
     require_size("modes", "elastic stiffness", system.K_elastic, n, n);
     require_size("modes", "shape of a mode", mode.shape, n);
 }
-
-}  // namespace
-
-namespace {
 
 // A x in real arithmetic.
 ComplexVector product(const Matrix& A, const ComplexVector& x) {
@@ -81,7 +78,7 @@ Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
 ModeSolver::ModeSolver(Eigen::Index rows)
     : eigen_(2 * rows, rows),
       d_(rows),
-      K_s_(rows, rows),
+      K_s_(rows),
       right_(rows, 2 * rows),
       S_(2 * rows, 2 * rows),
       shapes_(rows, 2 * rows),
@@ -94,16 +91,58 @@ ModeSolver::ModeSolver(Eigen::Index rows)
 //   x = -K_s^-1 [(C + sigma M) a + M b],  y = a + sigma x,  K_s = K + sigma C + sigma^2 M.
 // In joint coordinates flexibilities are known with small relative error, so the low modes, which are the large
 // eigenvalues of S, come out to working precision however stiff the high ones are; rigid-body modes stay at lambda = 0.
-std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
+std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
+    if (!(largest > 0)) throw InputError("modes", "largest eigenvalue", largest, "> 0");
     found_.clear();
+    columns_ = 0;
     const Eigen::Index n = d_.size();
-    check_modes_input(system, n, K_s_);
+    check_modes_input(system, n, K_s_.matrix());
     if (n == 0) return 0;
-    const double scale = lowest_scale(system), s = mode_shift;
-    set_state_matrix(system, scale, s);
-    if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
-    collect(scale, s, rigid_ratio_of_modes * scale);
+    const double scale = lowest_scale(system);
+    shift(system, scale);
+    const bool few = n >= least_for_few && largest < doubtful_ratio_of_modes * scale;
+    if (!few || !solve_few(scale, largest)) solve_all(system, scale);
     std::erase_if(found_, [&](const Found& found) {
+        return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale || std::abs(found.eigenvalue) > largest;
+    });
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        const bool first = a.eigenvalue.imag() > 0, second = b.eigenvalue.imag() > 0;
+        return first != second ? first : std::abs(a.eigenvalue) < std::abs(b.eigenvalue);
+    });
+    normalise(system);
+    return found_.size();
+}
+
+// Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
+void ModeSolver::shift(const SecondOrderSystem& system, double scale) {
+    const Eigen::Index n = d_.size();
+    constexpr double s = mode_shift;
+    d_ = system.M.diagonal().cwiseSqrt().cwiseInverse();
+    for (Eigen::Index j = 0; j < n; ++j)
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double unit = d_(i) * d_(j), M = unit * system.M(i, j), C = unit * system.C(i, j) / scale,
+                         K = unit * system.K(i, j) / (scale * scale);
+            K_s_.matrix()(i, j) = K + s * C + s * s * M;
+            right_(i, j) = -(C + s * M);
+            right_(i, n + j) = -M;
+        }
+    K_s_.factorise();
+}
+
+void ModeSolver::solve_all(const SecondOrderSystem& system, double scale) {
+    const Eigen::Index n = d_.size();
+    K_s_.solve(right_);
+    S_.topRows(n) = right_;
+    S_.bottomRows(n) = mode_shift * right_;
+    S_.bottomLeftCorner(n, n).diagonal().array() += 1;
+    if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
+    for (const RealEigen::Value& value : eigen_.values()) {
+        const bool complex = value.mu.imag() != 0;
+        shapes_.middleCols(columns_, complex ? 2 : 1) = eigen_.vectors().middleCols(value.column, complex ? 2 : 1);
+        add(value.mu, scale);
+    }
+    std::erase_if(found_, [&](const Found& found) {
+        if (!std::isfinite(std::abs(found.eigenvalue))) return true;
         if (std::abs(found.eigenvalue) < doubtful_ratio_of_modes * scale) return false;
         const bool complex = found.eigenvalue.imag() != 0;
         const auto shape = [&](Eigen::Index j) {
@@ -111,54 +150,49 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system) {
         };
         return !(residual(system, d_, found.eigenvalue, shape) < largest_rest);
     });
-    normalise(system);
-    return found_.size();
 }
 
-// Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
-void ModeSolver::set_state_matrix(const SecondOrderSystem& system, double scale, double s) {
+bool ModeSolver::solve_few(double scale, double largest) {
     const Eigen::Index n = d_.size();
-    d_ = system.M.diagonal().cwiseSqrt().cwiseInverse();
-    for (Eigen::Index j = 0; j < n; ++j)
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const double unit = d_(i) * d_(j), M = unit * system.M(i, j), C = unit * system.C(i, j) / scale,
-                         K = unit * system.K(i, j) / (scale * scale);
-            K_s_(i, j) = K + s * C + s * s * M;
-            right_(i, j) = -(C + s * M);
-            right_(i, n + j) = -M;
-        }
-    solve_in_place(K_s_, right_);
-    S_.topRows(n) = right_;
-    S_.bottomRows(n) = s * right_;
-    S_.bottomLeftCorner(n, n).diagonal().array() += 1;
+    Vector b(n);
+    const auto apply = [&](const Vector& x, Vector& y) {
+        b.noalias() = right_ * x;
+        K_s_.solve(b);
+        y.resize(2 * n);
+        y << b, x.head(n) + mode_shift * b;
+    };
+    DominantOptions options;
+    options.least = 1 / (beyond * largest / scale + mode_shift);
+    options.most = static_cast<int>(n);
+    const DominantEigen found = dominant_eigenvalues(apply, 2 * n, options);
+    if (!found.complete) return false;
+    for (const DominantEigen::Value& value : found.values) {
+        shapes_.col(columns_) = value.vector.head(n).real();
+        if (value.mu.imag() != 0) shapes_.col(columns_ + 1) = value.vector.head(n).imag();
+        add(value.mu, scale);
+    }
+    return true;
 }
 
-// Eigenvalues that are wanted, in order, and their shapes side by side.
-void ModeSolver::collect(double scale, double s, double least) {
-    Eigen::Index columns = 0;
-    for (const RealEigen::Value& value : eigen_.values()) {
-        // 1 / mu flips the sign of the imaginary part: x belongs to the other member of the pair.
-        const Complex lambda = scale * (s + 1.0 / std::conj(value.mu));
-        if (std::abs(lambda) < least || !std::isfinite(std::abs(lambda))) continue;
-        const bool complex = value.mu.imag() != 0;
-        shapes_.col(columns) = d_.cwiseProduct(eigen_.vectors().col(value.column));
-        if (complex) shapes_.col(columns + 1) = -d_.cwiseProduct(eigen_.vectors().col(value.column + 1));
-        found_.push_back({complex ? lambda : Complex(lambda.real()), columns});
-        columns += complex ? 2 : 1;
-    }
-    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
-        const bool first = a.eigenvalue.imag() > 0, second = b.eigenvalue.imag() > 0;
-        return first != second ? first : std::abs(a.eigenvalue) < std::abs(b.eigenvalue);
-    });
-    shapes_.rightCols(shapes_.cols() - columns).setZero();
+// An eigenvalue whose vector, or its real and imaginary part, are the next columns. 1 / mu flips the sign of the
+// imaginary part: the vector belongs to the other member of the pair.
+void ModeSolver::add(Complex mu, double scale) {
+    const Complex lambda = scale * (mode_shift + 1.0 / std::conj(mu));
+    const bool complex = mu.imag() != 0;
+    found_.push_back({complex ? lambda : Complex(lambda.real()), columns_});
+    for (const Eigen::Index last = columns_ + (complex ? 2 : 1); columns_ < last; ++columns_)
+        shapes_.col(columns_).array() *= d_.array();
+    if (complex) shapes_.col(columns_ - 1) *= -1;
 }
 
 // To unit modal energy.
 void ModeSolver::normalise(const SecondOrderSystem& system) {
-    elastic_.setZero();
-    inertial_.setZero();
-    add_product(elastic_, system.K_elastic, shapes_);
-    add_product(inertial_, system.M, shapes_);
+    const auto shapes = shapes_.leftCols(columns_);
+    auto elastic = elastic_.leftCols(columns_), inertial = inertial_.leftCols(columns_);
+    elastic.setZero();
+    inertial.setZero();
+    add_product(elastic, system.K_elastic, shapes);
+    add_product(inertial, system.M, shapes);
     const auto square = [&](const Matrix& force, const Found& found) {
         const Eigen::Index j = found.column;
         const auto re = shapes_.col(j);
@@ -202,9 +236,9 @@ void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
         out.setZero();
 }
 
-std::vector<Mode> modes(const SecondOrderSystem& system) {
+std::vector<Mode> modes(const SecondOrderSystem& system, double largest) {
     ModeSolver solver(system.M.rows());
-    std::vector<Mode> all(solver.solve(system));
+    std::vector<Mode> all(solver.solve(system, largest));
     for (std::size_t i = 0; i < all.size(); ++i) solver.copy(i, all[i]);
     return all;
 }

@@ -2,8 +2,11 @@
 /// Complex modes of a second-order system.
 #pragma once
 
+#include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/real_eigen.hpp"
 #include "solvers/linear/linearise.hpp"
+
+#include <limits>
 
 namespace cardan::solvers {
 
@@ -35,10 +38,16 @@ public:
 
     /// Results are valid until the next call. Cost of one real eigenvalue problem of twice the size; nothing is
     /// allocated.
+    ///
+    /// Where only the modes up to a frequency are wanted, they come from shift-invert Arnoldi with the same shift
+    /// (dominant_eigenvalues(), which allocates), as exactly as all of them; from the dense solver if the system is
+    /// small, or if a Krylov space of half of all states does not suffice. NREL 5 MW with 176 unknowns: 7 ms instead of
+    /// 47 for the 16 modes below 4 Hz.
+    /// @param largest  of the |eigenvalue| wanted, rad/s; > 0
     /// @returns the number of modes
     /// @throws NumericalError if a matrix is not finite, the mass matrix is not positive definite or the eigenvalue
     /// iteration fails; the solver can be used again
-    std::size_t solve(const SecondOrderSystem& system);
+    std::size_t solve(const SecondOrderSystem& system, double largest = std::numeric_limits<double>::infinity());
 
     /// @param out  overwritten; nothing is allocated if its shape has the right size already
     void copy(std::size_t mode, Mode& out) const;
@@ -50,19 +59,23 @@ private:
         Complex eigenvalue;
         Eigen::Index column;  // of shapes_: real part, with the imaginary part in the next column
     };
-    void set_state_matrix(const SecondOrderSystem& system, double scale, double s);
-    void collect(double scale, double s, double least);
+    void shift(const SecondOrderSystem& system, double scale);
+    void solve_all(const SecondOrderSystem& system, double scale);
+    bool solve_few(double scale, double largest);
+    void add(Complex mu, double scale);
     void normalise(const SecondOrderSystem& system);
 
     RealEigen eigen_;
     Vector d_;                            // inverse roots of the diagonal of the mass matrix
-    Matrix K_s_, right_, S_;              // shifted stiffness, right sides, inverse of the shifted state matrix
+    LuFactors K_s_;                       // shifted stiffness
+    Matrix right_, S_;                    // right sides, inverse of the shifted state matrix
     Matrix shapes_, elastic_, inertial_;  // of all modes side by side; K_e x, M x
+    Eigen::Index columns_ = 0;            // of these that are in use
     std::vector<Found> found_;
 };
 
-/// All modes, with a temporary ModeSolver.
-std::vector<Mode> modes(const SecondOrderSystem& system);
+/// The modes, with a temporary ModeSolver.
+std::vector<Mode> modes(const SecondOrderSystem& system, double largest = std::numeric_limits<double>::infinity());
 
 /// Energy products x^H K_e y + conj(lambda_x) lambda_y x^H M y of many modes x with one mode y.
 class EnergyProduct {

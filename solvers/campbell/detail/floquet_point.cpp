@@ -166,6 +166,7 @@ void PeriodicPointSolver::warn(const std::string& what) {
 void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     if (rotor_speed == 0) {
         standstill_.solve(0, point);
+        range_.set(point.modes, 0);
         mean_ = standstill_.system();
         for (CampbellMode& m : point.modes) m.row = naming_row(mean_, m.mode);
         name_weak_spin(point.modes, mean_.M, spin_row());
@@ -356,8 +357,8 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     return out;
 }
 
-void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) const {
-    for (Mode& mode : modes(mean_)) {
+void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
+    for (Mode& mode : modes(mean_, range_.largest(options_, state_->rotor_speed))) {
         if (std::abs(mode.eigenvalue) < rigid_per_radian * std::abs(state_->rotor_speed)) continue;
         CampbellMode& m = point.modes.emplace_back();
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
@@ -366,6 +367,7 @@ void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) const {
         m.shares = energy_shares()->shares(mode);
         m.mode = std::move(mode);
     }
+    range_.set(point.modes, state_->rotor_speed);
     leave_out_free_spin(std::abs(state_->rotor_speed), point);
 }
 

@@ -36,7 +36,7 @@ private:
     void warn_of_differing_blades();
     FloquetOptions floquet_options() const;
     void set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point);
-    void set_mean_modes(CampbellPoint& point) const;
+    void set_mean_modes(CampbellPoint& point);
     void leave_out_free_spin(double scale, CampbellPoint& point) const;
     CampbellMode make(FloquetMode&& found) const;
     void set_blade_shares(CampbellPoint& point) const;
@@ -52,6 +52,7 @@ private:
     double difference_ = 0;   // of the blades
     SecondOrderSystem mean_;
     std::string warning_;
+    ModeRange range_;
 };
 
 /// Row with most kinetic energy if the mode has (almost) no elastic energy, else -1; for modes of constant systems.

@@ -1,6 +1,7 @@
 #include "solvers/linear/detail/shifted_state.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/finite.hpp"
 #include "solvers/algebra/dense.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ void check_modes_input(const SecondOrderSystem& system, Eigen::Index n, Matrix& 
         if (m->rows() != n || m->cols() != n)
             throw InputError("modes", "size of a system matrix", text(m->rows(), " x ", m->cols()), text(n, " x ", n));
     if (n == 0) return;
-    if (!system.M.allFinite() || !system.C.allFinite() || !system.K.allFinite())
+    if (!all_finite(system.M) || !all_finite(system.C) || !all_finite(system.K))
         throw NumericalError("modes: a system matrix is not finite");
     scratch = system.M;
     if (!positive_definite(scratch)) throw NumericalError("modes: the mass matrix is not positive definite");

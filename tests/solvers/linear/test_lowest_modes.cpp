@@ -1,7 +1,7 @@
 // The modes up to a frequency against all modes.
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/linear/lowest_modes.hpp"
+#include "solvers/linear/modes.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
@@ -69,7 +69,7 @@ double error_of_shape(const SecondOrderSystem& s, const Mode& mode) {
 void check_modes(const SecondOrderSystem& system, double largest, double shape_error = 1e-10) {
     std::vector<Mode> expected = modes(system);
     std::erase_if(expected, [&](const Mode& mode) { return std::abs(mode.eigenvalue) > largest; });
-    const std::vector<Mode> found = lowest_modes(system, largest);
+    const std::vector<Mode> found = modes(system, largest);
     REQUIRE(found.size() == expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
         CAPTURE(i, found[i].eigenvalue, expected[i].eigenvalue);
@@ -97,18 +97,18 @@ TEST_CASE("lowest modes: none of those of the dense solver is lost, on 200 machi
 TEST_CASE("lowest modes: limits, small systems, input that is refused", "[bad input]") {
     Random random(201);
     const SecondOrderSystem system = random_machine(random, 3, 15, false);
-    CHECK(lowest_modes(system, 1e-6).empty());
-    CHECK(lowest_modes(system, 1e12).size() == modes(system).size());
+    CHECK(modes(system, 1e-6).empty());
+    CHECK(modes(system, 1e12).size() == modes(system).size());
     const SmallRotor rotor = small_rotor({.stiffness = {500, 500, 500}, .elastic_support = true});
     check_modes(rotor.rotating(3), 20);
-    check_refused([&] { (void)lowest_modes(system, 0); }, {"largest eigenvalue", "0"});
+    check_refused([&] { (void)modes(system, 0); }, {"largest eigenvalue", "0"});
     SecondOrderSystem broken = system;
     broken.K(3, 4) = NAN;
-    CHECK_THROWS_AS(lowest_modes(broken, 10), NumericalError);
+    CHECK_THROWS_AS(modes(broken, 10), NumericalError);
     broken = system;
     broken.M(3, 3) = -1;
-    CHECK_THROWS_AS(lowest_modes(broken, 10), NumericalError);
+    CHECK_THROWS_AS(modes(broken, 10), NumericalError);
     broken = system;
     broken.C.resize(2, 2);
-    CHECK_THROWS_AS(lowest_modes(broken, 10), InputError);
+    CHECK_THROWS_AS(modes(broken, 10), InputError);
 }

@@ -1,0 +1,24 @@
+/// @file
+/// Which modes of a constant system a Campbell diagram computes.
+#pragma once
+
+#include "solvers/campbell/diagram.hpp"
+
+namespace cardan::solvers {
+
+/// All at the first point: names are decided by all of them. Then those up to one and a half times the largest
+/// frequency of the diagram, or as far as the 24 lowest of the first point reach, so that a small largest frequency
+/// does not change names; and twice the rotor speed more, since whirl modes fan out by the rotor speed.
+class ModeRange {
+public:
+    /// Largest |eigenvalue| at a rotor speed, rad/s; infinite: all modes.
+    double largest(const CampbellOptions& options, double rotor_speed) const;
+    /// Tells what was found. Counts at the first point only.
+    /// @param modes  by natural frequency
+    void set(const std::vector<CampbellMode>& modes, double rotor_speed);
+
+private:
+    double usual_ = -1;  // that of the 24 lowest; negative: before the first point
+};
+
+}  // namespace cardan::solvers
