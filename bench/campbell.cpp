@@ -1,13 +1,13 @@
-// Campbell sweeps of the 600 kW and the NREL 5 MW machine against their dense eigenvalue solutions alone: the ratio of
-// the two times is what the linearisation, the steady states, the identification and the tracking cost on top.
+// Campbell sweeps of the 600 kW, the NREL 5 MW and the teetered machine, without and with gravity, beside the dense
+// eigenvalue solutions of as many speeds: ratios of CPU times, medians of pairs.
+#include "bench/pairs.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/point.hpp"
 #include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
-
-#include <chrono>
 
 using namespace cardan;
 
@@ -19,50 +19,70 @@ const turbines::Turbine& machine() {
 }
 
 // 8 elements per blade and tower.
+turbines::Turbine nrel5mw(const Vec3& gravity) {
+    turbines::AssemblyOptions options = turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, 8, 8);
+    options.gravity = gravity;
+    return turbines::assemble(turbines::nrel5mw_description(), options);
+}
 const turbines::Turbine& large_machine() {
-    static const turbines::Turbine turbine = turbines::assemble(
-        turbines::nrel5mw_description(), turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, 8, 8));
+    static const turbines::Turbine turbine = nrel5mw(Vec3::Zero());
+    return turbine;
+}
+const turbines::Turbine& heavy_machine() {
+    static const turbines::Turbine turbine = nrel5mw(turbines::nrel5mw_gravity);
+    return turbine;
+}
+// 3 elements per blade and tower.
+const turbines::Turbine& two_blades() {
+    static const turbines::Turbine turbine =
+        turbines::assemble(turbines::teetered_description(), turbines::teetered_assembly(3));
     return turbine;
 }
 
 using Machine = const turbines::Turbine& (*)();
 
-solvers::SecondOrderSystem fixed_frame_system(const turbines::Turbine& turbine, double rotor_speed) {
+// A sweep beside the eigenvalues of the machine at standstill, solved once for each speed by the dense solver.
+void campbell_sweep(benchmark::State& state, Machine machine, const std::vector<double>& speeds,
+                    const solvers::CampbellOptions& options) {
+    const turbines::Turbine& turbine = machine();
     const System& system = turbine.system();
     const int spin = turbine.rotor().spin;
-    solvers::SteadyOptions options;
-    options.rotor_speed = rotor_speed;
-    const solvers::SteadyState steady = solvers::steady_state(system, spin, options);
-    const auto free = system.model.coordinates().free();
-    const auto own = solvers::restrict_to(solvers::linearise(system, steady.at), free, spin);
-    return solvers::ColemanTransform(turbine.rotor(), free).transform(own, 0, rotor_speed);
+    const solvers::SecondOrderSystem at_rest =
+        solvers::restrict_to(solvers::linearise(system, solvers::steady_state(system, spin).at),
+                             system.model.coordinates().free_without(spin), spin);
+    bench::Pairs times;
+    for (auto _ : state) {
+        const double sweep = bench::cpu_time_of(
+            [&] { benchmark::DoNotOptimize(solvers::campbell(system, turbine.rotor(), speeds, options)); });
+        times.add(sweep, bench::cpu_time_of([&] {
+                      for (std::size_t i = 0; i < speeds.size(); ++i) benchmark::DoNotOptimize(solvers::modes(at_rest));
+                  }));
+        state.SetIterationTime(sweep);
+    }
+    state.counters["unknowns"] = static_cast<double>(at_rest.M.rows());
+    state.counters["ms"] = 1e3 * times.first();
+    state.counters["dense ms"] = 1e3 * times.second();
+    state.counters["sweep / dense"] = times.ratio();
 }
 
-// Sweep and eigenvalue solutions in turn, so that the ratio holds when the machine's speed drifts.
-void campbell_sweep(benchmark::State& state, Machine machine, const std::vector<double>& speeds) {
-    using Clock = std::chrono::steady_clock;
-    const turbines::Turbine& turbine = machine();
-    std::vector<solvers::SecondOrderSystem> systems;
-    for (double speed : speeds) systems.push_back(fixed_frame_system(turbine, speed));
-    Clock::duration sweep{}, eigenvalues{};
-    for (auto _ : state) {
-        const auto start = Clock::now();
-        benchmark::DoNotOptimize(solvers::campbell(turbine.system(), turbine.rotor(), speeds));
-        sweep += Clock::now() - start;
-        state.PauseTiming();
-        const auto alone = Clock::now();
-        for (const auto& system : systems) benchmark::DoNotOptimize(solvers::modes(system));
-        eigenvalues += Clock::now() - alone;
-        state.ResumeTiming();
-    }
-    state.counters["unknowns"] = static_cast<double>(systems.front().M.rows());
-    state.counters["sweep / eigenvalues"] =
-        static_cast<double>(sweep.count()) / static_cast<double>(eigenvalues.count());
+void in_pairs(benchmark::internal::Benchmark* b) {
+    b->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
 }
-BENCHMARK_CAPTURE(campbell_sweep, wt600_41_speeds, machine, solvers::rpm_range(0, 40, 1))
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(campbell_sweep, nrel5mw_10_speeds, large_machine, solvers::rpm_range(0, 13.5, 1.5))
-    ->Unit(benchmark::kMillisecond);
+
+using solvers::CampbellMethod;
+const std::vector<double> ten_speeds = solvers::rpm_range(0, 13.5, 1.5);
+BENCHMARK_CAPTURE(campbell_sweep, wt600_41_speeds, machine, solvers::rpm_range(0, 40, 1), {})->Apply(in_pairs);
+BENCHMARK_CAPTURE(campbell_sweep, nrel5mw_10_speeds, large_machine, ten_speeds, {.max_frequency_hz = 4})
+    ->Apply(in_pairs);
+BENCHMARK_CAPTURE(campbell_sweep, nrel5mw_10_speeds_all_modes, large_machine, ten_speeds,
+                  {.max_frequency_hz = 4, .all_modes = true})
+    ->Apply(in_pairs);
+BENCHMARK_CAPTURE(campbell_sweep, nrel5mw_10_speeds_gravity_averaged, heavy_machine, ten_speeds,
+                  {.method = CampbellMethod::averaged, .max_frequency_hz = 4, .floquet = {.harmonics = 4}})
+    ->Apply(in_pairs);
+BENCHMARK_CAPTURE(campbell_sweep, teetered_8_speeds, two_blades, solvers::rpm_range(10, 80, 10),
+                  {.method = CampbellMethod::floquet, .max_frequency_hz = 12})
+    ->Apply(in_pairs);
 
 // One point by stage, at 20 rpm, in memory that exists.
 struct Stages {

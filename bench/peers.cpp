@@ -1,5 +1,6 @@
-// The kernels beside Simbody on the same trees. Both are timed in turn, so that the ratios hold when the machine's
-// speed drifts; the ratio is that of the shortest times. A table at the end puts the ratios beside the targets.
+// The kernels beside Simbody on the same trees, in turn: medians of the ratios of CPU times, pair by pair. A table at
+// the end puts the ratios beside the targets.
+#include "bench/pairs.hpp"
 #include "bench/trees.hpp"
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <functional>
 #include <iomanip>
 #include <iostream>
@@ -97,10 +97,11 @@ struct Pair {
 
 template <class Call>
 double seconds(int calls, Call&& call) {
-    const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < calls; ++i) call();
-    benchmark::ClobberMemory();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / calls;
+    const auto all = [&] {
+        for (int i = 0; i < calls; ++i) call();
+        benchmark::ClobberMemory();
+    };
+    return bench::cpu_time_of(all) / calls;
 }
 
 constexpr double turn = 0.5e-3;  // s, of one engine before it is the other's turn
@@ -125,17 +126,16 @@ void beside_simbody(benchmark::State& state, const std::string& tree_name, const
     const auto ours = [&] { pair.ours(); };
     const auto theirs = [&] { pair.simbody(); };
     const int our_calls = calls_per_turn(ours), their_calls = calls_per_turn(theirs);
-    double our_best = 1e300, their_best = 1e300;
+    bench::Pairs times;
     for (auto _ : state) {
         const double own = seconds(our_calls, ours);
-        our_best = std::min(our_best, own);
-        their_best = std::min(their_best, seconds(their_calls, theirs));
+        times.add(seconds(their_calls, theirs), own);
         state.SetIterationTime(own);
     }
     const bool at_least = quantities[quantity].at_least;
-    const double ratio = at_least ? their_best / our_best : our_best / their_best;
+    const double ratio = at_least ? times.ratio() : 1 / times.ratio();
     state.counters["coordinates"] = pair.n;
-    state.counters["Simbody us"] = 1e6 * their_best;
+    state.counters["Simbody us"] = 1e6 * times.first();
     state.counters[at_least ? "Simbody / Cardan" : "Cardan / Simbody ID"] = ratio;
     table[tree_name].n = pair.n;
     table[tree_name].ratio[quantity] = ratio;
@@ -151,13 +151,12 @@ void at_fixed_depth(benchmark::State& state, const Tree& tree, std::size_t quant
         pair.ours();
     };
     const int calls = calls_per_turn(ours);
-    double best = 1e300;
+    std::vector<double> times;
     for (auto _ : state) {
-        const double own = seconds(calls, ours);
-        best = std::min(best, own);
-        state.SetIterationTime(own);
+        times.push_back(seconds(calls, ours));
+        state.SetIterationTime(times.back());
     }
-    state.counters["ns per coordinate"] = growth[pair.n][quantity] = 1e9 * best / pair.n;
+    state.counters["ns per coordinate"] = growth[pair.n][quantity] = 1e9 * bench::median(times) / pair.n;
 }
 
 void register_all() {
@@ -169,7 +168,7 @@ void register_all() {
     };
     const auto compare = [&](const std::string& tree_name, const Tree& tree) {
         order.push_back(tree_name);
-        const int rounds = tree.bodies().size() < 200 ? 100 : 20;
+        const int rounds = tree.bodies().size() < 200 ? 101 : bench::Pairs::least;
         for (std::size_t i = 0; i < quantities.size(); ++i)
             add(text(tree_name, "/", quantities[i].name), rounds,
                 [=](benchmark::State& state) { beside_simbody(state, tree_name, tree, i); });
@@ -182,7 +181,7 @@ void register_all() {
     for (const int blades : {3, 7, 15, 31}) {
         const Tree tree = bench::turbine_tree(blades);
         for (std::size_t i = 0; i < own_names.size(); ++i)
-            add(text("depth 31, ", tree.bodies().size(), " coordinates/", own_names[i]), 100,
+            add(text("depth 31, ", tree.bodies().size(), " coordinates/", own_names[i]), 101,
                 [=](benchmark::State& state) { at_fixed_depth(state, tree, i); });
     }
 }
@@ -193,7 +192,7 @@ void print_tables() {
         for (const double cell : cells) std::cout << std::setw(13) << std::setprecision(cell < 10 ? 2 : 1) << cell;
         std::cout << "\n";
     };
-    std::cout << "\nshortest times         ID, FD, metric: Simbody / Cardan; derivatives, Christoffel: Cardan / "
+    std::cout << "\nmedians of CPU times   ID, FD, metric: Simbody / Cardan; derivatives, Christoffel: Cardan / "
                  "Simbody's ID\n"
               << std::setw(30) << "";
     for (const char* head : {"ID", "FD", "metric", "derivatives", "Christoffel"}) std::cout << std::setw(13) << head;

@@ -1,7 +1,8 @@
 // Time marching with gravity of the 600 kW machine (27.1 rpm; 3 and 12 elements per blade and tower)
 // and of the NREL 5 MW machine (12.1 rpm; 8 elements), beside one evaluation of forward dynamics of the same model in
-// the same run. "x real time" depends on the machine; "step / forward dynamics" and "second / forward dynamics" (per
-// second of simulated time) are the figures to keep.
+// the same run, in CPU time, medians of pairs. "x real time" depends on the machine; "step / forward dynamics" and
+// "second / forward dynamics" (per second of simulated time) are the figures to keep.
+#include "bench/pairs.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -11,17 +12,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-
 using namespace cardan;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::duration d) {
-    return std::chrono::duration<double>(d).count();
-}
 
 // From the steady state at standstill, with the rotor set in motion; the transients have gone after 5 s.
 struct Run {
@@ -64,14 +57,15 @@ double forward_dynamics_time(const System& system, const solvers::DynamicState& 
     ForwardDynamics forward(system.model);
     Vector Q = at.q, qdd = at.qdd, actuator = at.actuator;
     constexpr int times = 2000;
-    const auto start = Clock::now();
-    for (int i = 0; i < times; ++i) {
-        const Kinematics kin = kinematics(system.model, at.q, workspace);
-        system.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
-        forward.solve(kin, at.qd, Q, qdd, actuator);
-        benchmark::DoNotOptimize(qdd.data());
-    }
-    return seconds(Clock::now() - start) / times;
+    return bench::cpu_time_of([&] {
+               for (int i = 0; i < times; ++i) {
+                   const Kinematics kin = kinematics(system.model, at.q, workspace);
+                   system.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+                   forward.solve(kin, at.qd, Q, qdd, actuator);
+                   benchmark::DoNotOptimize(qdd.data());
+               }
+           }) /
+           times;
 }
 
 void march(benchmark::State& state, turbines::Turbine turbine, double rpm, solvers::Method method) {
@@ -79,25 +73,22 @@ void march(benchmark::State& state, turbines::Turbine turbine, double rpm, solve
     solvers::Integrator& integrator = *run.integrator;
     const solvers::IntegrationStatistics before = integrator.statistics();
     const double from = integrator.time();
-    Clock::duration marching{};
-    double evaluation = 0;
+    bench::Pairs times;  // one second of motion, one evaluation
     for (auto _ : state) {
-        const auto start = Clock::now();
-        if (!integrator.advance(integrator.time() + 1).reached()) state.SkipWithError("the run failed");
-        marching += Clock::now() - start;
-        state.PauseTiming();
-        evaluation += forward_dynamics_time(run.turbine.system(), integrator.state());
-        state.ResumeTiming();
+        bool reached = false;
+        const double marching =
+            bench::cpu_time_of([&] { reached = integrator.advance(integrator.time() + 1).reached(); });
+        if (!reached) state.SkipWithError("the run failed");
+        times.add(marching, forward_dynamics_time(run.turbine.system(), integrator.state()));
+        state.SetIterationTime(marching);
     }
     const solvers::IntegrationStatistics after = integrator.statistics();
-    const auto steps = static_cast<double>(after.steps - before.steps);
-    const double simulated = integrator.time() - from;
-    evaluation /= static_cast<double>(state.iterations());
+    const double steps = static_cast<double>(after.steps - before.steps) / (integrator.time() - from);
     state.counters["coordinates"] = run.turbine.system().model.size();
-    state.counters["x real time"] = simulated / seconds(marching);
-    state.counters["steps per second"] = steps / simulated;
-    state.counters["step / forward dynamics"] = seconds(marching) / steps / evaluation;
-    state.counters["second / forward dynamics"] = seconds(marching) / simulated / evaluation;
+    state.counters["x real time"] = 1 / times.first();
+    state.counters["steps per second"] = steps;
+    state.counters["step / forward dynamics"] = times.ratio() / steps;
+    state.counters["second / forward dynamics"] = times.ratio();
 }
 
 void time_marching_wt600(benchmark::State& state, solvers::Method method) {
@@ -108,14 +99,14 @@ void time_marching_nrel5mw(benchmark::State& state, solvers::Method method) {
 }
 
 void few_and_many(benchmark::internal::Benchmark* b) {
-    b->Arg(3)->Arg(12)->Unit(benchmark::kMillisecond);
+    b->Arg(3)->Arg(12)->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
 }
 BENCHMARK_CAPTURE(time_marching_wt600, dirk, solvers::Method::dirk)->Apply(few_and_many);
 BENCHMARK_CAPTURE(time_marching_wt600, bdf, solvers::Method::bdf)->Apply(few_and_many);
 BENCHMARK_CAPTURE(time_marching_wt600, generalised_alpha, solvers::Method::generalised_alpha)->Apply(few_and_many);
 
 void eight(benchmark::internal::Benchmark* b) {
-    b->Arg(8)->Unit(benchmark::kMillisecond);
+    b->Arg(8)->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
 }
 BENCHMARK_CAPTURE(time_marching_nrel5mw, dirk, solvers::Method::dirk)->Apply(eight);
 BENCHMARK_CAPTURE(time_marching_nrel5mw, bdf, solvers::Method::bdf)->Apply(eight);

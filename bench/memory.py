@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Peak memory and CPU time of every program with its default options, as a table.
+
+usage: bench/memory.py [FOLDER OF THE PROGRAMS, default build/release/examples]
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAMS = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/examples").resolve()
+
+# Programs that want to be told what to do.
+ARGUMENTS = {
+    "openfast_campbell": ["nrel5mw"],
+    "turbine_time_history": ["nrel5mw"],
+    "turbine_linear_model": ["nrel5mw"],
+    "nrel5mw_floating": ["decay", "--from", "pitch=3"],
+    "urdf_inspect": [str(ROOT / "examples/data/arm6.urdf")],
+}
+# Those that only read what others have written.
+LEFT_OUT = {"history", "plot_history"}
+
+
+def run(command, folder):
+    """Peak memory in MiB and CPU time in s of a command; None if it failed."""
+    with open(os.devnull, "wb") as nothing:
+        process = subprocess.Popen(command, cwd=folder, stdin=nothing, stdout=nothing, stderr=nothing)
+        _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        return None
+    return usage.ru_maxrss / 1024, usage.ru_utime + usage.ru_stime
+
+
+def main():
+    names = sorted(p.stem for p in (ROOT / "examples/programs").glob("*.cpp")) + sorted(
+        p.stem for p in (ROOT / "examples/studies").glob("*.cpp"))
+    print("| Program | peak, MiB | CPU, s |\n|---|---|---|")
+    for name in names:
+        if name in LEFT_OUT:
+            continue
+        arguments = ARGUMENTS.get(name, [])
+        with tempfile.TemporaryDirectory() as folder:
+            result = run([str(PROGRAMS / name), *arguments], folder)
+        shown = " ".join([name, *(pathlib.Path(a).name for a in arguments)])
+        print(f"| `{shown}` | " + ("failed | |" if result is None else f"{result[0]:.0f} | {result[1]:.1f} |"), flush=True)
+
+
+if __name__ == "__main__":
+    main()
