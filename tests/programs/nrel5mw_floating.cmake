@@ -33,8 +33,8 @@ add_example_test(example_floating_far nrel5mw_floating 3 "Platform Roll +60 deg.
                  --cycles 4 --out example_floating_far)
 # Ctrl-C: exit code 130, and what was computed is there.
 add_test(NAME example_floating_interrupted
-         COMMAND ${CMAKE_COMMAND} -D PROGRAM=timeout
-                 "-DARGUMENTS=--preserve-status;--signal=INT;6;$<TARGET_FILE:nrel5mw_floating>;decay;--variant;fast;--blade-elements;4;--tower-elements;2;--tolerance;1e-9;--from;pitch=3;--cycles;1000;--out;example_floating_interrupted"
+         COMMAND ${CMAKE_COMMAND} -D PROGRAM=${CMAKE_CURRENT_SOURCE_DIR}/programs/interrupt.sh
+                 "-DARGUMENTS=example_floating_interrupted_pitch.h5;$<TARGET_FILE:nrel5mw_floating>;decay;--variant;fast;--blade-elements;4;--tower-elements;2;--tolerance;1e-9;--from;pitch=3;--cycles;1000;--out;example_floating_interrupted"
                  -D CODE=130 "-DSAYS=files: example_floating_interrupted_pitch.h5" -P ${CMAKE_CURRENT_SOURCE_DIR}/run_program.cmake
          WORKING_DIRECTORY ${test_output_dir})
 add_example_test(example_floating_interrupted_history history 0 "decay of platform pitch.*broken off" info

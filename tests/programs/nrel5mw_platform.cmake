@@ -8,8 +8,8 @@ set_tests_properties(example_platform PROPERTIES FIXTURES_SETUP platform_history
 set_tests_properties(example_platform_history PROPERTIES FIXTURES_REQUIRED platform_history)
 # Ctrl-C: exit code 130, and what was computed is there.
 add_test(NAME example_platform_interrupted
-         COMMAND ${CMAKE_COMMAND} -D PROGRAM=timeout
-                 "-DARGUMENTS=--preserve-status;--signal=INT;4;$<TARGET_FILE:nrel5mw_platform>;--elements;64;--tolerance;1e-9;--out;example_platform_interrupted"
+         COMMAND ${CMAKE_COMMAND} -D PROGRAM=${CMAKE_CURRENT_SOURCE_DIR}/programs/interrupt.sh
+                 "-DARGUMENTS=example_platform_interrupted.h5;$<TARGET_FILE:nrel5mw_platform>;--elements;64;--tolerance;1e-9;--out;example_platform_interrupted"
                  -D CODE=130 "-DSAYS=interrupted at .*files: example_platform_interrupted.h5" -P
                  ${CMAKE_CURRENT_SOURCE_DIR}/run_program.cmake
          WORKING_DIRECTORY ${test_output_dir})

@@ -22,7 +22,7 @@ add_example_test(example_teetered_unwritable teetered_campbell 1 "the folder 'no
 # Ctrl-C: exit code 130, and what was computed is there.
 add_test(NAME example_teetered_interrupted
          COMMAND ${CMAKE_COMMAND} -D PROGRAM=timeout
-                 "-DARGUMENTS=--preserve-status;--signal=INT;3;$<TARGET_FILE:teetered_campbell>;--blade-elements;1;--tower-elements;1;--rpm;20:100:0.01;--out;example_teetered_interrupted"
+                 "-DARGUMENTS=--preserve-status;--signal=INT;1.5;$<TARGET_FILE:teetered_campbell>;--blade-elements;1;--tower-elements;1;--rpm;20:100:0.01;--out;example_teetered_interrupted"
                  -D CODE=130 "-DSAYS=the sweep was interrupted.*files: example_teetered_interrupted.h5" -P
                  ${CMAKE_CURRENT_SOURCE_DIR}/run_program.cmake
          WORKING_DIRECTORY ${test_output_dir})
