@@ -72,8 +72,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 ///
 /// Cost per iteration O(samples harmonics^2 n^2) and a linear system of n (2 harmonics + 1) rows. If `rotor` is given,
 /// the Jacobian is the mean of that over the revolution in multi-blade coordinates as long as the residual falls well:
-/// an iteration then costs a linear system of n complex rows for every harmonic that matters. Two alike blades leave half
-/// of the coefficients: even harmonics of their sum, odd ones of their difference.
+/// an iteration then costs a linear system of n complex rows for every harmonic that matters. Two alike blades leave
+/// half of the coefficients: even harmonics of their sum, odd ones of their difference.
 /// @throws InputError for options out of range; user forces must have the period of a revolution and are not checked
 PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options);
 
