@@ -11,7 +11,7 @@ namespace cardan {
 
 /// Four consecutive numbers from anywhere in memory.
 CARDAN_INLINE Packed3<double> four_from(const double* x) {
-    Packed3<double> four;
+    Packed3<double> four = Packed3<double>::zero();
     std::memcpy(&four.lanes, x, sizeof four.lanes);
     return four;
 }

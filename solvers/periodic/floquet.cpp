@@ -245,7 +245,7 @@ void Analysis::integrate(std::span<Motion> motions) const {
     const Index count = std::ssize(motions), n = raw_.states();
     Matrix x(n, 2 * count), next(n, 2 * count);  // real and imaginary parts side by side
     std::vector<Complex> grown(motions.size());  // logarithms
-    for (Motion& m : motions) m.p.resize(n, Q * S);
+    for (Motion& m : motions) m.p.resize(n, Index{Q} * S);
     for (int s = 0; s < S; ++s) {
         for (Index k = 0; k < count; ++k) {
             Motion& m = entry(motions, k);

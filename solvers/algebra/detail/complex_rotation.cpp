@@ -14,10 +14,11 @@ CARDAN_INLINE Four four(double a, double b, double c, double d) {
 
 template <int A, int B, int C, int D>
 CARDAN_INLINE Four shuffled(const Four& v) {
-    if constexpr (std::is_class_v<Four::Lanes>)
-        return four(v(A), v(B), v(C), v(D));
-    else
-        return {__builtin_shufflevector(v.lanes, v.lanes, A, B, C, D)};
+#ifdef CARDAN_HAS_VECTOR_TYPES
+    return {__builtin_shufflevector(v.lanes, v.lanes, A, B, C, D)};
+#else
+    return four(v(A), v(B), v(C), v(D));
+#endif
 }
 
 // A factor of each of the two numbers: (a + i b)(x + i y) = (a x - b y) + i (a y + b x).
