@@ -107,10 +107,8 @@ bool BranchMatrixT<S>::add(const Eigen::Ref<const MatrixT<S>>& A) {
     require_size("branch matrix", "A", A, size(), size());
     Eigen::Index on_branches = 0;
     for (int m = 0; m < size(); ++m) {
-        S *const own_row = reinterpret_cast<S*>(rows_.data() + entry(offset_, m)), *const own_column =
-                                                                                       reinterpret_cast<S*>(
-                                                                                           columns_.data() +
-                                                                                           entry(offset_, m));
+        S* const own_row = numbers(rows_.data() + entry(offset_, m));
+        S* const own_column = numbers(columns_.data() + entry(offset_, m));
         for (int a = m; a >= 0; a = own_parent(*model_, a)) {
             const int position = entry(model_->links(), a).depth - 1;
             own_row[position] += A(m, a);
@@ -137,10 +135,10 @@ void BranchMatrixT<S>::set_sum(const S& a, const BranchMatrixT& A, const S& b, c
 template <class S>
 void BranchMatrixT<S>::set_unit(int m) {
     require_index("branch matrix", "row", m, size());
-    const auto clear = [](S* numbers, int count) { std::fill(numbers, numbers + count, S(0)); };
+    const auto clear = [](S* first, int count) { std::fill(first, first + count, S(0)); };
     const int position = model_->body(m).depth - 1;
-    clear(reinterpret_cast<S*>(rows_.data() + entry(offset_, m)), position);
-    clear(reinterpret_cast<S*>(columns_.data() + entry(offset_, m)), position);
+    clear(numbers(rows_.data() + entry(offset_, m)), position);
+    clear(numbers(columns_.data() + entry(offset_, m)), position);
     rows_[entry(offset_, m) + static_cast<std::size_t>(position / 4)].lanes[position % 4] = S(1);
     for (int k = m + 1; k < entry(model_->links(), m).subtree_end; ++k) {
         const std::size_t block = entry(offset_, k) + static_cast<std::size_t>(position / 4);

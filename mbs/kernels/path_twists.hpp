@@ -67,6 +67,10 @@ template <class S>
 CARDAN_INLINE const S* numbers(const Packed3<S>* columns) {
     return reinterpret_cast<const S*>(columns);
 }
+template <class S>
+CARDAN_INLINE S* numbers(Packed3<S>* columns) {
+    return reinterpret_cast<S*>(columns);
+}
 
 /// Columns of all bodies of the run that starts with body `first`; returns one past its last body. The columns of a
 /// whole run are set before the first is used, so that a register is loaded long after its four numbers were stored (no
