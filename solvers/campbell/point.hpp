@@ -81,6 +81,8 @@ public:
     bool blades_stand_out() const;
     /// Defines the components from this linearisation instead of that of the first point; call before the first point.
     void define_components(const Linearisation& lin);
+    /// Which modes the next point has.
+    ModeRange& mode_range() { return range_; }
 
 private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }

@@ -166,7 +166,6 @@ void PeriodicPointSolver::warn(const std::string& what) {
 void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     if (rotor_speed == 0) {
         standstill_.solve(0, point);
-        range_.set(point.modes, 0);
         mean_ = standstill_.system();
         for (CampbellMode& m : point.modes) m.row = naming_row(mean_, m.mode);
         name_weak_spin(point.modes, mean_.M, spin_row());
@@ -358,7 +357,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
 }
 
 void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
-    for (Mode& mode : modes(mean_, range_.largest(options_, state_->rotor_speed))) {
+    for (Mode& mode : modes(mean_, standstill_.mode_range().largest(options_, state_->rotor_speed))) {
         if (std::abs(mode.eigenvalue) < rigid_per_radian * std::abs(state_->rotor_speed)) continue;
         CampbellMode& m = point.modes.emplace_back();
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
@@ -367,7 +366,7 @@ void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
         m.shares = energy_shares()->shares(mode);
         m.mode = std::move(mode);
     }
-    range_.set(point.modes, state_->rotor_speed);
+    standstill_.mode_range().set(point.modes, state_->rotor_speed);
     leave_out_free_spin(std::abs(state_->rotor_speed), point);
 }
 

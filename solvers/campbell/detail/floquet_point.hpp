@@ -52,7 +52,6 @@ private:
     double difference_ = 0;   // of the blades
     SecondOrderSystem mean_;
     std::string warning_;
-    ModeRange range_;
 };
 
 /// Row with most kinetic energy if the mode has (almost) no elastic energy, else -1; for modes of constant systems.
