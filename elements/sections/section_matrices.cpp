@@ -25,13 +25,38 @@ double unit_scale(double diagonal) {
     return diagonal > 0 ? 1 / std::sqrt(diagonal) : 1.0;
 }
 
-void check_stiffness(const Mat6& K, const std::string& where) {
-    if (!K.allFinite()) throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "finite");
+// K, and 1 in the place of an infinite stiffness.
+Mat6 finite_part(Mat6 K) {
     for (Eigen::Index i = 0; i < 6; ++i)
+        if (std::isinf(K(i, i))) K(i, i) = 1;
+    return K;
+}
+
+// 1 / sqrt(K_ii), and 0 for an infinite stiffness. Newtons and N m^2 differ by decades: symmetry and eigenvalues are
+// those of the matrix scaled to unit diagonal.
+Vec6 unit_scales(const Mat6& K) {
+    return K.diagonal().cwiseSqrt().cwiseInverse();
+}
+
+// K scaled to unit diagonal. Rigid directions do not couple with others.
+Mat6 unit_stiffness(const Mat6& K) {
+    const Vec6 d = unit_scales(K);
+    Mat6 unit = d.asDiagonal() * finite_part(K) * d.asDiagonal();
+    unit.diagonal().setOnes();
+    return unit;
+}
+
+void check_stiffness(const Mat6& K, const std::string& where) {
+    if (!finite_part(K).allFinite())
+        throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "finite, but for rigid directions");
+    for (Eigen::Index i = 0; i < 6; ++i) {
         if (!(K(i, i) > 0)) throw InputError(where, text("6 x 6 stiffness, diagonal entry ", i + 1), K(i, i), "> 0");
-    // Newtons and N m^2 differ by decades: symmetry and eigenvalues of the matrix scaled to unit diagonal.
-    const Vec6 d = K.diagonal().cwiseSqrt().cwiseInverse();
-    const Mat6 unit = d.asDiagonal() * K * d.asDiagonal();
+        if (std::isinf(K(i, i)) && (finite_part(K).row(i).cwiseAbs().sum() != 1))
+            throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"),
+                             text("no coupling with direction ", i + 1, ", which is rigid"));
+    }
+    const Vec6 d = unit_scales(K);
+    const Mat6 unit = unit_stiffness(K);
     if ((unit - unit.transpose()).cwiseAbs().maxCoeff() > 1e-6)
         throw InputError(where, "6 x 6 stiffness", text("\n", K, "\n"), "symmetric");
     const Eigen::SelfAdjointEigenSolver<Matrix> solver{Matrix(unit)};
@@ -88,7 +113,12 @@ Mat3 plane_inertia(Mat3 J, double rounding, const std::string& where) {
 SectionMatrices interpolated(const std::vector<SectionMatrices>& matrices, const StationPlace& place) {
     const SectionMatrices &a = matrices[place.left], &b = matrices[place.right];
     const double t = place.t;
-    return {(1 - t) * a.stiffness + t * b.stiffness, (1 - t) * a.mass + t * b.mass};
+    SectionMatrices out{(1 - t) * finite_part(a.stiffness) + t * finite_part(b.stiffness),
+                        (1 - t) * a.mass + t * b.mass};
+    for (Eigen::Index i = 0; i < 6; ++i)
+        if (std::isinf(a.stiffness(i, i)) || std::isinf(b.stiffness(i, i)))
+            out.stiffness(i, i) = std::numeric_limits<double>::infinity();
+    return out;
 }
 
 Mat3 vabs_axes() {
@@ -101,24 +131,57 @@ Mat3 hawc2_axes() {
     return (Mat3() << Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()).finished();
 }
 
+namespace {
+
+// X K X^T. A rigid direction stays one: it has to be an axis before and after.
+Mat6 congruent(const Mat6& X, const Mat6& K, const char* what) {
+    Mat6 finite = K;
+    for (Eigen::Index i = 0; i < 6; ++i)
+        if (std::isinf(K(i, i))) finite(i, i) = 0;
+    Mat6 out = X * finite * X.transpose();
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        if (!std::isinf(K(i, i))) continue;
+        Eigen::Index axis = 0;
+        if (std::abs(X.col(i).cwiseAbs().maxCoeff(&axis) - 1) > 0 || X.col(i).cwiseAbs().sum() != 1 ||
+            X.row(axis).cwiseAbs().sum() != 1)
+            throw InputError("section matrices", what, text("\n", X.topLeftCorner<3, 3>(), "\n"),
+                             text("axes to axes: direction ", i + 1, " is rigid"));
+        out(axis, axis) = std::numeric_limits<double>::infinity();
+    }
+    return out;
+}
+
+}  // namespace
+
 SectionMatrices rotated(const SectionMatrices& section, const Mat3& R) {
     const Mat6 X = both(R);
-    return {X * section.stiffness * X.transpose(), X * section.mass * X.transpose()};
+    return {congruent(X, section.stiffness, "rotation"), X * section.mass * X.transpose()};
 }
 
 SectionMatrices moved(const SectionMatrices& section, const Vec3& to) {
     const Mat6 X = to_point(to);
-    return {X * section.stiffness * X.transpose(), X * section.mass * X.transpose()};
+    return {congruent(X, section.stiffness, "displacement"), X * section.mass * X.transpose()};
+}
+
+BeamSection turned(const BeamSection& section, double beta) {
+    const Mat3 R = rot_x(beta);
+    const Mat6 X = both(R);
+    BeamSection out = section;
+    out.compliance = X * section.compliance * X.transpose();
+    out.compliance = Mat6((out.compliance + out.compliance.transpose()) / 2);
+    out.centre = R * section.centre;
+    out.J = R * section.J * R.transpose();
+    out.beta = section.beta + beta;
+    return out;
 }
 
 BeamSection beam_section(const SectionMatrices& section, const std::string& where) {
     check_stiffness(section.stiffness, where);
     check_mass(section.mass, where);
     BeamSection s;
-    // Scaled for the same reason as above.
     const Mat6 K = (section.stiffness + section.stiffness.transpose()) / 2;
-    const Vec6 d = K.diagonal().cwiseSqrt().cwiseInverse();
-    const Mat6 unit = d.asDiagonal() * K * d.asDiagonal();
+    const Vec6 d = unit_scales(K);
+    const Mat6 unit = unit_stiffness(K);
     const Mat6 inverse = unit.llt().solve(Mat6::Identity());
     s.compliance = d.asDiagonal() * Mat6((inverse + inverse.transpose()) / 2) * d.asDiagonal();
     const Mat6& M = section.mass;
@@ -133,16 +196,20 @@ BeamSection beam_section(const SectionMatrices& section, const std::string& wher
 }
 
 SectionMatrices section_matrices(const BeamSection& section) {
+    const auto is_rigid = [&](Eigen::Index i) { return section.compliance(i, i) == 0; };
     Vec6 d;
     for (Eigen::Index i = 0; i < 6; ++i) d(i) = unit_scale(section.compliance(i, i));
-    const Mat6 unit = d.asDiagonal() * section.compliance * d.asDiagonal();
+    Mat6 unit = d.asDiagonal() * section.compliance * d.asDiagonal();
+    unit.diagonal().setOnes();
     const Eigen::SelfAdjointEigenSolver<Matrix> solver{Matrix(unit)};
     if (!(solver.eigenvalues()(0) > 1e-13))
         throw InputError("section matrices", "smallest eigenvalue of the compliance (scaled)", solver.eigenvalues()(0),
-                         "> 0: a rigid direction has no stiffness matrix");
+                         "> 0: a rigid direction that is not an axis has no stiffness matrix");
     SectionMatrices m;
     m.stiffness = d.asDiagonal() * Mat6(unit.inverse()) * d.asDiagonal();
     m.stiffness = Mat6((m.stiffness + m.stiffness.transpose()) / 2);
+    for (Eigen::Index i = 0; i < 6; ++i)
+        if (is_rigid(i)) m.stiffness(i, i) = std::numeric_limits<double>::infinity();
     const Mat3 c = skew<double>(section.centre);
     m.mass.topLeftCorner<3, 3>() = section.mass * Mat3::Identity();
     m.mass.topRightCorner<3, 3>() = -section.mass * c;

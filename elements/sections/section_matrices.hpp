@@ -11,6 +11,7 @@
 
 namespace cardan {
 
+/// A direction in which the section is rigid has an infinite stiffness on the diagonal and couples with no other.
 struct SectionMatrices {
     Mat6 stiffness = Mat6::Zero();  ///< forces by strains; N, N m, N m^2
     Mat6 mass = Mat6::Zero();       ///< momenta by velocities, per length; kg/m, kg, kg m
@@ -27,11 +28,16 @@ Mat3 hawc2_axes();    ///< x to the leading edge, y downwind (from the pressure 
 
 /// A section's matrices in other axes.
 /// @param R  R_ab, a proper rotation: matrices in axes b -> in axes a
+/// @throws InputError if a rigid direction would not be along an axis any more
 SectionMatrices rotated(const SectionMatrices& section, const Mat3& R);
 
 /// A section's matrices about another reference point.
 /// @param to  new reference point seen from the old one, m
+/// @throws InputError if a rigid direction would couple with others there
 SectionMatrices moved(const SectionMatrices& section, const Vec3& to);
+
+/// A section that is turned by beta about +x, rad.
+BeamSection turned(const BeamSection& section, double beta);
 
 /// A section from its matrices in beam axes.
 /// @param where  named in errors, e.g. "blade, station 3 (x = 4.1 m)"
@@ -42,7 +48,7 @@ SectionMatrices moved(const SectionMatrices& section, const Vec3& to);
 BeamSection beam_section(const SectionMatrices& section, const std::string& where);
 
 /// Matrices of a section.
-/// @throws InputError if it has rigid directions (infinite stiffness)
+/// @throws InputError if it is rigid in a direction that is not along an axis
 SectionMatrices section_matrices(const BeamSection& section);
 
 /// The engineering constants that approximate a section best.

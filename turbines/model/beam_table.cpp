@@ -23,11 +23,8 @@ std::string station(const BeamTable& table, std::size_t i) {
 
 BeamSection section_at(const BeamTable& table, double x) {
     const StationPlace place = place_among(table.stations, x);
-    const double beta = place.of(table.beta);
-    BeamSection section =
-        beam_section(rotated(interpolated(table.matrices, place), rot_x(beta)), text(table.name, ", x = ", x, " m"));
-    section.beta = beta;
-    return section;
+    const BeamSection section = beam_section(interpolated(table.matrices, place), text(table.name, ", x = ", x, " m"));
+    return turned(section, place.of(table.beta));
 }
 
 BeamLine matrix_sections(const BeamTable& table) {

@@ -367,6 +367,44 @@ TEST_CASE("section matrices: a mass matrix that is not that of a plane section i
         {"entry (2, 6) [kg]", "the mass centre lies in the section"});
 }
 
+TEST_CASE("section matrices: rigid directions are infinite on the diagonal", "[property]") {
+    Random random(24);
+    EngineeringSection s = random_engineering(random);
+    s.beta = 0;
+    s.shear_centre = {};
+    s.GA_y = s.GA_z = infinite;
+    const BeamSection section = s.section();
+    const SectionMatrices m = section_matrices(section);
+    CHECK(m.stiffness(1, 1) == infinite);
+    CHECK(m.stiffness(2, 2) == infinite);
+    const BeamSection again = beam_section(m, "section");
+    CHECK((again.compliance - section.compliance).norm() < 1e-13 * section.compliance.norm());
+    // Shear stiffness without end: the limit of stiffer and stiffer sections.
+    s.GA_y = s.GA_z = 1e9 * s.EA;
+    const BeamSection stiff = beam_section(section_matrices(s.section()), "section");
+    CHECK((stiff.compliance - section.compliance).norm() < 1e-8 * section.compliance.norm());
+    // Axes to axes, and as a section by any angle.
+    const SectionMatrices other = rotated(m, beamdyn_axes());
+    CHECK(other.stiffness(0, 0) == m.stiffness(2, 2));
+    CHECK(other.stiffness(1, 1) == infinite);
+    CHECK(other.stiffness(2, 2) == Approx(m.stiffness(0, 0)));
+    EngineeringSection by_angle = s;
+    by_angle.GA_y = by_angle.GA_z = infinite;
+    by_angle.beta = 0.4;
+    const BeamSection a = turned(section, 0.4), b = by_angle.section();
+    CHECK((a.compliance - b.compliance).norm() < 1e-13 * b.compliance.norm());
+    CHECK((a.centre - b.centre).norm() < 1e-13);
+    CHECK((a.J - b.J).norm() < 1e-13 * b.J.norm());
+    CHECK(a.beta == Approx(0.4));
+    const SectionMatrices half = interpolated({m, m}, {0, 1, 0.0});
+    CHECK(half.stiffness == m.stiffness);
+    check_refused([&] { (void)rotated(m, rot_z(0.3)); }, {"rotation", "direction 2 is rigid"});
+    check_refused([&] { (void)moved(m, Vec3(0, 0.1, 0)); }, {"displacement", "is rigid"});
+    SectionMatrices coupled = m;
+    coupled.stiffness(1, 3) = coupled.stiffness(3, 1) = 1;
+    check_refused([&] { (void)beam_section(coupled, "section"); }, {"no coupling with direction 2, which is rigid"});
+}
+
 TEST_CASE("matrix line: bad stations and axes are refused; a rigid section has no matrices", "[property]") {
     Random random(20);
     const SectionMatrices m = random_matrices(random);
@@ -379,7 +417,8 @@ TEST_CASE("matrix line: bad stations and axes are refused; a rigid section has n
     check_refused(make({0, 1}, {m, m}, -vabs_axes()), {"blade: axes", "a rotation"});
     EngineeringSection s = random_engineering(random);
     s.GA_y = infinite;
-    check_refused([&] { (void)section_matrices(s.section()); }, {"a rigid direction has no stiffness matrix"});
+    s.beta = 0.3;
+    check_refused([&] { (void)section_matrices(s.section()); }, {"a rigid direction that is not an axis"});
     s.beta = 13.3;
     check_refused([&] { (void)uniform_beam(1, s, "blade"); }, {"blade: twist [rad] = 13.3", "given in degrees?"});
 }

@@ -160,10 +160,10 @@ private:
         return "[" + all + "]";
     }
     template <class M>
-    std::string rows(const M& m) const {
+    std::string rows(const M& m, bool or_infinite = false) const {
         std::string all;
         for (Eigen::Index i = 0; i < m.rows(); ++i)
-            all += (all.empty() ? "" : ", ") + list(std::vector<double>(m.row(i).begin(), m.row(i).end()));
+            all += (all.empty() ? "" : ", ") + list(std::vector<double>(m.row(i).begin(), m.row(i).end()), or_infinite);
         return "[" + all + "]";
     }
     void fields(const BeamTable& table) {
@@ -184,7 +184,7 @@ private:
                                               std::pair{"mass_matrix", &SectionMatrices::mass}}) {
                 out += text(indentation(), key, ":\n");
                 for (const SectionMatrices& m : table.matrices)
-                    out += text(indentation(), "  - ", rows(m.*matrix), "\n");
+                    out += text(indentation(), "  - ", rows(m.*matrix, matrix == &SectionMatrices::stiffness), "\n");
             }
         }
         if (table.points.empty()) return;
