@@ -15,7 +15,7 @@ Models of OpenFAST and windIO are read as they are.")
 # Shared libraries that the programs need, and what find_package(cardan) looks for (cardanDependencies.cmake).
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "libeigen3-dev (>= 3.4), libsundials-dev (>= 6), libhdf5-dev, libmatio-dev, libtbb-dev (>= 2021), libyaml-cpp-dev, liburdfdom-dev"
+    "libeigen3-dev (>= 3.4), libsundials-dev (>= 6), libhdf5-dev, libmatio-dev, libtbb-dev (>= 2021), libyaml-dev, liburdfdom-dev"
 )
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox) # pictures
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake (>= 3.25)")

@@ -32,11 +32,12 @@ room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
 room(turbines/readers SEES turbines/model) # OpenFAST's files, tables
-room(turbines/yaml SEES turbines/readers USES yaml_cpp) # our own files, windIO's
+room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
 room(turbines/machines SEES turbines/readers) # 600 kW, teetered, NREL 5 MW
+room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 
-room(examples SEES turbines/studies turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples SEES turbines/studies turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
 room(examples/shared SEES examples USES cli11) # what programs and studies have in common
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods
@@ -45,7 +46,7 @@ room(examples/studies SEES examples/shared) # of papers and methods
 library(sundials sundials/ cvode/ cvodes/ ida/ idas/ arkode/ kinsol/ nvector/ sunmatrix/ sunlinsol/ sunnonlinsol/)
 library(hdf5 hdf5 H5)
 library(matio matio)
-library(yaml_cpp yaml-cpp/)
+library(libyaml yaml.h)
 library(boost boost/)
 library(tbb tbb/ oneapi/)
 library(urdfdom urdf tinyxml console_bridge)

@@ -8,7 +8,6 @@
 // printed as notes. Frames, signs, and what is read: docs/coming_from_openfast.md.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/campbell/difference.hpp"
 #include "turbines/model/assembly.hpp"
 #include "turbines/model/beam_table.hpp"
 #include "turbines/yaml/description.hpp"
@@ -16,9 +15,8 @@
 #include "examples/programs/campbell_program.hpp"
 #include "examples/shared/machine_file.hpp"
 #include <algorithm>
-#include <array>
-#include <iomanip>
 #include <iostream>
+#include <optional>
 
 using namespace cardan;
 
@@ -27,7 +25,7 @@ namespace {
 struct Arguments {
     program::MachineOptions machine;
     std::string rpm, out = "openfast_campbell", save;
-    double max_frequency = 5;
+    std::optional<double> max_frequency;
 };
 
 int parse(int argc, char** argv, Arguments& a) {
@@ -35,26 +33,29 @@ int parse(int argc, char** argv, Arguments& a) {
         "Campbell diagram of any machine: OpenFAST (.fst, or an ElastoDyn file), windIO (.yaml), our own .yaml, or a "
         "built-in one.\n"
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, and prints a table.");
-    a.machine.blade_elements = 6;
-    a.machine.tower_elements = 4;
     program::add_machine(app, a.machine);
     app.add_option("--rpm", a.rpm,
                    "rotor speeds, numbers and FIRST:LAST:STEP separated by commas, rev/min (default: from 0 to 1.2 "
                    "times the model's, in 12 steps)");
     program::add_machine_options(app, a.machine);
-    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz");
+    app.add_option(
+        "--max-frequency", a.max_frequency,
+        "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
     app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--save", a.save, "also write the machine as our own YAML to this file (.yaml)");
     return app.parse(argc, argv);
 }
 
-std::vector<double> rotor_speeds(const std::string& given, double rated) {
+std::vector<double> rotor_speeds(const std::string& given, const turbines::TurbineFile& model) {
     if (!given.empty()) return program::rotor_speeds(given);
+    const double rated = model.rotor_speed * units::to_rpm;
     if (!(rated > 0))
         throw InputError("--rpm", "value", "none, and the model names no rotor speed", program::rpm_format);
-    const double last = 1.2 * rated * units::to_rpm;
-    return solvers::rpm_range(0, last, last / 12);
+    std::cout << "rotor speeds: 0 to " << 1.2 * rated << " rpm, 1.2 times " << rated << " rpm";
+    if (!model.rotor_speed_source.empty()) std::cout << " (" << model.rotor_speed_source << ")";
+    std::cout << "\n";
+    return solvers::rpm_range(0, 1.2 * rated, 0.1 * rated);
 }
 
 // The mean over the azimuth is an approximation that serves equal blades under gravity or on an unbalanced hub.
@@ -90,60 +91,31 @@ void save(const Arguments& a, const program::MachineFile& machine) {
                   << " with the stiffness of the model, not what is rigid here\n";
 }
 
-// At standstill, where it costs least: the same modes with twice as many elements.
-void print_mesh_error(const program::MachineOptions& a, const program::MachineFile& model,
-                      solvers::CampbellOptions options) {
-    options.keep_shapes = false;
-    options.progress = {};
-    const auto at_rest = [&](int times) {
-        program::MachineOptions b = a;
-        b.blade_elements *= times;
-        b.tower_elements *= times;
-        const turbines::Turbine turbine = turbines::assemble(model.file.description, assembly_options(model, b));
-        const std::array standstill{0.0};
-        return solvers::campbell(turbine.system(), turbine.rotor(), standstill, options);
-    };
-    const solvers::Campbell coarse = at_rest(1), fine = at_rest(2);
-    if (coarse.points.empty() || fine.points.empty()) return;
-    std::vector<std::pair<double, std::string>> changes;
-    for (const solvers::BranchDifference& one : solvers::differences(coarse, fine)) {
-        const solvers::Branch &branch = coarse.branch(one.name), &other = fine.branch(one.name);
-        if (branch.doubtful[0] || other.doubtful[0] || !(fine.damped_hz(other, 0) > 0)) continue;
-        changes.emplace_back(100 * one.frequency_hz[0] / fine.damped_hz(other, 0), one.name);
-    }
-    if (changes.empty()) return;
-    const auto larger = [](const auto& x, const auto& y) { return std::abs(x.first) > std::abs(y.first); };
-    std::sort(changes.begin(), changes.end(), larger);
-    std::cout << "\nmesh: at standstill " << a.blade_elements << " elements per blade and " << a.tower_elements
-              << " of the tower are off from twice as many by\n"
-              << std::showpos << std::fixed << std::setprecision(2);
-    for (std::size_t i = 0; i < std::min<std::size_t>(4, changes.size()); ++i)
-        std::cout << "  " << std::setw(7) << changes[i].first << " %  " << changes[i].second << "\n";
-    std::cout << std::noshowpos << "(of " << changes.size()
-              << " modes with a name beyond doubt these are off most; --blade-elements, --tower-elements)\n"
-              << std::defaultfloat;
-}
-
-int run(const Arguments& a) {
+int run(const Arguments& given) {
+    Arguments a = given;
     const program::MachineFile machine = program::prepared_machine(a.machine);
     const turbines::TurbineFile& model = machine.file;
     if (!a.save.empty()) save(a, machine);
-    const std::vector<double> speeds = rotor_speeds(a.rpm, model.rotor_speed);
+    const std::vector<double> speeds = rotor_speeds(a.rpm, model);
+    const double highest = std::abs(
+        *std::max_element(speeds.begin(), speeds.end(), [](double x, double y) { return std::abs(x) < std::abs(y); }));
+    const double max_frequency = a.max_frequency ? *a.max_frequency : program::usual_frequency(machine, a.machine);
+    const turbines::Mesh mesh = program::choose_mesh(machine, a.machine, max_frequency, highest);
     const turbines::Turbine turbine =
         turbines::assemble(model.description, program::assembly_options(machine, a.machine));
     program::introduce(turbine, a.machine.summary);
 
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
-    solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
+    solvers::CampbellOptions options = program::campbell_options(max_frequency);
     options.method = method_for(a, model.description);
     options.spin = model.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
     program::stop_at_once();
     program::print_table(diagram);
+    std::cout << program::in_words(mesh) << "\n";
     if (diagram.points.empty()) return 130;
-    if (diagram.complete) print_mesh_error(a.machine, machine, options);
     solvers::CampbellPlotOptions picture;
-    picture.max_frequency_hz = a.max_frequency;
+    picture.max_frequency_hz = max_frequency;
     program::write_files(diagram, a.out, picture);
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png" << (a.save.empty() ? "" : ", " + a.save) << "\n";
     return diagram.complete ? 0 : 130;

@@ -184,13 +184,16 @@ void add_balanced(std::vector<solvers::NamedModel>& models, const Arguments& a, 
     }
 }
 
-int run(const Arguments& a) {
+int run(const Arguments& given) {
+    Arguments a = given;
     const program::MachineFile machine = program::prepared_machine(a.machine);
     const turbines::TurbineDescription& description = machine.file.description;
-    const turbines::Turbine turbine = turbines::assemble(description, program::assembly_options(machine, a.machine));
-    program::introduce(turbine, a.machine.summary);
     const double rpm = a.rpm ? *a.rpm : machine.file.rotor_speed * units::to_rpm, speed = rpm * units::rpm;
     program::check(a.model, rpm);
+    const turbines::Mesh mesh = program::choose_mesh(machine, a.machine, a.model.max_frequency, std::abs(speed));
+    const turbines::Turbine turbine = turbines::assemble(description, program::assembly_options(machine, a.machine));
+    program::introduce(turbine, a.machine.summary);
+    std::printf("%s\n", program::in_words(mesh).c_str());
     program::check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
 
     const solvers::RotorSpin spin =

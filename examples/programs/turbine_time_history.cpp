@@ -231,13 +231,17 @@ bool check_energy(solvers::Integrator& integrator, const solvers::History& histo
     return good;
 }
 
-int run(const Arguments& a) {
+int run(const Arguments& given) {
+    Arguments a = given;
     const program::MachineFile machine = program::prepared_machine(a.machine);
     const turbines::TurbineDescription& description = machine.file.description;
-    const turbines::Turbine plain = turbines::assemble(description, program::assembly_options(machine, a.machine));
-    program::introduce(plain, a.machine.summary);
     const double speed = a.rpm ? *a.rpm * units::rpm : machine.file.rotor_speed;
     if (!std::isfinite(speed)) throw InputError("--rpm", "value", *a.rpm, "finite");
+    const turbines::Mesh mesh =
+        program::choose_mesh(machine, a.machine, program::usual_frequency(machine, a.machine), std::abs(speed));
+    const turbines::Turbine plain = turbines::assemble(description, program::assembly_options(machine, a.machine));
+    program::introduce(plain, a.machine.summary);
+    std::cout << program::in_words(mesh) << "\n";
     const double ratio = plain.layout().gear_ratio;
     const ConstantGenerator generator{a.torque, a.slope, ratio * speed, ratio, *plain.layout().generator};
     const turbines::Turbine turbine = with_generator(plain, generator);

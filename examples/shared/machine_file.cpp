@@ -11,8 +11,13 @@
 #include "turbines/yaml/description.hpp"
 #include "turbines/yaml/windio.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <iomanip>
 #include <iostream>
+#include <limits>
+#include <sstream>
 
 namespace cardan::program {
 
@@ -79,13 +84,40 @@ std::string names() {
     return all;
 }
 
+void refuse(const std::vector<turbines::ModelAddition>& additions) {
+    if (!additions.empty())
+        throw InputError("additions to the machine", "value", additions.front().name, "none: it is no model of windIO");
+}
+
+// "a.b=1" as YAML.
+turbines::ModelAddition addition_of(const std::string& assignment) {
+    const std::size_t equal = assignment.find('=');
+    if (equal == 0 || equal == std::string::npos)
+        throw InputError("--set", "value", assignment, "KEY=VALUE, as in components.hub.elastic_properties.mass=1e5");
+    std::string begin, end;
+    for (std::size_t at = 0; at < equal;) {
+        const std::size_t dot = std::min(assignment.find('.', at), equal);
+        begin += (begin.empty() ? "" : ": {") + assignment.substr(at, dot - at);
+        end += begin.find('{') == std::string::npos ? "" : "}";
+        at = dot + 1;
+    }
+    return {text(begin, ": ", assignment.substr(equal + 1), end, "\n"), text("--set ", assignment)};
+}
+
+std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options) {
+    std::vector<turbines::ModelAddition> additions;
+    for (const std::string& file : options.with) additions.push_back({text_file(file), file});
+    for (const std::string& assignment : options.set) additions.push_back(addition_of(assignment));
+    return additions;
+}
+
 // A word that can only be meant as a name.
 bool is_word(const std::filesystem::path& path) {
     std::error_code error;
     return !path.has_parent_path() && !path.has_extension() && !std::filesystem::exists(path, error);
 }
 
-MachineFile read_file(const std::filesystem::path& path) {
+MachineFile read_file(const std::filesystem::path& path, const std::vector<turbines::ModelAddition>& additions) {
     MachineFile machine;
     if (!is_yaml(path)) {
         machine.kind = MachineKind::openfast;
@@ -99,8 +131,9 @@ MachineFile read_file(const std::filesystem::path& path) {
         machine.file.dofs.tower_fore_aft = machine.file.dofs.tower_side_side = !machine.file.description.tower.rigid;
     } else {
         machine.kind = MachineKind::windio;
-        machine.file = turbines::read_windio(path);
+        machine.file = turbines::read_windio(path, additions);
     }
+    if (machine.kind != MachineKind::windio) refuse(additions);
     return machine;
 }
 
@@ -108,6 +141,7 @@ MachineFile read_file(const std::filesystem::path& path) {
 CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extension) {
     CardanBeamOptions options;
     options.elements = elements;
+    options.partition = Partition::mean_difference;  // converges fastest on tapered blades (docs/beam_accuracy.md)
     const Mat6 compliance = line.section(line.length / 2).compliance;
     options.torsion = compliance(3, 3) > 0;
     options.extension = extension && compliance(0, 0) > 0;
@@ -124,6 +158,19 @@ void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
     if (model.yaw_drive.is_rigid())
         throw InputError("--yaw", "value", "free", "locked: the model gives no spring of a yaw drive");
     yaw = model.yaw_drive;
+}
+
+// A diagram of a machine that a file holds altogether would be empty: its beams bend.
+void free_beams_if_nothing_moves(turbines::TurbineFile& model) {
+    const turbines::TurbineDescription& d = model.description;
+    const bool teeters = d.hub.teeter && !d.hub.teeter->bearing.is_rigid();
+    turbines::FileDofs& f = model.dofs;
+    if (f.generator || f.blades || !d.tower.rigid || teeters || !d.yaw.rotation.is_rigid() ||
+        !d.drive_train.main_shaft.is_rigid())
+        return;
+    f.blades = f.tower_fore_aft = f.tower_side_side = true;
+    model.description.tower.rigid = false;
+    std::cout << "note: the model switches off all degrees of freedom: tower and blades bend here\n";
 }
 
 std::string dofs_in_words(const turbines::TurbineFile& model) {
@@ -176,12 +223,15 @@ std::string machine_help() {
     return help;
 }
 
-MachineFile read_machine(const std::string& machine) {
+MachineFile read_machine(const std::string& machine, const std::vector<turbines::ModelAddition>& additions) {
     for (const BuiltIn& one : machines)
-        if (machine == one.name) return one.machine();
+        if (machine == one.name) {
+            refuse(additions);
+            return one.machine();
+        }
     const std::filesystem::path path(machine);
     if (is_word(path)) throw InputError("machine", "name", machine, text(names(), ", or a file"));
-    return read_file(path);
+    return read_file(path, additions);
 }
 
 void add_machine(CommandLine& app, MachineOptions& options) {
@@ -191,8 +241,20 @@ void add_machine(CommandLine& app, MachineOptions& options) {
 }
 
 void add_machine_options(CommandLine& app, MachineOptions& options) {
-    app.add_option("--blade-elements", options.blade_elements, "beam elements per blade");
-    app.add_option("--tower-elements", options.tower_elements, "beam elements of the tower");
+    app.add_option(
+           "--with", options.with,
+           "windIO: a file with entries that the model lacks, or others in the place of its own, under the same "
+           "keys; may be given several times")
+        .one_word()
+        .type_name("FILE");
+    app.add_option("--set", options.set, "windIO: the same for a single entry").one_word().type_name("KEY=VALUE");
+    app.add_option("--blade-elements", options.blade_elements, "beam elements per blade (default: as many as it takes)")
+        .range(1, 1000)
+        .hide_default();
+    app.add_option("--tower-elements", options.tower_elements,
+                   "beam elements of the tower (default: as many as it takes)")
+        .range(1, 1000)
+        .hide_default();
     app.add_option("--pitch", options.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
     const std::vector<std::string> free_or_locked{"free", "locked"};
     app.add_option("--generator", options.generator,
@@ -212,9 +274,10 @@ void add_machine_options(CommandLine& app, MachineOptions& options) {
 }
 
 MachineFile prepared_machine(const MachineOptions& options) {
-    MachineFile machine = read_machine(options.model);
+    MachineFile machine = read_machine(options.model, additions_of(options));
     print(machine.file.notes, options.notes);
     set_dofs(options, machine.file);
+    if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(machine.file);
     std::cout << "degrees of freedom: " << dofs_in_words(machine.file) << "\n";
     if (options.generator_inertia != 0)
         machine.file.description.drive_train.generator_inertia = options.generator_inertia;
@@ -232,6 +295,53 @@ turbines::AssemblyOptions assembly_options(const MachineFile& machine, const Mac
     if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
     if (options.undamped) o.structural_damping = o.joint_damping = false;
     return o;
+}
+
+namespace {
+
+MachineOptions with_elements(MachineOptions options, int blade, int tower) {
+    options.blade_elements = blade;
+    options.tower_elements = tower;
+    return options;
+}
+
+}  // namespace
+
+double usual_frequency(const MachineFile& machine, const MachineOptions& options) {
+    const turbines::TurbineDescription& d = machine.file.description;
+    int first = 1;
+    while (first <= d.blades && d.blade_at(first) == nullptr) ++first;
+    if (first > d.blades || !machine.file.dofs.blades) return 5;
+    const std::vector<double> hz = turbines::clamped_blade_hz(
+        d, assembly_options(machine, with_elements(options, 12, 1)), std::numeric_limits<double>::infinity(), first);
+    if (hz.size() < 3) return 5;
+    const double wanted = 1.3 * hz[2], unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+    return unit * std::ceil(wanted / unit);
+}
+
+turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
+    turbines::MeshOptions mesh;
+    mesh.largest_hz = largest_hz;
+    mesh.rotor_speed = rotor_speed;
+    if (options.blade_elements > 0) mesh.blade_elements = options.blade_elements;
+    if (options.tower_elements > 0) mesh.tower_elements = options.tower_elements;
+    MachineOptions plain = options;
+    plain.gravity = false;
+    const turbines::Mesh found = turbines::converged_mesh(
+        machine.file.description,
+        [&](int blade, int tower) { return assembly_options(machine, with_elements(plain, blade, tower)); }, mesh);
+    options.blade_elements = found.blade_elements;
+    options.tower_elements = found.tower_elements;
+    return found;
+}
+
+std::string in_words(const turbines::Mesh& mesh) {
+    std::ostringstream out;
+    out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements
+        << " in the tower; with twice as many no frequency at rest changes by more than " << std::fixed
+        << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3) << mesh.at_hz
+        << " Hz, of " << mesh.modes << ")";
+    return out.str();
 }
 
 bool has_equal_blades(const turbines::TurbineDescription& machine) {

@@ -2,8 +2,10 @@
 /// A machine as the argument of a program: a built-in one by its name, or a file of any kind that can be read.
 #pragma once
 
+#include "turbines/mesh/mesh.hpp"
 #include "turbines/model/assembly.hpp"
 #include "turbines/readers/turbine_file.hpp"
+#include "turbines/yaml/model_addition.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include <cstdint>
@@ -11,6 +13,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cardan::program {
 
@@ -34,9 +37,11 @@ struct MachineFile {
 std::string machine_help();
 
 /// A name of a built-in machine comes first: a file of that name is read as ./NAME.
-/// @param machine  name, or path of a .yaml (ours or windIO's), an .fst or an ElastoDyn file
-/// @throws InputError for a word that is neither a name nor a file, with the names there are; as the readers
-MachineFile read_machine(const std::string& machine);
+/// @param machine    name, or path of a .yaml (ours or windIO's), an .fst or an ElastoDyn file
+/// @param additions  to a model of windIO
+/// @throws InputError for a word that is neither a name nor a file, with the names there are, and for additions to
+/// another machine; as the readers
+MachineFile read_machine(const std::string& machine, const std::vector<turbines::ModelAddition>& additions = {});
 
 /// Is it YAML, by the ending of its name?
 bool is_yaml(const std::filesystem::path& path);
@@ -44,8 +49,9 @@ bool is_yaml(const std::filesystem::path& path);
 /// What programs for any machine ask about it.
 struct MachineOptions {
     std::string model, generator, yaw;
-    int blade_elements = 3, tower_elements = 3;
-    std::optional<double> pitch;  ///< deg; none: the model's
+    std::vector<std::string> with, set;          ///< additions: files, KEY=VALUE
+    int blade_elements = 0, tower_elements = 0;  ///< 0: as many as it takes
+    std::optional<double> pitch;                 ///< deg; none: the model's
     double generator_inertia = 0;
     bool gravity = false, undamped = false, notes = false, summary = false;
 };
@@ -61,6 +67,17 @@ MachineFile prepared_machine(const MachineOptions& options);
 
 /// Beams, pitch, gravity and damping.
 turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options);
+
+/// A frequency that suits the machine: 1.3 times the third of its first blade, clamped and at rest (second flap, as a
+/// rule), rounded up to two digits, Hz; 5 if the blade does not bend.
+double usual_frequency(const MachineFile& machine, const MachineOptions& options);
+
+/// Puts numbers of elements in the place of those that were not given.
+/// @param largest_hz   frequencies up to here shall be right
+/// @param rotor_speed  highest, rad/s
+turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed);
+/// What a mesh is good for, in one line.
+std::string in_words(const turbines::Mesh& mesh);
 
 /// Three or more blades, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
 bool has_equal_blades(const turbines::TurbineDescription& machine);

@@ -24,7 +24,7 @@ add_example_test(example_openfast_not_one openfast_campbell 1 "[.]cmake:1: neith
                  ${CMAKE_CURRENT_LIST_FILE})
 add_example_test(example_openfast_bad_rpm openfast_campbell 1 "--rpm: value = 1:x; allowed: numbers and FIRST" ${models}/openfast/small.fst
                  --rpm 1:x)
-add_example_test(example_openfast_elements openfast_campbell 1 "number of elements = 0; allowed: >= 1"
+add_example_test(example_openfast_elements openfast_campbell 2 "--blade-elements: Value 0 not in range 1 to 1000"
                  ${models}/openfast/small.fst --blade-elements 0)
 add_example_test(example_openfast_unwritable openfast_campbell 1 "the folder 'no/such' does not exist"
                  ${models}/openfast/small.fst --rpm 0 --out no/such/x)
@@ -41,7 +41,7 @@ file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/locked)
 string(REPLACE "True   GenDOF" "False   GenDOF" elastodyn_locked "${elastodyn}")
 string(REPLACE "True   YawDOF" "False   YawDOF" elastodyn_locked "${elastodyn_locked}")
 file(WRITE ${test_output_dir}/locked/small_ElastoDyn.dat "${elastodyn_locked}")
-add_example_test(example_openfast_locked openfast_campbell 0 "degrees of freedom: generator locked, yaw bearing locked\n.*drive-train torsion +2[.].*mesh: at standstill 2 elements per blade"
+add_example_test(example_openfast_locked openfast_campbell 0 "degrees of freedom: generator locked, yaw bearing locked\n.*drive-train torsion +2[.].*mesh: 2 elements per blade, 2 in the tower; with twice as many no frequency at rest changes by more than"
                  locked/small.fst --rpm 0,45 ${coarse} --save example_openfast_locked.yaml --out example_openfast_locked)
 # The YAML has what the description holds: the generator, the speed.
 add_example_test(example_openfast_locked_own openfast_campbell 0 "degrees of freedom: generator locked, yaw bearing locked\n.*drive-train torsion +2[.]"
@@ -68,3 +68,20 @@ add_example_test(example_openfast_two_blades openfast_campbell 0 "Floquet.*1st b
 add_example_test(example_openfast_wt600 openfast_campbell 0 "1st tower fore-aft +0.7129 .*1st blade edge .sine. +3.6496.*files" wt600 --rpm 0 --blade-elements 3
                  --tower-elements 3 --out example_openfast_wt600)
 add_example_test(example_openfast_unknown openfast_campbell 1 "machine: name = wt601; allowed: wt600, teetered, " wt601)
+
+# Elements by themselves, additions to a model, and a model that holds everything.
+add_example_test(example_openfast_mesh openfast_campbell 0
+    "rotor speeds: 0 to 54 rpm, 1.2 times 45 rpm .RotSpeed of small_ElastoDyn.dat.*changes by more than 0.[01]"
+    ${models}/openfast/small_ElastoDyn.dat --out example_openfast_mesh)
+add_example_test(example_windio_set openfast_campbell 0 "1st tower fore-aft" ${models}/windio/small_v2.yaml --rpm 0 --set
+                 components.hub.elastic_properties.mass=1300 --with ${models}/windio/small_v1.yaml ${coarse} --out example_windio_set)
+add_example_test(example_windio_set_what openfast_campbell 1 "--set: value = hub; allowed: KEY=VALUE" ${models}/windio/small_v2.yaml
+                 --set hub)
+add_example_test(example_openfast_with openfast_campbell 1 "additions to the machine: value = .*none: it is no model of windIO"
+                 ${models}/openfast/small.fst --set a.b=1)
+file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/held)
+file(READ ${models}/openfast/small_ElastoDyn.dat elastodyn)
+string(REGEX REPLACE "True( +[A-Za-z]+DOF[0-9]?)" "False\\1" elastodyn "${elastodyn}")
+file(WRITE ${test_output_dir}/held/small_ElastoDyn.dat "${elastodyn}")
+add_example_test(example_openfast_held openfast_campbell 0 "switches off all degrees of freedom.*1st blade flap" held/small.fst --rpm 0
+                 ${coarse} --out example_openfast_held)

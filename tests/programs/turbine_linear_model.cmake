@@ -4,7 +4,7 @@ set(coarse --blade-elements 1 --tower-elements 1)
 # As wt600_linear_model, of which only the sizes of signals, and so the balanced model, differ.
 add_example_test(example_turbine_linear_wt600 turbine_linear_model 0
     "generator and yaw bearing free\n.*7 inputs, 20 outputs, 12 azimuths.*modes of A and of the Campbell.* 1.9[0-9]+ +[0-9.]+ +1.9[0-9]+ +[0-9.]+  1st blade flap.*balanced model: order [0-9]+ and 2 .*example_turbine_linear_wt600.1.lin ... 12 files"
-    wt600 --rpm 27 --azimuths 12 --out example_turbine_linear_wt600)
+    wt600 --rpm 27 --azimuths 12 --blade-elements 3 --tower-elements 3 --out example_turbine_linear_wt600)
 add_test(NAME example_turbine_linear_same COMMAND ${CMAKE_COMMAND} -E compare_files example_turbine_linear_wt600.7.lin example_linear.7.lin
          WORKING_DIRECTORY ${test_output_dir})
 set_tests_properties(example_turbine_linear_wt600 PROPERTIES FIXTURES_SETUP turbine_linear_wt600)

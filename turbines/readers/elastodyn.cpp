@@ -35,7 +35,7 @@ public:
         : file_(OpenFastFile::read(path)), context_(context) {}
 
     TurbineFile read() {
-        d_.name = file_.title();
+        d_.name = file_.machine_name();
         d_.blades = file_.integer("NumBl", 1, 3);
         add_source(file_.name(), file_.text());
         read_tower();
@@ -288,6 +288,7 @@ private:
         const double speed = file_.number("RotSpeed");
         if (speed < 0) file_.fail("RotSpeed", text("RotSpeed = ", speed, "; allowed: >= 0"));
         out_.rotor_speed = d_.rotor_speed = speed * units::rpm;
+        out_.rotor_speed_source = text("RotSpeed of ", std::filesystem::path(file_.name()).filename().string());
         file_.note_unless("NacYaw", 0, "the nacelle points into the wind here");
         for (const char* keyword : {"OoPDefl", "IPDefl", "TTDspFA", "TTDspSS", "PtfmSurge", "PtfmSway", "PtfmHeave",
                                     "PtfmRoll", "PtfmPitch", "PtfmYaw", "Azimuth", "TeetDefl"})

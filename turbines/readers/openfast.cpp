@@ -1,8 +1,9 @@
 #include "turbines/readers/openfast.hpp"
 
 #include "mbs/base/error.hpp"
-#include "mbs/base/units.hpp"
 #include "turbines/readers/beamdyn.hpp"
+#include "turbines/readers/elastodyn.hpp"
+#include "turbines/readers/servodyn.hpp"
 
 namespace cardan::turbines {
 
@@ -12,35 +13,9 @@ void append(std::vector<FileNote>& notes, std::vector<FileNote> more) {
     for (FileNote& note : more) notes.push_back(std::move(note));
 }
 
-// What ServoDyn knows of the structure.
-struct Servo {
-    Bearing yaw = rigid_joint;
-    double rated_generator_speed = 0;  // rad/s; 0: not given
-    std::vector<FileNote> notes;
-    std::string source;
-};
-
-Servo read_servodyn(const std::filesystem::path& path) {
-    OpenFastFile file = OpenFastFile::read(path);
-    Servo servo;
-    servo.yaw = {file.number("YawSpr"), file.number("YawDamp")};
-    if (servo.yaw.damping < 0) file.fail("YawDamp", text("YawDamp = ", servo.yaw.damping, "; allowed: >= 0"));
-    if (servo.yaw.stiffness < 0) file.fail("YawSpr", text("YawSpr = ", servo.yaw.stiffness, "; allowed: >= 0"));
-    if (servo.yaw.stiffness == 0) servo.yaw = {0, servo.yaw.damping, Bearing::Hold::free};
-    file.note_unless("YawNeut", 0, "the nacelle points into the wind here");
-    if (file.number("VSContrl") == 1) servo.rated_generator_speed = file.number("VS_RtGnSp") * units::rpm;
-    for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
-        file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
-    for (const char* keyword : {"CompNTMD", "CompTTMD"})
-        if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
-    servo.notes = file.notes({{{"*"}, "control, brakes and electrical drive: not part of the description"}});
-    servo.source = text("# ", path.string(), "\n", file.text());
-    return servo;
-}
-
 // The controller file may be missing: that is no reason not to read the structure.
-Servo servo_of(OpenFastFile& main) {
-    Servo servo;
+ServoDyn servo_of(OpenFastFile& main) {
+    ServoDyn servo;
     if (main.number("CompServo") == 0) return servo;
     try {
         return read_servodyn(main.path("ServoFile"));
@@ -86,20 +61,23 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     if (main.has("MirrorRotor") && main.flag("MirrorRotor"))
         main.note("MirrorRotor", "the rotor turns clockwise seen from upwind here");
     const int kind = main.integer("CompElast", 1, 2);
-    Servo servo = servo_of(main);
+    ServoDyn servo = servo_of(main);
     ElastoDynContext context;
     context.yaw = servo.yaw;
     if (kind == 2) read_blades(main, elastodyn, context);
     TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
+    out.description.name = main.machine_name();
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
         main.note_unless(keyword, 0,
                          "what the tower stands on is not part of the description; it stands on the ground");
     main.note_unless("MHK", 0, "a machine under water is not part of the model");
     append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));
     append(out.notes, std::move(servo.notes));
-    if (servo.rated_generator_speed > 0)
+    if (servo.rated_generator_speed > 0) {
         out.rotor_speed = out.description.rotor_speed =
             servo.rated_generator_speed / out.description.drive_train.gear_ratio;
+        out.rotor_speed_source = servo.speed_source;
+    }
     out.description.source = text("# ", path.string(), "\n", main.text(), out.description.source, servo.source);
     return out;
 }

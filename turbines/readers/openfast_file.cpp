@@ -171,6 +171,14 @@ OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
     return out;
 }
 
+std::string OpenFastFile::machine_name() const {
+    const std::string title = lower_case(title_);
+    const bool says_nothing = title.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos;
+    const bool tool = title.find("generated") != std::string::npos || title.find("created with") != std::string::npos ||
+                      title.find("created by") != std::string::npos || title.find("written by") != std::string::npos;
+    return says_nothing || tool ? std::filesystem::path(file_).stem().string() : title_;
+}
+
 OpenFastFile OpenFastFile::read(const std::filesystem::path& path) {
     return parse(text_file(path), path.string());
 }

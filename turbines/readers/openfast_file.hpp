@@ -52,6 +52,8 @@ public:
 
     const std::string& name() const { return file_; }
     const std::string& title() const { return title_; }
+    /// A name for what the file describes: its title, or its own name if the title only says what wrote it.
+    std::string machine_name() const;
     const std::string& text() const { return text_; }
 
     bool has(std::string_view keyword) const { return find(keyword) != nullptr; }

@@ -41,8 +41,9 @@ struct TurbineFile {
     /// files give no spring.
     Bearing yaw_drive = rigid_joint;
     std::vector<FileNote> notes;
-    double rotor_speed = 0;  ///< rated or initial rotor speed, rad/s; 0: not given in the files
-    double pitch = 0;        ///< pitch setting of the blades, leading edge upwind, rad
+    double rotor_speed = 0;          ///< rated or initial rotor speed, rad/s; 0: not given in the files
+    std::string rotor_speed_source;  ///< where the rotor speed is from: a keyword and its file
+    double pitch = 0;                ///< pitch setting of the blades, leading edge upwind, rad
 };
 
 /// A description that only `TurbineDescription::unusual` admits becomes so, with a note (`unusual_entries`) that names

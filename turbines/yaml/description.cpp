@@ -39,12 +39,13 @@ private:
 };
 
 template <class M>
-M square(const YamlNode& node) {
+M square(const YamlNode& node, bool or_infinite = false) {
     M m;
     const std::vector<YamlNode> rows = node.items();
     if (std::ssize(rows) != m.rows()) node.fail(text(rows.size(), " rows; allowed: ", m.rows()));
     for (Eigen::Index i = 0; i < m.rows(); ++i) {
-        const std::vector<double> row = entry(rows, i).numbers(static_cast<std::size_t>(m.cols()));
+        const std::vector<double> row = entry(rows, i).numbers(or_infinite);
+        if (std::ssize(row) != m.cols()) entry(rows, i).fail(text(row.size(), " numbers; allowed: ", m.cols()));
         for (Eigen::Index j = 0; j < m.cols(); ++j) m(i, j) = entry(row, j);
     }
     return m;
@@ -93,7 +94,7 @@ BeamTable table(Level level) {
         for (const auto* list : {&K, &M})
             if (list->size() != t.stations.size())
                 (list == &K ? stiffness : mass).fail(text(list->size(), " matrices; allowed: ", t.stations.size()));
-        for (std::size_t i = 0; i < K.size(); ++i) t.matrices.push_back({square<Mat6>(K[i]), square<Mat6>(M[i])});
+        for (std::size_t i = 0; i < K.size(); ++i) t.matrices.push_back({square<Mat6>(K[i], true), square<Mat6>(M[i])});
     }
     if (const auto points = level.find("points")) {
         for (const YamlNode& point : points->items()) t.points.push_back(triple(point));

@@ -109,11 +109,17 @@ Vec3 padded_vector(const YamlNode& node) {
     return out;
 }
 
+constexpr std::initializer_list<const char*> hub_mass{"components.hub.elastic_properties.mass",
+                                                      "components.hub.elastic_properties_mb.system_mass"};
+constexpr std::initializer_list<const char*> nacelle_mass{"components.drivetrain.elastic_properties.mass",
+                                                          "components.nacelle.elastic_properties_mb.system_mass"};
+
 class WindioReader {
 public:
     explicit WindioReader(YamlNode root) : file_(std::move(root)) {}
 
     TurbineFile read() {
+        refuse_incomplete();
         d_.name = file_.get({"name"}).word();
         const auto blades = file_.find({"assembly.number_of_blades"});
         d_.blades = blades ? blades->integer(1, 10) : 3;
@@ -131,9 +137,12 @@ public:
         read_hub();
         read_nacelle();
         read_drive_train();
-        if (const auto speed =  // of versions 1 and 2.0; of 2.1
-            file_.find({"control.torque.VS_maxspd", "control.rated_rotor_speed", "control.max_rotor_speed"}))
+        if (const auto speed =  // of versions 2.1; 1; 1 and 2.0
+            file_.find({"control.rated_rotor_speed", "control.supervisory.maxOmega", "control.torque.VS_maxspd",
+                        "control.max_rotor_speed"})) {
             out_.rotor_speed = d_.rotor_speed = not_negative(*speed) * file_.rotor_speed();
+            out_.rotor_speed_source = speed->path();
+        }
         for (FileNote& note : file_.notes) out_.notes.push_back(std::move(note));
         for (FileNote& note : file_.unused()) out_.notes.push_back(std::move(note));
         admit_unusual(out_, file_.root().file());
@@ -141,6 +150,27 @@ public:
     }
 
 private:
+    // All that is missing at once: who supplies it wants to know all of it.
+    void refuse_incomplete() const {
+        const bool new_keys = file_.version() == 2;
+        std::string lacking;
+        const auto need = [&](const char* what, const char* remark, std::initializer_list<const char*> paths) {
+            if (file_.find(paths)) return;
+            lacking += text(lacking.empty() ? "" : "; ", what, " (", new_keys ? *paths.begin() : *(paths.end() - 1),
+                            remark, ")");
+        };
+        need("stiffness and inertia of the blade's sections",
+             ", with stiffness and inertia matrix: sections are not computed from layers",
+             {"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
+              "components.blade.elastic_properties_mb", "components.blade.elastic_properties_mb.six_x_six"});
+        need("mass of the hub", "", hub_mass);
+        need("mass of nacelle and drive train", "", nacelle_mass);
+        if (!lacking.empty())
+            file_.root().fail(
+                text("the model lacks: ", lacking,
+                     "; remedy: a YAML file with these entries, read in addition (programs: --with FILE)"));
+    }
+
     void read_side() {
         const auto side = file_.find({"assembly.rotor_orientation"});
         if (!side || lower_case(side->word()) == "upwind") return;
@@ -168,8 +198,7 @@ private:
         d_.blade.cone =
             away_ * small_angle(file_.get({"components.hub.cone_angle", "components.hub.outer_shape_bem.cone_angle"}));
         RigidInertia hub;
-        hub.mass = not_negative(
-            file_.get({"components.hub.elastic_properties.mass", "components.hub.elastic_properties_mb.system_mass"}));
+        hub.mass = not_negative(file_.get(hub_mass));
         if (const auto J = file_.find(
                 {"components.hub.elastic_properties.inertia", "components.hub.elastic_properties_mb.system_inertia"}))
             hub.J = tensor(*J);
@@ -197,8 +226,7 @@ private:
         n.shaft_height = height - overhang * std::tan(uptilt);
         n.tilt_bearing = rigid_joint;
         RigidInertia& i = n.inertia;
-        i.mass = not_negative(file_.get(
-            {"components.drivetrain.elastic_properties.mass", "components.nacelle.elastic_properties_mb.system_mass"}));
+        i.mass = not_negative(file_.get(nacelle_mass));
         if (const auto place = file_.find({"components.drivetrain.elastic_properties.location",
                                            "components.nacelle.elastic_properties_mb.system_center_mass"}))
             i.com = padded_vector(*place);
@@ -225,9 +253,11 @@ private:
         t.gear_ratio = ratio ? positive(*ratio) : 1;
         t.high_speed_shaft = t.main_shaft = rigid_joint;
         if (const auto k = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_stiffness",
+                                       "components.drivetrain.elastic_properties.spring_constant",
                                        "components.nacelle.elastic_properties_mb.spring_constant"})) {
             t.main_shaft = {positive(*k)};
             if (const auto c = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_damping",
+                                           "components.drivetrain.elastic_properties.damping_coefficient",
                                            "components.nacelle.elastic_properties_mb.damping_coefficient"}))
                 t.main_shaft.damping = not_negative(*c);
         } else {
@@ -249,14 +279,17 @@ private:
 
 }  // namespace
 
-TurbineFile parse_windio(const std::string& text, const std::string& file) {
-    TurbineFile out = WindioReader(YamlNode::parse(text, file)).read();
+TurbineFile parse_windio(const std::string& text, const std::string& file,
+                         const std::vector<ModelAddition>& additions) {
+    TurbineFile out = WindioReader(YamlNode::parse(text, file, additions)).read();
     out.description.source = text;
+    for (const ModelAddition& addition : additions)
+        out.description.source += cardan::text("\n# ", addition.name, "\n", addition.text);
     return out;
 }
 
-TurbineFile read_windio(const std::filesystem::path& path) {
-    return parse_windio(text_file(path), path.string());
+TurbineFile read_windio(const std::filesystem::path& path, const std::vector<ModelAddition>& additions) {
+    return parse_windio(text_file(path), path.string(), additions);
 }
 
 }  // namespace cardan::turbines

@@ -6,6 +6,7 @@
 #include "turbines/model/assembly.hpp"
 #include "turbines/model/beam_table.hpp"
 #include "turbines/readers/beamdyn.hpp"
+#include "turbines/yaml/description.hpp"
 #include "turbines/yaml/windio.hpp"
 
 using namespace cardan;
@@ -103,18 +104,96 @@ TEST_CASE("windio: a downwind rotor is on the other side of the tower, in both v
     CHECK((along - Vec3(std::sin(-2 * degree), 0, std::cos(2 * degree))).norm() < 1e-12);
 }
 
+namespace {
+
+// Bending and torsion alone, beside the layers.
+constexpr const char* bending_tower =
+    "      outfitting_factor: 1.05\n"
+    "      elastic_properties:\n"
+    "        stiffness_matrix: {grid: [0.0, 1.0], K44: [4.0, 4.0], K55: [5.0, 5.0], K66: [6.0, 6.0]}\n"
+    "        inertia_matrix: {grid: [0.0, 1.0], mass: [1.0, 1.0], i_edge: [0.1, 0.1], i_flap: [0.1, 0.1], "
+    "i_plr: [0.2, 0.2]}\n";
+
+}  // namespace
+
 TEST_CASE("windio: a tower with matrices of bending and torsion alone is that of its layers, which is noted",
           "[property]") {
     const test::ModelFolder model("windio");
-    model.replace("small_v2.yaml", "      outfitting_factor: 1.05\n",
-                  "      outfitting_factor: 1.05\n"
-                  "      elastic_properties:\n"
-                  "        stiffness_matrix: {grid: [0.0, 1.0], K44: [1.0, 1.0], K55: [1.0, 1.0], K66: [1.0, 1.0]}\n"
-                  "        inertia_matrix: {grid: [0.0, 1.0], mass: [1.0, 1.0]}\n");
+    model.replace("small_v2.yaml", "      outfitting_factor: 1.05\n", bending_tower);
     const TurbineFile file = read_windio(model / "small_v2.yaml");
     const BeamLine layers = read_windio(test::data_file("windio/small_v2.yaml")).description.tower.line;
     CHECK(test::difference(file.description.tower.line, layers) == 0);
     CHECK(test::has_note(file.notes, "components.tower.structure.elastic_properties.stiffness_matrix", "its layers"));
+}
+
+TEST_CASE("windio: what has no stiffness in the file is rigid, which is noted", "[analytic]") {
+    const test::ModelFolder model("windio");
+    model.replace("small_v2.yaml", "      outfitting_factor: 1.05\n", bending_tower);
+    model.replace("small_v2.yaml", "      layers:\n", "      walls:\n");
+    // Version 2 leaves entries out, version 1 has zeros in their place.
+    for (const char* key : {"K11", "K22"})
+        model.replace("small_v2.yaml", text("          ", key), text("          no_", key));
+    for (const char* number : {"[60000000.0", "[30000000.0", "[6000000.0"})
+        model.replace("small_v1.yaml", number, "[0.0");
+    for (const char* number : {", 72000000.0", ", 36000000.0", ", 7200000.0"})
+        model.replace("small_v1.yaml", number, ", 0.0");
+    const TurbineFile file = read_windio(model / "small_v2.yaml");
+    const Mat6 tower = file.description.tower.line.section(7).compliance;
+    CHECK(Mat6(tower - Mat6((Vec6() << 0, 0, 0, 1 / 6.0, 1 / 4.0, 1 / 5.0).finished().asDiagonal()))
+              .cwiseAbs()
+              .maxCoeff() < 1e-15);
+    CHECK(test::has_note(file.notes, "components.tower.structure.elastic_properties.stiffness_matrix",
+                         "shear along x, shear along y, extension"));
+    const BeamLine blade = file.description.blade.line,
+                   soft = read_windio(test::data_file("windio/small_v2.yaml")).description.blade.line;
+    CHECK(test::has_note(file.notes, "components.blade.structure.elastic_properties.stiffness_matrix",
+                         "rigid, since no stiffness or no inertia is given: shear along x, shear along y"));
+    for (double x : {0.0, 3.3, 9.9}) {
+        const Mat6 a = blade.section(x).compliance, b = soft.section(x).compliance;
+        CHECK(a.block<2, 6>(1, 0).isZero(0));
+        CHECK(a.block<3, 3>(3, 3).isApprox(b.block<3, 3>(3, 3), 1e-13));  // they do not couple with shear
+        CHECK(a(0, 0) == Approx(b(0, 0)).epsilon(1e-13));
+    }
+    CHECK(test::difference(read_windio(model / "small_v1.yaml").description.blade.line, blade) < 1e-13);
+    // Torsion without any inertia.
+    model.replace("small_v2.yaml", ", i_edge: [0.1, 0.1], i_flap: [0.1, 0.1], i_plr: [0.2, 0.2]}", "}");
+    const TurbineFile slender = read_windio(model / "small_v2.yaml");
+    CHECK(slender.description.tower.line.section(7).compliance(3, 3) == 0);
+    CHECK(test::has_note(slender.notes, "components.tower", "shear along y, extension, torsion"));
+    const TurbineDescription again = parse_description(to_yaml(file.description), "again.yaml");
+    CHECK(test::difference(again.blade.line, blade) == 0);
+}
+
+TEST_CASE("windio: what a model lacks is named, all at once, and may be in a file beside it", "[property]") {
+    const test::ModelFolder model("windio");
+    const auto move = [&](const std::string& from) {
+        const std::string all = test::bytes_of(model / "small_v2.yaml");
+        const std::size_t begin = all.find(from), end = all.find('\n', begin) + 1;
+        const std::string line = all.substr(begin, end - begin);
+        model.replace("small_v2.yaml", line, "");
+        return line;
+    };
+    const std::string hub = move("    elastic_properties: {mass: 1200.0"),
+                      nacelle = move("    elastic_properties: {mass: 4500.0");
+    CHECK_THAT(
+        message_of([&] { (void)read_windio(model / "small_v2.yaml"); }),
+        Contains("the model lacks: mass of the hub (components.hub.elastic_properties.mass); mass of nacelle and "
+                 "drive train (components.drivetrain.elastic_properties.mass); remedy: a YAML file"));
+    const ModelAddition masses{"components:\n  hub:\n" + hub + "  drivetrain:\n" + nacelle, "masses.yaml"};
+    const TurbineFile whole = read_windio(test::data_file("windio/small_v2.yaml")),
+                      pieces = read_windio(model / "small_v2.yaml", {masses});
+    CHECK(test::state(whole) == test::state(pieces));
+    CHECK_THAT(pieces.description.source, Contains("# masses.yaml\ncomponents:"));
+    // The last one counts; what is wrong is reported where it is.
+    const ModelAddition heavier{"components: {hub: {elastic_properties: {mass: 1300}}}", "heavier.yaml"},
+        wrong{"components:\n  hub:\n    diameter: wide\n", "wrong.yaml"}, list{"- 1\n", "list.yaml"};
+    CHECK(read_windio(model / "small_v2.yaml", {masses, heavier}).description.hub.inertia.mass == 1300);
+    CHECK_THAT(message_of([&] {
+                   (void)read_windio(model / "small_v2.yaml", {masses, wrong});
+               }),
+               Contains("wrong.yaml:3:15: components.hub.diameter: 'wide' is not a finite number"));
+    CHECK_THAT(message_of([&] { (void)read_windio(model / "small_v2.yaml", {list}); }),
+               Contains("list.yaml:1: a YAML map expected"));
 }
 
 TEST_CASE("windio: angles that machines do not have are taken as they are, and noted", "[property]") {
@@ -240,7 +319,7 @@ TEST_CASE("windio: what cannot be read is reported with file, line and place", "
     CHECK_THAT(message_after("small_v2.yaml", "windIO_version: \"2.0\"", "windIO_version: \"3.0\""),
                Contains("version 3.0; allowed: 1.x and 2.x"));
     CHECK_THAT(message_after("small_v2.yaml", "cone_angle", "cone"), Contains("no components.hub.cone_angle"));
-    CHECK_THAT(message_after("small_v2.yaml", "K33", "K3"), Contains("no 'K33'; there are: "));
+    CHECK_THAT(message_after("small_v2.yaml", "K44", "K4"), Contains("no 'K44'; there are: "));
     CHECK_THAT(message_after("small_v2.yaml", "material: steel", "material: iron"), Contains("no material 'iron'"));
     CHECK_THAT(message_after("small_v2.yaml", "E: 2.1e+11", "E: [1.0, 2.0, 3.0]"),
                Contains("several values; allowed: one"));
@@ -254,7 +333,8 @@ TEST_CASE("windio: what cannot be read is reported with file, line and place", "
     CHECK_THAT(message_of([&] { (void)read_windio(degrees / "small_v1.yaml"); }),
                Contains("twist of 14; allowed: half a turn at most (version 1 counts in rad)"));
     CHECK_THAT(message_after("small_v1.yaml", "elastic_properties_mb", "elastic"),
-               Contains("no components.blade.structure.elastic_properties or "));
+               Contains("the model lacks: stiffness and inertia of the blade's sections "
+                        "(components.blade.elastic_properties_mb.six_x_six, "));
     CHECK_THAT(message_of([] { (void)read_windio("no/such.yaml"); }), Contains("no/such.yaml: cannot be read"));
     CHECK_THAT(message_of([] { (void)parse_windio("a: b: c\n", "x.yaml"); }), Contains("x.yaml:1:"));
 }

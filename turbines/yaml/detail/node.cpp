@@ -17,13 +17,51 @@ YamlNode YamlNode::child(const YamlTree& tree, std::string path) const {
     return {tree, std::move(path), document_};
 }
 
+namespace {
+
+// The trees of a document whose root is a map.
+YamlTrees maps(const std::string& text, const std::string& file, int document) {
+    YamlTrees trees = yaml_trees(text, file);
+    if (trees.empty() || trees.front()->kind != YamlTree::Kind::map)
+        throw ParseError(file, 1, 0, "a YAML map expected");
+    for (const auto& tree : trees) tree->document = document;
+    return trees;
+}
+
+// a with what b adds; what is made goes to `trees`.
+const YamlTree& merged(const YamlTree& a, const YamlTree& b, YamlTrees& trees) {
+    if (a.kind != YamlTree::Kind::map || b.kind != YamlTree::Kind::map) return b;
+    YamlTree& out = *trees.emplace_back(std::make_unique<YamlTree>(a));
+    for (std::size_t i = 0; i < b.children.size(); i += 2) {
+        const YamlTree &key = *b.children[i], &value = *b.children[i + 1];
+        std::size_t k = 0;
+        while (k < a.children.size() && a.children[k]->scalar != key.scalar) k += 2;
+        if (k < a.children.size())
+            out.children[k + 1] = &merged(*a.children[k + 1], value, trees);
+        else
+            out.children.insert(out.children.end(), {&key, &value});
+    }
+    return out;
+}
+
+}  // namespace
+
 YamlNode YamlNode::parse(const std::string& text, const std::string& file) {
-    auto document = std::make_shared<Document>(Document{file, yaml_trees(text, file), {}, {}});
-    if (document->trees.empty()) throw ParseError(file, 1, 0, "a YAML map expected");
-    const YamlTree& tree = *document->trees.front();
-    YamlNode root(tree, "", std::move(document));
-    if (!root.is_map()) throw ParseError(file, 1, 0, "a YAML map expected");
-    return root;
+    return parse(text, file, {});
+}
+
+YamlNode YamlNode::parse(const std::string& text, const std::string& file,
+                         const std::vector<ModelAddition>& additions) {
+    auto document = std::make_shared<Document>(Document{{file}, maps(text, file, 0), {}, {}});
+    const YamlTree* root = document->trees.front().get();
+    for (const ModelAddition& addition : additions) {
+        YamlTrees more = maps(addition.text, addition.name, static_cast<int>(document->files.size()));
+        const YamlTree& added = *more.front();
+        document->files.push_back(addition.name);
+        document->trees.insert(document->trees.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
+        root = &merged(*root, added, document->trees);
+    }
+    return {*root, "", std::move(document)};
 }
 
 void YamlNode::fail(std::string_view what) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "turbines/yaml/detail/tree.hpp"
+#include "turbines/yaml/model_addition.hpp"
 
 #include <memory>
 #include <optional>
@@ -19,8 +20,11 @@ class YamlNode {
 public:
     /// The only document of a text. @throws ParseError, see yaml_trees(), and if it is not a map
     static YamlNode parse(const std::string& text, const std::string& file);
+    /// With what others add: a map to a map, by keys; anything else replaces what is there.
+    static YamlNode parse(const std::string& text, const std::string& file,
+                          const std::vector<ModelAddition>& additions);
 
-    const std::string& file() const { return document_->file; }
+    const std::string& file() const { return document_->files[static_cast<std::size_t>(tree_->document)]; }
     const std::string& path() const { return path_; }  ///< "components.blade"
     int line() const { return tree_->line; }
     bool is_map() const { return tree_->kind == YamlTree::Kind::map; }
@@ -52,7 +56,7 @@ public:
 
 private:
     struct Document {
-        std::string file;
+        std::vector<std::string> files;
         YamlTrees trees;
         std::set<std::string> read;                // paths
         std::set<const YamlTree*> with_good_keys;  // maps that were looked at

@@ -16,7 +16,7 @@ struct YamlLimits {
     std::size_t bytes = std::size_t{8} << 20;
     std::size_t nodes = 1'000'000;  ///< the target of an alias counts each time
     std::size_t depth = 60;         ///< likewise
-    std::size_t line = 1 << 20;     ///< bytes of one line, which the parser buffers until it recognises a key
+    std::size_t line = 1 << 20;     ///< bytes of one line
     std::size_t key = 1024;         ///< bytes
 };
 
@@ -25,6 +25,7 @@ struct YamlTree {
     enum class Kind : std::uint8_t { null, scalar, list, map };
     Kind kind = Kind::null;
     int line = 1, column = 1;  ///< from 1
+    int document = 0;          ///< which of several documents that were merged
     std::string scalar = {};
     /// Items, or alternating keys and values. An alias refers to the same node again; there are no cycles.
     std::vector<const YamlTree*> children = {};

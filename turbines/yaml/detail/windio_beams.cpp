@@ -1,5 +1,6 @@
 #include "turbines/yaml/detail/windio_beams.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"
 #include "turbines/readers/detail/matrix_blade.hpp"
@@ -76,6 +77,14 @@ std::vector<double> numbers_or_zeros(const YamlNode& node, std::string_view key,
     return list ? list->numbers(count) : std::vector<double>(count, 0.0);
 }
 
+// Of the schema only bending, K44 and K55, has to be there.
+constexpr std::array<Eigen::Index, 4> rigid_if_missing{0, 1, 2, 5};
+constexpr std::array<const char*, 4> in_words{"shear along x", "shear along y", "extension", "torsion"};
+
+bool has_to_be_there(Eigen::Index i) {
+    return std::find(rigid_if_missing.begin(), rigid_if_missing.end(), i) == rigid_if_missing.end();
+}
+
 // Version 2: a list of every entry K11 ... K66; couplings may be left out.
 MatrixCurve named_stiffness(const YamlNode& node) {
     MatrixCurve out;
@@ -84,8 +93,9 @@ MatrixCurve named_stiffness(const YamlNode& node) {
     for (Eigen::Index i = 0; i < 6; ++i)
         for (Eigen::Index j = i; j < 6; ++j) {
             const std::string key = text("K", i + 1, j + 1);
-            const std::vector<double> entry =
-                i == j ? node[key].numbers(out.grid.size()) : numbers_or_zeros(node, key, out.grid.size());
+            const std::vector<double> entry = i == j && has_to_be_there(i)
+                                                  ? node[key].numbers(out.grid.size())
+                                                  : numbers_or_zeros(node, key, out.grid.size());
             for (std::size_t k = 0; k < entry.size(); ++k) out.values[k](i, j) = out.values[k](j, i) = entry[k];
         }
     return out;
@@ -117,12 +127,36 @@ struct Matrices {
     std::vector<SectionMatrices> values;
 };
 
-Matrices read_matrices(const YamlNode& stiffness, const YamlNode& inertia) {
+// What has no stiffness (or, of torsion, no inertia) anywhere is not soft, but was not computed.
+void make_rigid(Matrices& sections, WindioFile& file, const YamlNode& stiffness) {
+    std::string rigid;
+    const auto everywhere = [&](const auto& is_so) {
+        return std::all_of(sections.values.begin(), sections.values.end(), is_so);
+    };
+    for (std::size_t k = 0; k < rigid_if_missing.size(); ++k) {
+        const Eigen::Index i = entry(rigid_if_missing, k);
+        const bool soft = everywhere([&](const SectionMatrices& m) { return m.stiffness.row(i).isZero(0); });
+        // A torsion without inertia moves nothing; the inertia about the axis is that about x and y.
+        const bool massless =
+            i == 5 && everywhere([](const SectionMatrices& m) { return m.mass.bottomRightCorner<3, 3>().isZero(0); });
+        if (!soft && !massless) continue;
+        for (SectionMatrices& m : sections.values) {
+            m.stiffness.row(i).setZero();
+            m.stiffness.col(i).setZero();
+            m.stiffness(i, i) = std::numeric_limits<double>::infinity();
+        }
+        rigid += (rigid.empty() ? "" : ", ") + std::string(entry(in_words, k));
+    }
+    if (!rigid.empty()) file.note(stiffness, "", text("rigid, since no stiffness or no inertia is given: ", rigid));
+}
+
+Matrices read_matrices(WindioFile& file, const YamlNode& stiffness, const YamlNode& inertia) {
     const MatrixCurve K = stiffness.find("values") ? triangles(stiffness) : named_stiffness(stiffness);
     const MatrixCurve M = inertia.find("values") ? triangles(inertia) : named_inertia(inertia);
     Matrices out;
     out.eta = united(K.grid, M.grid);
     for (double at : out.eta) out.values.push_back({K.at(at), M.at(at)});
+    make_rigid(out, file, stiffness);
     return out;
 }
 
@@ -179,7 +213,7 @@ BeamTable windio_blade(WindioFile& file) {
         file.get({"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
                   "components.blade.elastic_properties_mb.six_x_six", "components.blade.elastic_properties_mb"});
     const std::optional<YamlNode> named = elastic.find("stiffness_matrix");
-    Matrices sections = read_matrices(named ? *named : elastic["stiff_matrix"], elastic["inertia_matrix"]);
+    Matrices sections = read_matrices(file, named ? *named : elastic["stiff_matrix"], elastic["inertia_matrix"]);
     blade.eta = std::move(sections.eta);
     blade.matrices = std::move(sections.values);
     try {
@@ -281,10 +315,11 @@ void add_tube(BeamTable& table, WindioFile& file, double length) {
 }
 
 // Axes of the tower: x downwind, y to the left, z up; in those of the beam (z, x, y).
-void add_matrices(BeamTable& table, const YamlNode& stiffness, const YamlNode& inertia, double length) {
+void add_matrices(BeamTable& table, WindioFile& file, const YamlNode& stiffness, const YamlNode& inertia,
+                  double length) {
     Mat3 R;
     R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-    const Matrices sections = read_matrices(stiffness, inertia);
+    const Matrices sections = read_matrices(file, stiffness, inertia);
     if (sections.eta.front() > 1e-9 || sections.eta.back() < 1 - 1e-9)
         stiffness.fail(text("places ", sections.eta.front(), " ... ", sections.eta.back(), "; allowed: 0 ... 1"));
     for (double at : sections.eta) table.stations.push_back(at * length);
@@ -298,10 +333,11 @@ void add_matrices(BeamTable& table, const YamlNode& stiffness, const YamlNode& i
     }
 }
 
-// Some files have bending and torsion only.
-bool is_whole(const YamlNode& stiffness) {
-    const auto has = [&](const char* key) { return stiffness.find(key).has_value(); };
-    return has("values") || (has("K11") && has("K22") && has("K33"));
+// Some files have bending and torsion only, and none of the inertias.
+bool is_whole(const YamlNode& stiffness, const YamlNode& inertia) {
+    const auto has = [](const YamlNode& node, const char* key) { return node.find(key).has_value(); };
+    return (has(stiffness, "values") || (has(stiffness, "K11") && has(stiffness, "K22") && has(stiffness, "K33"))) &&
+           (has(inertia, "values") || has(inertia, "i_plr"));
 }
 
 }  // namespace
@@ -319,16 +355,19 @@ BeamTable windio_tower(WindioFile& file) {
     const auto stiffness = file.find({"components.tower.structure.elastic_properties.stiffness_matrix",
                                       "components.tower.elastic_properties.stiffness_matrix",
                                       "components.tower.elastic_properties_mb.six_x_six.stiff_matrix"});
-    if (stiffness && !is_whole(*stiffness))
-        file.note(*stiffness, "", "without shear or axial stiffness: the tower is that of its layers");
-    if (stiffness && is_whole(*stiffness))
-        add_matrices(table, *stiffness,
-                     file.get({"components.tower.structure.elastic_properties.inertia_matrix",
-                               "components.tower.elastic_properties.inertia_matrix",
-                               "components.tower.elastic_properties_mb.six_x_six.inertia_matrix"}),
-                     length);
-    else
-        add_tube(table, file, length);
+    const auto inertia = file.find({"components.tower.structure.elastic_properties.inertia_matrix",
+                                    "components.tower.elastic_properties.inertia_matrix",
+                                    "components.tower.elastic_properties_mb.six_x_six.inertia_matrix"});
+    const bool has_layers =
+        file.find({"components.tower.structure.layers", "components.tower.internal_structure_2d_fem.layers"})
+            .has_value();
+    if (stiffness && inertia && (!has_layers || is_whole(*stiffness, *inertia))) {
+        add_matrices(table, file, *stiffness, *inertia, length);
+        return table;
+    }
+    if (stiffness)
+        file.note(*stiffness, "", "without shear or axial stiffness or inertias: the tower is that of its layers");
+    add_tube(table, file, length);
     return table;
 }
 
