@@ -100,7 +100,7 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
     if (n == 0) return 0;
     const double scale = lowest_scale(system);
     shift(system, scale);
-    const bool few = n >= least_for_few && largest < doubtful_ratio_of_modes * scale;
+    const bool few = n >= least_for_few && largest < doubtful_ratio_of_modes * scale && largest < too_many_;
     if (!few || !solve_few(scale, largest)) solve_all(system, scale);
     std::erase_if(found_, [&](const Found& found) {
         return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale || std::abs(found.eigenvalue) > largest;
@@ -165,7 +165,10 @@ bool ModeSolver::solve_few(double scale, double largest) {
     options.least = 1 / (beyond * largest / scale + mode_shift);
     options.most = static_cast<int>(n);
     const DominantEigen found = dominant_eigenvalues(apply, 2 * n, options);
-    if (!found.complete) return false;
+    if (!found.complete) {
+        too_many_ = largest;
+        return false;
+    }
     for (const DominantEigen::Value& value : found.values) {
         shapes_.col(columns_) = value.vector.head(n).real();
         if (value.mu.imag() != 0) shapes_.col(columns_ + 1) = value.vector.head(n).imag();

@@ -72,6 +72,8 @@ private:
     Matrix shapes_, elastic_, inertial_;  // of all modes side by side; K_e x, M x
     Eigen::Index columns_ = 0;            // of these that are in use
     std::vector<Found> found_;
+    /// Up to here there were more modes than is worth it once, rad/s: the next system, one of a sweep, is like it.
+    double too_many_ = std::numeric_limits<double>::infinity();
 };
 
 /// The modes, with a temporary ModeSolver.
