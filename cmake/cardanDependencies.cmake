@@ -51,19 +51,28 @@ macro(cardan_find_hdf5)
     endif()
 endmacro()
 
-# libmatio has no package config of its own.
-macro(cardan_find_matio)
-    if(NOT TARGET matio::matio)
-        find_path(MATIO_INCLUDE_DIR matio.h)
-        find_library(MATIO_LIBRARY matio)
-        mark_as_advanced(MATIO_INCLUDE_DIR MATIO_LIBRARY)
-        if(NOT MATIO_INCLUDE_DIR OR NOT MATIO_LIBRARY)
-            cardan_not_found("cardan needs libmatio (Debian: libmatio-dev; elsewhere set MATIO_INCLUDE_DIR and MATIO_LIBRARY).")
+# cardan_find_plain(<name> <VARIABLES> <header> <library> <message>): the target <name>::<name> of a C library that has no
+# package config of its own.
+macro(cardan_find_plain name variables header library message)
+    if(NOT TARGET ${name}::${name})
+        find_path(${variables}_INCLUDE_DIR ${header})
+        find_library(${variables}_LIBRARY ${library})
+        mark_as_advanced(${variables}_INCLUDE_DIR ${variables}_LIBRARY)
+        if(NOT ${variables}_INCLUDE_DIR OR NOT ${variables}_LIBRARY)
+            cardan_not_found("${message}; elsewhere set ${variables}_INCLUDE_DIR and ${variables}_LIBRARY).")
         endif()
-        add_library(matio::matio UNKNOWN IMPORTED)
-        set_target_properties(matio::matio PROPERTIES IMPORTED_LOCATION "${MATIO_LIBRARY}"
-                                                      INTERFACE_INCLUDE_DIRECTORIES "${MATIO_INCLUDE_DIR}")
+        add_library(${name}::${name} UNKNOWN IMPORTED)
+        set_target_properties(${name}::${name} PROPERTIES IMPORTED_LOCATION "${${variables}_LIBRARY}"
+                                                          INTERFACE_INCLUDE_DIRECTORIES "${${variables}_INCLUDE_DIR}")
     endif()
+endmacro()
+
+macro(cardan_find_matio)
+    cardan_find_plain(matio MATIO matio.h matio "cardan needs libmatio (Debian: libmatio-dev")
+endmacro()
+
+macro(cardan_find_libyaml)
+    cardan_find_plain(libyaml LIBYAML yaml.h yaml "cardan needs libyaml 0.2 (Debian: libyaml-dev")
 endmacro()
 
 macro(cardan_find_tbb)
@@ -77,20 +86,5 @@ macro(cardan_find_urdfdom)
     if(NOT TARGET urdfdom::urdfdom_model)
         find_package(urdfdom QUIET CONFIG)
         cardan_need(urdfdom::urdfdom_model "cardan needs urdfdom (Debian: liburdfdom-dev; elsewhere set urdfdom_DIR).")
-    endif()
-endmacro()
-
-# Debian's libyaml has no package config of its own.
-macro(cardan_find_libyaml)
-    if(NOT TARGET libyaml::libyaml)
-        find_path(LIBYAML_INCLUDE_DIR yaml.h)
-        find_library(LIBYAML_LIBRARY yaml)
-        mark_as_advanced(LIBYAML_INCLUDE_DIR LIBYAML_LIBRARY)
-        if(NOT LIBYAML_INCLUDE_DIR OR NOT LIBYAML_LIBRARY)
-            cardan_not_found("cardan needs libyaml 0.2 (Debian: libyaml-dev; elsewhere set LIBYAML_INCLUDE_DIR and LIBYAML_LIBRARY).")
-        endif()
-        add_library(libyaml::libyaml UNKNOWN IMPORTED)
-        set_target_properties(libyaml::libyaml PROPERTIES IMPORTED_LOCATION "${LIBYAML_LIBRARY}"
-                                                          INTERFACE_INCLUDE_DIRECTORIES "${LIBYAML_INCLUDE_DIR}")
     endif()
 endmacro()

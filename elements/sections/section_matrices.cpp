@@ -25,10 +25,10 @@ double unit_scale(double diagonal) {
     return diagonal > 0 ? 1 / std::sqrt(diagonal) : 1.0;
 }
 
-// K, and 1 in the place of an infinite stiffness.
-Mat6 finite_part(Mat6 K) {
+// K with a number in the place of infinite stiffnesses.
+Mat6 finite_part(Mat6 K, double instead = 1) {
     for (Eigen::Index i = 0; i < 6; ++i)
-        if (std::isinf(K(i, i))) K(i, i) = 1;
+        if (std::isinf(K(i, i))) K(i, i) = instead;
     return K;
 }
 
@@ -135,14 +135,11 @@ namespace {
 
 // X K X^T. A rigid direction stays one: it has to be an axis before and after.
 Mat6 congruent(const Mat6& X, const Mat6& K, const char* what) {
-    Mat6 finite = K;
-    for (Eigen::Index i = 0; i < 6; ++i)
-        if (std::isinf(K(i, i))) finite(i, i) = 0;
-    Mat6 out = X * finite * X.transpose();
+    Mat6 out = X * finite_part(K, 0) * X.transpose();
     for (Eigen::Index i = 0; i < 6; ++i) {
         if (!std::isinf(K(i, i))) continue;
         Eigen::Index axis = 0;
-        if (std::abs(X.col(i).cwiseAbs().maxCoeff(&axis) - 1) > 0 || X.col(i).cwiseAbs().sum() != 1 ||
+        if (X.col(i).cwiseAbs().maxCoeff(&axis) != 1 || X.col(i).cwiseAbs().sum() != 1 ||
             X.row(axis).cwiseAbs().sum() != 1)
             throw InputError("section matrices", what, text("\n", X.topLeftCorner<3, 3>(), "\n"),
                              text("axes to axes: direction ", i + 1, " is rigid"));

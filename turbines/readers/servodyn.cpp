@@ -5,7 +5,6 @@
 #include "mbs/base/units.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
-#include <algorithm>
 #include <sstream>
 
 namespace cardan::turbines {
@@ -33,12 +32,16 @@ std::optional<double> controller_number(const std::string& text, std::string_vie
     return std::nullopt;
 }
 
+std::string in_file(const char* keywords, const std::filesystem::path& file) {
+    return text(keywords, " of ", file.filename().string());
+}
+
 GeneratorSpeed of_controller(OpenFastFile& file) {
     if (!file.has("DLL_InFile") || file.word("DLL_InFile").empty()) return {};
     const std::filesystem::path path = file.path("DLL_InFile");
     try {
         if (const auto speed = controller_number(text_file(path), "PC_RefSpd"))
-            return {*speed, text("PC_RefSpd of ", path.filename().string())};
+            return {*speed, in_file("PC_RefSpd", path)};
     } catch (const FileError& error) {
         file.note("DLL_InFile", text("not read (", error.what(), "); it may have the rated speed"));
     }
@@ -48,19 +51,17 @@ GeneratorSpeed of_controller(OpenFastFile& file) {
 GeneratorSpeed of_induction_generator(OpenFastFile& file) {
     if (file.number_or("GenModel", 0) == 1)
         return {file.number("SIG_SySp") * (1 + file.number("SIG_SlPc") / 100) * units::rpm,
-                text("SIG_SySp and SIG_SlPc of ", std::filesystem::path(file.name()).filename().string())};
+                in_file("SIG_SySp and SIG_SlPc", file.name())};
     if (file.number_or("GenModel", 0) == 2 && file.number("TEC_NPol") > 0)
         return {4 * pi * file.number("TEC_Freq") / file.number("TEC_NPol"),
-                text("TEC_Freq and TEC_NPol of ", std::filesystem::path(file.name()).filename().string())};
+                in_file("TEC_Freq and TEC_NPol", file.name())};
     return {};
 }
 
 GeneratorSpeed generator_speed(OpenFastFile& file) {
     const int control = file.integer("VSContrl", 0, 5);
     if (control == 0) return of_induction_generator(file);
-    if (control == 1)
-        return {file.number("VS_RtGnSp") * units::rpm,
-                text("VS_RtGnSp of ", std::filesystem::path(file.name()).filename().string())};
+    if (control == 1) return {file.number("VS_RtGnSp") * units::rpm, in_file("VS_RtGnSp", file.name())};
     return control == 3 ? GeneratorSpeed{} : of_controller(file);  // 3: a routine of the user's
 }
 

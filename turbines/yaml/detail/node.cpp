@@ -46,10 +46,6 @@ const YamlTree& merged(const YamlTree& a, const YamlTree& b, YamlTrees& trees) {
 
 }  // namespace
 
-YamlNode YamlNode::parse(const std::string& text, const std::string& file) {
-    return parse(text, file, {});
-}
-
 YamlNode YamlNode::parse(const std::string& text, const std::string& file,
                          const std::vector<ModelAddition>& additions) {
     auto document = std::make_shared<Document>(Document{{file}, maps(text, file, 0), {}, {}});

@@ -18,11 +18,10 @@ namespace cardan::turbines {
 /// A node and where it is. All reading functions throw ParseError if the node is of another kind.
 class YamlNode {
 public:
-    /// The only document of a text. @throws ParseError, see yaml_trees(), and if it is not a map
-    static YamlNode parse(const std::string& text, const std::string& file);
-    /// With what others add: a map to a map, by keys; anything else replaces what is there.
+    /// The only document of a text, with what others add: a map to a map, by keys; anything else replaces what is
+    /// there. @throws ParseError, see yaml_trees(), and if one is not a map
     static YamlNode parse(const std::string& text, const std::string& file,
-                          const std::vector<ModelAddition>& additions);
+                          const std::vector<ModelAddition>& additions = {});
 
     const std::string& file() const { return document_->files[static_cast<std::size_t>(tree_->document)]; }
     const std::string& path() const { return path_; }  ///< "components.blade"
