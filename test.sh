@@ -6,8 +6,9 @@ usage() {
     cat <<'TEXT'
 usage: ./test.sh [--full] [--keep-going] [--help]
 
-  (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones
-  --full     the same, then each header by itself, the reference, clang-tidy, clang's build and all tests under its
+  (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones and those of the
+             studies (other beams to compare with, studies of papers), which are not built
+  --full     the same with the studies, then each header by itself, the reference, clang-tidy, clang's build and all tests under its
              address and undefined-behaviour sanitizers, two sweeps at once under the thread sanitizer, one minute of
              fuzzing for each reader, and the slow tests
   --keep-going
@@ -72,8 +73,8 @@ check_format() {
     clang-format --dry-run --Werror "${files[@]}" && echo "${#files[@]} files are formatted"
 }
 
-build() { # <preset>
-    cmake --preset "$1" && cmake --build --preset "$1" --parallel "$jobs"
+build() { # <preset> [options of cmake]
+    cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" --parallel "$jobs"
 }
 
 # A project of its own, with find_package(cardan) and the compiler's default flags, against an installed copy.
@@ -107,7 +108,7 @@ if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_p
 
 step "Packages" require_packages "${packages[@]}"
 step "Format" check_format
-step "Build with GCC, release" build release
+step "Build with GCC, release" build release -D CARDAN_BUILD_STUDIES="$( ((full)) && echo ON || echo OFF)"
 step "Installed package" check_package
 step "Tests, GCC release" ctest --preset release --parallel "$jobs"
 if ((full)); then

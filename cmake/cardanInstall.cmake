@@ -8,16 +8,26 @@ list(TRANSFORM libraries REPLACE "^cardan_" "" OUTPUT_VARIABLE CARDAN_COMPONENTS
 install(TARGETS ${libraries} EXPORT cardanTargets)
 install(EXPORT cardanTargets NAMESPACE cardan:: DESTINATION ${package_dir})
 
-# Others may have a program `history`: installed, it is `cardan-history`, and `wt600_campbell` is `cardan-wt600-campbell`.
+# Beside `cardan`, those of single machines: `wt600_campbell` is `cardan-wt600-campbell`.
 get_property(programs GLOBAL PROPERTY CARDAN_PROGRAMS)
 foreach(program IN LISTS programs)
     string(REPLACE "_" "-" name cardan-${program})
+    string(REGEX REPLACE "^cardan-cardan$" "cardan" name ${name})
     install(PROGRAMS $<TARGET_FILE:${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${name})
 endforeach()
+get_property(manual GLOBAL PROPERTY CARDAN_MANUAL)
+install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+if(programs)
+    install(FILES ${PROJECT_SOURCE_DIR}/examples/programs/cardan/completion.bash
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME cardan)
+endif()
 
-# All headers but those in detail/, which are the inside of the libraries.
+# All headers but those in detail/, which are the inside of the libraries, and of what is not built.
+if(NOT CARDAN_BUILD_STUDIES)
+    set(not_built PATTERN "elements/reference" EXCLUDE PATTERN "turbines/studies" EXCLUDE)
+endif()
 install(DIRECTORY mbs elements turbines solvers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE ${not_built})
 install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/base/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/mbs/base)
 
 file(GLOB data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/turbines/data/*.csv)

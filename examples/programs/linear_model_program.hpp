@@ -27,7 +27,7 @@ namespace cardan::program {
 struct LinearModelArguments {
     double max_frequency = 10, error = 5;
     int azimuths = 12, order = 0, harmonics = 8;
-    std::string out;
+    std::string out = {};
 };
 
 inline void add_linear_model_options(CommandLine& app, LinearModelArguments& a) {

@@ -4,7 +4,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <charconv>
+
 namespace cardan::program {
+
+std::string in_digits(double value) {
+    std::array<char, 40> digits{};
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
 
 Option& Option::required() {
     option_->required();
@@ -66,34 +74,63 @@ bool Option::given() const {
 
 CommandLine::CommandLine(const std::string& description) : app_(std::make_shared<CLI::App>(description)) {}
 
+void CommandLine::remember(const std::string& name, std::function<void(Words&)> value) {
+    if (name.starts_with("--")) told_.push_back(std::move(value));
+}
+
 Option CommandLine::add_option(const std::string& name, int& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + std::to_string(target)); });
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
 Option CommandLine::add_option(const std::string& name, double& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + in_digits(target)); });
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
 Option CommandLine::add_option(const std::string& name, std::optional<double>& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (target) all.push_back(name + "=" + in_digits(*target));
+    });
     return Option(*app_->add_option(name, target, what));
 }
 
 Option CommandLine::add_option(const std::string& name, std::string& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (!target.empty()) all.push_back(name + "=" + target);
+    });
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
 Option CommandLine::add_option(const std::string& name, std::filesystem::path& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (!target.empty()) all.push_back(name + "=" + target.string());
+    });
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
 Option CommandLine::add_option(const std::string& name, std::vector<std::string>& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        for (const std::string& word : target) all.push_back(name + "=" + word);
+    });
     CLI::Option* option = app_->add_option(name, target, what);
     if (!target.empty()) option->capture_default_str();
     return Option(*option);
 }
 
 Option CommandLine::add_flag(const std::string& name, bool& target, const std::string& what) {
+    const std::size_t comma = name.find(",!");
+    const std::string set = name.substr(0, comma), unset = comma == std::string::npos ? "" : name.substr(comma + 2);
+    remember(name, [set, unset, &target](Words& all) {
+        if (const std::string& word = target ? set : unset; !word.empty()) all.push_back(word);
+    });
     return Option(*app_->add_flag(name, target, what));
+}
+
+std::vector<std::string> CommandLine::words() const {
+    Words all;
+    for (const auto& tell : told_) tell(all);
+    return all;
 }
 
 void CommandLine::footer(const std::string& text) {

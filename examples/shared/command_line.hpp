@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ class Option;
 }  // namespace CLI
 
 namespace cardan::program {
+
+/// The shortest text that is read back as the same number.
+std::string in_digits(double value);
 
 /// A handle of an option or flag; it is good as long as its command line. What it refuses is wrong usage.
 class Option {
@@ -74,14 +78,21 @@ public:
     /// Reads the command line.
     /// @return exit code to end with (0 after --help and --version, 2 for wrong usage), -1: go on
     [[nodiscard]] int parse(int argc, char** argv);
+    /// Options with what their targets hold now, each as one word: "--rpm=12". Flags that are not set, what is empty
+    /// and what is known by its place are left out, and so are the options of subcommands.
+    std::vector<std::string> words() const;
     /// Says that two options, read already, do not go together.
     /// @return 2
     [[nodiscard]] int refuse(const std::string& option, const std::string& beside);
 
 private:
-    explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+    using Words = std::vector<std::string>;
 
-    std::shared_ptr<CLI::App> app_;  ///< a subcommand shares its parent's life
+    explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+    void remember(const std::string& name, std::function<void(Words&)> value);
+
+    std::shared_ptr<CLI::App> app_;                  ///< a subcommand shares its parent's life
+    std::vector<std::function<void(Words&)>> told_;  ///< what words() asks
 };
 
 }  // namespace cardan::program

@@ -7,10 +7,14 @@
 #include "turbines/machines/oc3_hywind.hpp"
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600_operation.hpp"
+#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/openfast.hpp"
 #include "turbines/yaml/description.hpp"
+#include "turbines/yaml/foundation.hpp"
 #include "turbines/yaml/windio.hpp"
 
+#include "examples/shared/program.hpp"
+#include "examples/shared/run_record.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,44 +27,51 @@ namespace cardan::program {
 
 namespace {
 
-MachineFile built_in(turbines::TurbineDescription description, double rotor_speed,
-                     std::function<turbines::AssemblyOptions(int, int)> beams) {
+// Directions that stay free in a machine as its own programs have it.
+enum class Beams : std::uint8_t { as_they_are, without_torsion };
+
+// As a table, so that the file of a result holds what was computed.
+BeamLine as_table(const BeamLine& line, Beams beams) {
+    const turbines::BeamTable* own = turbines::table_of(line);
+    turbines::BeamTable table = own != nullptr ? *own : turbines::sampled(line);
+    if (beams == Beams::without_torsion)
+        for (EngineeringSection& section : table.sections)
+            section.GJ = section.EA = std::numeric_limits<double>::infinity();
+    return turbines::beam_line(table);
+}
+
+MachineFile built_in(turbines::TurbineDescription d, double rotor_speed, Beams blades = Beams::as_they_are,
+                     Beams tower = Beams::as_they_are) {
     MachineFile machine;
-    machine.file.yaw_drive = description.yaw.rotation;
-    machine.file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
-    machine.file.description = std::move(description);
+    d.blade.line = as_table(d.blade.line, blades);
+    d.tower.line = as_table(d.tower.line, tower);
+    machine.file.yaw_drive = d.yaw.rotation;
+    machine.file.dofs.generator = d.drive_train.spin == CoordinateRole::free;
+    machine.file.description = std::move(d);
     machine.file.rotor_speed = rotor_speed;
-    machine.beams = std::move(beams);
     return machine;
 }
 
 MachineFile wt600_machine() {
-    return built_in(turbines::wt600_description(), turbines::wt600_rated_speed(), [](int blade, int tower) {
-        return turbines::AssemblyOptions{.tower_elements = tower, .blade_elements = blade};
-    });
+    return built_in(turbines::wt600_description(), turbines::wt600_rated_speed());
 }
 
 MachineFile teetered_machine() {
     const turbines::TurbineDescription description = turbines::teetered_description();
-    return built_in(description, description.rotor_speed, [](int blade, int tower) {
-        turbines::AssemblyOptions options = turbines::teetered_assembly();
-        options.blade_beam->elements = blade;
-        options.tower_beam->elements = tower;
-        return options;
-    });
+    return built_in(description, description.rotor_speed);
 }
 
 MachineFile nrel5mw_as(turbines::Nrel5mwVariant variant) {
     constexpr double rated = 12.1;  // rpm, Table 1-1 of the report
+    using turbines::Nrel5mwVariant;
     return built_in(turbines::nrel5mw_description(turbines::nrel5mw_options(variant)), rated * units::rpm,
-                    [variant](int blade, int tower) { return turbines::nrel5mw_assembly(variant, blade, tower); });
+                    variant == Nrel5mwVariant::fast ? Beams::without_torsion : Beams::as_they_are,
+                    variant == Nrel5mwVariant::report ? Beams::as_they_are : Beams::without_torsion);
 }
 
 MachineFile nrel5mw_spar() {
     const turbines::TurbineDescription description = turbines::nrel5mw_oc3_hywind_description();
-    return built_in(description, description.rotor_speed, [](int blade, int tower) {
-        return turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, blade, tower);
-    });
+    return built_in(description, description.rotor_speed);
 }
 
 struct BuiltIn {
@@ -117,18 +128,28 @@ bool is_word(const std::filesystem::path& path) {
     return !path.has_parent_path() && !path.has_extension() && !std::filesystem::exists(path, error);
 }
 
+// What a description says of how it runs.
+MachineFile of_description(turbines::TurbineDescription description, MachineKind kind) {
+    MachineFile machine;
+    machine.kind = kind;
+    turbines::TurbineFile& file = machine.file;
+    file.rotor_speed = description.rotor_speed;
+    file.yaw_drive = description.yaw.rotation;
+    file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
+    file.dofs.tower_fore_aft = file.dofs.tower_side_side = !description.tower.rigid;
+    file.description = std::move(description);
+    return machine;
+}
+
 MachineFile read_file(const std::filesystem::path& path, const std::vector<turbines::ModelAddition>& additions) {
     MachineFile machine;
-    if (!is_yaml(path)) {
+    if (is_result(path)) {
+        machine = of_description(turbines::parse_description(machine_text(path), path.string()), MachineKind::result);
+    } else if (!is_yaml(path)) {
         machine.kind = MachineKind::openfast;
         machine.file = turbines::read_openfast(path);
     } else if (turbines::is_description(text_file(path))) {
-        machine.kind = MachineKind::description;
-        machine.file.description = turbines::read_description(path);
-        machine.file.rotor_speed = machine.file.description.rotor_speed;
-        machine.file.yaw_drive = machine.file.description.yaw.rotation;
-        machine.file.dofs.generator = machine.file.description.drive_train.spin == CoordinateRole::free;
-        machine.file.dofs.tower_fore_aft = machine.file.dofs.tower_side_side = !machine.file.description.tower.rigid;
+        machine = of_description(turbines::read_description(path), MachineKind::description);
     } else {
         machine.kind = MachineKind::windio;
         machine.file = turbines::read_windio(path, additions);
@@ -148,16 +169,36 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
     return options;
 }
 
+void set_tower(const std::string& asked, turbines::TurbineFile& model) {
+    turbines::FileDofs& f = model.dofs;
+    if (!asked.empty()) {
+        f.tower_fore_aft = asked == "bends" || asked == "fore-aft";
+        f.tower_side_side = asked == "bends" || asked == "side-side";
+    }
+    model.description.tower.rigid = !f.tower_fore_aft && !f.tower_side_side;
+}
+
 // What was asked for in the place of what the machine's source says.
 void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
     turbines::Bearing& yaw = model.description.yaw.rotation;
     if (!a.generator.empty()) model.dofs.generator = a.generator == "free";
     model.description.drive_train.spin = model.dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
+    if (!a.blades.empty()) model.dofs.blades = a.blades == "bend";
+    set_tower(a.tower, model);
     if (a.yaw == "locked") yaw = turbines::rigid_joint;
     if (a.yaw != "free" || !yaw.is_rigid()) return;
     if (model.yaw_drive.is_rigid())
         throw InputError("--yaw", "value", "free", "locked: the model gives no spring of a yaw drive");
     yaw = model.yaw_drive;
+}
+
+void tell_dofs(const turbines::TurbineFile& model, MachineOptions& a) {
+    const turbines::FileDofs& f = model.dofs;
+    a.generator = f.generator ? "free" : "locked";
+    a.yaw = model.description.yaw.rotation.is_rigid() ? "locked" : "free";
+    a.blades = f.blades ? "bend" : "rigid";
+    a.tower =
+        f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
 }
 
 // A diagram of a machine that a file holds altogether would be empty: its beams bend.
@@ -217,7 +258,8 @@ bool is_yaml(const std::filesystem::path& path) {
 
 std::string machine_help() {
     std::string help =
-        "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own), or one of:\n";
+        "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own, .h5 of a result), or one "
+        "of:\n";
     for (const BuiltIn& one : machines)
         help += text("  ", one.name, std::string(18 - std::string(one.name).size(), ' '), one.about, "\n");
     return help;
@@ -235,12 +277,13 @@ MachineFile read_machine(const std::string& machine, const std::vector<turbines:
 }
 
 void add_machine(CommandLine& app, MachineOptions& options) {
-    app.add_option("model", options.model, "name of a built-in machine, FILE.fst, ElastoDyn.dat or FILE.yaml")
+    app.add_option("model", options.model,
+                   "name of a built-in machine, FILE.fst, ElastoDyn.dat, FILE.yaml or RESULT.h5")
         .required();
     app.footer(text("\n", machine_help()));
 }
 
-void add_machine_options(CommandLine& app, MachineOptions& options) {
+void add_source_options(CommandLine& app, MachineOptions& options) {
     app.add_option(
            "--with", options.with,
            "windIO: a file with entries that the model lacks, or others in the place of its own, under the same "
@@ -248,14 +291,6 @@ void add_machine_options(CommandLine& app, MachineOptions& options) {
         .one_word()
         .type_name("FILE");
     app.add_option("--set", options.set, "windIO: the same for a single entry").one_word().type_name("KEY=VALUE");
-    app.add_option("--blade-elements", options.blade_elements, "beam elements per blade (default: as many as it takes)")
-        .range(1, 1000)
-        .hide_default();
-    app.add_option("--tower-elements", options.tower_elements,
-                   "beam elements of the tower (default: as many as it takes)")
-        .range(1, 1000)
-        .hide_default();
-    app.add_option("--pitch", options.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
     const std::vector<std::string> free_or_locked{"free", "locked"};
     app.add_option("--generator", options.generator,
                    "free: the rotor turns freely; locked: at its speed, whatever happens (default: the model's, GenDOF "
@@ -265,31 +300,80 @@ void add_machine_options(CommandLine& app, MachineOptions& options) {
                    "yaw bearing: free on the spring of the yaw drive, or locked (default: the model's, YawDOF of "
                    "ElastoDyn)")
         .one_of(free_or_locked);
+    app.add_option("--tower", options.tower,
+                   "tower: it bends, only in one direction, or is rigid (default: the model's, TwFADOF and TwSSDOF of "
+                   "ElastoDyn)")
+        .one_of({"bends", "fore-aft", "side-side", "rigid"});
+    app.add_option("--blades", options.blades,
+                   "blades: they bend, or are rigid (default: the model's, FlapDOF and EdgeDOF of ElastoDyn)")
+        .one_of({"bend", "rigid"});
+    app.add_option(
+           "--foundation", options.foundation,
+           "file (.yaml) with what the tower stands on: stiffness, mass and damping, 6 x 6 matrices at its foot "
+           "(default: it is clamped there)")
+        .type_name("FILE");
     app.add_option("--generator-inertia", options.generator_inertia,
                    "inertia of the generator on its own shaft, kg m^2, for models that do not give it")
         .hide_default();
-    app.add_flag("--undamped", options.undamped, "leave out all damping");
     app.add_flag("--notes", options.notes, "print all notes; else those on groups of entries are only counted");
+}
+
+void add_machine_options(CommandLine& app, MachineOptions& options) {
+    add_source_options(app, options);
+    app.add_option("--pitch", options.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
+    app.add_option("--blade-elements", options.blade_elements, "beam elements per blade (default: as many as it takes)")
+        .range(1, 1000)
+        .hide_default();
+    app.add_option("--tower-elements", options.tower_elements,
+                   "beam elements of the tower (default: as many as it takes)")
+        .range(1, 1000)
+        .hide_default();
+    app.add_flag("--undamped", options.undamped, "leave out all damping");
     app.add_flag("--summary", options.summary, "print bodies, coordinates and masses first");
 }
 
-MachineFile prepared_machine(const MachineOptions& options) {
+namespace {
+
+void set_foundation(const std::string& file, turbines::TurbineFile& model) {
+    if (file.empty()) return;
+    if (model.description.platform)
+        throw InputError("--foundation", "file", file,
+                         text("none: the tower stands on ", model.description.platform->name));
+    model.description.platform = turbines::read_foundation(file);
+}
+
+// What the model's tower stands on, where it is left out.
+bool is_clamped(const MachineFile& machine) {
+    return !machine.file.foundation.name.empty() && !machine.file.description.platform;
+}
+
+}  // namespace
+
+std::string foundation_in_words(const MachineFile& machine) {
+    const turbines::FileFoundation& f = machine.file.foundation;
+    return is_clamped(machine) ? text("tower clamped at its foot, ", f.name, " left out") : "";
+}
+
+MachineFile prepared_machine(MachineOptions& options) {
     MachineFile machine = read_machine(options.model, additions_of(options));
-    print(machine.file.notes, options.notes);
-    set_dofs(options, machine.file);
-    if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(machine.file);
-    std::cout << "degrees of freedom: " << dofs_in_words(machine.file) << "\n";
-    if (options.generator_inertia != 0)
-        machine.file.description.drive_train.generator_inertia = options.generator_inertia;
+    turbines::TurbineFile& model = machine.file;
+    print(model.notes, options.notes);
+    set_dofs(options, model);
+    set_foundation(options.foundation, model);
+    if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(model);
+    tell_dofs(model, options);
+    std::cout << "degrees of freedom: " << dofs_in_words(model) << "\n";
+    if (is_clamped(machine))
+        std::cout << "foundation: the " << model.foundation.name
+                  << " of the model is left out, and the tower clamped at its foot, " << model.foundation.where
+                  << "; --foundation FILE gives it springs\n";
+    if (options.generator_inertia != 0) model.description.drive_train.generator_inertia = options.generator_inertia;
     return machine;
 }
 
 turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options) {
     turbines::AssemblyOptions o;
-    if (machine.beams)
-        o = machine.beams(options.blade_elements, options.tower_elements);
-    else
-        set_beams(machine, options, o);
+    set_beams(machine, options, o);
     o.spin = CoordinateRole::free;  // how it turns (FileDofs::generator) is left to the analysis
     o.pitch = options.pitch ? *options.pitch * units::degree : machine.file.pitch;
     if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
@@ -319,6 +403,8 @@ double usual_frequency(const MachineFile& machine, const MachineOptions& options
     return unit * std::ceil(wanted / unit);
 }
 
+namespace {
+
 turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
     turbines::MeshOptions mesh;
     mesh.largest_hz = largest_hz;
@@ -333,6 +419,21 @@ turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, 
     options.blade_elements = found.blade_elements;
     options.tower_elements = found.tower_elements;
     return found;
+}
+
+}  // namespace
+
+ReadyMachine ready_machine(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
+    const turbines::Mesh mesh = choose_mesh(machine, options, largest_hz, rotor_speed);
+    if (machine.file.description.platform)
+        std::cout << "mesh: chosen with the " << machine.file.description.platform->name << " held\n";
+    ReadyMachine ready{turbines::assemble(machine.file.description, assembly_options(machine, options)), mesh};
+    introduce(ready.turbine, options.summary);
+    return ready;
+}
+
+std::string run_text(const std::string& command, const CommandLine& options) {
+    return to_text({command, {}, options.words()});
 }
 
 std::string in_words(const turbines::Mesh& mesh) {

@@ -10,7 +10,6 @@
 #include "examples/shared/command_line.hpp"
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +19,7 @@ namespace cardan::program {
 enum class MachineKind : std::uint8_t {
     built_in,     ///< turbines/machines
     description,  ///< our own YAML
+    result,       ///< HDF5 that a command has written, with the machine in it
     windio,       ///< other YAML
     openfast      ///< everything else
 };
@@ -28,16 +28,13 @@ enum class MachineKind : std::uint8_t {
 struct MachineFile {
     turbines::TurbineFile file;
     MachineKind kind = MachineKind::built_in;
-    /// Beams of a built-in machine as its own programs have them; empty: every direction is free in which the sections
-    /// are not rigid.
-    std::function<turbines::AssemblyOptions(int blade_elements, int tower_elements)> beams = {};
 };
 
 /// What may be given as a machine, with the names of the built-in ones: for the help of a program.
 std::string machine_help();
 
 /// A name of a built-in machine comes first: a file of that name is read as ./NAME.
-/// @param machine    name, or path of a .yaml (ours or windIO's), an .fst or an ElastoDyn file
+/// @param machine    name, or path of a .yaml (ours or windIO's), an .fst or an ElastoDyn file, a result (.h5)
 /// @param additions  to a model of windIO
 /// @throws InputError for a word that is neither a name nor a file, with the names there are, and for additions to
 /// another machine; as the readers
@@ -48,22 +45,43 @@ bool is_yaml(const std::filesystem::path& path);
 
 /// What programs for any machine ask about it.
 struct MachineOptions {
-    std::string model, generator, yaw;
+    std::string model;
+    std::string generator, yaw, tower, blades;   ///< of one_of(); empty: as the model says
+    std::string foundation;                      ///< file
     std::vector<std::string> with, set;          ///< additions: files, KEY=VALUE
     int blade_elements = 0, tower_elements = 0;  ///< 0: as many as it takes
     std::optional<double> pitch;                 ///< deg; none: the model's
-    double generator_inertia = 0;
+    double generator_inertia = 0;                ///< 0: the model's
     bool gravity = false, undamped = false, notes = false, summary = false;
 };
 
 /// The machine's argument.
 void add_machine(CommandLine& app, MachineOptions& options);
-/// Numbers of elements and what replaces the model's own settings; gravity is left to the program.
+/// What is added to the model, and what replaces its own settings.
+void add_source_options(CommandLine& app, MachineOptions& options);
+/// The same, with pitch, numbers of elements, damping and what is printed; gravity is left to the program.
 void add_machine_options(CommandLine& app, MachineOptions& options);
 
-/// Reads the machine, prints notes and degrees of freedom, and puts what was asked for in the place of what it says.
+/// Reads the machine, prints notes, degrees of freedom and what the tower stands on, and puts what was asked for in the
+/// place of what the machine's source says. The options then hold what was taken in all cases.
 /// @throws InputError also for a yaw bearing that is to be free without a spring
-MachineFile prepared_machine(const MachineOptions& options);
+MachineFile prepared_machine(MachineOptions& options);
+
+/// Of a machine whose foundation is left out, for titles: "tower clamped at its foot, substructure left out"; else
+/// empty.
+std::string foundation_in_words(const MachineFile& machine);
+
+/// A machine on its way to a solver.
+struct ReadyMachine {
+    turbines::Turbine turbine;
+    turbines::Mesh mesh;
+};
+
+/// Chooses the mesh, assembles, prints the mesh and what the assembly has to say. The options then hold the numbers of
+/// elements.
+/// @param largest_hz   frequencies up to here shall be right
+/// @param rotor_speed  highest, rad/s
+ReadyMachine ready_machine(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed);
 
 /// Beams, pitch, gravity and damping.
 turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options);
@@ -72,12 +90,11 @@ turbines::AssemblyOptions assembly_options(const MachineFile& machine, const Mac
 /// rule), rounded up to two digits, Hz; 5 if the blade does not bend.
 double usual_frequency(const MachineFile& machine, const MachineOptions& options);
 
-/// Puts numbers of elements in the place of those that were not given.
-/// @param largest_hz   frequencies up to here shall be right
-/// @param rotor_speed  highest, rad/s
-turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed);
 /// What a mesh is good for, in one line.
 std::string in_words(const turbines::Mesh& mesh);
+
+/// Head of the input description of a result: the command with its options as they were used.
+std::string run_text(const std::string& command, const CommandLine& options);
 
 /// Three or more blades, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
 bool has_equal_blades(const turbines::TurbineDescription& machine);

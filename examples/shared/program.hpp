@@ -66,20 +66,15 @@ void introduce(const Turbine& turbine, bool summary) {
     for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
 }
 
-/// The body of main().
-/// @param parse  fills the arguments; an exit code >= 0 ends the program there, -1 goes on
-/// @param run    does the work; signals are caught from here on; returns 130 if it was interrupted
+/// What ends a program: its errors, and the signals that came.
+/// @param name  for messages
+/// @param body  returns an exit code, 130 if it was interrupted
 /// @return exit code; 1 after an error, which is printed with the name of the program; if it was interrupted 128 and
 ///         the number of the signal: 130, 143 or 129
-template <class Arguments>
-int run_program(const char* name, int argc, char** argv, int (*parse)(int, char**, Arguments&),
-                int (*run)(const Arguments&)) {
+template <class Body>
+int with_errors(const char* name, const Body& body) {
     try {
-        Arguments arguments;
-        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
-        handle_signals([](int signal) { interrupt = signal; });
-        const int code =
-            with_memory("this run; fewer elements, times or speeds need less", [&] { return run(arguments); });
+        const int code = body();
         return code == 130 && interrupted() ? 128 + interrupt : code;
     } catch (const Error& error) {
         std::cerr << name << ": " << error.what() << "\n";
@@ -87,6 +82,42 @@ int run_program(const char* name, int argc, char** argv, int (*parse)(int, char*
         std::cerr << name << ": unexpected: " << error.what() << "\n";
     }
     return 1;
+}
+
+/// From here on signals are caught; what there is no memory for is an error with advice.
+template <class Body>
+int working(const Body& body) {
+    handle_signals([](int signal) { interrupt = signal; });
+    return with_memory("this run; fewer elements, times or speeds need less", body);
+}
+
+/// The body of main().
+/// @param parse  fills the arguments; an exit code >= 0 ends the program there, -1 goes on
+/// @param run    does the work; signals are caught from here on; returns 130 if it was interrupted
+/// @return as with_errors()
+template <class Arguments>
+int run_program(const char* name, int argc, char** argv, int (*parse)(int, char**, Arguments&),
+                int (*run)(const Arguments&)) {
+    return with_errors(name, [&] {
+        Arguments arguments;
+        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
+        return working([&] { return run(arguments); });
+    });
+}
+
+/// Likewise for a command that keeps its command line, to say in its files how they were made.
+/// @param name     "cardan campbell"
+/// @param options  declares the options, with their targets in the arguments
+template <class Arguments>
+int run_command(const char* name, const char* about, int argc, char** argv, void (*options)(CommandLine&, Arguments&),
+                int (*run)(Arguments&, const CommandLine&)) {
+    return with_errors(name, [&] {
+        Arguments arguments;
+        CommandLine command(about);
+        options(command, arguments);
+        if (const int code = command.parse(argc, argv); code >= 0) return code;
+        return working([&] { return run(arguments, command); });
+    });
 }
 
 }  // namespace cardan::program

@@ -42,11 +42,12 @@ inline std::optional<solvers::Checkpoint> start_of(const RunArguments& a, const 
     const std::string path = a.out + ".h5";
     const solvers::HistoryInfo info = solvers::read_history_info(path);
     if (!info.checkpoint) throw InputError("--resume", path, "without a checkpoint", "a run that was broken off");
-    if (info.about.description != description)
-        throw InputError("--resume", text("options that ", path, " was made with"),
-                         info.about.description.substr(0, info.about.description.find('\n')),
-                         text("those of this run: ", description.substr(0, description.find('\n'))));
-    return info.checkpoint;
+    const std::string& made = info.about.description;
+    if (made.ends_with(description)) return info.checkpoint;
+    const std::size_t own = made.starts_with("made by ") ? made.find("\n\n") + 2 : 0;  // behind the command
+    throw InputError("--resume", text("options that ", path, " was made with"),
+                     made.substr(own, made.find('\n', own) - own),
+                     text("those of this run: ", description.substr(0, description.find('\n'))));
 }
 
 inline solvers::IntegrationOptions integration_options(const RunArguments& a) {

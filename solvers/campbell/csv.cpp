@@ -33,6 +33,8 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
     out.precision(10);
     out << "# Campbell diagram: " << one_line(diagram.machine) << "; " << method_in_words(diagram) << "; cardan "
         << version() << "\n";
+    for (const std::string& line : {diagram.remark, diagram.accuracy})
+        if (!line.empty()) out << "# " << one_line(line) << "\n";
     if (!diagram.warning.empty()) out << "# warning: " << one_line(diagram.warning) << "\n";
     if (!diagram.complete) out << "# the sweep was interrupted\n";
     out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"

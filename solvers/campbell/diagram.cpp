@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/detail/blade_frame.hpp"
+#include "solvers/campbell/detail/component_order.hpp"
 #include "solvers/campbell/detail/floquet_mac.hpp"
 #include "solvers/campbell/detail/method.hpp"
 #include "solvers/campbell/detail/recorded_motions.hpp"
@@ -244,20 +245,14 @@ void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
     if (!first_) first_ = &own;
     if (first_ == &own) return;
     const std::vector<Component>&wanted = first_->components(), &there = own.components();
-    std::vector<std::size_t> order;
-    for (const Component& c : wanted) {
-        const auto found = std::find_if(there.begin(), there.end(), [&](const Component& other) {
-            return other.part == c.part && other.family == c.family && other.ordinal == c.ordinal;
-        });
-        if (found == there.end() || there.size() != wanted.size())
-            throw InputError(diagram_.machine, text("component modes at point ", diagram_.points.size() + 1),
-                             there.size(), text(wanted.size(), " with the same names as at the first point"));
-        order.push_back(static_cast<std::size_t>(found - there.begin()));
-    }
+    const std::optional<std::vector<std::size_t>> found = component_order(wanted, there, diagram_.parameter.empty());
+    if (!found)
+        throw InputError(diagram_.machine, text("component modes at point ", diagram_.points.size() + 1), there.size(),
+                         text(wanted.size(), " with the same names as at the first point"));
     for (CampbellMode& m : point.modes) {
         std::vector<Share> shares;
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            shares.push_back(m.shares[order[i]]);
+        for (std::size_t i = 0; i < found->size(); ++i) {
+            shares.push_back(m.shares[(*found)[i]]);
             shares.back().component = static_cast<int>(i);
         }
         m.shares = std::move(shares);
@@ -331,12 +326,15 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
 
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter, const CampbellOptions& options) {
     if (cases.empty()) throw InputError("Campbell diagram", "number of points", 0, "at least one");
-    if (parameter.empty()) throw InputError("Campbell diagram", "name of the parameter", "''", "not empty");
-    check_cases(cases, parameter);
+    std::vector<CampbellCase> by_speed(cases.begin(), cases.end());
+    for (CampbellCase& one : by_speed) one.parameter = one.rotor_speed;
+    const std::string name = parameter.empty() ? "rotor speed [rad/s]" : parameter;
+    if (parameter.empty()) cases = by_speed;
+    check_cases(cases, name);
     if (options.neighbour)
-        throw InputError("Campbell diagram", text("neighbour of a diagram over ", parameter), "given",
+        throw InputError("Campbell diagram", text("neighbour of a diagram over ", name), "given",
                          "none: modes are followed from one machine to the next");
-    const MethodChoice choice = choose_method(cases, parameter, options);
+    const MethodChoice choice = choose_method(cases, name, options);
     CampbellOptions own = options;
     own.method = choice.method;
     Sweep sweep(own, choice.reason, cases.size(), parameter);
@@ -347,14 +345,14 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
         solvers.push_back(point_method(*one.system, *one.rotor, own));
         if (parameters.empty()) sweep.set_machine(*one.system, *one.rotor, *solvers.back());
         if (solvers.back()->row_names() != solvers.front()->row_names())
-            throw InputError(one.rotor->machine, text("rows at ", parameter, " ", one.parameter),
+            throw InputError(one.rotor->machine, text("rows at ", name, " ", one.parameter),
                              solvers.back()->unknowns().size(), "those of the first machine");
         used.push_back(solvers.back().get());
         if (!sweep.add(*one.system, *solvers.back(), one.rotor_speed)) break;
         parameters.push_back(one.parameter);
     }
     Campbell diagram = sweep.finish(*cases[0].rotor, used);
-    diagram.parameters = std::move(parameters);
+    if (!parameter.empty()) diagram.parameters = std::move(parameters);
     return diagram;
 }
 

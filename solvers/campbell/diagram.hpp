@@ -144,6 +144,9 @@ struct FrameMotion {
 
 struct Campbell {
     std::string machine, source, method, warning;
+    /// For whoever makes a diagram to fill in: what else it holds for ("platform held"), and how accurate its
+    /// frequencies are. One line each: before and after the table, in files and titles.
+    std::string remark, accuracy;
     /// Why CampbellMethod::automatic took Floquet theory: "the blades differ", "blade 2 of 3 is missing", "two blades",
     /// "the equations are not constant in multi-blade coordinates", "there is no constant steady state" ...; and which
     /// azimuth the modes at standstill belong to, where it matters. Empty: multi-blade coordinates make the equations
@@ -205,7 +208,7 @@ inline Campbell campbell(const System& system, const RotorMap& rotor, std::initi
     return campbell(system, rotor, std::span<const double>(rotor_speed.begin(), rotor_speed.size()), options);
 }
 
-/// One point of a diagram over a parameter other than rotor speed.
+/// One point of a diagram of machines that differ.
 struct CampbellCase {
     const System* system = nullptr;
     const RotorMap* rotor = nullptr;
@@ -213,12 +216,13 @@ struct CampbellCase {
     double parameter = 0;    ///< its place on the axis
 };
 
-/// Modes over a parameter other than rotor speed, such as the rigidity of the tower: modes are tracked from one machine
-/// to the next; all must have the same coordinates. Data of the machine in the diagram are those of the first; no
-/// crossings.
-/// @param parameter  what the parameter is, with its unit, for axes and tables
-/// @throws InputError also for an empty name, parameters that are not finite or not increasing, and machines whose rows
-/// or component modes have other names than those of the first, or a neighbour in the options
+/// Modes over a parameter other than rotor speed, such as the rigidity of the tower, or over the rotor speed where the
+/// machine changes with it, as its pitch does: modes are tracked from one machine to the next; all must have the same
+/// coordinates. Data of the machine in the diagram are those of the first.
+/// @param parameter  what the parameter is, with its unit, for axes and tables (and no crossings); empty: the rotor
+/// speed
+/// @throws InputError also for parameters that are not finite or not increasing, and machines whose rows or component
+/// modes have other names than those of the first, or a neighbour in the options
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter,
                   const CampbellOptions& options = {});
 

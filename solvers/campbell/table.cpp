@@ -135,7 +135,9 @@ std::string table(const Campbell& diagram) {
     std::size_t longest = 32;
     for (const Branch& branch : diagram.branches) longest = std::max(longest, branch.name.size());
     const int width = static_cast<int>(longest) + 2;
-    out << diagram.machine << ": natural frequency, Hz (damping ratio, %); " << method_in_words(diagram) << "\n\n"
+    out << diagram.machine << ": natural frequency |lambda| / 2 pi, Hz (damping ratio, %); " << method_in_words(diagram)
+        << "\n"
+        << (diagram.remark.empty() ? "" : diagram.remark + "\n") << "\n"
         << (diagram.parameter.empty() ? std::string() : text("over ", diagram.parameter, "\n\n")) << std::left
         << std::setw(width) << "mode" << std::right << std::fixed;
     for (std::size_t i : shown) {
@@ -151,6 +153,7 @@ std::string table(const Campbell& diagram) {
         out << "\n";
     }
     out << margins(diagram, shown, width);
+    if (!diagram.accuracy.empty()) out << diagram.accuracy << "\n";
     out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";
     if (has_blade_frequencies(diagram)) out << "modes of one blade: frequencies in its rotating frame\n";
     if (!diagram.crossings.empty()) {

@@ -54,6 +54,8 @@ private:
                  {"method", d_.method},
                  {"method_reason", d_.method_reason},
                  {"warning", d_.warning},
+                 {"remark", d_.remark},
+                 {"accuracy", d_.accuracy},
                  {"rotor_spin", d_.spin == RotorSpin::free ? "free" : "prescribed"},
                  {"Conventions", "CF-1.8"},
                  {"program", "cardan"},

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# interrupted_runs.sh PROGRAM HISTORY OPTIONS...: signals save what was computed, a run that goes on is the uninterrupted
+# interrupted_runs.sh PROGRAM CARDAN OPTIONS...: signals save what was computed, a run that goes on is the uninterrupted
 # one bit for bit, and of two runs with the same --out the first one has the files.
 set -eum  # m: background jobs have signals of their own
-run=$1 history=$2
+run=$1 cardan=$2
 shift 2
 options=$*
 folder=$(mktemp -d)
@@ -14,7 +14,7 @@ fail() {
     exit 1
 }
 rows() { # of a history, as far as it is safe; 0 without one
-    "$history" info "$1" 2>/dev/null | sed -n 's/^rows *\([0-9]*\).*/\1/p' | grep . || echo 0
+    "$cardan" info "$1" 2>/dev/null | sed -n 's/^rows *\([0-9]*\).*/\1/p' | grep . || echo 0
 }
 begin() { # NAME: a long run in the background, with rows in its file
     "$run" $options --duration 100000 --out "$1" >"$1.log" 2>&1 &
@@ -33,16 +33,16 @@ for signal in INT:130 TERM:143 HUP:129; do
     code=0
     wait "$pid" || code=$?
     [ "$code" = "${signal#*:}" ] || fail "SIG$name ends with $code: $(cat "$name.log")"
-    "$history" info "$name.h5" >info
+    "$cardan" info "$name.h5" >info
     grep -q "broken off" info || fail "SIG$name: $(cat info)"
     [ -s "$name.svg" ] || fail "SIG$name: no picture"
 done
 
 # To the end of the last whole second and 5 s on; and the same without an interruption.
-end=$("$history" info TERM.h5 | sed -n 's/^rows .*\.\.\. \([0-9]*\).*/\1/p')
+end=$("$cardan" info TERM.h5 | sed -n 's/^rows .*\.\.\. \([0-9]*\).*/\1/p')
 "$run" $options --duration $((end + 5)) --out TERM --resume >/dev/null || [ $? = 1 ]
 "$run" $options --duration $((end + 5)) --out whole >/dev/null || [ $? = 1 ]
-for name in TERM whole; do "$history" export "$name.h5" --csv "$name.csv" >/dev/null; done
+for name in TERM whole; do "$cardan" convert "$name.h5" "$name.csv" >/dev/null; done
 cmp TERM.csv whole.csv || fail "the resumed run is not the uninterrupted one"
 
 # The second run on one --out tells who has it, and does the first one no harm.

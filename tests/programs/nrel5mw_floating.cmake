@@ -37,7 +37,7 @@ add_test(NAME example_floating_interrupted
                  "-DARGUMENTS=example_floating_interrupted_pitch.h5;$<TARGET_FILE:nrel5mw_floating>;decay;--variant;fast;--blade-elements;4;--tower-elements;2;--tolerance;1e-9;--from;pitch=3;--cycles;1000;--out;example_floating_interrupted"
                  -D CODE=130 "-DSAYS=files: example_floating_interrupted_pitch.h5" -P ${CMAKE_CURRENT_SOURCE_DIR}/run_program.cmake
          WORKING_DIRECTORY ${test_output_dir})
-add_example_test(example_floating_interrupted_history history 0 "decay of platform pitch.*broken off" info
+add_example_test(example_floating_interrupted_history cardan 0 "decay of platform pitch.*broken off" info
                  example_floating_interrupted_pitch.h5)
 set_tests_properties(example_floating_interrupted PROPERTIES FIXTURES_SETUP floating_interrupted)
 set_tests_properties(example_floating_interrupted_history PROPERTIES FIXTURES_REQUIRED floating_interrupted)

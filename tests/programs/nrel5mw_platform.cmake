@@ -1,7 +1,7 @@
 add_example_test(example_platform nrel5mw_platform 0
               "energy lost.*ok.*reference case: pitch.*1 deg: reached.*files: example_platform.h5 .[0-9]+ samples of 117 channels., .svg, .png, _energy.png, _spectrum.png, .csv"
               --case pitch --elements 8 --tolerance 1e-6 --out example_platform)
-add_example_test(example_platform_history history 0
+add_example_test(example_platform_history cardan 0
               "pitch amplitude=5,revolutions=2', finished.*checkpoint +at.*kinetic energy.*blade 1 tip flap.*platform pitch drive"
               info example_platform.h5)
 set_tests_properties(example_platform PROPERTIES FIXTURES_SETUP platform_history)
@@ -13,7 +13,7 @@ add_test(NAME example_platform_interrupted
                  -D CODE=130 "-DSAYS=interrupted at .*files: example_platform_interrupted.h5" -P
                  ${CMAKE_CURRENT_SOURCE_DIR}/run_program.cmake
          WORKING_DIRECTORY ${test_output_dir})
-add_example_test(example_platform_interrupted_history history 0 "broken off.*rows +[0-9]+, 0 .*checkpoint +at" info
+add_example_test(example_platform_interrupted_history cardan 0 "broken off.*rows +[0-9]+, 0 .*checkpoint +at" info
               example_platform_interrupted.h5)
 set_tests_properties(example_platform_interrupted PROPERTIES FIXTURES_SETUP platform_interrupted)
 set_tests_properties(example_platform_interrupted_history PROPERTIES FIXTURES_REQUIRED platform_interrupted)

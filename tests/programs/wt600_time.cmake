@@ -54,5 +54,5 @@ foreach(tolerance nan inf -1)
                   --tolerance=${tolerance} --duration 1 --out example_time_tolerance_${tolerance})
 endforeach()
 add_test(NAME example_time_interrupted COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/programs/interrupted_runs.sh
-         $<TARGET_FILE:wt600_time_history> $<TARGET_FILE:history> --mode fixed --pitch-rate 6 ${coarse}
+         $<TARGET_FILE:wt600_time_history> $<TARGET_FILE:cardan> --mode fixed --pitch-rate 6 ${coarse}
          --tolerance 1e-5 --step 0.05 WORKING_DIRECTORY ${test_output_dir})

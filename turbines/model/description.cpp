@@ -77,6 +77,7 @@ void check_blade(const TurbineDescription& d, const BladeDescription& blade, con
     ranges.angle(field + ".cone", blade.cone, 0.5, pi / 2);
     ranges.angle(field + ".pitch_setting", blade.pitch_setting, 3.2, 1e3);
     ranges.ratio(field + ".first_flap_damping", blade.first_flap_damping);
+    require_not_negative(d.name, field + ".tip_mass [kg]", blade.tip_mass);
     check_damping(blade.damping, field, ranges);
 }
 

@@ -94,6 +94,7 @@ inline Mat3 hub_axes() {
 
 struct BladeDescription {
     BeamLine line;             ///< from the root out; x radial, y to the leading edge, z downwind
+    double tip_mass = 0;       ///< of a tip brake, a point at the end of the line, kg
     Bearing pitch;             ///< pitch bearing or drive
     double cone = 0;           ///< blade axis out of the rotor plane, tips downwind positive, rad
     double pitch_setting = 0;  ///< beside that of the assembly, leading edge upwind positive, rad

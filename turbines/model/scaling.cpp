@@ -87,6 +87,7 @@ namespace {
 void scale(BladeDescription& blade, double s) {
     blade.line = turbines::scaled(blade.line, s);
     blade.damping = scaled(blade.damping, s);
+    blade.tip_mass *= power(s, 3);
     blade.pitch = rotational(blade.pitch, s);
 }
 

@@ -81,6 +81,7 @@ private:
         const double top = file_.number("TowerHt"), base = file_.number("TowerBsHt");
         if (!(top > base)) file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above TowerBsHt = ", base));
         if (base != 0) file_.note("TowerBsHt", "the origin of the ground axes is the foot of the tower here");
+        out_.foundation.where = text(base, " m above the ground or the still water (TowerBsHt)");
         const std::filesystem::path path = file_.path("TwrFile");
         ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
         d_.tower.line = tower.line;
@@ -190,7 +191,9 @@ private:
             file_.fail("TipRad", text("TipRad = ", tip, "; allowed: above HubRad = ", d_.hub.radius));
         d_.blade.cone = angle(numbered("PreCone", 1), 45);
         out_.pitch = angle(numbered("BlPitch", 1));
+        out_.pitch_source = text("BlPitch(1) of ", std::filesystem::path(file_.name()).filename().string());
         d_.blade.pitch = context_.pitch;
+        d_.blade.tip_mass = tip_mass(1);
         const std::string blade_file = numbered("BldFile", 1);
         for (int k = 1; k <= d_.blades; ++k) note_blade(k);
         if (context_.blade) {
@@ -239,19 +242,30 @@ private:
         BladeDescription own = d_.blade;
         if (file_.has(cone)) own.cone = angle(cone);
         if (file_.has(pitch)) own.pitch_setting = angle(pitch) - out_.pitch;
+        own.tip_mass = tip_mass(k);
         const bool other_file =
             !context_.blade && file_.has(file) && file_.has(first) && file_.word(file) != file_.word(first);
         const auto other_beam = context_.own_blades.find(k);
         const bool has_beam = other_beam != context_.own_blades.end();
         if (other_file) read_blade_file(own, file, length);
         if (has_beam) set_other_blade(own, other_beam->second, length);
-        if (other_file || has_beam || own.cone != d_.blade.cone || own.pitch_setting != 0) d_.own_blades[k] = own;
+        if (other_file || has_beam || own.cone != d_.blade.cone || own.pitch_setting != 0 ||
+            own.tip_mass != d_.blade.tip_mass)
+            d_.own_blades[k] = own;
+    }
+
+    // Of the first blade where another one is not given.
+    double tip_mass(int k) {
+        const std::string keyword = numbered("TipMass", k);
+        if (!file_.has(keyword)) return k == 1 ? 0 : d_.blade.tip_mass;
+        const double value = file_.number(keyword);
+        if (!(value >= 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: >= 0"));
+        return value;
     }
 
     void note_blade(int k) {
-        file_.note_unless(numbered("TipMass", k), 0, "tip masses are not part of the model");
-        file_.note_unless(numbered("PBrIner", k), 0, "inertia of the pitch bearing: not part of the model");
-        file_.note_unless(numbered("BlPIner", k), 0, "inertia of the pitch drive: not part of the model");
+        file_.note_unless(numbered("PBrIner", k), 0, "inertia of the pitch bearing: it does not turn here");
+        file_.note_unless(numbered("BlPIner", k), 0, "inertia of the blade about its axis: that of its sections here");
     }
 
     // A beam that bends has all its modes: it can be made rigid where all of its flags are False, but not lose one
@@ -278,8 +292,10 @@ private:
             bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
         d_.tower.rigid = !f.tower_fore_aft && !f.tower_side_side;
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
-            if (file_.flag_or(keyword, false))
-                file_.note(keyword, "the tower stands on the ground; see TurbineDescription::platform");
+            if (file_.flag_or(keyword, false)) {
+                file_.note(keyword, "the tower is clamped at its foot; see TurbineDescription::platform");
+                out_.foundation.name = "floating platform";
+            }
         if (file_.flag_or("PitchDOF", false)) file_.note("PitchDOF", "the pitch bearings are rigid");
         if (file_.flag_or("Furling", false)) file_.note("Furling", "furling is not part of the model");
     }

@@ -46,6 +46,28 @@ void read_blades(OpenFastFile& main, const std::filesystem::path& elastodyn, Ela
     }
 }
 
+// SubDyn's structure has ElastoDyn's degrees of freedom of a platform as well.
+std::string foundation(OpenFastFile& main, const std::string& of_elastodyn) {
+    if (main.number_or("CompSub", 0) != 0) return "substructure";
+    if (main.number_or("CompMooring", 0) != 0) return "floating platform";
+    if (!of_elastodyn.empty()) return of_elastodyn;
+    return main.number_or("CompHydro", 0) != 0 ? "part under water" : "";
+}
+
+// The controller knows how the blades stand in operation; ElastoDyn, how they start.
+void set_operation(TurbineFile& out, const ServoDyn& servo) {
+    if (servo.rated_generator_speed > 0) {
+        out.rotor_speed = out.description.rotor_speed =
+            servo.rated_generator_speed / out.description.drive_train.gear_ratio;
+        out.rotor_speed_source = servo.speed_source;
+    }
+    if (servo.fine_pitch) {
+        out.pitch = *servo.fine_pitch;
+        out.pitch_source = servo.pitch_source;
+    }
+    out.pitch_schedule = servo.pitch_schedule;
+}
+
 }  // namespace
 
 TurbineFile read_openfast(const std::filesystem::path& path) {
@@ -67,17 +89,14 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     if (kind == 2) read_blades(main, elastodyn, context);
     TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
     out.description.name = main.machine_name();
+    out.foundation.name = foundation(main, out.foundation.name);
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
         main.note_unless(keyword, 0,
-                         "what the tower stands on is not part of the description; it stands on the ground");
+                         "what the tower stands on is not part of the description; it is clamped at its foot");
     main.note_unless("MHK", 0, "a machine under water is not part of the model");
     append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));
     append(out.notes, std::move(servo.notes));
-    if (servo.rated_generator_speed > 0) {
-        out.rotor_speed = out.description.rotor_speed =
-            servo.rated_generator_speed / out.description.drive_train.gear_ratio;
-        out.rotor_speed_source = servo.speed_source;
-    }
+    set_operation(out, servo);
     out.description.source = text("# ", path.string(), "\n", main.text(), out.description.source, servo.source);
     return out;
 }

@@ -3,9 +3,8 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/readers/detail/controller_file.hpp"
 #include "turbines/readers/openfast_file.hpp"
-
-#include <sstream>
 
 namespace cardan::turbines {
 
@@ -16,36 +15,19 @@ struct GeneratorSpeed {
     std::string source;
 };
 
-// The number before "! keyword" in a file of a ROSCO controller; none: another controller's file, which may be
-// anything.
-std::optional<double> controller_number(const std::string& text, std::string_view keyword) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t mark = line.find('!');
-        if (mark == std::string::npos) continue;
-        std::string word;
-        double value = 0;
-        if ((std::istringstream(line.substr(mark + 1)) >> word) && word == keyword &&
-            (std::istringstream(line.substr(0, mark)) >> value) && std::isfinite(value))
-            return value;
-    }
-    return std::nullopt;
-}
-
 std::string in_file(const char* keywords, const std::filesystem::path& file) {
     return text(keywords, " of ", file.filename().string());
 }
 
-GeneratorSpeed of_controller(OpenFastFile& file) {
-    if (!file.has("DLL_InFile") || file.word("DLL_InFile").empty()) return {};
-    const std::filesystem::path path = file.path("DLL_InFile");
+// None: there is no file, or it cannot be read.
+std::optional<ControllerFile> controller_file(OpenFastFile& file) {
+    if (!file.has("DLL_InFile") || file.word("DLL_InFile").empty()) return std::nullopt;
     try {
-        if (const auto speed = controller_number(text_file(path), "PC_RefSpd"))
-            return {*speed, in_file("PC_RefSpd", path)};
+        return ControllerFile(text_file(file.path("DLL_InFile")));
     } catch (const FileError& error) {
-        file.note("DLL_InFile", text("not read (", error.what(), "); it may have the rated speed"));
+        file.note("DLL_InFile", text("not read (", error.what(), "); it may have the rated speed and the pitch"));
     }
-    return {};
+    return std::nullopt;
 }
 
 GeneratorSpeed of_induction_generator(OpenFastFile& file) {
@@ -58,11 +40,25 @@ GeneratorSpeed of_induction_generator(OpenFastFile& file) {
     return {};
 }
 
-GeneratorSpeed generator_speed(OpenFastFile& file) {
+// 3 and others are routines of the user's.
+enum class Control : std::uint8_t { generator_model = 0, torque_law = 1, controller = 5 };
+
+GeneratorSpeed generator_speed(OpenFastFile& file, const std::optional<ControllerFile>& controller) {
     const int control = file.integer("VSContrl", 0, 5);
-    if (control == 0) return of_induction_generator(file);
-    if (control == 1) return {file.number("VS_RtGnSp") * units::rpm, in_file("VS_RtGnSp", file.name())};
-    return control == 3 ? GeneratorSpeed{} : of_controller(file);  // 3: a routine of the user's
+    if (control == static_cast<int>(Control::generator_model)) return of_induction_generator(file);
+    if (control == static_cast<int>(Control::torque_law))
+        return {file.number("VS_RtGnSp") * units::rpm, in_file("VS_RtGnSp", file.name())};
+    if (control != static_cast<int>(Control::controller) || !controller) return {};
+    return {controller->number("PC_RefSpd").value_or(0), in_file("PC_RefSpd", file.path("DLL_InFile"))};
+}
+
+void read_pitch(OpenFastFile& file, const std::optional<ControllerFile>& controller, ServoDyn& servo) {
+    if (file.number_or("PCMode", 0) != static_cast<int>(Control::controller) || !controller) return;
+    servo.fine_pitch = controller->number("PC_FinePit");
+    if (!servo.fine_pitch) return;
+    servo.pitch_schedule = minimum_pitch(*controller);
+    servo.pitch_source =
+        in_file(servo.pitch_schedule.empty() ? "PC_FinePit" : "PS_BldPitchMin", file.path("DLL_InFile"));
 }
 
 Bearing yaw_drive(OpenFastFile& file) {
@@ -79,7 +75,11 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
     OpenFastFile file = OpenFastFile::read(path);
     ServoDyn servo;
     servo.yaw = yaw_drive(file);
-    const GeneratorSpeed speed = generator_speed(file);
+    const bool needed = file.number_or("VSContrl", 0) == static_cast<int>(Control::controller) ||
+                        file.number_or("PCMode", 0) == static_cast<int>(Control::controller);
+    const std::optional<ControllerFile> controller = needed ? controller_file(file) : std::nullopt;
+    const GeneratorSpeed speed = generator_speed(file, controller);
+    read_pitch(file, controller, servo);
     if (speed.value > 0) {
         servo.rated_generator_speed = speed.value;
         servo.speed_source = speed.source;

@@ -5,6 +5,7 @@
 #include "turbines/readers/turbine_file.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace cardan::turbines {
 
@@ -15,6 +16,10 @@ struct ServoDyn {
     /// DLL_InFile).
     double rated_generator_speed = 0;
     std::string speed_source;  ///< the keyword and its file
+    /// Below rated power, leading edge upwind, rad, of a ROSCO controller (PC_FinePit); none: not given.
+    std::optional<double> fine_pitch;
+    std::vector<PitchAt> pitch_schedule;  ///< by speed of the rotor, of such a controller (PS_BldPitchMin)
+    std::string pitch_source;
     std::vector<FileNote> notes;
     std::string source;  ///< text of the file
 };

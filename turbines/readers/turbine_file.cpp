@@ -2,6 +2,8 @@
 
 #include "mbs/base/error.hpp"
 
+#include <algorithm>
+
 namespace cardan::turbines {
 
 namespace {
@@ -19,6 +21,16 @@ std::string refused(TurbineDescription machine, bool unusual) {
 }
 
 }  // namespace
+
+double pitch_at(const std::vector<PitchAt>& schedule, double rotor_speed) {
+    if (schedule.empty()) throw InputError("schedule of the pitch", "entries", 0, "at least one");
+    const auto after = std::ranges::upper_bound(schedule, rotor_speed, {}, &PitchAt::rotor_speed);
+    if (after == schedule.begin()) return schedule.front().pitch;
+    if (after == schedule.end()) return schedule.back().pitch;
+    const PitchAt &low = *(after - 1), &high = *after;
+    return low.pitch +
+           (high.pitch - low.pitch) * (rotor_speed - low.rotor_speed) / (high.rotor_speed - low.rotor_speed);
+}
 
 void admit_unusual(TurbineFile& file, const std::string& name) {
     if (file.description.unusual) return;

@@ -30,6 +30,18 @@ struct FileDofs {
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
 };
 
+/// What the tower stands on in the files where the description does not hold it: here the tower is clamped at its foot.
+struct FileFoundation {
+    std::string name;   ///< "floating platform", "substructure"; empty: there is nothing but the ground
+    std::string where;  ///< the foot of the tower is, with the source: "10 m above the water (TowerBsHt)"
+};
+
+/// How the blades are set at a rotor speed below or at the rated one.
+struct PitchAt {
+    double rotor_speed = 0;  ///< rad/s
+    double pitch = 0;        ///< leading edge upwind, rad
+};
+
 /// Keyword of the note on angles and ratios that machines do not have: see admit_unusual().
 inline constexpr auto unusual_entries = "angles and ratios";
 
@@ -44,7 +56,14 @@ struct TurbineFile {
     double rotor_speed = 0;          ///< rated or initial rotor speed, rad/s; 0: not given in the files
     std::string rotor_speed_source;  ///< where the rotor speed is from: a keyword and its file
     double pitch = 0;                ///< pitch setting of the blades, leading edge upwind, rad
+    std::string pitch_source;        ///< where it is from; empty: not given in the files
+    /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
+    std::vector<PitchAt> pitch_schedule;
+    FileFoundation foundation = {};
 };
+
+/// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule
+double pitch_at(const std::vector<PitchAt>& schedule, double rotor_speed);
 
 /// A description that only `TurbineDescription::unusual` admits becomes so, with a note (`unusual_entries`) that names
 /// the first such value: what a file says in its own units is meant.

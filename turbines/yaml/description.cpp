@@ -123,6 +123,9 @@ public:
     void optional_flag(const char* key, bool& value) {
         if (at().find(key)) flag(key, value);
     }
+    void optional_number(const char* key, double& value) {
+        if (at().find(key)) number(key, value);
+    }
     void role(const char* key, CoordinateRole& value) {
         value = choice(at()[key], {CoordinateRole::free, CoordinateRole::driven});
     }

@@ -134,6 +134,7 @@ public:
         d_.blade.damping = windio_blade_damping(file_);
         d_.blade.pitch = rigid_joint;
         d_.yaw = {rigid_joint, rigid_joint};
+        read_foundation();
         read_hub();
         read_nacelle();
         read_drive_train();
@@ -180,6 +181,15 @@ private:
         file_.note(*side, side->word(),
                    "overhang, cone and tilt lead away from the tower, downwind; places of masses are taken with x "
                    "downwind, as of an upwind rotor");
+    }
+    // What the tower stands on is not read: its name is.
+    void read_foundation() {
+        out_.foundation.where = "at the lower end of its reference axis";
+        const auto components = file_.find({"components"});
+        if (!components) return;
+        for (const std::string& key : components->keys())
+            for (const char* name : {"floating_platform", "monopile", "jacket"})
+                if (key == name) out_.foundation.name = key == "floating_platform" ? "floating platform" : key;
     }
     // Cone and tilt, in rad.
     double small_angle(const YamlNode& node) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solvers/control/state_space.hpp"
+#include "solvers/linear/channel_values.hpp"
 #include "solvers/linear/linearise.hpp"
 
 #include <optional>
@@ -70,12 +71,10 @@ public:
 
 private:
     const System& system_;
-    const std::vector<ChannelGroup>& groups_;
+    ChannelValues values_;
     std::vector<Signal> signals_;
     std::vector<std::size_t> at_;  ///< of the wanted channels among all
     std::vector<bool> angle_;      ///< may jump by 2 pi
-    std::size_t count_ = 0;
-    Workspace workspace_;
 };
 
 }  // namespace cardan::solvers::detail

@@ -32,13 +32,10 @@ std::string listed(const std::vector<ChannelGroup>& groups) {
 
 OutputDifferences::OutputDifferences(const System& system, const std::vector<ChannelGroup>& groups,
                                      const std::vector<std::string>& wanted)
-    : system_(system), groups_(groups), workspace_(system.model) {
+    : system_(system), values_(system, groups) {
     std::vector<const Channel*> all;
-    for (const ChannelGroup& group : groups) {
-        if (!group.sample) throw InputError("linear model", "group of channels", "without a function", "one with");
+    for (const ChannelGroup& group : groups)
         for (const Channel& channel : group.channels) all.push_back(&channel);
-    }
-    count_ = all.size();
     const auto take = [&](std::size_t i) {
         const Channel& c = *all[i];
         at_.push_back(i);
@@ -46,7 +43,7 @@ OutputDifferences::OutputDifferences(const System& system, const std::vector<Cha
         signals_.push_back({c.name, c.units, c.long_name, c.alias, blade_number(c.name)});
     };
     if (wanted.empty())
-        for (std::size_t i = 0; i < count_; ++i) take(i);
+        for (std::size_t i = 0; i < all.size(); ++i) take(i);
     for (const std::string& name : wanted) {
         const auto found = std::find_if(all.begin(), all.end(), [&](const Channel* c) {
             return c->name == name || (!name.empty() && c->alias == name);
@@ -58,15 +55,7 @@ OutputDifferences::OutputDifferences(const System& system, const std::vector<Cha
 }
 
 Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator, const Forces& forces) {
-    const Kinematics kin = kinematics(system_.model, state.q, workspace_);
-    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads};
-    std::vector<double> all(count_);
-    double* next = all.data();
-    for (const ChannelGroup& group : groups_) {
-        group.sample(input, next);
-        next += group.channels.size();
-    }
+    const std::vector<double>& all = values_.at(state, actuator, forces);
     Vector values(std::ssize(at_));
     for (Eigen::Index i = 0; i < values.size(); ++i) {
         values(i) = all[entry(at_, i)];

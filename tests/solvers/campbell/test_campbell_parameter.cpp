@@ -192,6 +192,36 @@ TEST_CASE("campbell over a parameter: a sweep that is ended keeps points and par
     CHECK(table(none) == "no rotor speeds computed\n");
 }
 
+TEST_CASE("campbell over the rotor speed of machines that differ: closed forms, and one machine is a plain sweep",
+          "[analytic]") {
+    const CampbellOptions options = by(CampbellMethod::floquet);
+    Machines machines = hinged(2, {2000, 2500, 3000});
+    std::vector<CampbellCase> cases = machines.cases();
+    const std::vector<double> speeds{1, 2, 4};
+    for (std::size_t i = 0; i < speeds.size(); ++i) cases[i].rotor_speed = speeds[i];
+    const Campbell differ = campbell(cases, "", options);
+    CHECK(differ.parameter.empty());
+    CHECK(differ.parameters.empty());
+    CHECK(differ.rotor_speeds() == speeds);
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+        double nearest = 1e9;
+        for (const Branch& branch : differ.branches)
+            nearest = std::min(
+                nearest, std::abs(2 * pi * differ.natural_hz(branch, i) - flap(machines.parameters[i], speeds[i])));
+        CHECK(nearest < 1e-6 * flap(machines.parameters[i], speeds[i]));
+    }
+    for (CampbellCase& one : cases) one.system = cases[0].system, one.rotor = cases[0].rotor;
+    const Campbell same = campbell(cases, "", options),
+                   plain = campbell(*cases[0].system, *cases[0].rotor, speeds, options);
+    REQUIRE(same.branches.size() == plain.branches.size());
+    REQUIRE(same.crossings.size() == plain.crossings.size());
+    for (std::size_t b = 0; b < plain.branches.size(); ++b) {
+        CHECK(same.branches[b].name == plain.branches[b].name);
+        for (std::size_t i = 0; i < speeds.size(); ++i)
+            CHECK(same.natural_hz(same.branches[b], i) == Approx(plain.natural_hz(plain.branches[b], i)).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("campbell over a parameter: what cannot be computed is refused", "[property]") {
     const Machines machines = hinged(2, {2000, 2500, 3000});
     const CampbellOptions options = by(CampbellMethod::floquet);
@@ -200,7 +230,8 @@ TEST_CASE("campbell over a parameter: what cannot be computed is refused", "[pro
         check_refused([&] { (void)campbell(cases, "stiffness", options); }, parts);
     };
     refused({}, {"Campbell diagram", "number of points = 0", "at least one"});
-    check_refused([&] { (void)campbell(good, "", options); }, {"name of the parameter", "not empty"});
+    // All turn at one speed: over the rotor speed they are one point.
+    check_refused([&] { (void)campbell(good, "", options); }, {"rotor speed [rad/s] = 2", "increasing"});
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     for (const auto& [value, shown] :
          {std::pair{nan, "nan"}, std::pair{inf, "inf"}, std::pair{2000.0, "2000"}, std::pair{1000.0, "1000"}}) {

@@ -170,9 +170,9 @@ TEST_CASE("elastodyn: everything that is not in the description is noted, with f
     const TurbineFile file = read_openfast(model / "small_ElastoDyn.dat");
     const auto noted = [&](const char* keyword, const char* why) { return test::has_note(file.notes, keyword, why); };
     CHECK(noted("NacYaw", "into the wind"));
-    CHECK(noted("TipMass(2)", "not part of the model"));
     CHECK(file.description.own_blades.at(3)->cone == Approx(-2.5 * degree).epsilon(1e-15));
-    CHECK_FALSE(file.description.own_blades.contains(2));
+    CHECK(file.description.own_blades.at(2)->tip_mass == 12);
+    CHECK(file.description.blade.tip_mass == 0);
     CHECK(noted("PtfmMass", "platform"));
     CHECK(noted("GBoxEff", "losses"));
     CHECK(noted("TwSSDOF2", "one mode cannot be switched off"));

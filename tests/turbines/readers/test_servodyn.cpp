@@ -1,4 +1,5 @@
 // Rated speeds of ServoDyn's files and of the controllers they name.
+#include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
@@ -49,4 +50,36 @@ TEST_CASE("servodyn: a ROSCO controller's file has the rated speed; others, and 
     CHECK(read().speed_source == "PC_RefSpd of DISCON.IN");
     model.write("sub/DISCON.IN", std::string("\0\1binary", 8));
     CHECK(read().rated_generator_speed == 0);
+}
+
+TEST_CASE("servodyn: the pitch below rated power is that of the controller", "[analytic]") {
+    const test::ModelFolder model("openfast");
+    model.replace("small_ServoDyn.dat", "             0   PCMode ",
+                  "\"DISCON.IN\" DLL_InFile\n             5   PCMode ");
+    model.replace("small_ServoDyn.dat", "             1   VSContrl ", "             5   VSContrl ");
+    const auto read = [&](const std::string& mode) {
+        // Tip speed ratio 8 and a radius of 16 m: at a wind of v the rotor turns at v / 2, geared 20 to 1 between 60
+        // and 100 rad/s of the generator, 3 and 5 of the rotor, at 6 and 10 m/s.
+        model.write("DISCON.IN", mode +
+                                     " ! PS_Mode - schedule\n100.0 ! PC_RefSpd\n0.02 ! PC_FinePit\n60.0 ! VS_MinOMSpd\n"
+                                     "8.0 ! VS_TSRopt\n16.0 ! WE_BladeRadius\n20.0 ! WE_GearboxRatio\n"
+                                     "3 5 7 9 11 13 ! PS_WindSpeeds\n0.09 0.08 0.05 0.03 0.04 0.2 ! PS_BldPitchMin\n");
+        return read_servodyn(model / "small_ServoDyn.dat");
+    };
+    const ServoDyn scheduled = read("1");
+    CHECK(scheduled.fine_pitch == 0.02);
+    CHECK(scheduled.pitch_source == "PS_BldPitchMin of DISCON.IN");
+    REQUIRE(scheduled.pitch_schedule.size() == 4);
+    const double speeds[] = {3, 3.5, 4.5, 5}, pitch[] = {0.08, 0.05, 0.03, 0.04};
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(scheduled.pitch_schedule[i].rotor_speed == Approx(speeds[i]).epsilon(1e-14));
+        CHECK(scheduled.pitch_schedule[i].pitch == pitch[i]);
+    }
+    CHECK(pitch_at(scheduled.pitch_schedule, 4) == Approx(0.04).epsilon(1e-12));
+    CHECK(pitch_at(scheduled.pitch_schedule, 0) == 0.08);
+    CHECK(pitch_at(scheduled.pitch_schedule, 9) == 0.04);
+    const ServoDyn constant = read("0");
+    CHECK(constant.pitch_schedule.empty());
+    CHECK(constant.pitch_source == "PC_FinePit of DISCON.IN");
+    CHECK_THROWS_AS(pitch_at({}, 1), InputError);
 }

@@ -294,6 +294,11 @@ void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade
         add_cardan_beam(tree, forces, axes, blade.line, name, {"blade", number},
                         beam_options(options_, options_.blade_elements, options_.blade_beam,
                                      damping == damping_.blades.end() ? BeamDamping() : damping->second));
+    if (blade.tip_mass > 0) {
+        RigidInertia tip;
+        tip.mass = blade.tip_mass;
+        tree.weld(beam.tip(), tip, name);
+    }
     for (const CardanBeam::Element& element : beam.elements)
         coordinates.insert(coordinates.end(), element.bodies.begin(), element.bodies.end());
     blades.push_back(coordinates);

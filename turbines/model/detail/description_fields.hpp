@@ -75,6 +75,7 @@ void blade_fields(Archive& archive, Blade& blade) {
     archive.since(2, [&] { archive.number("pitch_setting", blade.pitch_setting); });
     archive.number("first_flap_damping", blade.first_flap_damping);
     archive.damping("damping", blade.damping);
+    archive.since(2, [&] { archive.optional_number("tip_mass", blade.tip_mass); });
 }
 
 /// Goes through the fields: `archive` writes them, or fills them.

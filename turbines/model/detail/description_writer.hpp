@@ -52,6 +52,7 @@ public:
     void flag(const char* key, bool value) { entry(key, value ? "true" : "false"); }
     /// Those that a file may leave out are written all the same.
     void optional_flag(const char* key, bool value) { flag(key, value); }
+    void optional_number(const char* key, double value) { number(key, value); }
     void role(const char* key, CoordinateRole value) { entry(key, name_of(value)); }
     void optional_role(const char* key, CoordinateRole value) { role(key, value); }
     void optional_role(const char* key, const std::optional<CoordinateRole>& value) {

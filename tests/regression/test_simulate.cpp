@@ -1,4 +1,4 @@
-// What the program turbine_time_history has written, beside the same motion by calls of the library: started from a
+// What `cardan simulate` has written, beside the same motion by calls of the library: started from a
 // periodic steady state by shooting, with the generator as a damper and a constant torque, integrated by another method
 // with a smaller tolerance.
 #include "elements/machine/coordinate_force.hpp"
@@ -15,12 +15,16 @@ using namespace cardan;
 
 namespace {
 
-// As in tests/programs/turbine_time_history.cmake.
+// As in tests/programs/cardan_simulate.cmake.
 constexpr double speed = 20 * units::rpm, torque = 500, slope = 20;
 
 turbines::Turbine machine() {
-    const turbines::Turbine turbine =
-        turbines::wt600({.tower_elements = 1, .blade_elements = 1, .gravity = Vec3(0, 0, -units::standard_gravity)});
+    // Beams as the command takes them, of the machine's own sections: there they are sampled.
+    turbines::AssemblyOptions options;
+    options.gravity = {0, 0, -units::standard_gravity};
+    options.tower_beam = {.elements = 1, .partition = Partition::mean_difference};
+    options.blade_beam = {.elements = 1, .partition = Partition::mean_difference, .extension = true};
+    const turbines::Turbine turbine = turbines::wt600(options);
     const double n = turbine.layout().gear_ratio;
     ForceSet forces = turbine.forces();
     forces.add_spring("slip", *turbine.layout().generator, 0, n * n * slope);
@@ -51,7 +55,7 @@ solvers::History by_hand(const std::vector<double>& times) {
 
 }  // namespace
 
-TEST_CASE("turbine_time_history: the file of the program holds the motion that the library computes",
+TEST_CASE("cardan simulate: the file of the program holds the motion that the library computes",
           "[.program][crosscheck]") {
     const solvers::History file = solvers::read_history("example_turbine_time_generator.h5");
     const solvers::History own = by_hand(file.time);

@@ -11,36 +11,29 @@
 #include "mbs/model/summary.hpp"
 #include "solvers/periodic/floquet.hpp"
 
+#include "examples/programs/cardan/commands.hpp"
+#include "examples/programs/cardan/operation.hpp"
 #include "examples/programs/linear_model_program.hpp"
-#include "examples/shared/machine_file.hpp"
 
-using namespace cardan;
+namespace cardan::program {
 
 namespace {
 
-struct Arguments {
-    program::MachineOptions machine;
-    program::LinearModelArguments model;
+struct LineariseArguments {
+    MachineOptions machine;
+    LinearModelArguments model{.azimuths = 24};
     std::optional<double> rpm;
     double azimuth = 0;
 };
 
-int parse(int argc, char** argv, Arguments& a) {
-    program::CommandLine app(
-        "Linear model of any machine at a rotor speed, for control design.\n"
-        "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.\n"
-        "Three and more equal blades: in multi-blade coordinates, averaged over the azimuth, and reduced. Two blades "
-        "or blades that differ: the model is periodic, and is given at all azimuths.");
-    a.model.out = "turbine_linear_model";
-    a.model.azimuths = 24;
-    program::add_machine(app, a.machine);
+void declare(CommandLine& app, LineariseArguments& a) {
+    add_machine(app, a.machine);
     app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the model's)");
-    program::add_linear_model_options(app, a.model);
+    add_linear_model_options(app, a.model);
     app.add_option("--azimuth", a.azimuth,
                    "of a periodic model that is given as a constant one, deg; the nearest there is");
     app.add_flag("--gravity", a.machine.gravity, "about the periodic steady state under gravity");
-    program::add_machine_options(app, a.machine);
-    return app.parse(argc, argv);
+    add_machine_options(app, a.machine);
 }
 
 // What the machine's constant model is, and why.
@@ -60,7 +53,7 @@ double variation(const solvers::LinearModel& model) {
 
 Form form_of(const solvers::LinearModel& model, const turbines::TurbineDescription& machine) {
     constexpr double rounding = 1e-7;  // of C and D, which come from differences
-    if (program::has_equal_blades(machine)) return Form::multi_blade;
+    if (has_equal_blades(machine)) return Form::multi_blade;
     return model.samples.size() == 1 || variation(model) < rounding ? Form::constant : Form::periodic;
 }
 
@@ -81,7 +74,7 @@ solvers::ConstantModel frozen(const solvers::LinearModel& model, double azimuth)
 
 // Modes at the rotor speed by the method that suits the machine. From standstill on where that costs little, so that
 // the modes keep their names. Empty, with the reason printed, where it fails.
-std::optional<solvers::Campbell> diagram(const turbines::Turbine& turbine, const Arguments& a, double speed,
+std::optional<solvers::Campbell> diagram(const turbines::Turbine& turbine, const LineariseArguments& a, double speed,
                                          solvers::RotorSpin spin, Form form) {
     if (form == Form::multi_blade && a.machine.gravity) return std::nullopt;  // the mean is not Floquet's
     solvers::CampbellOptions options;
@@ -150,8 +143,8 @@ void print_exponents(const solvers::LinearModel& model, const std::optional<solv
 }
 
 // A hundredth of the weight above the tower, as force and, a tenth of the rotor's radius beside it, as moment.
-program::SignalSizes sizes(const solvers::ConstantModel& model, const turbines::Turbine& turbine,
-                           const turbines::TurbineDescription& machine) {
+SignalSizes sizes(const solvers::ConstantModel& model, const turbines::Turbine& turbine,
+                  const turbines::TurbineDescription& machine) {
     double mass = 0;
     for (const PartMass& part : masses_by_part(turbine.tree()))
         if (part.part != "tower" && part.part != "platform") mass += part.mass;
@@ -161,7 +154,7 @@ program::SignalSizes sizes(const solvers::ConstantModel& model, const turbines::
         if (signal.name == "generator torque") return moment / turbine.layout().gear_ratio;
         return signal.units == "N" ? force : signal.units == "N m" ? moment : other;
     };
-    program::SignalSizes all{Vector(model.B.cols()), Vector(model.C.rows())};
+    SignalSizes all{Vector(model.B.cols()), Vector(model.C.rows())};
     for (Eigen::Index i = 0; i < model.B.cols(); ++i) all.input(i) = size(entry(model.inputs, i), 1);
     for (Eigen::Index i = 0; i < model.C.rows(); ++i) all.output(i) = size(entry(model.outputs, i), 0.01);
     return all;
@@ -173,42 +166,43 @@ std::string why_periodic(const turbines::Turbine& turbine, const turbines::Turbi
 }
 
 // The small model, or why there is none.
-void add_balanced(std::vector<solvers::NamedModel>& models, const Arguments& a, const program::SignalSizes& sizes) {
+void add_balanced(std::vector<solvers::NamedModel>& models, const LineariseArguments& a, const SignalSizes& sizes) {
     const solvers::ConstantModel& whole = models.back().model;
     try {
-        const solvers::BalancedModel small = program::balanced(whole, a.model, sizes);
-        program::print(whole, small, a.model.max_frequency);
+        const solvers::BalancedModel small = balanced(whole, a.model, sizes);
+        print(whole, small, a.model.max_frequency);
         models.push_back({"balanced", static_cast<const solvers::ConstantModel&>(small)});
     } catch (const NumericalError& error) {
         std::printf("\nno balanced model: %s\n", error.what());
     }
 }
 
-int run(const Arguments& given) {
-    Arguments a = given;
-    const program::MachineFile machine = program::prepared_machine(a.machine);
+int run(LineariseArguments& a, const CommandLine& command) {
+    const MachineFile machine = prepared_machine(a.machine);
     const turbines::TurbineDescription& description = machine.file.description;
-    const double rpm = a.rpm ? *a.rpm : machine.file.rotor_speed * units::to_rpm, speed = rpm * units::rpm;
-    program::check(a.model, rpm);
-    const turbines::Mesh mesh = program::choose_mesh(machine, a.machine, a.model.max_frequency, std::abs(speed));
-    const turbines::Turbine turbine = turbines::assemble(description, program::assembly_options(machine, a.machine));
-    program::introduce(turbine, a.machine.summary);
-    std::printf("%s\n", program::in_words(mesh).c_str());
-    program::check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
+    if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, "linear");
+    const double speed = rotor_speed(a.rpm, machine);
+    a.rpm = speed * units::to_rpm;
+    check(a.model, *a.rpm);
+    set_pitch(machine, a.machine, speed);
+    const ReadyMachine ready = ready_machine(machine, a.machine, a.model.max_frequency, std::abs(speed));
+    const turbines::Turbine& turbine = ready.turbine;
+    std::printf("%s\n", in_words(ready.mesh).c_str());
+    check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
 
     const solvers::RotorSpin spin =
         machine.file.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
-    using program::LinearisedAbout;
-    const solvers::LinearModel model = program::linearise(
-        turbine, a.model, speed, spin, a.machine.gravity ? LinearisedAbout::periodic : LinearisedAbout::automatic);
+    solvers::LinearModel model = linearise(turbine, a.model, speed, spin,
+                                           a.machine.gravity ? LinearisedAbout::periodic : LinearisedAbout::automatic);
+    model.description = run_text("linearise", command) + model.description;
     const Form form = form_of(model, description);
     std::vector<solvers::NamedModel> constant;
     if (form == Form::multi_blade) {
         const solvers::MultiBladeModel fixed = solvers::multi_blade(model, turbine.rotor());
-        program::introduce(model, rpm, &fixed);
+        introduce(model, *a.rpm, &fixed);
         constant.push_back({"multi_blade", static_cast<const solvers::ConstantModel&>(fixed)});
     } else {
-        program::introduce(model, rpm, nullptr);
+        introduce(model, *a.rpm, nullptr);
     }
     const std::optional<solvers::Campbell> modes = diagram(turbine, a, speed, spin, form);
     if (form == Form::periodic) {
@@ -223,15 +217,23 @@ int run(const Arguments& given) {
             constant.push_back({"constant", solvers::at_sample(model, 0)});
             std::printf("the matrices do not change with the azimuth: the model is constant as it is\n");
         }
-        program::print_modes(constant.back().model, modes, a.model.max_frequency);
+        print_modes(constant.back().model, modes, a.model.max_frequency);
         add_balanced(constant, a, sizes(constant.back().model, turbine, description));
     }
-    program::write_files(model, constant, a.model.out);
+    write_files(model, constant, a.model.out);
     return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    return program::run_program("turbine_linear_model", argc, argv, parse, run);
+int linearise_command(int argc, char** argv) {
+    return run_command<LineariseArguments>(
+        "cardan linearise",
+        "Linear model of any machine at a rotor speed, for control design.\n"
+        "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.\n"
+        "Three and more equal blades: in multi-blade coordinates, averaged over the azimuth, and reduced. Two blades "
+        "or blades that differ: the model is periodic, and is given at all azimuths.",
+        argc, argv, declare, run);
 }
+
+}  // namespace cardan::program

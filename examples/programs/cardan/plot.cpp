@@ -10,6 +10,7 @@
 #include "solvers/signals/sampling.hpp"
 #include "turbines/readers/csv.hpp"
 
+#include "examples/programs/cardan/commands.hpp"
 #include "examples/shared/history_parts.hpp"
 #include "examples/shared/program.hpp"
 #include <algorithm>
@@ -20,11 +21,11 @@
 #include <iostream>
 #include <numeric>
 
-using namespace cardan;
+namespace cardan::program {
 
 namespace {
 
-struct Arguments {
+struct PlotArguments {
     std::string file, out, title;
     std::vector<std::string> channels, marks, formats{"svg", "png"};
     bool list = false, energy = false, spectrum = false, density = false, together = false, degrees = true;
@@ -34,11 +35,7 @@ struct Arguments {
     int blades = 3;
 };
 
-int parse(int argc, char** argv, Arguments& a) {
-    program::CommandLine app(
-        "Pictures of a recorded motion.\n"
-        "Writes PREFIX.svg and .png with the channels over time, PREFIX_spectrum.* with --spectrum or --density, and "
-        "PREFIX_energy.* with --energy.");
+void declare(CommandLine& app, PlotArguments& a) {
     app.add_option("file", a.file, "history .h5, or table .csv: time[s],NAME[UNIT],...").required();
     app.add_option("--channel", a.channels, "name or alias; * stands for any text; may be repeated").one_word();
     app.add_flag("--list", a.list, "print the channels and end");
@@ -63,11 +60,6 @@ int parse(int argc, char** argv, Arguments& a) {
         .hide_default();
     app.add_option("--rpm", a.rpm, "rotor speed: lines at its multiples nP, rev/min").hide_default();
     app.add_option("--blades", a.blades, "number of blades, for nP");
-    if (const int code = app.parse(argc, argv); code >= 0) return code;
-    require_not_negative("--rpm", "value", a.rpm);
-    if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string();
-    a.spectrum = a.spectrum || a.density;
-    return -1;
 }
 
 // The first column is the time; names and units are those of the header.
@@ -154,7 +146,7 @@ std::vector<solvers::HistoryMark> marks(const std::vector<std::string>& given) {
 
 // The pictures PREFIX.svg, PREFIX.png ...; says what is in them.
 template <class Draw>
-void draw(const Arguments& a, const std::string& suffix, const std::string& what, const Draw& picture) {
+void draw(const PlotArguments& a, const std::string& suffix, const std::string& what, const Draw& picture) {
     std::string files;
     for (const std::string& format : a.formats) {
         const std::string path = text(a.out, suffix, ".", format);
@@ -169,7 +161,7 @@ std::string unit(const solvers::ShownUnits& shown) {
     return shown.units == "1" ? "" : text(" ", solvers::display_text(shown.units));
 }
 
-void print_values(const solvers::History& history, const std::vector<std::string>& names, const Arguments& a) {
+void print_values(const solvers::History& history, const std::vector<std::string>& names, const PlotArguments& a) {
     const auto angles = a.degrees ? solvers::AngleUnits::degrees : solvers::AngleUnits::radians;
     const solvers::SampleRange range = solvers::samples_between(history.time, a.from, a.to);
     for (const std::string& name : names) {
@@ -183,7 +175,7 @@ void print_values(const solvers::History& history, const std::vector<std::string
     }
 }
 
-void print_peaks(const solvers::History& history, const std::vector<std::string>& names, const Arguments& a,
+void print_peaks(const solvers::History& history, const std::vector<std::string>& names, const PlotArguments& a,
                  const solvers::SpectrumPlotOptions& options) {
     for (const std::string& name : names) {
         const solvers::Spectrum s = solvers::spectrum(history, name, options.spectrum);
@@ -206,11 +198,11 @@ solvers::History sampled_evenly(const solvers::History& history, const std::vect
     if (!steps.uniform())
         std::cout << "the steps between samples are not equal: resampled every " << steps.median
                   << " s by cubic pieces for the spectra\n";
-    return program::in_equal_steps(program::part_of(history, names));
+    return in_equal_steps(part_of(history, names));
 }
 
 void draw_spectra(const solvers::History& history, const std::vector<std::string>& names,
-                  const std::vector<solvers::HistoryPanel>& panels, const Arguments& a) {
+                  const std::vector<solvers::HistoryPanel>& panels, const PlotArguments& a) {
     const solvers::History even = sampled_evenly(history, names);
     solvers::SpectrumPlotOptions options;
     options.title = a.title;
@@ -231,7 +223,10 @@ void draw_spectra(const solvers::History& history, const std::vector<std::string
     print_peaks(even, names, a, options);
 }
 
-int run(const Arguments& a) {
+int run(PlotArguments& a, const CommandLine& /*command*/) {
+    require_not_negative("--rpm", "value", a.rpm);
+    if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string();
+    a.spectrum = a.spectrum || a.density;
     const solvers::History history = load(a.file);
     std::cout << std::setprecision(4);
     if (a.list) {
@@ -241,7 +236,7 @@ int run(const Arguments& a) {
     const std::vector<std::string> names = chosen(history, a.channels);
     if (names.empty() && !a.energy)
         throw InputError("--channel", "channels", "none", "at least one, or --energy; --list shows them");
-    program::check_outputs(a.out, {".svg"});
+    check_outputs(a.out, {".svg"});
     solvers::HistoryPlotOptions options;
     options.title = a.title;
     options.from = a.from;
@@ -266,6 +261,13 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    return program::run_program("plot_history", argc, argv, parse, run);
+int plot_command(int argc, char** argv) {
+    return run_command<PlotArguments>(
+        "cardan plot",
+        "Pictures of a recorded motion.\n"
+        "Writes PREFIX.svg and .png with the channels over time, PREFIX_spectrum.* with --spectrum or --density, and "
+        "PREFIX_energy.* with --energy.",
+        argc, argv, declare, run);
 }
+
+}  // namespace cardan::program

@@ -1,0 +1,44 @@
+#include "examples/programs/cardan/operation.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+
+#include <cmath>
+#include <iostream>
+
+namespace cardan::program {
+
+double rotor_speed(const std::optional<double>& asked_rpm, const MachineFile& machine) {
+    const turbines::TurbineFile& model = machine.file;
+    if (asked_rpm && !std::isfinite(*asked_rpm)) throw InputError("--rpm", "value", *asked_rpm, "finite");
+    if (asked_rpm) return *asked_rpm * units::rpm;
+    std::cout << "rotor speed: " << model.rotor_speed * units::to_rpm << " rpm";
+    if (!model.rotor_speed_source.empty()) std::cout << " (" << model.rotor_speed_source << ")";
+    std::cout << "\n";
+    return model.rotor_speed;
+}
+
+void set_pitch(const MachineFile& machine, MachineOptions& options, double rotor_speed) {
+    if (options.pitch) return;
+    const turbines::TurbineFile& model = machine.file;
+    const double pitch =
+        model.pitch_schedule.empty() ? model.pitch : turbines::pitch_at(model.pitch_schedule, rotor_speed);
+    options.pitch = pitch * units::to_degrees;
+    if (!model.pitch_source.empty())
+        std::cout << "pitch: " << *options.pitch << " deg (" << model.pitch_source << ")\n";
+}
+
+solvers::CampbellMethod diagram_method(const MachineFile& machine, const MachineOptions& options) {
+    const RigidInertia& hub = machine.file.description.hub.inertia;
+    const bool balanced = hub.com.head<2>().isZero(0) && hub.J(0, 0) == hub.J(1, 1) && hub.J(0, 1) == 0 &&
+                          hub.J(0, 2) == 0 && hub.J(1, 2) == 0;
+    return has_equal_blades(machine.file.description) && (options.gravity || !balanced)
+               ? solvers::CampbellMethod::averaged
+               : solvers::CampbellMethod::automatic;
+}
+
+std::string default_prefix(const std::string& machine, const char* what) {
+    return std::filesystem::path(machine).stem().string() + "_" + what;
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,69 @@
+/// @file
+/// Which of a machine's channels tables and pictures show without being asked.
+#pragma once
+
+#include "solvers/pictures/history.hpp"
+#include "turbines/model/assembly.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace cardan::program {
+
+inline bool has(const std::vector<Channel>& channels, const std::string& name) {
+    return std::ranges::any_of(channels, [&](const Channel& c) { return c.name == name || c.alias == name; });
+}
+
+inline std::vector<std::string> all_names(const std::vector<Channel>& channels) {
+    std::vector<std::string> names;
+    for (const Channel& channel : channels) names.push_back(channel.name);
+    return names;
+}
+
+/// Speeds, deflections and loads that are there.
+inline std::vector<std::string> main_channels(const turbines::MachineLayout& layout,
+                                              const std::vector<Channel>& channels) {
+    std::vector<std::string> names{"RotSpeed", "GenTq",    "RotTorq", "TTDspFA",     "TTDspSS",
+                                   "TwrBsMyt", "TwrBsMxt", "yaw",     "teeter angle"};
+    for (int number : layout.blade_numbers) {
+        const std::string blade = text("blade ", number);
+        names.insert(names.end(), {blade + " tip out-of-plane deflection", blade + " root moment y",
+                                   blade + " root moment x", blade + " root force z"});
+    }
+    std::erase_if(names, [&](const std::string& name) { return !has(channels, name); });
+    return names;
+}
+
+/// "TTDspFA+TTDspSS" as one panel.
+inline solvers::HistoryPanel panel_of(const std::string& joined) {
+    solvers::HistoryPanel panel;
+    for (std::size_t at = 0; at <= joined.size();) {
+        const std::size_t plus = std::min(joined.find('+', at), joined.size());
+        panel.channels.push_back(joined.substr(at, plus - at));
+        at = plus + 1;
+    }
+    return panel;
+}
+
+/// Of the first blade that is there.
+inline std::vector<std::string> blade_panels(const turbines::MachineLayout& layout) {
+    if (layout.blade_numbers.empty()) return {};
+    const std::string blade = text("blade ", layout.blade_numbers.front());
+    return {text(blade, " tip out-of-plane deflection+", blade, " tip in-plane deflection"),
+            text(blade, " root moment y+", blade, " root moment x")};
+}
+
+/// What there is of speeds, deflections and loads.
+inline std::vector<solvers::HistoryPanel> usual_panels(const turbines::MachineLayout& layout,
+                                                       const std::vector<Channel>& channels) {
+    std::vector<std::string> candidates{"RotSpeed",       "GenTq",           "teeter angle",     "yaw",
+                                        "platform pitch", "TTDspFA+TTDspSS", "TwrBsMyt+TwrBsMxt"};
+    for (std::string& blade : blade_panels(layout)) candidates.push_back(std::move(blade));
+    std::vector<solvers::HistoryPanel> all;
+    for (const std::string& joined : candidates)
+        if (const solvers::HistoryPanel one = panel_of(joined); has(channels, one.channels.front())) all.push_back(one);
+    return all;
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,34 @@
+#include "solvers/linear/channel_values.hpp"
+
+#include "mbs/base/error.hpp"
+
+namespace cardan::solvers {
+
+ChannelValues::ChannelValues(const System& system, std::span<const ChannelGroup> groups)
+    : system_(&system), groups_(groups), workspace_(system.model) {
+    std::size_t count = 0;
+    for (const ChannelGroup& group : groups) {
+        if (!group.sample) throw InputError("channels", "group", "without a function", "one with");
+        count += group.channels.size();
+    }
+    values_.resize(count);
+}
+
+const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const Vector& actuator,
+                                             const Forces& forces) {
+    const Kinematics kin = kinematics(system_->model, state.q, workspace_);
+    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
+    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads};
+    double* next = values_.data();
+    for (const ChannelGroup& group : groups_) {
+        group.sample(input, next);
+        next += group.channels.size();
+    }
+    return values_;
+}
+
+const std::vector<double>& ChannelValues::at(const OperatingPoint& state) {
+    return at(state, Vector::Zero(state.q.size()), system_->forces);
+}
+
+}  // namespace cardan::solvers

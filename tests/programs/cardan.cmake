@@ -1,0 +1,70 @@
+# The command itself, and what the commands share: help, completion, manual pages, results that are repeated.
+set(models ${CMAKE_CURRENT_SOURCE_DIR}/data)
+set(coarse --blade-elements 2 --tower-elements 2)
+add_example_test(example_cardan_help cardan 0 "campbell .*repeat .*cardan COMMAND --help" --help)
+add_example_test(example_cardan_version cardan 0 "^${PROJECT_VERSION}" --version)
+add_example_test(example_cardan_help_word cardan 0 "Usage: cardan steady .*--azimuths" help steady)
+add_example_test(example_cardan_unknown cardan 2 "there is no command 'campbel'.*Usage: cardan COMMAND" campbel)
+
+# Modes, steady states, contents.
+add_example_test(example_modes cardan 0
+    "modes at 12.1 rpm.*lambda.*damped Hz.*1st tower fore-aft +0[.]3[0-9]+ .*1. tower fore-aft [0-9]+ %.*mesh: 2 elements.*shapes in example_modes/"
+    modes nrel5mw --rpm 12.1 ${coarse} --shapes --out example_modes)
+# By hand: the weight above the tower's foot is its mean axial force; means of TwrBsFzt and of the blades' root forces.
+add_example_test(example_steady cardan 0 "harmonics.*mesh.*RotSpeed|rotor speed +1.26[0-9]+.*blade 1 root moment y.*72 azimuths"
+    steady nrel5mw ${coarse} --out example_steady)
+add_example_test(example_steady_rest cardan 0 "at rest.*tower base force z +-6[.][0-9]+e.06" steady nrel5mw --rpm 0 --all ${coarse} --out
+    example_steady_rest)
+add_example_test(example_info_machine cardan 0 "blades +3, upwind\n.*rotor +12[56].*hub height +90 m.*total +[67][0-9.]+.*clamped.* 0.6[0-9]+ 1.0"
+    info nrel5mw)
+add_example_test(example_info_unknown cardan 1 "machine: name = nrel6mw; allowed: wt600" info nrel6mw)
+
+# A result once more, to the last digit: the machine, the command and the options are in its file.
+foreach(case IN ITEMS campbell simulate linearise)
+    set(arguments wt600 ${coarse} --out example_first_${case})
+    if(case STREQUAL "campbell")
+        list(APPEND arguments --rpm 0:30:10 --pitch-schedule 0:4,20:1,30:0.5 --tower fore-aft)
+    elseif(case STREQUAL "simulate")
+        list(APPEND arguments --duration 1 --generator-torque 500 --blades rigid)
+    else()
+        list(APPEND arguments --rpm 27 --azimuths 9)
+    endif()
+    add_example_test(example_first_${case} cardan 0 "files" ${case} ${arguments})
+    add_example_test(example_again_${case} cardan 0 "cardan ${case} example_first_${case}.h5 --.*files" repeat example_first_${case}.h5 --out
+                     example_again_${case})
+    set_tests_properties(example_first_${case} PROPERTIES FIXTURES_SETUP first_${case})
+    set_tests_properties(example_again_${case} PROPERTIES FIXTURES_REQUIRED first_${case} FIXTURES_SETUP again_${case})
+endforeach()
+foreach(times IN ITEMS first again)
+    add_example_test(example_${times}_simulate_csv cardan 0 "rows of" convert example_${times}_simulate.h5 example_${times}_simulate.csv)
+    set_tests_properties(example_${times}_simulate_csv PROPERTIES FIXTURES_REQUIRED ${times}_simulate FIXTURES_SETUP csv_${times})
+endforeach()
+foreach(file IN ITEMS campbell.csv simulate.csv linearise.3.lin)
+    string(REGEX REPLACE "[.].*" "" case ${file})
+    add_test(NAME example_same_${case} COMMAND ${CMAKE_COMMAND} -E compare_files example_first_${file} example_again_${file}
+             WORKING_DIRECTORY ${test_output_dir})
+    set_tests_properties(example_same_${case} PROPERTIES FIXTURES_REQUIRED "first_${case};again_${case};csv_first;csv_again")
+endforeach()
+add_example_test(example_repeat_show cardan 0 "cardan campbell example_first_campbell.h5 --rpm=0:30:10 --pitch-schedule=0:4,20:1,30:0.5 .*--tower=fore-aft"
+                 repeat example_first_campbell.h5 --show)
+add_example_test(example_result_machine cardan 0 "1st blade flap" campbell example_first_linearise.h5 --rpm 0 ${coarse} --out example_result_machine)
+set_tests_properties(example_repeat_show PROPERTIES FIXTURES_REQUIRED first_campbell)
+set_tests_properties(example_result_machine PROPERTIES FIXTURES_REQUIRED first_linearise)
+
+# Pitch over the rotor speed, what the tower stands on, tip masses.
+add_example_test(example_pitch_schedule cardan 1 "--pitch-schedule: value = 0:1,0:2; allowed: RPM:DEG" campbell wt600 --pitch-schedule 0:1,0:2)
+file(WRITE ${test_output_dir}/soft.yaml "stiffness:\n"
+     "- [1.0e8, 0, 0, 0, -1.0e9, 0]\n- [0, 1.0e8, 0, 1.0e9, 0, 0]\n- [0, 0, .inf, 0, 0, 0]\n- [0, 1.0e9, 0, 2.0e10, 0, 0]\n"
+     "- [-1.0e9, 0, 0, 0, 2.0e10, 0]\n- [0, 0, 0, 0, 0, .inf]\n")
+add_example_test(example_foundation cardan 0 "platform pitch +0[.]19" campbell nrel5mw --rpm 0 --foundation soft.yaml ${coarse}
+                 --out example_foundation)
+add_example_test(example_foundation_bad cardan 1 "soft.yaml.*small_v1.yaml|small_v1.yaml:[0-9]+.*unknown key; allowed: stiffness" campbell nrel5mw --rpm 0
+                 --foundation ${models}/windio/small_v1.yaml ${coarse})
+
+# Completion: what bash offers.
+add_test(NAME example_completion COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/programs/completion.sh
+         ${PROJECT_SOURCE_DIR}/examples/programs/cardan/completion.bash $<TARGET_FILE:cardan>)
+get_property(manual GLOBAL PROPERTY CARDAN_MANUAL)
+if(manual)
+    add_test(NAME example_manual COMMAND grep -q "max.*frequency" ${PROJECT_BINARY_DIR}/examples/manual/cardan-campbell.1)
+endif()

@@ -1,0 +1,49 @@
+#include "turbines/readers/detail/controller_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace cardan::turbines {
+
+std::vector<double> ControllerFile::numbers(std::string_view keyword) const {
+    std::istringstream lines(text_);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t mark = line.find('!');
+        if (mark == std::string::npos) continue;
+        std::string word;
+        if (!(std::istringstream(line.substr(mark + 1)) >> word) || word != keyword) continue;
+        std::vector<double> values;
+        std::istringstream before(line.substr(0, mark));
+        for (double value = 0; before >> value && std::isfinite(value);) values.push_back(value);
+        return values;
+    }
+    return {};
+}
+
+std::optional<double> ControllerFile::number(std::string_view keyword) const {
+    const std::vector<double> values = numbers(keyword);
+    if (values.empty()) return std::nullopt;
+    return values.front();
+}
+
+std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
+    const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
+    const double ratio = of("VS_TSRopt"), radius = of("WE_BladeRadius"), gears = of("WE_GearboxRatio");
+    const std::vector<double> winds = file.numbers("PS_WindSpeeds"), pitch = file.numbers("PS_BldPitchMin");
+    if (of("PS_Mode") == 0 || !(ratio > 0) || !(radius > 0) || !(gears > 0) || winds.size() != pitch.size()) return {};
+    const double least = of("VS_MinOMSpd") / gears, most = of("PC_RefSpd") / gears;
+    std::vector<PitchAt> schedule;
+    for (std::size_t i = 0; i < winds.size(); ++i) {
+        if (i > 0 && !(winds[i] > winds[i - 1])) return {};
+        const double speed = std::clamp(ratio * winds[i] / radius, std::min(least, most), most);
+        if (!schedule.empty() && speed == schedule.back().rotor_speed) {
+            if (speed == most) break;
+            schedule.pop_back();
+        }
+        schedule.push_back({speed, pitch[i]});
+    }
+    return schedule;
+}
+
+}  // namespace cardan::turbines

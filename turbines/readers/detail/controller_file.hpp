@@ -1,0 +1,33 @@
+/// @file
+/// Input file of a ROSCO controller (DISCON.IN): values before "! keyword". Internal to the readers: not installed.
+#pragma once
+
+#include "turbines/readers/turbine_file.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cardan::turbines {
+
+class ControllerFile {
+public:
+    explicit ControllerFile(std::string text) : text_(std::move(text)) {}
+
+    /// None: another controller's file, which may be anything.
+    std::optional<double> number(std::string_view keyword) const;
+    /// All numbers of the line; empty: none.
+    std::vector<double> numbers(std::string_view keyword) const;
+
+private:
+    std::string text_;
+};
+
+/// The least pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), which is where the blades stand below rated
+/// power. The rotor turns at the tip speed ratio VS_TSRopt, not slower than VS_MinOMSpd and not faster than PC_RefSpd.
+/// Of winds with the same speed of the rotor the one next to those in between counts. Empty: the file has no such
+/// schedule (PS_Mode), or not all that it takes.
+std::vector<PitchAt> minimum_pitch(const ControllerFile& file);
+
+}  // namespace cardan::turbines
