@@ -1,4 +1,5 @@
 // Files and pictures of a Campbell diagram.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
@@ -67,9 +68,22 @@ TEST_CASE("campbell file: holds what the diagram holds, with names, units and di
             CHECK(sum == Approx(1));
         }
     CHECK(file.string_attribute("branches/natural_frequency", "units") == "Hz");
-    CHECK(file.dimension("branches/natural_frequency", 0) == "/rotor_speed");
-    CHECK(file.dimension("branches/natural_frequency", 1) == "/branch");
-    CHECK(file.shape("branches/frame_motion") == Shape{d.points.size(), names.size(), d.frames.size(), 6});
+    CHECK(file.dimension("branches/natural_frequency", 0) == "/branches/rotor_speed");
+    CHECK(file.dimension("branches/natural_frequency", 1) == "/branches/branch");
+    CHECK(file.read_doubles("branches/rotor_speed") == d.rotor_speeds());
+    CHECK(file.string_attribute("branches/natural_frequency", "coordinates") == "name family pattern");
+    CHECK(file.read_strings("branches/component_name").size() == d.components.size());
+    CHECK(file.read_strings("branches/row_name") == d.rows);
+    const auto rotation = file.read_complex("branches/frame_rotation"),
+               displacement = file.read_complex("branches/frame_displacement");
+    CHECK(file.shape("branches/frame_rotation_real") == Shape{d.points.size(), names.size(), d.frames.size(), 3});
+    CHECK(file.string_attribute("branches/frame_displacement_imag", "units") == "m");
+    const auto& motion = entry(d.motions[1], d.branches[2].mode[1])[4].motion;
+    const std::size_t at = ((names.size() + 2) * d.frames.size() + 4) * 3;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        CHECK(entry(rotation, static_cast<Eigen::Index>(at) + k) == motion(k));
+        CHECK(entry(displacement, static_cast<Eigen::Index>(at) + k) == motion(3 + k));
+    }
     CHECK(file.read_strings("coordinates/name").size() == static_cast<std::size_t>(d.coordinates.size()));
     CHECK(file.read_strings("coordinates/unit").at(0) == "rad");
 }
