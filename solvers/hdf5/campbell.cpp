@@ -25,13 +25,19 @@ auto column(const Range& range, F value) {
     return values;
 }
 
+/// "N m/rad" of "stiffness of the hinges, N m/rad".
+std::string unit_of(const std::string& parameter) {
+    const std::size_t comma = parameter.rfind(", ");
+    return comma == std::string::npos ? "1" : parameter.substr(comma + 2);
+}
+
 /// rotor_speed, or the parameter with the rotor speeds beside it.
 Axis axis_of_points(const Campbell& d) {
     Axis speed{"rotor_speed", d.rotor_speeds(), {"rad s-1", "rotor speed"}};
     if (d.parameters.empty()) return speed;
     return {"parameter",
             d.parameters,
-            {"1", d.parameter},
+            {unit_of(d.parameter), d.parameter},
             {{speed.name, std::get<std::vector<double>>(speed.values), speed.about}}};
 }
 

@@ -268,6 +268,15 @@ def against_history(path, run, wrong):
     print("%d channels of the table" % len(header))
 
 
+def attempt(what, wrong, read):
+    """What a reader cannot read at all is a finding, too."""
+    try:
+        return read()
+    except Exception as error:  # pylint: disable=broad-except
+        wrong.append("%s: %s: %s" % (what, type(error).__name__, str(error).strip().replace("\n", " ")[:200]))
+        return None
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("file")
@@ -280,16 +289,18 @@ def main():
     contents = Contents(asked.file, wrong)
     contents.hidden(wrong)
     by_ncdump(asked.file, contents, wrong)
-    all_groups = by_netcdf4(asked.file, contents, wanted, wrong)
-    by_h5netcdf(asked.file, contents, wanted, wrong)
+    all_groups = attempt("netCDF4", wrong, lambda: by_netcdf4(asked.file, contents, wanted, wrong)) or [""]
+    attempt("h5netcdf", wrong, lambda: by_h5netcdf(asked.file, contents, wanted, wrong))
+    found, trees = {}, False
     for engine in ENGINES:
-        found = by_xarray(asked.file, engine, all_groups, contents, wanted, wrong)
+        found = attempt("xarray, " + engine, wrong, lambda e=engine: by_xarray(asked.file, e, all_groups, contents, wanted,
+                                                                              wrong)) or {}
         trees = by_tree(asked.file, engine, found, wrong)
     if asked.campbell:
-        against_campbell(asked.campbell, found["/branches"], wrong)
+        attempt("table", wrong, lambda: against_campbell(asked.campbell, found["/branches"], wrong))
     if asked.history:
-        against_history(asked.history, found[""], wrong)
-    print("\n".join(wrong) or "ok: %d variables in %d groups, %d expectations%s" %
+        attempt("table", wrong, lambda: against_history(asked.history, found[""], wrong))
+    print("\n".join(wrong) or "%d variables in %d groups, %d expectations%s" %
           (len(contents.arrays), len(all_groups), len(wanted), "" if trees else ", xarray has no trees here"))
     return 1 if wrong else 0
 

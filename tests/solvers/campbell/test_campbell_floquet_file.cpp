@@ -261,6 +261,7 @@ TEST_CASE("campbell file: another parameter is the axis, with the rotor speeds b
     const Hdf5File& file = *stored.file;
     CHECK(file.read_doubles("parameter") == stiffness);
     CHECK(file.string_attribute("parameter", "long_name") == "stiffness of the hinges, N m/rad");
+    CHECK(file.string_attribute("parameter", "units") == "N m/rad");
     for (const char* group : {"", "branches", "steady_state"}) {
         const std::string here(group);
         CHECK(file.read_doubles(here + "/parameter") == stiffness);

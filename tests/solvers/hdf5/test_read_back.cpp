@@ -84,7 +84,8 @@ TEST_CASE("read back: texts and numbers are found as they were written, and what
     expected.numbers("/g/x", {1, 2.5, -1e-300});
     expected.numbers("/g/z_imag", {2, 4, 6});
     expected.texts("/g/x@units", {"m"});
-    CHECK_THAT(expected.of(folder, folder / "a.h5"), StartsWith("ok: 8 variables in 2 groups, 6 expectations"));
+    CHECK_THAT(expected.of(folder, folder / "a.h5"),
+               Contains("ok: ") && Contains("8 variables in 2 groups, 6 expectations"));
     expected.texts("/one@units", {"not there"});
     CHECK_THAT(expected.of(folder, folder / "a.h5"), StartsWith("wrong: "));
 }
@@ -169,7 +170,7 @@ TEST_CASE("read back: Campbell diagrams", "[peers]") {
     expected.numbers("/branches/natural_frequency", natural);
     expected.numbers("/branches/eigenvalue_real", growth);
     expected.numbers("/branches/eigenvalue_imag", angular);
-    CHECK_THAT(said_of(folder, folder / "c.h5", expected), Contains("ok: "));
+    CHECK_THAT(said_of(folder, folder / "c.h5", expected), StartsWith("ok: "));
 }
 
 TEST_CASE("read back: Campbell diagrams by Floquet theory and over a parameter", "[peers][slow]") {
