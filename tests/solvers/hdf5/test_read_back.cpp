@@ -132,11 +132,10 @@ TEST_CASE("read back: histories", "[peers]") {
     expected.texts("/@title", {about.title});
     expected.texts("/@Conventions", {"CF-1.8"});
     expected.numbers("/time", time_of_rows(rows));
-    const History history = read_history(folder / "a.h5");
+    CHECK(read_history(folder / "a.h5").time == time_of_rows(rows));
     for (std::size_t c = 0; c < 2; ++c) {
         std::vector<double> values;
         for (std::size_t row = 0; row < rows; ++row) values.push_back(value_of(c, row));
-        CHECK(history.values[c] == values);
         expected.numbers(text("/channel ", c), values);
         expected.texts(text("/channel ", c, "@long_name"), {text("number ", c)});
         expected.texts(text("/channel ", c, "@frame"), {"none"});
