@@ -10,19 +10,22 @@ using cardan::test::Folder;
 
 namespace {
 
-const Axis speed{"speed", std::vector<double>{1, 2.5}, {"rad s-1", "rotor speed"}};
-const Axis mode = counting_axis("mode", 3, "index of the mode", {text_label("name", {"a", "b", "c"}, "its name")});
+struct Example {
+    Axis speed{"speed", std::vector<double>{1, 2.5}, {"rad s-1", "rotor speed"}};
+    Axis mode = counting_axis("mode", 3, "index of the mode", {text_label("name", {"a", "b", "c"}, "its name")});
+};
 
 }  // namespace
 
 TEST_CASE("hdf5 axes: every group has the scales and labels of its own arrays, once", "[property]") {
+    const Example e;
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     const std::vector<double> values{1, 2, 3, 4, 5, 6};
-    write_array(file, "g/x", values, {speed, mode}, {"m", "x", {{"note", "kept"}}});
-    write_array(file, "g/y", std::vector<int>{7, 8, 9}, {mode}, {"1", "y"});
-    write_array(file, "z", std::vector<std::complex<double>>{{1, 2}, {3, 4}}, {speed}, {"s-1", "z"});
-    write_array(file, "kind", std::vector<std::string>{"p", "q"}, {speed}, "kind");
+    write_array(file, "g/x", values, {e.speed, e.mode}, {"m", "x", {{"note", "kept"}}});
+    write_array(file, "g/y", std::vector<int>{7, 8, 9}, {e.mode}, {"1", "y"});
+    write_array(file, "z", std::vector<std::complex<double>>{{1, 2}, {3, 4}}, {e.speed}, {"s-1", "z"});
+    write_array(file, "kind", std::vector<std::string>{"p", "q"}, {e.speed}, "kind");
     file.finish();
     const Hdf5File back = Hdf5File::open(folder / "a.h5");
     CHECK(back.children("g") == std::vector<std::string>{"speed", "mode", "name", "string1", "x", "y"});
@@ -63,11 +66,12 @@ TEST_CASE("hdf5 axes: labels may be numbers, and an axis may have others elsewhe
 }
 
 TEST_CASE("hdf5 axes: values that do not fill the axes, and labels that do not fit theirs, are refused", "[property]") {
+    const Example e;
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     const std::vector<double> values{1, 2};
-    CHECK_THROWS_WITH(write_array(file, "x", values, {mode}, {"m", "x"}),
+    CHECK_THROWS_WITH(write_array(file, "x", values, {e.mode}, {"m", "x"}),
                       Catch::Contains("x: 2 values do not fill a shape of 3"));
-    const Axis wrong = mode.with({text_label("short", {"a"}, "too few")});
+    const Axis wrong = e.mode.with({text_label("short", {"a"}, "too few")});
     CHECK_THROWS_WITH(write_axis(file, "g/", wrong), Catch::Contains("axis 0 has 1 values, g/mode has 3"));
 }

@@ -33,7 +33,7 @@ std::vector<std::string> names_of(const std::vector<Signal>& signals) {
     return names;
 }
 
-std::vector<double> values_of(const Matrix& A) {
+std::vector<double> entries_of(const Matrix& A) {
     std::vector<double> values;
     for (Eigen::Index i = 0; i < A.rows(); ++i)
         for (Eigen::Index j = 0; j < A.cols(); ++j) values.push_back(A(i, j));
@@ -208,12 +208,12 @@ TEST_CASE("read back: linear models, with constant ones of other sizes beside th
     expected.texts("/model/inputs/units", {"N m"});
     std::vector<double> A;
     for (const LinearSample& sample : model.samples) {
-        const std::vector<double> values = values_of(sample.A);
+        const std::vector<double> values = entries_of(sample.A);
         A.insert(A.end(), values.begin(), values.end());
     }
     expected.numbers("/model/A", A);
-    expected.numbers("/model/fourier/A_sine", values_of(fourier_coefficients(model)[2].A));
-    expected.numbers("/multi_blade/A", values_of(whole.A));
-    expected.numbers("/small/A", values_of(small.A));
+    expected.numbers("/model/fourier/A_sine", entries_of(fourier_coefficients(model)[2].A));
+    expected.numbers("/multi_blade/A", entries_of(whole.A));
+    expected.numbers("/small/A", entries_of(small.A));
     CHECK_THAT(said_of(folder, folder / "m.h5", expected), StartsWith("ok: "));
 }
