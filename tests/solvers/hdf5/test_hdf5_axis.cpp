@@ -10,7 +10,7 @@ using cardan::test::Folder;
 
 namespace {
 
-struct Example {
+struct TwoAxes {
     Axis speed{"speed", std::vector<double>{1, 2.5}, {"rad s-1", "rotor speed"}};
     Axis mode = counting_axis("mode", 3, "index of the mode", {text_label("name", {"a", "b", "c"}, "its name")});
 };
@@ -18,7 +18,7 @@ struct Example {
 }  // namespace
 
 TEST_CASE("hdf5 axes: every group has the scales and labels of its own arrays, once", "[property]") {
-    const Example e;
+    const TwoAxes e;
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     const std::vector<double> values{1, 2, 3, 4, 5, 6};
@@ -66,7 +66,7 @@ TEST_CASE("hdf5 axes: labels may be numbers, and an axis may have others elsewhe
 }
 
 TEST_CASE("hdf5 axes: values that do not fill the axes, and labels that do not fit theirs, are refused", "[property]") {
-    const Example e;
+    const TwoAxes e;
     const Folder folder;
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     const std::vector<double> values{1, 2};
