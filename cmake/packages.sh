@@ -7,7 +7,7 @@ cardan_build_packages=(
     libtbb-dev libyaml-dev gnuplot-nox help2man
 )
 # Other engines that the tests and benchmarks compare with, and programs that read our files; without them these comparisons are left out.
-cardan_peer_packages=(libsimbody-dev libmujoco-dev python3-xarray python3-netcdf4 python3-h5netcdf)
+cardan_peer_packages=(libsimbody-dev libmujoco-dev python3-xarray python3-netcdf4 python3-h5netcdf netcdf-bin)
 cardan_format_packages=(clang-format)
 cardan_reference_packages=(doxygen graphviz libjs-mathjax python3)
 cardan_check_packages=(clang clang-tidy libclang-rt-14-dev)

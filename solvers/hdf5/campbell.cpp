@@ -1,7 +1,9 @@
 #include "solvers/hdf5/campbell.hpp"
 
 #include "mbs/base/entry.hpp"
+#include "mbs/base/error.hpp"
 #include "mbs/base/version.hpp"
+#include "solvers/hdf5/axis.hpp"
 #include "solvers/hdf5/file.hpp"
 
 #include <algorithm>
@@ -23,20 +25,76 @@ auto column(const Range& range, F value) {
     return values;
 }
 
+/// "N m/rad" of "stiffness of the hinges, N m/rad".
+std::string unit_of(const std::string& parameter) {
+    const std::size_t comma = parameter.rfind(", ");
+    return comma == std::string::npos ? "1" : parameter.substr(comma + 2);
+}
+
+/// rotor_speed, or the parameter with the rotor speeds beside it.
+Axis axis_of_points(const Campbell& d) {
+    Axis speed{"rotor_speed", d.rotor_speeds(), {"rad s-1", "rotor speed"}};
+    if (d.parameters.empty()) return speed;
+    return {"parameter",
+            d.parameters,
+            {unit_of(d.parameter), d.parameter},
+            {{speed.name, std::get<std::vector<double>>(speed.values), speed.about}}};
+}
+
+Axis axis_of_branches(const Campbell& d) {
+    const auto& b = d.branches;
+    return counting_axis(
+        "branch", b.size(), "index of the branch, a mode followed over rotor speed",
+        {text_label("name", column(b, [](const Branch& x) { return x.name; }), "name of the mode"),
+         text_label("family", column(b, [](const Branch& x) { return x.family; }), "family of the mode"),
+         text_label("pattern", column(b, [](const Branch& x) { return std::string(pattern_name(x.pattern)); }),
+                    "rotor pattern")});
+}
+
+Axis axis_of_components(const Campbell& d) {
+    const auto& c = d.components;
+    return counting_axis(
+        "component", c.size(), "index of the component mode",
+        {text_label("component_part", column(c, [](const Component& x) { return x.part; }), "part of the machine"),
+         text_label("component_name", column(c, [](const Component& x) { return text(x.family, ' ', x.ordinal); }),
+                    "family of the component mode and number within it")});
+}
+
+Axis axis_of_coordinates(const Campbell& d) {
+    const auto& c = d.coordinates;
+    using Info = CoordinateInfo;
+    return counting_axis(
+        "coordinate", static_cast<std::size_t>(c.size()), "index of the coordinate",
+        {text_label("name", column(c, [](const Info& x) { return x.name; }), "name of the coordinate"),
+         text_label("unit", column(c, [](const Info& x) { return x.unit; }), "unit of the coordinate, rad or m"),
+         text_label("part", column(c, [](const Info& x) { return x.part; }), "part that the coordinate belongs to")});
+}
+
+Axis axis_of_harmonics(int first, int last, std::string long_name) {
+    std::vector<std::int64_t> harmonics(static_cast<std::size_t>(last - first + 1));
+    std::iota(harmonics.begin(), harmonics.end(), first);
+    return {"harmonic", std::move(harmonics), {"1", std::move(long_name)}};
+}
+
 class Writer {
 public:
     Writer(const Campbell& diagram, const std::filesystem::path& path)
         : d_(diagram),
           file_(Hdf5File::create(path)),
-          points_(diagram.points.size()),
-          branches_(diagram.branches.size()) {
+          point_(axis_of_points(diagram)),
+          branch_(axis_of_branches(diagram)),
+          component_(axis_of_components(diagram)),
+          row_(counting_axis("row", diagram.rows.size(), "index of the row of the linear system",
+                             {text_label("row_name", diagram.rows,
+                                         "coordinate of the row, blade coordinates with their rotor pattern")})),
+          coordinate_(axis_of_coordinates(diagram)) {
         for (const CampbellPoint& point : d_.points)
             if (point.periodic) harmonics_ = std::max(harmonics_, point.periodic->harmonics());
     }
 
     void write() {
         header();
-        axes();
+        points();
         branches();
         components();
         crossings();
@@ -67,66 +125,45 @@ private:
                     "the machine as assembled, what it was read from, and the machine that was computed");
     }
 
-    void axes() {
-        const std::vector<double> speed = d_.rotor_speeds();
-        file_.write("rotor_speed", speed, {points_}, {"rad s-1", "rotor speed"});
-        file_.make_dimension("rotor_speed");
-        std::vector<double> margin;
-        for (const CampbellPoint& point : d_.points) margin.push_back(point.stability_margin);
-        file_.write("stability_margin", margin, {points_},
+    // The axis of the points stands in the root in any case; the others where there are arrays over them.
+    void points() {
+        write_array(file_, "stability_margin",
+                    column(d_.points, [](const CampbellPoint& x) { return x.stability_margin; }), {point_},
                     {"s-1", "how far the fastest growing motion is from growing; negative: unstable"});
-        file_.attach("stability_margin", 0, "rotor_speed");
-        if (!d_.parameters.empty()) {
-            file_.write("parameter", d_.parameters, {points_}, {"1", d_.parameter});
-            file_.attach("parameter", 0, "rotor_speed");
-        }
-        file_.make_index("branch", branches_,
-                         "index of the branch (a mode followed over rotor speed); names in branches/name");
-        file_.make_index("component", d_.components.size(), "index of the component mode; names in components/name");
-        file_.make_index("row", d_.rows.size(), "index of the row of the linear system; names in rows/name");
-        file_.make_index("coordinate", static_cast<std::size_t>(d_.coordinates.size()), "index of the coordinate");
     }
 
     // value(point, branch), rotor speed by branch
-    template <class T, class F>
+    template <class F>
     void over_speed(const std::string& name, const Description& about, F value) {
-        std::vector<T> values;
-        for (std::size_t i = 0; i < points_; ++i)
-            for (const Branch& branch : d_.branches) values.push_back(value(i, branch));
-        file_.write(name, values, {points_, branches_}, about);
-        file_.attach(name, 0, "rotor_speed");
-        file_.attach(name, 1, "branch");
+        write_array(file_, "branches/" + name, at_points(value), {point_, branch_}, about);
     }
 
-    void names(const std::string& name, const std::vector<std::string>& values, const std::string& long_name,
-               const std::string& axis) {
-        file_.write(name, values, {values.size()}, long_name);
-        if (!axis.empty()) file_.attach(name, 0, axis);
+    template <class F>
+    auto at_points(F value) const {
+        std::vector<decltype(value(std::size_t{}, d_.branches.front()))> values;
+        for (std::size_t i = 0; i < d_.points.size(); ++i)
+            for (const Branch& branch : d_.branches) values.push_back(value(i, branch));
+        return values;
     }
 
     void branches() {
-        const auto& b = d_.branches;
-        names("branches/name", column(b, [](const Branch& x) { return x.name; }), "name of the mode", "branch");
-        names("branches/family", column(b, [](const Branch& x) { return x.family; }), "family of the mode", "branch");
-        names("branches/pattern", column(b, [](const Branch& x) { return std::string(pattern_name(x.pattern)); }),
-              "rotor pattern", "branch");
-        over_speed<double>("branches/natural_frequency", {"Hz", "natural frequency |lambda| / 2 pi"},
-                           [&](std::size_t i, const Branch& x) { return d_.natural_hz(x, i); });
-        over_speed<double>("branches/damped_frequency", {"Hz", "damped frequency Im lambda / 2 pi"},
-                           [&](std::size_t i, const Branch& x) { return d_.damped_hz(x, i); });
-        over_speed<double>("branches/damping_ratio", {"1", "damping ratio -Re lambda / |lambda|, of critical"},
-                           [&](std::size_t i, const Branch& x) { return d_.damping_ratio(x, i); });
-        over_speed<Complex>("branches/eigenvalue", {"s-1", "eigenvalue lambda"}, [&](std::size_t i, const Branch& x) {
+        over_speed("natural_frequency", {"Hz", "natural frequency |lambda| / 2 pi"},
+                   [&](std::size_t i, const Branch& x) { return d_.natural_hz(x, i); });
+        over_speed("damped_frequency", {"Hz", "damped frequency Im lambda / 2 pi"},
+                   [&](std::size_t i, const Branch& x) { return d_.damped_hz(x, i); });
+        over_speed("damping_ratio", {"1", "damping ratio -Re lambda / |lambda|, of critical"},
+                   [&](std::size_t i, const Branch& x) { return d_.damping_ratio(x, i); });
+        over_speed("eigenvalue", {"s-1", "eigenvalue lambda"}, [&](std::size_t i, const Branch& x) {
             const CampbellMode* mode = mode_of(i, x);
             return mode ? mode->mode.eigenvalue : Complex(nan, nan);
         });
-        over_speed<double>("branches/mac", {"1", "complex energy MAC with the rotor speed before"},
-                           [](std::size_t i, const Branch& x) { return x.mac[i]; });
-        over_speed<int>("branches/doubtful", {"1", "1 where name or tracking is doubtful"},
-                        [](std::size_t i, const Branch& x) { return x.doubtful[i] ? 1 : 0; });
-        texts("branches/mostly", "name that holds most of the elastic energy",
+        over_speed("mac", {"1", "complex energy MAC with the rotor speed before"},
+                   [](std::size_t i, const Branch& x) { return x.mac[i]; });
+        over_speed("doubtful", {"1", "1 where name or tracking is doubtful"},
+                   [](std::size_t i, const Branch& x) { return x.doubtful[i] ? 1 : 0; });
+        texts("mostly", "name that holds most of the elastic energy",
               [](std::size_t i, const Branch& x) { return x.mostly[i]; });
-        texts("branches/kind", "kind of the motion, empty without a mode", [&](std::size_t i, const Branch& x) {
+        texts("kind", "kind of the motion, empty without a mode", [&](std::size_t i, const Branch& x) {
             const CampbellMode* mode = mode_of(i, x);
             return mode ? mode->kind_name() : std::string();
         });
@@ -136,153 +173,132 @@ private:
     // value(point, branch), rotor speed by branch
     template <class F>
     void texts(const std::string& name, const std::string& long_name, F value) {
-        std::vector<std::string> values;
-        for (std::size_t i = 0; i < points_; ++i)
-            for (const Branch& branch : d_.branches) values.push_back(value(i, branch));
-        file_.write(name, values, {points_, branches_}, long_name);
-        file_.attach(name, 0, "rotor_speed");
-        file_.attach(name, 1, "branch");
+        write_array(file_, "branches/" + name, at_points(value), {point_, branch_}, long_name);
     }
 
     const CampbellMode* mode_of(std::size_t point, const Branch& branch) const { return d_.mode(branch, point); }
 
-    // value(mode, k) for k < count, NaN without a mode: rotor speed by branch by axis
+    // value(mode, k) for k < size of the axis, NaN without a mode: rotor speed by branch by axis
     template <class F>
-    void over_axis(const std::string& name, const std::string& axis, std::size_t count, const char* long_name,
-                   F value) {
+    void over_axis(const std::string& name, const Axis& axis, const char* long_name, F value) {
         std::vector<double> values;
-        for (std::size_t i = 0; i < points_; ++i)
+        for (std::size_t i = 0; i < d_.points.size(); ++i)
             for (const Branch& branch : d_.branches) {
                 const CampbellMode* mode = mode_of(i, branch);
-                for (std::size_t k = 0; k < count; ++k) values.push_back(mode ? value(*mode, k) : nan);
+                for (std::size_t k = 0; k < axis.size(); ++k) values.push_back(mode ? value(*mode, k) : nan);
             }
-        file_.write(name, values, {points_, branches_, count}, {"1", long_name});
-        file_.attach(name, 0, "rotor_speed");
-        file_.attach(name, 1, "branch");
-        file_.attach(name, 2, axis);
+        write_array(file_, "branches/" + name, values, {point_, branch_, axis}, {"1", long_name});
     }
 
     void shares() {
-        over_axis("branches/energy_share", "component", d_.components.size(),
-                  "share of the elastic energy by component mode",
+        over_axis("energy_share", component_, "share of the elastic energy by component mode",
                   [](const CampbellMode& mode, std::size_t c) { return mode.shares[c].total(); });
-        over_axis("branches/whirl", "component", d_.components.size(),
-                  "(forward - backward) / (forward + backward) of the whirling part of the share",
+        over_axis("whirl", component_, "(forward - backward) / (forward + backward) of the whirling part of the share",
                   [](const CampbellMode& mode, std::size_t c) { return mode.shares[c].whirl; });
-        names("rows/name", d_.rows, "coordinate, blade coordinates with their rotor pattern", "row");
         over_axis(
-            "branches/row_share", "row", d_.rows.size(), "share of the elastic energy by row (coordinate)",
+            "row_share", row_, "share of the elastic energy by row (coordinate)",
             [](const CampbellMode& mode, std::size_t r) { return mode.row_shares(static_cast<Eigen::Index>(r)); });
     }
 
     void components() {
         const auto& c = d_.components;
-        names("components/part", column(c, [](const Component& x) { return x.part; }), "part of the machine",
-              "component");
-        names("components/name", column(c, [](const Component& x) { return x.family; }), "family", "component");
-        file_.write("components/ordinal", column(c, [](const Component& x) { return x.ordinal; }), {c.size()},
+        const Axis component = component_.with(
+            {text_label("part", column(c, [](const Component& x) { return x.part; }), "part of the machine"),
+             text_label("name", column(c, [](const Component& x) { return x.family; }), "family")});
+        write_array(file_, "components/ordinal", column(c, [](const Component& x) { return x.ordinal; }), {component},
                     {"1", "number within the family, from 1"});
-        file_.write("components/clamped_frequency", column(c, [](const Component& x) { return x.clamped_hz; }),
-                    {c.size()}, {"Hz", "frequency with all other parts clamped"});
-        for (const char* name : {"components/ordinal", "components/clamped_frequency"})
-            file_.attach(name, 0, "component");
+        write_array(file_, "components/clamped_frequency", column(c, [](const Component& x) { return x.clamped_hz; }),
+                    {component}, {"Hz", "frequency with all other parts clamped"});
     }
 
     void crossings() {
         const auto& x = d_.crossings;
         if (x.empty()) return;
-        file_.make_index("crossing", x.size(), "index of the crossing");
-        file_.write("crossings/branch", column(x, [](const Crossing& c) { return c.branch; }), {x.size()},
-                    {"1", "index of the branch"});
-        file_.write("crossings/multiple", column(x, [](const Crossing& c) { return c.multiple; }), {x.size()},
-                    {"1", "n of the line nP"});
-        file_.write("crossings/rotor_speed", column(x, [](const Crossing& c) { return c.rotor_speed; }), {x.size()},
-                    {"rad s-1", "rotor speed at the crossing"});
-        file_.write("crossings/frequency", column(x, [](const Crossing& c) { return c.frequency_hz; }), {x.size()},
-                    {"Hz", "frequency at the crossing"});
-        for (const char* name : {"branch", "multiple", "rotor_speed", "frequency"})
-            file_.attach(std::string("crossings/") + name, 0, "crossing");
+        const auto name = [&](const Crossing& c) { return entry(d_.branches, c.branch).name; };
+        const Axis crossing = counting_axis("crossing", x.size(), "index of the crossing",
+                                            {text_label("name", column(x, name), "name of the mode")});
+        const auto put = [&](const char* what, const auto& values, const Description& about) {
+            write_array(file_, std::string("crossings/") + what, values, {crossing}, about);
+        };
+        put("branch", column(x, [](const Crossing& c) { return c.branch; }), {"1", "index of the branch"});
+        put("multiple", column(x, [](const Crossing& c) { return c.multiple; }), {"1", "n of the line nP"});
+        // Not rotor_speed, an axis of the root: xarray would show its values in the place of these.
+        put("speed", column(x, [](const Crossing& c) { return c.rotor_speed; }),
+            {"rad s-1", "rotor speed at the crossing"});
+        put("frequency", column(x, [](const Crossing& c) { return c.frequency_hz; }),
+            {"Hz", "frequency at the crossing"});
     }
 
     void coordinates() {
-        const auto& c = d_.coordinates;
-        const std::size_t n = static_cast<std::size_t>(c.size());
-        using Info = CoordinateInfo;
-        names("coordinates/name", column(c, [](const Info& x) { return x.name; }), "name", "coordinate");
-        names("coordinates/unit", column(c, [](const Info& x) { return x.unit; }), "unit", "coordinate");
-        names("coordinates/part", column(c, [](const Info& x) { return x.part; }), "part", "coordinate");
-        file_.write("coordinates/blade", column(c, [](const Info& x) { return x.blade; }), {n},
-                    {"1", "blade number from 1, 0: no blade"});
-        file_.attach("coordinates/blade", 0, "coordinate");
+        write_array(file_, "coordinates/blade", column(d_.coordinates, [](const CoordinateInfo& x) { return x.blade; }),
+                    {coordinate_}, {"1", "blade number from 1, 0: no blade"});
         std::vector<double> q;
         for (const CampbellPoint& point : d_.points) q.insert(q.end(), point.at.q.begin(), point.at.q.end());
-        file_.write("steady_state/q", q, {points_, n}, {"rad or m", "coordinates in the steady state, azimuth 0"});
-        file_.attach("steady_state/q", 0, "rotor_speed");
-        file_.attach("steady_state/q", 1, "coordinate");
+        write_array(file_, "steady_state/q", q, {point_, coordinate_},
+                    {"rad or m", "coordinates in the steady state, azimuth 0; the unit of each is in unit"});
     }
 
     void shapes() {
-        const std::size_t frames = d_.frames.size();
-        file_.make_index("frame", frames, "index of the frame; names in frames/name");
-        names("frames/name", d_.frames, "name of the frame", "frame");
+        const Axis frame = counting_axis("frame", d_.frames.size(), "index of the frame",
+                                         {text_label("frame_name", d_.frames, "name of the frame")});
+        const Axis axis = counting_axis("axis", 3, "axis of the ground: x downwind, y, z up",
+                                        {text_label("axis_name", {"x", "y", "z"}, "name of the axis of the ground")});
         std::vector<double> position;
         for (const Vec3& p : d_.frame_positions) position.insert(position.end(), p.begin(), p.end());
-        file_.write("frames/position", position, {frames, 3},
+        const Axis named = frame.with({text_label("name", d_.frames, "name of the frame")});
+        write_array(file_, "frames/position", position, {named, axis},
                     {"m", "position undeformed at azimuth 0, ground axes (x downwind, z up)"});
-        file_.make_index("axis", 3, "ground axes: x downwind, y, z up");
-        file_.attach("frames/position", 0, "frame");
-        file_.attach("frames/position", 1, "axis");
-        file_.make_index("motion", 6, "rotation about x, y, z and displacement along x, y, z, ground axes");
-        std::vector<Complex> motion;
-        for (std::size_t i = 0; i < points_; ++i)
-            for (const Branch& branch : d_.branches) {
-                const int mode = branch.mode[i];
-                for (std::size_t f = 0; f < frames; ++f)
-                    for (Eigen::Index k = 0; k < 6; ++k)
-                        motion.push_back(mode < 0 ? Complex(nan, nan) : entry(d_.motions[i], mode)[f].motion(k));
-            }
-        file_.write("branches/frame_motion", motion, {points_, branches_, frames, 6},
-                    {"rad or m",
-                     "mode shape: complex rotation (x, y, z) and displacement (x, y, z) of every frame, ground axes, "
-                     "azimuth 0, at 1 J of modal energy"});
-        file_.attach("branches/frame_motion", 0, "rotor_speed");
-        file_.attach("branches/frame_motion", 1, "branch");
-        file_.attach("branches/frame_motion", 2, "frame");
-        file_.attach("branches/frame_motion", 3, "motion");
+        const auto part = [&](Eigen::Index first) {
+            std::vector<Complex> motion;
+            for (std::size_t i = 0; i < d_.points.size(); ++i)
+                for (const Branch& branch : d_.branches)
+                    for (std::size_t f = 0; f < d_.frames.size(); ++f)
+                        for (Eigen::Index k = first; k < first + 3; ++k)
+                            motion.push_back(branch.mode[i] < 0 ? Complex(nan, nan)
+                                                                : entry(d_.motions[i], branch.mode[i])[f].motion(k));
+            return motion;
+        };
+        const Axes axes{point_, branch_, frame, axis};
+        const std::string how = " of every frame in the mode, ground axes, azimuth 0, at 1 J of modal energy";
+        write_array(file_, "branches/frame_rotation", part(0), axes, {"rad", "complex rotation" + how});
+        write_array(file_, "branches/frame_displacement", part(3), axes, {"m", "complex displacement" + how});
         lines();
     }
 
     // Harmonics of the modes and of the steady state, and how exact the exponents are.
     void floquet() {
         constexpr int shown = 8;
-        std::vector<int> harmonic(2 * shown + 1);
-        std::iota(harmonic.begin(), harmonic.end(), -shown);
-        file_.write("harmonic", harmonic, {harmonic.size()},
-                    {"1", "multiple of the rotor speed beside the principal frequency of a mode"});
-        file_.make_dimension("harmonic");
-        over_axis("branches/participation", "harmonic", harmonic.size(), "share of the harmonic in the energy",
-                  [](const CampbellMode& mode, std::size_t k) {
-                      const int j = static_cast<int>(k) - shown;
-                      return mode.floquet ? mode.floquet->share(j) : (j == 0 ? 1.0 : 0.0);
-                  });
-        over_speed<double>("branches/eigenvalue_error", {"s-1", "estimated error of the eigenvalue"},
-                           [&](std::size_t i, const Branch& x) { return floquet_of(i, x, &FloquetMode::error); });
-        over_speed<double>("branches/condition", {"1", "condition number of the eigenvalue"},
-                           [&](std::size_t i, const Branch& x) { return floquet_of(i, x, &FloquetMode::condition); });
-        const auto n = static_cast<std::size_t>(d_.coordinates.size()),
-                   width = 2 * static_cast<std::size_t>(harmonics_) + 1;
-        std::vector<double> series;
-        for (const CampbellPoint& point : d_.points)
-            for (std::size_t l = 0; l < width; ++l)
-                for (std::size_t i = 0; i < n; ++i) series.push_back(coefficient(point, l, i));
-        file_.write("steady_state/series", series, {points_, width, n},
-                    {"rad or m",
-                     "periodic steady state: mean, then cosine and sine coefficients of the multiples 1, 2, ... of the "
-                     "azimuth"});
-        file_.make_index("term", width, "of a Fourier series in the azimuth: mean, cosine 1, sine 1, cosine 2 ...");
-        file_.attach("steady_state/series", 0, "rotor_speed");
-        file_.attach("steady_state/series", 1, "term");
-        file_.attach("steady_state/series", 2, "coordinate");
+        over_axis(
+            "participation",
+            axis_of_harmonics(-shown, shown, "multiple of the rotor speed beside the principal frequency of a mode"),
+            "share of the harmonic in the energy", [](const CampbellMode& mode, std::size_t k) {
+                const int j = static_cast<int>(k) - shown;
+                return mode.floquet ? mode.floquet->share(j) : (j == 0 ? 1.0 : 0.0);
+            });
+        over_speed("eigenvalue_error", {"s-1", "estimated error of the eigenvalue"},
+                   [&](std::size_t i, const Branch& x) { return floquet_of(i, x, &FloquetMode::error); });
+        over_speed("condition", {"1", "condition number of the eigenvalue"},
+                   [&](std::size_t i, const Branch& x) { return floquet_of(i, x, &FloquetMode::condition); });
+        series();
+    }
+
+    // The periodic steady state: mean, cosines, sines.
+    void series() {
+        const auto part = [&](int first, int count) {
+            std::vector<double> values;
+            for (const CampbellPoint& point : d_.points)
+                for (int k = 0; k < count; ++k)
+                    for (Eigen::Index i = 0; i < d_.coordinates.size(); ++i)
+                        values.push_back(coefficient(point, first + 2 * k, i));
+            return values;
+        };
+        const Axis harmonic = axis_of_harmonics(1, harmonics_, "multiple of the azimuth");
+        const std::string of = " of the coordinates in the periodic steady state; the unit of each is in unit";
+        write_array(file_, "steady_state/mean", part(0, 1), {point_, coordinate_}, {"rad or m", "mean" + of});
+        write_array(file_, "steady_state/cosine", part(1, harmonics_), {point_, harmonic, coordinate_},
+                    {"rad or m", "cosine coefficients" + of});
+        write_array(file_, "steady_state/sine", part(2, harmonics_), {point_, harmonic, coordinate_},
+                    {"rad or m", "sine coefficients" + of});
     }
 
     double floquet_of(std::size_t point, const Branch& branch, double FloquetMode::*value) const {
@@ -291,34 +307,32 @@ private:
     }
 
     // At standstill the state is constant.
-    static double coefficient(const CampbellPoint& point, std::size_t column, std::size_t coordinate) {
-        const auto i = static_cast<Eigen::Index>(coordinate), l = static_cast<Eigen::Index>(column);
-        if (!point.periodic) return column == 0 ? point.at.q(i) : 0.0;
-        return l < point.periodic->coefficients.cols() ? point.periodic->coefficients(i, l) : 0.0;
+    static double coefficient(const CampbellPoint& point, Eigen::Index column, Eigen::Index coordinate) {
+        if (!point.periodic) return column == 0 ? point.at.q(coordinate) : 0.0;
+        return column < point.periodic->coefficients.cols() ? point.periodic->coefficients(coordinate, column) : 0.0;
     }
 
     void lines() {
-        std::vector<int> line, frame;
+        std::vector<int> line_of_point, frame_of_point;
         for (std::size_t l = 0; l < d_.lines.size(); ++l)
             for (FrameId point : d_.lines[l].points) {
-                line.push_back(static_cast<int>(l));
-                frame.push_back(point.index);
+                line_of_point.push_back(static_cast<int>(l));
+                frame_of_point.push_back(point.index);
             }
-        file_.make_index("line", d_.lines.size(), "index of the line; what it shows in lines/part");
-        file_.make_index("line_point", line.size(), "index of the point, line by line");
-        names("lines/part", column(d_.lines, [](const Polyline& x) { return x.part; }), "part that the line shows",
-              "line");
-        file_.write("lines/blade", column(d_.lines, [](const Polyline& x) { return x.blade; }), {d_.lines.size()},
+        const Axis line = counting_axis("line", d_.lines.size(), "index of the line",
+                                        {text_label("part", column(d_.lines, [](const Polyline& x) { return x.part; }),
+                                                    "part that the line shows")});
+        const Axis point = counting_axis("line_point", line_of_point.size(), "index of the point, line by line");
+        write_array(file_, "lines/blade", column(d_.lines, [](const Polyline& x) { return x.blade; }), {line},
                     {"1", "blade number from 1, 0: no blade"});
-        file_.write("lines/point_line", line, {line.size()}, {"1", "line that the point belongs to, in order"});
-        file_.write("lines/point_frame", frame, {frame.size()}, {"1", "index of the frame at the point"});
-        file_.attach("lines/blade", 0, "line");
-        for (const char* name : {"lines/point_line", "lines/point_frame"}) file_.attach(name, 0, "line_point");
+        write_array(file_, "lines/point_line", line_of_point, {point},
+                    {"1", "index of the line that the point belongs to"});
+        write_array(file_, "lines/point_frame", frame_of_point, {point}, {"1", "index of the frame at the point"});
     }
 
     const Campbell& d_;
     Hdf5File file_;
-    std::size_t points_, branches_;
+    Axis point_, branch_, component_, row_, coordinate_;
     int harmonics_ = 0;  // of the periodic steady states; 0: they are constant
 };
 

@@ -30,14 +30,6 @@ constexpr std::size_t big_array = 32768;       // bytes; smaller ones lie in the
 constexpr std::size_t largest_chunk = 524288;  // bytes; two of them fit into the chunk cache of the C library
 constexpr unsigned deflate_level = 1;          // of shuffled doubles; 4 saves one per cent more
 
-Handle complex_type(hid_t number) {
-    const std::size_t size = H5Tget_size(number);
-    Handle type(H5Tcreate(H5T_COMPOUND, 2 * size), H5Tclose);
-    H5Tinsert(type.get(), "r", 0, number);
-    H5Tinsert(type.get(), "i", size, number);
-    return type;
-}
-
 void check_fill(const std::string& path, std::string_view name, std::size_t given, const Shape& shape) {
     std::size_t count = std::ranges::count(shape, 0U) > 0 ? 0 : 1;
     for (const std::size_t n : shape)
@@ -238,12 +230,15 @@ void Hdf5File::write(std::string_view name, std::span<const std::int64_t> values
 
 void Hdf5File::write(std::string_view name, std::span<const std::complex<double>> values, const Shape& shape,
                      const Description& about) {
-    const Quiet quiet;
-    Impl& impl = writable();
-    const Handle memory = complex_type(H5T_NATIVE_DOUBLE);
-    const Handle stored = complex_type(H5T_IEEE_F64LE);
-    Hdf5Writer{impl}.put_array(name, {values.data(), values.size(), memory.get(), stored.get(), 2 * sizeof(double)},
-                               shape, checked_attributes(impl.path, name, about));
+    (void)checked_attributes(path(), name, about);
+    const std::string clean = checked_name(path(), name);
+    for (const char* part : {real_part, imaginary_part})
+        if (has(text(clean, part))) refuse(path(), text(clean, part), "exists already");
+    std::vector<double> part(values.size());
+    std::ranges::transform(values, part.begin(), [](std::complex<double> z) { return z.real(); });
+    write(text(clean, real_part), part, shape, {about.units, about.long_name + ", real part", about.more});
+    std::ranges::transform(values, part.begin(), [](std::complex<double> z) { return z.imag(); });
+    write(text(clean, imaginary_part), part, shape, {about.units, about.long_name + ", imaginary part", about.more});
 }
 
 void Hdf5File::write(std::string_view name, std::span<const std::string> values, const Shape& shape,

@@ -27,6 +27,10 @@ struct Attribute {
 
 using Attributes = std::vector<Attribute>;
 
+/// What the names of the two arrays end in that hold complex numbers.
+constexpr const char* real_part = "_real";
+constexpr const char* imaginary_part = "_imag";
+
 /// Metadata of every array of numbers; neither units nor long_name may be empty. A pure number has units "1".
 struct Description {
     std::string units;      ///< SI, e.g. "kg m2 s-1"
@@ -46,10 +50,10 @@ struct Description {
 ///
 /// Arrays from 32 KiB on are chunked, shuffled, deflated and given checksums; smaller ones lie within headers, which
 /// have checksums. Groups and attributes keep the order in which they were made; no times are stored: the same data
-/// give the same bytes. Complex numbers are compounds {r, i} of doubles, as in h5py. Texts are UTF-8: attributes of
-/// fixed length, arrays with one more axis along the characters, as in netCDF (with the attribute _Encoding where
-/// programs decode them correctly: one text, or ASCII); the scale of that axis, "string<length>", lies in the same
-/// group.
+/// give the same bytes. Complex numbers are two arrays, "<name>_real" and "<name>_imag": compounds, as h5py writes
+/// them, are left out by netCDF 4.9.0 and are no complex numbers to later ones. Texts are UTF-8: attributes of fixed
+/// length, arrays with one more axis along the characters, as in netCDF (with the attribute _Encoding where programs
+/// decode them correctly: one text, or ASCII); the scale of that axis, "string<length>", lies in the same group.
 ///
 /// Only one thread at a time may use any of these files: the high-level part of the C library is not thread-safe.
 class Hdf5File {
@@ -76,6 +80,7 @@ public:
     void write(std::string_view name, std::span<const int> values, const Shape& shape, const Description& about);
     void write(std::string_view name, std::span<const std::int64_t> values, const Shape& shape,
                const Description& about);
+    /// Two data sets, name + real_part and name + imaginary_part.
     void write(std::string_view name, std::span<const std::complex<double>> values, const Shape& shape,
                const Description& about);
     /// Texts have no units; they must be UTF-8 without the character NUL. The character axis is not part of shapes.
@@ -111,6 +116,7 @@ public:
     [[nodiscard]] std::vector<double> read_doubles(std::string_view name) const;
     /// Rejects floating-point numbers.
     [[nodiscard]] std::vector<std::int64_t> read_ints(std::string_view name) const;
+    /// Two data sets as write() makes them, or one of compounds {r, i}, as in files of earlier versions and of h5py.
     [[nodiscard]] std::vector<std::complex<double>> read_complex(std::string_view name) const;
     /// Character arrays with one more axis, or strings of variable or fixed length as written by other programs.
     [[nodiscard]] std::vector<std::string> read_strings(std::string_view name) const;

@@ -311,6 +311,15 @@ std::vector<std::int64_t> Hdf5File::read_ints(std::string_view name) const {
 
 std::vector<std::complex<double>> Hdf5File::read_complex(std::string_view name) const {
     const Quiet quiet;
+    if (!readable().exists(name) && readable().exists(text(name, real_part))) {
+        const std::vector<double> re = read_doubles(text(name, real_part)),
+                                  im = read_doubles(text(name, imaginary_part));
+        if (re.size() != im.size())
+            throw FileError(impl_->path, text(name, ": ", re.size(), " real parts, ", im.size(), " imaginary parts"));
+        std::vector<std::complex<double>> z(re.size());
+        for (std::size_t k = 0; k < z.size(); ++k) z[k] = {re[k], im[k]};
+        return z;
+    }
     const Handle dataset = readable().open_dataset(name);
     return source_dataset(*impl_, name, dataset).complex_numbers();
 }

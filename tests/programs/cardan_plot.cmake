@@ -31,3 +31,8 @@ add_example_test(example_plot_no_time cardan 1 "first column = span_fraction.-.;
                  ${PROJECT_SOURCE_DIR}/turbines/data/nrel5mw_blade.csv --list)
 add_example_test(example_plot_unwritable cardan 1 "the folder 'no/such/folder' does not exist" plot ${history} --channel
                  "rotor*" --out no/such/folder/x)
+# A Campbell diagram from its file.
+add_example_test(example_plot_diagram cardan 0 "example_plot_diagram.svg: Campbell diagram, [1-9][0-9]* modes" plot example_first_campbell.h5
+                 --max-frequency 4 --format svg --out example_plot_diagram)
+add_example_test(example_plot_diagram_list cardan 0 "modes at 4 rotor speeds\n.*1st tower fore-aft" plot example_first_campbell.h5 --list)
+set_tests_properties(example_plot_diagram example_plot_diagram_list PROPERTIES FIXTURES_REQUIRED first_campbell)

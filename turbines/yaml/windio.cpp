@@ -130,7 +130,8 @@ public:
             file_.root().fail(error.what());
         }
         d_.tower.damping = windio_tower_damping(file_);
-        d_.blade.line = beam_line(windio_blade(file_));
+        const BeamTable blade = windio_blade(file_);
+        d_.blade.line = beam_line(blade);
         d_.blade.damping = windio_blade_damping(file_);
         d_.blade.pitch = rigid_joint;
         d_.yaw = {rigid_joint, rigid_joint};
@@ -138,6 +139,7 @@ public:
         read_hub();
         read_nacelle();
         read_drive_train();
+        compare_sizes(blade.points.empty() ? blade.stations.back() : blade.points.back()(0));
         if (const auto speed =  // of versions 2.1; 1; 1 and 2.0
             file_.find({"control.rated_rotor_speed", "control.supervisory.maxOmega", "control.torque.VS_maxspd",
                         "control.max_rotor_speed"})) {
@@ -254,6 +256,27 @@ private:
             i = i + bearing;
             file_.note(*yaw, text(bearing.mass), "is part of the nacelle here, on the yaw axis at the tower top");
         }
+    }
+
+    // Some files hold the axes of another machine, which WISDEM stretches to the diameter of the rotor and the height
+    // of the hub. Here the axes count.
+    void compare_sizes(double blade) {
+        const double diameter = 2 * (d_.hub.radius + blade) * std::cos(d_.blade.cone);
+        const YamlNode top = file_.get({"components.tower.reference_axis.z.values",
+                                        "components.tower.elastic_properties_mb.six_x_six.reference_axis.z.values",
+                                        "components.tower.outer_shape_bem.reference_axis.z.values"});
+        const YamlNode above = file_.get(
+            {"components.drivetrain.outer_shape.distance_tt_hub", "components.nacelle.drivetrain.distance_tt_hub"});
+        const auto compare = [&](const char* path, double found, const char* what) {
+            constexpr double close = 0.02;
+            const auto given = file_.find({path});
+            if (!given || !(given->number() > 0) || std::abs(found / given->number() - 1) < close) return;
+            file_.note(*given, text(given->number()),
+                       text("the axes in the file are taken as they are and make ", what, " of ", found,
+                            " m; other programs stretch them to this"));
+        };
+        compare("assembly.rotor_diameter", diameter, "a diameter");
+        compare("assembly.hub_height", top.numbers().back() + above.number(), "a height");
     }
 
     void read_drive_train() {

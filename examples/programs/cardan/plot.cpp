@@ -1,11 +1,13 @@
-// Pictures of a recorded motion: channels over time, their spectra, where the energy is.
+// Pictures of a recorded motion: channels over time, their spectra, where the energy is; of a Campbell diagram.
 //
 // Reads histories in HDF5, and tables whose first column is the time: time[s],blade 1 tip flap deflection[m],rotor
 // speed[rad s-1] ...
 #include "mbs/base/error.hpp"
 #include "mbs/base/types.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/hdf5/campbell.hpp"
 #include "solvers/hdf5/history.hpp"
+#include "solvers/pictures/campbell.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/signals/sampling.hpp"
 #include "turbines/readers/csv.hpp"
@@ -13,6 +15,7 @@
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/shared/history_parts.hpp"
 #include "examples/shared/program.hpp"
+#include "examples/shared/run_record.hpp"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -36,7 +39,7 @@ struct PlotArguments {
 };
 
 void declare(CommandLine& app, PlotArguments& a) {
-    app.add_option("file", a.file, "history .h5, or table .csv: time[s],NAME[UNIT],...").required();
+    app.add_option("file", a.file, "history or Campbell diagram .h5, or table .csv: time[s],NAME[UNIT],...").required();
     app.add_option("--channel", a.channels, "name or alias; * stands for any text; may be repeated").one_word();
     app.add_flag("--list", a.list, "print the channels and end");
     app.add_option("--out", a.out, "prefix of the files (default: name of the file, in the current folder)");
@@ -56,7 +59,8 @@ void declare(CommandLine& app, PlotArguments& a) {
     app.add_option("--segment", a.segment, "average over segments of this length, s (default: all in one)")
         .hide_default();
     app.add_flag("--linear-trend", a.linear_trend, "take a line from the segments, not only the mean");
-    app.add_option("--max-frequency", a.max_frequency, "end of the spectra, Hz (default: half the sampling frequency)")
+    app.add_option("--max-frequency", a.max_frequency,
+                   "end of the spectra, Hz (default: half the sampling frequency), or of the diagram")
         .hide_default();
     app.add_option("--rpm", a.rpm, "rotor speed: lines at its multiples nP, rev/min").hide_default();
     app.add_option("--blades", a.blades, "number of blades, for nP");
@@ -129,6 +133,11 @@ void print_list(const solvers::History& history) {
         if (channel.long_name != channel.name) std::cout << ": " << channel.long_name;
         std::cout << "\n";
     }
+}
+
+void print_branches(const solvers::Campbell& diagram) {
+    std::cout << diagram.branches.size() << " modes at " << diagram.points.size() << " rotor speeds\n";
+    for (const solvers::Branch& branch : diagram.branches) std::cout << "  " << branch.name << "\n";
 }
 
 std::vector<solvers::HistoryMark> marks(const std::vector<std::string>& given) {
@@ -223,10 +232,26 @@ void draw_spectra(const solvers::History& history, const std::vector<std::string
     print_peaks(even, names, a, options);
 }
 
+// A Campbell diagram once more, with another limit, title or format.
+int draw_diagram(const PlotArguments& a) {
+    const solvers::Campbell diagram = solvers::read_campbell(a.file);
+    if (a.list) return print_branches(diagram), 0;
+    check_outputs(a.out, {".svg"});
+    solvers::CampbellPlotOptions options;
+    options.max_frequency_hz = a.max_frequency;
+    options.title = !a.title.empty()         ? a.title
+                    : diagram.remark.empty() ? diagram.machine
+                                             : text(diagram.machine, ", ", diagram.remark);
+    draw(a, "", text("Campbell diagram, ", diagram.branches.size(), " modes"),
+         [&](const std::string& path) { solvers::plot(diagram, path, options); });
+    return 0;
+}
+
 int run(PlotArguments& a, const CommandLine& /*command*/) {
     require_not_negative("--rpm", "value", a.rpm);
     if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string();
     a.spectrum = a.spectrum || a.density;
+    if (is_result(a.file) && !is_history(a.file)) return draw_diagram(a);
     const solvers::History history = load(a.file);
     std::cout << std::setprecision(4);
     if (a.list) {
@@ -264,7 +289,7 @@ int run(PlotArguments& a, const CommandLine& /*command*/) {
 int plot_command(int argc, char** argv) {
     return run_command<PlotArguments>(
         "cardan plot",
-        "Pictures of a recorded motion.\n"
+        "Pictures of a recorded motion, or of a Campbell diagram.\n"
         "Writes PREFIX.svg and .png with the channels over time, PREFIX_spectrum.* with --spectrum or --density, and "
         "PREFIX_energy.* with --energy.",
         argc, argv, declare, run);

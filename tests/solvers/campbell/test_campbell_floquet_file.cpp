@@ -79,12 +79,12 @@ TEST_CASE("campbell file by Floquet: participations are the shares of the harmon
     CHECK(chosen.file->string_attribute("/", "method_reason") == "two blades");
     std::vector<std::int64_t> expected_harmonics(17);
     std::iota(expected_harmonics.begin(), expected_harmonics.end(), -8);
-    CHECK(file.read_ints("harmonic") == expected_harmonics);
+    CHECK(file.read_ints("branches/harmonic") == expected_harmonics);
     const std::size_t branches = d.branches.size();
     CHECK(file.shape("branches/participation") == Shape{2, branches, 17});
-    CHECK(file.dimension("branches/participation", 0) == "/rotor_speed");
-    CHECK(file.dimension("branches/participation", 1) == "/branch");
-    CHECK(file.dimension("branches/participation", 2) == "/harmonic");
+    CHECK(file.dimension("branches/participation", 0) == "/branches/rotor_speed");
+    CHECK(file.dimension("branches/participation", 1) == "/branches/branch");
+    CHECK(file.dimension("branches/participation", 2) == "/branches/harmonic");
     CHECK(file.string_attribute("branches/participation", "units") == "1");
 
     // Means of M and of the stiffness of the springs, from the linearisation alone.
@@ -147,8 +147,8 @@ TEST_CASE("campbell file by Floquet: errors, condition numbers, kinds and the st
                                    pattern = file.read_strings("branches/pattern");
     for (const char* set : {"branches/eigenvalue_error", "branches/condition", "branches/kind"}) {
         CHECK(file.shape(set) == Shape{3, branches});
-        CHECK(file.dimension(set, 0) == "/rotor_speed");
-        CHECK(file.dimension(set, 1) == "/branch");
+        CHECK(file.dimension(set, 0) == "/branches/rotor_speed");
+        CHECK(file.dimension(set, 1) == "/branches/branch");
     }
     CHECK(file.string_attribute("branches/eigenvalue_error", "units") == "s-1");
     CHECK(file.string_attribute("branches/condition", "units") == "1");
@@ -193,15 +193,22 @@ TEST_CASE("campbell file by Floquet: the series of the steady state is the swing
     const Stored stored(d);
     const Hdf5File& file = *stored.file;
     const auto n = static_cast<std::size_t>(rotor.system.model.size());
-    const Shape shape = file.shape("steady_state/series");
-    REQUIRE(shape == Shape{3, 7, n});
-    CHECK(file.string_attribute("steady_state/series", "units") == "rad or m");
-    CHECK(file.dimension("steady_state/series", 0) == "/rotor_speed");
-    CHECK(file.dimension("steady_state/series", 2) == "/coordinate");
-    const std::vector<double> series = file.read_doubles("steady_state/series"),
-                              q = file.read_doubles("steady_state/q");
+    REQUIRE(file.shape("steady_state/mean") == Shape{3, n});
+    REQUIRE(file.shape("steady_state/cosine") == Shape{3, 3, n});
+    REQUIRE(file.shape("steady_state/sine") == Shape{3, 3, n});
+    CHECK(file.read_ints("steady_state/harmonic") == std::vector<std::int64_t>{1, 2, 3});
+    CHECK(file.string_attribute("steady_state/sine", "units") == "rad or m");
+    CHECK(file.dimension("steady_state/sine", 0) == "/steady_state/rotor_speed");
+    CHECK(file.dimension("steady_state/sine", 1) == "/steady_state/harmonic");
+    CHECK(file.dimension("steady_state/sine", 2) == "/steady_state/coordinate");
+    CHECK(file.read_strings("steady_state/unit").at(0) == "rad");
+    const std::vector<double> mean = file.read_doubles("steady_state/mean"), q = file.read_doubles("steady_state/q"),
+                              cosine = file.read_doubles("steady_state/cosine"),
+                              sine = file.read_doubles("steady_state/sine");
+    // Mean, cosine 1, sine 1, cosine 2 ...
     const auto coefficient = [&](std::size_t point, std::size_t column, std::size_t coordinate) {
-        return series[(point * 7 + column) * n + coordinate];
+        if (column == 0) return mean[point * n + coordinate];
+        return (column % 2 == 1 ? cosine : sine)[(point * 3 + (column - 1) / 2) * n + coordinate];
     };
     for (std::size_t i = 0; i < speeds.size(); ++i)
         for (std::size_t blade : {0U, 1U}) {
@@ -231,14 +238,15 @@ TEST_CASE("campbell file: without a periodic steady state it has no harmonics", 
     const double speeds[] = {1.0, 2.0};
     const Campbell d = campbell(rotor.system, rotor.map, speeds);
     const Stored stored(d);
-    for (const char* set : {"harmonic", "branches/participation", "branches/condition", "branches/eigenvalue_error",
-                            "steady_state/series", "parameter"})
+    for (const char* set : {"branches/harmonic", "branches/participation", "branches/condition",
+                            "branches/eigenvalue_error", "steady_state/mean", "steady_state/sine", "parameter"})
         CHECK_FALSE(stored.file->has(set));
     CHECK(stored.file->read_doubles("stability_margin").size() == 2);
     CHECK(stored.file->read_strings("branches/kind").size() == 2 * d.branches.size());
 }
 
-TEST_CASE("campbell file: another parameter stands beside the rotor speeds, crossings do not", "[property]") {
+TEST_CASE("campbell file: another parameter is the axis, with the rotor speeds beside it and without crossings",
+          "[property]") {
     std::vector<SmallRotor> rotors;
     const std::vector<double> stiffness{1500, 2000, 4000};
     for (const double k : stiffness) rotors.push_back(small_rotor({.stiffness = {k, k}}));
@@ -253,8 +261,15 @@ TEST_CASE("campbell file: another parameter stands beside the rotor speeds, cros
     const Hdf5File& file = *stored.file;
     CHECK(file.read_doubles("parameter") == stiffness);
     CHECK(file.string_attribute("parameter", "long_name") == "stiffness of the hinges, N m/rad");
-    CHECK(file.dimension("parameter", 0) == "/rotor_speed");
-    CHECK(file.read_doubles("rotor_speed") == std::vector<double>{2, 2, 2});
+    CHECK(file.string_attribute("parameter", "units") == "N m/rad");
+    for (const char* group : {"", "branches", "steady_state"}) {
+        const std::string here(group);
+        CHECK(file.read_doubles(here + "/parameter") == stiffness);
+        CHECK(file.read_doubles(here + "/rotor_speed") == std::vector<double>{2, 2, 2});
+        CHECK(file.dimension(here + "/rotor_speed", 0) == (here.empty() ? "" : "/" + here) + "/parameter");
+    }
+    CHECK(file.dimension("branches/damped_frequency", 0) == "/branches/parameter");
+    CHECK(file.string_attribute("branches/damped_frequency", "coordinates") == "rotor_speed name family pattern");
     CHECK_FALSE(file.has("crossings/branch"));
     // w^2 = k / (m l^2) + Omega^2 (1 + e / l)
     const std::vector<double> f = file.read_doubles("branches/damped_frequency");

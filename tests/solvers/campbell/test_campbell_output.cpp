@@ -1,5 +1,7 @@
 // Files and pictures of a Campbell diagram.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
 #include "solvers/campbell/csv.hpp"
@@ -38,6 +40,28 @@ TEST_CASE("campbell: speeds may stand in the call; a branch is found by its name
     CHECK_THROWS_AS(d.branch("17th blade flap"), InputError);
 }
 
+TEST_CASE("campbell file: what is read again has the table and the CSV of what was written", "[property]") {
+    const test::Folder folder;
+    Campbell d = diagram();
+    d.remark = "tower clamped at its foot";
+    d.accuracy = "mesh: enough";
+    write_hdf5(d, folder.path / "c.h5");
+    const Campbell again = read_campbell(folder.path / "c.h5");
+    CHECK(table(again) == table(d));
+    CHECK_THAT(table(again), Catch::Contains("tower clamped at its foot\n") && Catch::Contains("mesh: enough\n"));
+    CHECK(again.source == d.source);
+    CHECK(again.spin == d.spin);
+    write_csv(d, folder.path / "a.csv");
+    write_csv(again, folder.path / "b.csv");
+    CHECK(text_file(folder.path / "a.csv") == text_file(folder.path / "b.csv"));
+    plot(again, folder.path / "again.svg");
+    Hdf5File other = Hdf5File::create(folder.path / "other.h5");
+    other.make_group("branches");
+    other.finish();
+    CHECK_THROWS_AS(read_campbell(folder.path / "other.h5"), FileError);
+    CHECK_THROWS_AS(read_campbell(folder.path / "none.h5"), FileError);
+}
+
 TEST_CASE("campbell file: holds what the diagram holds, with names, units and dimension scales", "[property]") {
     const test::Folder folder;
     const auto path = folder.path / "c.h5";
@@ -67,9 +91,22 @@ TEST_CASE("campbell file: holds what the diagram holds, with names, units and di
             CHECK(sum == Approx(1));
         }
     CHECK(file.string_attribute("branches/natural_frequency", "units") == "Hz");
-    CHECK(file.dimension("branches/natural_frequency", 0) == "/rotor_speed");
-    CHECK(file.dimension("branches/natural_frequency", 1) == "/branch");
-    CHECK(file.shape("branches/frame_motion") == Shape{d.points.size(), names.size(), d.frames.size(), 6});
+    CHECK(file.dimension("branches/natural_frequency", 0) == "/branches/rotor_speed");
+    CHECK(file.dimension("branches/natural_frequency", 1) == "/branches/branch");
+    CHECK(file.read_doubles("branches/rotor_speed") == d.rotor_speeds());
+    CHECK(file.string_attribute("branches/natural_frequency", "coordinates") == "name family pattern");
+    CHECK(file.read_strings("branches/component_name").size() == d.components.size());
+    CHECK(file.read_strings("branches/row_name") == d.rows);
+    const auto rotation = file.read_complex("branches/frame_rotation"),
+               displacement = file.read_complex("branches/frame_displacement");
+    CHECK(file.shape("branches/frame_rotation_real") == Shape{d.points.size(), names.size(), d.frames.size(), 3});
+    CHECK(file.string_attribute("branches/frame_displacement_imag", "units") == "m");
+    const auto& motion = entry(d.motions[1], d.branches[2].mode[1])[4].motion;
+    const std::size_t at = ((names.size() + 2) * d.frames.size() + 4) * 3;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        CHECK(entry(rotation, static_cast<Eigen::Index>(at) + k) == motion(k));
+        CHECK(entry(displacement, static_cast<Eigen::Index>(at) + k) == motion(3 + k));
+    }
     CHECK(file.read_strings("coordinates/name").size() == static_cast<std::size_t>(d.coordinates.size()));
     CHECK(file.read_strings("coordinates/unit").at(0) == "rad");
 }

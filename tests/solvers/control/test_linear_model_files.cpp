@@ -67,9 +67,13 @@ TEST_CASE("linear model files: HDF5 gives back what was written", "[property]") 
     write_hdf5(e.model, e.constant, folder / "m.h5");
     const Hdf5File file = Hdf5File::open(folder / "m.h5");
     const auto n = e.model.states.size();
-    REQUIRE(file.shape("A") == Shape{4, n, n});
-    CHECK(file.dimension("A", 0) == "/azimuth");
-    CHECK(file.read_doubles("azimuth")[1] == pi / 2);
+    REQUIRE(file.shape("model/A") == Shape{4, n, n});
+    CHECK(file.dimension("model/A", 0) == "/model/azimuth");
+    CHECK(file.dimension("model/A", 1) == "/model/derivative");
+    CHECK(file.dimension("model/fourier/A_sine", 0) == "/model/fourier/harmonic");
+    CHECK(file.dimension("multi_blade/D", 1) == "/multi_blade/input");
+    CHECK(file.read_doubles("model/azimuth")[1] == pi / 2);
+    CHECK(file.read_doubles("model/time").size() == 4);
     CHECK(file.double_attribute("/", "rotor_speed") == 6);
     const auto check = [&](const std::string& name, std::size_t slice, const Matrix& expected) {
         const std::vector<double> values = file.read_doubles(name);
@@ -79,18 +83,27 @@ TEST_CASE("linear model files: HDF5 gives back what was written", "[property]") 
         INFO(name);
         CHECK(found == expected);
     };
-    check("A", 3, e.model.samples[3].A);
-    check("B", 2, e.model.samples[2].B);
-    check("C", 1, e.model.samples[1].C);
-    check("D", 0, e.model.samples[0].D);
-    check("operating_point/x", 2, e.model.samples[2].x.transpose());
-    check("fourier/A", 1, fourier_coefficients(e.model)[1].A);
+    check("model/A", 3, e.model.samples[3].A);
+    check("model/B", 2, e.model.samples[2].B);
+    check("model/C", 1, e.model.samples[1].C);
+    check("model/D", 0, e.model.samples[0].D);
+    check("model/operating_point/x", 2, e.model.samples[2].x.transpose());
+    const std::vector<StateMatrices> series = fourier_coefficients(e.model);
+    REQUIRE(series.size() == 3);  // four azimuths
+    CHECK(file.read_ints("model/fourier/harmonic") == std::vector<std::int64_t>{1});
+    check("model/fourier/A_mean", 0, series[0].A);
+    check("model/fourier/B_cosine", 0, series[1].B);
+    check("model/fourier/C_sine", 0, series[2].C);
     check("multi_blade/A", 0, e.constant[0].model.A);
     check("multi_blade/D", 0, e.constant[0].model.D);
-    CHECK(file.read_strings("states/name")[0] == e.model.states[0].name);
-    CHECK(file.read_strings("inputs/units")[0] == "N m");
-    CHECK(file.read_strings("outputs/alias")[2] == "FlapAcc3");
-    CHECK(file.read_ints("outputs/blade") == std::vector<std::int64_t>{1, 2, 3, 0});
+    CHECK(file.read_strings("model/states/name")[0] == e.model.states[0].name);
+    CHECK(file.read_strings("model/derivative_name")[0] == e.model.states[0].name);
+    CHECK(file.read_strings("model/inputs/units")[0] == "N m");
+    CHECK(file.read_strings("model/input_units")[0] == "N m");
+    CHECK(file.read_strings("model/outputs/alias")[2] == "FlapAcc3");
+    CHECK(file.read_ints("model/outputs/blade") == std::vector<std::int64_t>{1, 2, 3, 0});
+    CHECK(file.read_doubles("model/outputs/error").size() == 4);
+    CHECK(file.string_attribute("multi_blade/C", "coordinates") == "output_name output_units state_name state_units");
     CHECK(file.read_strings("multi_blade/inputs/name")[1] == "blade flap moment (collective)");
 }
 
@@ -292,7 +305,7 @@ TEST_CASE("linear model files: what cannot be written is an error and leaves no 
     CHECK(folder.files() == 0);
     check_refused([&] { write_mat(e.model, {{"2nd", e.constant[0].model}}, folder / "m.mat"); }, {"'2nd'", "letter"});
     check_refused([&] { write_mat(e.model, {{"model", e.constant[0].model}}, folder / "m.mat"); }, {"'model'", "once"});
-    for (const char* name : {"", "A", "states", "fourier", "twice", "a/b"})
+    for (const char* name : {"", "model", "input_description", "twice", "a/b"})
         check_refused(
             [&] {
                 write_hdf5(e.model, {{"twice", e.constant[0].model}, {name, e.constant[0].model}}, folder / "m.h5");

@@ -207,6 +207,19 @@ TEST_CASE("windio: angles that machines do not have are taken as they are, and n
     CHECK_NOTHROW(file.description.check());
 }
 
+TEST_CASE("windio: axes that do not make the diameter and the height of the assembly are noted", "[property]") {
+    const auto notes_with = [](const char* sizes) {
+        const ModelAddition addition{std::string("assembly: {") + sizes + "}\n", "sizes.yaml"};
+        return read_windio(test::data_file("windio/small_v2.yaml"), {addition}).notes;
+    };
+    // 2 (0.5 + 10) cos 2 deg = 20.99 m; 24 + 1.1 m
+    for (const char* good : {"rotor_diameter: 21, hub_height: 25", "rotor_diameter: 0, hub_height: 0"})
+        for (const FileNote& note : notes_with(good)) CHECK_THAT(note.why, !Contains("other programs stretch"));
+    const std::vector<FileNote> notes = notes_with("rotor_diameter: 15, hub_height: 40");
+    CHECK(test::has_note(notes, "assembly.rotor_diameter", "make a diameter of 20.987"));
+    CHECK(test::has_note(notes, "assembly.hub_height", "make a height of 25.1"));
+}
+
 // As windIO's own converters between its versions have it: rad/s in 1, rev/min from 2.0 on, other names from 2.1 on.
 TEST_CASE("windio: the rotor speed is that of its version, in rad/s", "[analytic]") {
     for (const char* control : {"{torque: {VS_maxspd: 45.0}}", "{max_rotor_speed: 45.0}",
