@@ -59,7 +59,7 @@ OutputDifferences::OutputDifferences(const System& system, const std::vector<Cha
 
 Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator, const Forces& forces) {
     const Kinematics kin = kinematics(system_.model, state.q, workspace_);
-    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
+    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads};
     std::vector<double> all(count_);
     double* next = all.data();
