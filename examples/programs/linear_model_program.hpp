@@ -16,6 +16,7 @@
 #include "solvers/matlab/state_space.hpp"
 #include "turbines/model/channels.hpp"
 
+#include "examples/shared/channel_choice.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
@@ -27,6 +28,7 @@ namespace cardan::program {
 struct LinearModelArguments {
     double max_frequency = 10, error = 5;
     int azimuths = 12, order = 0, harmonics = 8;
+    StationOptions stations = {};
     std::string out = {};
 };
 
@@ -38,6 +40,7 @@ inline void add_linear_model_options(CommandLine& app, LinearModelArguments& a) 
     app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
     app.add_option("--max-frequency", a.max_frequency,
                    "modes are printed, and the balanced model is right, up to this frequency, Hz");
+    add_station_options(app, a.stations);
     app.add_option("--out", a.out, "prefix of the files");
 }
 
@@ -108,7 +111,9 @@ inline solvers::LinearModel linearise(const turbines::Turbine& turbine, const Li
     options.outputs = linear_outputs(turbine);
     options.spin = spin;
     const auto list = linear_inputs(turbine, spin == solvers::RotorSpin::free);
-    const auto channels = turbines::channels(turbine);
+    const auto channels = channels_of(turbine, a.stations);
+    for (const ChannelGroup& group : station_channels(turbine, a.stations))
+        for (const Channel& channel : group.channels) options.outputs.push_back(channel.name);
     const auto about_periodic = [&] {
         const solvers::PeriodicSteadyState state = steady_rotation(turbine, rotor_speed, a.harmonics);
         return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);

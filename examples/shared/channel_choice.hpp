@@ -1,15 +1,59 @@
 /// @file
-/// Which of a machine's channels tables and pictures show without being asked.
+/// Which channels a machine has beside the usual ones, and which of them tables and pictures show without being asked.
 #pragma once
 
+#include "mbs/base/error.hpp"
 #include "solvers/pictures/history.hpp"
-#include "turbines/model/assembly.hpp"
+#include "turbines/model/station_channels.hpp"
 
+#include "examples/shared/command_line.hpp"
 #include <algorithm>
+#include <charconv>
 #include <string>
 #include <vector>
 
 namespace cardan::program {
+
+/// Stations along blades and tower.
+struct StationOptions {
+    std::string blades = {}, tower = {};
+};
+
+inline void add_station_options(CommandLine& app, StationOptions& options) {
+    app.add_option("--blade-stations", options.blades,
+                   "loads, deflections and accelerations also at these places along every blade, from its root, m, "
+                   "separated by commas (Spn1MLyb1 ... of OpenFAST)");
+    app.add_option("--tower-stations", options.tower,
+                   "likewise along the tower, from its foot, m (TwHt1MLyt ... of OpenFAST)");
+}
+
+/// "5,10.5"; empty: none.  @throws InputError naming the option
+inline std::vector<double> places(const char* option, const std::string& given) {
+    std::vector<double> all;
+    const char* const end = given.data() + given.size();
+    for (const char* at = given.data(); at < end;) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || (next != end && *next != ',') || next + 1 == end)
+            throw InputError(option, "value", given, "numbers separated by commas, m");
+        all.push_back(value);
+        at = next == end ? end : next + 1;
+    }
+    return all;
+}
+
+/// Those at the stations that were asked for.
+inline std::vector<ChannelGroup> station_channels(const turbines::Turbine& turbine, const StationOptions& options) {
+    return turbines::station_channels(turbine, {.blades = places("--blade-stations", options.blades),
+                                                .tower = places("--tower-stations", options.tower)});
+}
+
+/// All: the usual ones and those at stations.
+inline std::vector<ChannelGroup> channels_of(const turbines::Turbine& turbine, const StationOptions& options) {
+    std::vector<ChannelGroup> groups = turbines::channels(turbine);
+    for (ChannelGroup& group : station_channels(turbine, options)) groups.push_back(std::move(group));
+    return groups;
+}
 
 inline bool has(const std::vector<Channel>& channels, const std::string& name) {
     return std::ranges::any_of(channels, [&](const Channel& c) { return c.name == name || c.alias == name; });

@@ -31,6 +31,26 @@ void require_semidefinite(const Matrix& A, std::size_t n, const std::string& whe
     if (lowest < -1e-9) throw InputError(where, text(quantity, ", lowest scaled eigenvalue"), lowest, ">= 0");
 }
 
+void check_breaks(const FrameLoad& load) {
+    const std::string where = text("load '", load.name, "'");
+    if (!load.over_time && !load.breaks.empty())
+        throw InputError(where, "number of breaks", load.breaks.size(), "0 without a function of time");
+    for (std::size_t i = 0; i < load.breaks.size(); ++i)
+        if (!std::isfinite(load.breaks[i]) || (i > 0 && !(load.breaks[i] > load.breaks[i - 1])))
+            throw InputError(where, "time of a break [s]", load.breaks[i], "finite and ascending");
+}
+
+// The load times a factor, whenever.
+void scale(FrameLoad& load, double factor) {
+    load.wrench.force *= factor;
+    load.wrench.moment *= factor;
+    if (!load.over_time) return;
+    load.over_time = [own = std::move(load.over_time), factor](double time) {
+        const Wrench now = own(time);
+        return Wrench{factor * now.force, factor * now.moment};
+    };
+}
+
 }  // namespace
 
 void ForceSet::add_spring(std::string name, BodyId coordinate, double stiffness, double damping, double rest) {
@@ -61,6 +81,7 @@ void ForceSet::add_wrench(FrameLoad load) {
         throw InputError(text("load '", load.name, "'"), "force [N], moment [N m]",
                          text(load.wrench.force.transpose(), ", ", load.wrench.moment.transpose()),
                          "magnitudes up to 1e100");
+    check_breaks(load);
     loads_.push_back(std::move(load));
 }
 
@@ -139,6 +160,14 @@ std::string Forces::stiffest_law(int coordinate) const {
     return name;
 }
 
+std::vector<double> Forces::breaks() const {
+    std::vector<double> all;
+    for (const FrameLoad& load : loads_) all.insert(all.end(), load.breaks.begin(), load.breaks.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
 Forces Forces::with_gravity(const Vec3& g) const {
     if (!g.allFinite()) throw InputError("gravity", "vector [m/s^2]", g.transpose(), "finite");
     Forces other = *this;
@@ -149,10 +178,7 @@ Forces Forces::with_gravity(const Vec3& g) const {
 Forces Forces::with_load_factor(double factor, bool gravity_too) const {
     if (!std::isfinite(factor)) throw InputError("forces", "load factor", factor, "finite");
     Forces other = *this;
-    for (FrameLoad& load : other.loads_) {
-        load.wrench.force *= factor;
-        load.wrench.moment *= factor;
-    }
+    for (FrameLoad& load : other.loads_) scale(load, factor);
     for (User& user : other.users_)
         if (!user.own.elastic) user.factor *= factor;
     if (gravity_too) other.gravity_ *= factor;

@@ -122,9 +122,10 @@ void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
 }
 
 template <class S>
-void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, VectorOutT<S> Q) const {
+void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const {
     const Pose<S> at = pose(kin, load.frame);
-    Vec3T<S> force = load.wrench.force.template cast<S>(), moment = load.wrench.moment.template cast<S>();
+    const Wrench now = load.at(time);
+    Vec3T<S> force = now.force.template cast<S>(), moment = now.moment.template cast<S>();
     if (load.axes == WrenchAxes::frame) {
         force = at.R * force;
         moment = at.R * moment;
@@ -136,19 +137,19 @@ void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, Vector
 }
 
 template <class S>
-void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
-                                            VectorOutT<S> Q) const {
+void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
+                                            double time) const {
     require_state<S>(kin, q, qd);
     require_size("forces", "Q", Q, size_);
     Q.setZero();
     add_laws<S>(q, qd, Q);
     if (has_gravity()) add_gravity<S>(kin, Q);
-    for (const FrameLoad& load : loads_) add_wrench<S>(load, kin, Q);
+    for (const FrameLoad& load : loads_) add_wrench<S>(load, kin, time, Q);
 }
 
 void Forces::generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                                 VectorOut Q) const {
-    generalised_forces_of_elements<double>(kin, q, qd, Q);
+    generalised_forces_of_elements<double>(kin, q, qd, Q, time);
     for (const User& user : users_) add_user(user, {time, q, qd, kin}, Q);
 }
 
@@ -179,16 +180,17 @@ void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
     }
 }
 
-Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin) const {
-    if (load.axes == WrenchAxes::base) return load.wrench;
+Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin, double time) const {
+    const Wrench own = load.at(time);
+    if (load.axes == WrenchAxes::base) return own;
     const Mat3 R = pose(kin, load.frame).R;
-    return {R * load.wrench.force, R * load.wrench.moment};
+    return {R * own.force, R * own.moment};
 }
 
-void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const {
+void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const {
     const Pose<double> at = pose(kin, load.frame);
     const bool follower = load.axes == WrenchAxes::frame;
-    const auto [force, moment] = at_frame(load, kin);
+    const auto [force, moment] = at_frame(load, kin, time);
     const Model& model = kin.model();
     const int tip = model.frame(load.frame).body;
     // The force turns with a follower's frame, and the twist of a turns with coordinate b if b is proximal to a; where
@@ -241,7 +243,7 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
                 out.damping(entry(law.at, i), entry(law.at, j)) += law.D(i, j);
             }
     if (has_gravity()) gravity_stiffness(kin, out.gravity);
-    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, out.loads);
+    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, time, out.loads);
     for (const User& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
 }
 
@@ -283,9 +285,9 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
         reports.push_back({"gravity", gravity_energy(kin), power()});
     }
     for (const FrameLoad& load : loads_) {
-        add_wrench<double>(load, kin, Q);
+        add_wrench<double>(load, kin, time, Q);
         std::optional<double> energy;  // only a dead force has a potential
-        if (load.axes == WrenchAxes::base && load.wrench.moment.isZero(0))
+        if (load.axes == WrenchAxes::base && load.wrench.moment.isZero(0) && !load.over_time)
             energy = -load.wrench.force.dot(pose(kin, load.frame).p);
         reports.push_back({load.name, energy, power()});
     }
@@ -307,8 +309,8 @@ double Forces::potential_energy(const Kinematics& kin, double time, const Vector
 }
 
 template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,
-                                                             VectorInT<double>, VectorOutT<double>) const;
+                                                             VectorInT<double>, VectorOutT<double>, double) const;
 template void Forces::generalised_forces_of_elements<Complex>(const KinematicsT<Complex>&, VectorInT<Complex>,
-                                                              VectorInT<Complex>, VectorOutT<Complex>) const;
+                                                              VectorInT<Complex>, VectorOutT<Complex>, double) const;
 
 }  // namespace cardan

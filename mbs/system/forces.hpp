@@ -49,11 +49,25 @@ struct LinearLaw {
     Vector rest = {};       ///< q0; empty: zero
 };
 
+/// A force and a moment at the origin of a frame, constant or changing with time in its axes.
 struct FrameLoad {
     std::string name = {};
     FrameId frame = {};
     Wrench wrench = {};
     WrenchAxes axes = WrenchAxes::base;
+    /// Added to `wrench`, in the same axes; empty: the load is constant. To be continuous. Tables:
+    /// elements/machine/load_over_time.hpp. What has no time of its own (a steady state) takes it at its operating
+    /// point's.
+    std::function<Wrench(double time)> over_time = {};
+    /// Times, s, ascending, across which `over_time` is not smooth: integration restarts there.
+    std::vector<double> breaks = {};
+
+    /// At a time, in its own axes.
+    Wrench at(double time) const {
+        if (!over_time) return wrench;
+        const Wrench more = over_time(time);
+        return {wrench.force + more.force, wrench.moment + more.moment};
+    }
 };
 
 /// Editable list of force elements on the bodies of a Tree. Bad values throw InputError.
@@ -61,6 +75,7 @@ class ForceSet {
 public:
     void add_spring(std::string name, BodyId coordinate, double stiffness, double damping = 0, double rest = 0);
     void add_law(LinearLaw law);
+    /// Also one that changes with time: loads of channels and joints take either into account.
     void add_wrench(FrameLoad load);
     void add_user(UserForce force);
     /// Gravity vector in base axes, m/s^2, e.g. (0, 0, -9.80665).
@@ -106,8 +121,8 @@ public:
     void generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd, VectorOut Q) const;
     /// Likewise without user forces, for any scalar (tests).
     template <class S>
-    void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd,
-                                        VectorOutT<S> Q) const;
+    void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
+                                        double time = 0) const;
     /// -dQ/dq and -dQ/dqd by origin.
     /// @param out  overwritten; matrices of the right size are reused. Cost O(n^2), then without allocation unless a
     ///             user force has no Jacobian.
@@ -119,8 +134,10 @@ public:
     std::vector<ForceReport> report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
 
     const std::vector<FrameLoad>& loads() const { return loads_; }
-    /// A load as it acts now: force and moment at the frame's origin, base axes.
-    Wrench at_frame(const FrameLoad& load, const Kinematics& kin) const;
+    /// A load as it acts at a time: force and moment at the frame's origin, base axes.
+    Wrench at_frame(const FrameLoad& load, const Kinematics& kin, double time = 0) const;
+    /// Times, s, ascending, across which a load is not smooth: those of all loads.
+    std::vector<double> breaks() const;
     const Vec3& gravity() const { return gravity_; }
     /// Model::serial() of the model that it is bound to.
     std::uint64_t model_serial() const { return model_; }
@@ -170,9 +187,9 @@ private:
     template <class S>
     void add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const;
     template <class S>
-    void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, VectorOutT<S> Q) const;
+    void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
-    void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, Matrix& K) const;
+    void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;

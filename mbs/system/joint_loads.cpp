@@ -14,13 +14,14 @@ void add_at(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to,
 
 }  // namespace
 
-JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd) {
+JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time) {
     const Model& model = kin.model();
     require_model("joint loads", "set of forces", forces.model_serial(), model.serial());
     const Workspace& ws = kin.workspace();
     Vector tau(model.size());
     inverse_dynamics<double>(kin, qd, qdd, tau);
     JointLoads t;
+    t.time = time;
     for (int k = 0; k < model.size(); ++k) {
         const Workspace::Motion& motion = entry(ws.motion, k);
         const auto& load = entry(ws.load, k);
@@ -35,7 +36,7 @@ JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd,
     for (const FrameLoad& load : forces.loads()) {
         const int body = model.frame(load.frame).body;
         if (body < 0) continue;
-        add_at(entry(applied, body), forces.at_frame(load, kin), pose(kin, load.frame).p, kin.origin(body), 1);
+        add_at(entry(applied, body), forces.at_frame(load, kin, time), pose(kin, load.frame).p, kin.origin(body), 1);
     }
     for (int k = model.size() - 1; k >= 0; --k) {
         add_at(entry(t.joint, k), entry(applied, k), kin.origin(k), kin.origin(k), -1);

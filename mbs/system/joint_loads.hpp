@@ -22,6 +22,7 @@ struct BodyMotion {
 
 /// Motion and joint loads of all bodies at one state.
 struct JointLoads {
+    double time = 0;                 ///< s: wrenches are those of this time
     std::vector<BodyMotion> motion;  ///< one per body
     /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
     /// inertial forces of the subtree minus gravity and wrenches on it, base axes. User forces are left out, since they
@@ -30,6 +31,7 @@ struct JointLoads {
 };
 
 /// @param qd, qdd  rates and accelerations, size n
-JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd);
+/// @param time     s, if wrenches change with time
+JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time = 0);
 
 }  // namespace cardan

@@ -29,8 +29,10 @@ Matrix term_sizes(const System& system, const Vector& q, bool gravity) {
             for (int b = a; b >= 0; b = model.body(b).parent) sizes(a, b) = sizes(b, a) = sizes(b, a) + size;
         }
     };
-    for (const FrameLoad& load : system.forces.loads())
-        add(pose(kin, load.frame).p, model.frame(load.frame).body, load.wrench.force.norm(), load.wrench.moment.norm());
+    for (const FrameLoad& load : system.forces.loads()) {
+        const Wrench now = load.at(0);
+        add(pose(kin, load.frame).p, model.frame(load.frame).body, now.force.norm(), now.moment.norm());
+    }
     if (!gravity || !system.forces.has_gravity()) return sizes;
     composites(kin);
     for (int a = 0; a < model.size(); ++a) {

@@ -17,7 +17,7 @@ ChannelValues::ChannelValues(const System& system, std::span<const ChannelGroup>
 const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const Vector& actuator,
                                              const Forces& forces) {
     const Kinematics kin = kinematics(system_->model, state.q, workspace_);
-    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
+    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads};
     double* next = values_.data();
     for (const ChannelGroup& group : groups_) {

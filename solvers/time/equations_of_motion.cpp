@@ -95,7 +95,7 @@ void EquationsOfMotion::set_forces(const Forces* forces) {
 }
 
 std::vector<double> EquationsOfMotion::breaks() const {
-    std::vector<double> all;
+    std::vector<double> all = forces_->breaks();
     for (const Drive& drive : drives_)
         all.insert(all.end(), drive.motion.breaks().begin(), drive.motion.breaks().end());
     std::sort(all.begin(), all.end());

@@ -65,7 +65,7 @@ public:
     void set_forces(const Forces* forces);
     const Forces& forces() const { return *forces_; }
 
-    /// Breaks of all motions, ascending, without duplicates.
+    /// Breaks of all motions and loads, ascending, without duplicates.
     std::vector<double> breaks() const;
     /// Motions are evaluated on the smooth piece that is active at this time, until the next call.
     void set_piece(double inside) { inside_ = inside; }

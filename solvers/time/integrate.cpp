@@ -389,6 +389,7 @@ void Integrator::set_motion(int coordinate, Motion motion) {
 void Integrator::set_forces(const Forces* forces) {
     check_allowed("set_forces()", Doing::acting);
     equations_.set_forces(forces);
+    find_breaks();
     begin_piece();
 }
 

@@ -44,7 +44,7 @@ struct IntegrationStatistics {
     long jacobians = 0;       ///< or tangents
     long factorisations = 0;  ///< of the matrix of Newton's method
     long iterations = 0;      ///< nonlinear
-    long restarts = 0;        ///< at breaks of motions and after events, not counting the first start
+    long restarts = 0;        ///< at breaks of motions and loads and after events, not counting the first start
     int order = 0;            ///< of the last step
     double last_step = 0;     ///< s
 };
@@ -147,8 +147,9 @@ struct Checkpoint {
 
 class Stepper;
 
-/// Integrates the equations of motion. It restarts at breaks of the motions, so that the method sees only smooth
-/// functions; outputs between steps come from the method's own interpolation.
+/// Integrates the equations of motion. It restarts at breaks of the motions and of loads over time
+/// (FrameLoad::breaks), so that the method sees only smooth functions; outputs between steps come from the method's own
+/// interpolation.
 ///
 /// Forces may change in the action of an event and between two calls of advance(), not within one. By then the method
 /// has stepped beyond the output time: if accelerations have changed, at that time or at the end of the step, advance()

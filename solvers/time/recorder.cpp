@@ -121,7 +121,7 @@ void Recorder::sample(Integrator& integrator, double* values) {
     if (more_.empty()) return;
     const Kinematics kin = kinematics(*model_, state.q, workspace_);
     const Forces& forces = integrator.forces();
-    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd);
+    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, state.actuator, kin, forces, loads};
     for (const ChannelGroup& group : more_) {
         group.sample(input, values);

@@ -68,3 +68,14 @@ get_property(manual GLOBAL PROPERTY CARDAN_MANUAL)
 if(manual)
     add_test(NAME example_manual COMMAND grep -q "max.*frequency" ${PROJECT_BINARY_DIR}/examples/manual/cardan-campbell.1)
 endif()
+
+# Stations along blades and tower, in all that has channels.
+add_example_test(example_stations_simulate cardan 0 "blade 2 at 40 m moment y +Spn2MLyb2 +N m.*tower at 43.8 m force z +TwHt1FLzt" simulate nrel5mw
+                 ${coarse} --blade-stations 20,40 --tower-stations 43.8 --list)
+add_example_test(example_stations_steady cardan 0 "blade 1 at 20 m accelerometer z" steady nrel5mw ${coarse} --blade-stations 20 --all --out
+                 example_stations_steady)
+add_example_test(example_stations_linear cardan 0 "blade 3 at 20 m moment y" linearise nrel5mw ${coarse} --blade-stations 20 --order 6 --out
+                 example_stations_linear)
+add_example_test(example_stations_bad cardan 1 "--blade-stations: value = 20,; allowed: numbers separated by commas" steady nrel5mw ${coarse}
+                 --blade-stations 20,)
+add_example_test(example_stations_beyond cardan 1 "station.*70.*allowed" steady nrel5mw ${coarse} --blade-stations 70)

@@ -2,6 +2,7 @@
 
 #include "elements/cardan_beam/section_loads.hpp"
 #include "mbs/base/error.hpp"
+#include "turbines/model/detail/channel_axes.hpp"
 #include "turbines/model/detail/tower_loads.hpp"
 
 #include <utility>
@@ -10,8 +11,6 @@ namespace cardan::turbines {
 
 namespace {
 
-using Shared = std::shared_ptr<const ChannelSource>;
-
 // At the root or the tip of a beam, base axes, about the node there.
 Wrench beam_load(const ChannelSource& source, const ChannelInput& in, const CardanBeam& beam, bool tip, int subtree) {
     const Pose<double> node = pose(in.kinematics, tip ? beam.tip() : beam.nodes.front());
@@ -19,15 +18,6 @@ Wrench beam_load(const ChannelSource& source, const ChannelInput& in, const Card
     Wrench sum{node.R * load.head<3>(), node.R * load.tail<3>()};
     add_external(sum, source, in, subtree, node.p);
     return sum;
-}
-
-// x downwind, y toward the trailing edge, z to the tip, from blade axes (x to the tip, y leading edge, z downwind).
-Mat3 openfast_axes(const Mat3& blade) {
-    return (Mat3() << blade.col(2), -blade.col(1), blade.col(0)).finished();
-}
-
-void write(const Vec3& v, double*& values) {
-    for (double component : v) *values++ = component;
 }
 
 // Forces along and moments about x, y, z of some axes.
@@ -136,11 +126,6 @@ ChannelGroup platform_channels(const Shared& source) {
         *values = std::atan2(now.R(1, 0), now.R(0, 0));
     };
     return group;
-}
-
-// Axes of the tower's foot: x downwind, z up.
-Mat3 foot_axes(const Mat3& beam_axes) {
-    return beam_axes * axis_rotation(Axis::y).transpose();
 }
 
 ChannelGroup tower_motion_channels(const Shared& source) {
@@ -290,14 +275,7 @@ ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
 }  // namespace
 
 std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalWrench> external) {
-    for (const ExternalWrench& load : external) {
-        if (!load.wrench)
-            throw InputError("channels of a turbine", "external wrench", "without a function", "one with");
-        if (turbine.system().model.frame(load.frame).body < 0)
-            throw InputError("channels of a turbine", "external wrench on the frame",
-                             turbine.system().model.frame(load.frame).name, "a frame of a body");
-    }
-    const Shared source = std::make_shared<const ChannelSource>(ChannelSource{turbine, std::move(external)});
+    const Shared source = shared_source(turbine, std::move(external));
     std::vector<ChannelGroup> groups{rotor_channels(source)};
     if (turbine.layout().teeter) groups.push_back(teeter_channels(source));
     if (turbine.layout().platform) groups.push_back(platform_channels(source));

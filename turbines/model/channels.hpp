@@ -19,7 +19,8 @@
 namespace cardan::turbines {
 
 /// A user force expressed as a wrench: force (N) and moment (N m) at a frame's origin, base axes. Without it, loads by
-/// equilibrium cannot take a user force into account.
+/// equilibrium cannot take a user force into account. Wrenches of the force set, also those that change with time
+/// (elements/machine/load_over_time.hpp), need none.
 struct ExternalWrench {
     FrameId frame = {};
     std::function<Wrench(const ForceInput&)> wrench = {};
@@ -29,6 +30,7 @@ struct ExternalWrench {
 /// equilibrium of everything outboard: inertial forces, gravity, wrenches of the force set and `external`. User forces
 /// not listed there are ignored, which makes no difference for those inside joints (generator, brake, drives).
 /// @throws InputError for an external wrench without a function or on the base
+/// Sections between the ends of blades and tower: station_channels().
 std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalWrench> external = {});
 
 /// Channels of every driven coordinate: its position, "platform surge" ..., and the force of its drive, "platform surge

@@ -1,5 +1,9 @@
 #include "turbines/model/detail/tower_loads.hpp"
 
+#include "mbs/base/error.hpp"
+
+#include <utility>
+
 namespace cardan::turbines {
 
 namespace {
@@ -12,6 +16,17 @@ bool stands_on(const Tree& tree, FrameId frame, FrameId support) {
 }
 
 }  // namespace
+
+Shared shared_source(const Turbine& turbine, std::vector<ExternalWrench> external) {
+    for (const ExternalWrench& load : external) {
+        if (!load.wrench)
+            throw InputError("channels of a turbine", "external wrench", "without a function", "one with");
+        if (turbine.system().model.frame(load.frame).body < 0)
+            throw InputError("channels of a turbine", "external wrench on the frame",
+                             turbine.system().model.frame(load.frame).name, "a frame of a body");
+    }
+    return std::make_shared<const ChannelSource>(ChannelSource{turbine, std::move(external)});
+}
 
 void add_external(Wrench& sum, const ChannelSource& source, const ChannelInput& in, int subtree, const Vec3& at) {
     const Kinematics& kin = in.kinematics;
@@ -62,7 +77,7 @@ Wrench RigidTower::load_above(FrameId cut, const ChannelSource& source, const Ch
     add_part(sum, head_, in, at);
     for (const FrameLoad& load : in.forces.loads())
         if (stands_on(tree, load.frame, cut))
-            add_moved(sum, in.forces.at_frame(load, kin), pose(kin, load.frame).p, at);
+            add_moved(sum, in.forces.at_frame(load, kin, in.time), pose(kin, load.frame).p, at);
     for (const ExternalWrench& load : source.external)
         if (stands_on(tree, load.frame, cut))
             add_moved(sum, load.wrench({in.time, in.q, in.qd, kin}), pose(kin, load.frame).p, at);

@@ -26,6 +26,7 @@ namespace {
 struct SimulateArguments {
     MachineOptions machine;
     RunArguments run;
+    StationOptions stations;
     std::optional<double> rpm;
     std::string start = "steady";
     double azimuth = 0, torque = 0, slope = 0;
@@ -37,6 +38,7 @@ void declare(CommandLine& app, SimulateArguments& a) {
     a.run.duration = 20;
     add_machine(app, a.machine);
     add_run_options(app, a.run);
+    add_station_options(app, a.stations);
     app.add_option("--rpm", a.rpm, "rotor speed at the start, rev/min (default: the model's)");
     app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at the start, deg, zero upward");
     app.add_option("--start", a.start, "steady: bent as in steady rotation, or at rest; undeformed: straight")
@@ -240,7 +242,7 @@ int run(SimulateArguments& a, const CommandLine& command) {
     const std::vector<solvers::Drive> drive = drives(subject.driven, spin, start);
     solvers::Integrator integrator = broken_off ? solvers::Integrator(system, drive, *broken_off, options)
                                                 : solvers::Integrator(system, drive, 0, start.q, start.qd, options);
-    std::vector<ChannelGroup> channels = turbines::channels(turbine);
+    std::vector<ChannelGroup> channels = channels_of(turbine, a.stations);
     if (subject.generator.acts()) channels.push_back(generator_channels(subject.generator));
     solvers::Recorder recorder(integrator, channels);
     if (a.list) return print(recorder.channels()), 0;

@@ -28,6 +28,7 @@ namespace {
 
 struct SteadyArguments {
     MachineOptions machine;
+    StationOptions stations;
     std::optional<double> rpm;
     double azimuth = 0;
     int azimuths = 72, harmonics = 8;
@@ -43,6 +44,7 @@ void declare(CommandLine& app, SteadyArguments& a) {
     app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced").range(1, 200);
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
     app.add_flag("--all", a.all, "print all channels, not only the main ones");
+    add_station_options(app, a.stations);
     add_machine_options(app, a.machine);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
 }
@@ -74,8 +76,8 @@ Revolution revolution(const turbines::Turbine& turbine, double speed, const Stea
     return all;
 }
 
-solvers::History history_of(const turbines::Turbine& turbine, const Revolution& revolution, std::string title) {
-    const std::vector<ChannelGroup> groups = turbines::channels(turbine);
+solvers::History history_of(const turbines::Turbine& turbine, const std::vector<ChannelGroup>& groups,
+                            const Revolution& revolution, std::string title) {
     solvers::History history;
     history.title = std::move(title);
     for (const ChannelGroup& group : groups)
@@ -126,8 +128,8 @@ int run(SteadyArguments& a, const CommandLine& command) {
     check_outputs(a.out, {".h5", ".svg", ".png"});
     const Revolution states = revolution(turbine, speed, a);
     stop_at_once();
-    const solvers::History history =
-        history_of(turbine, states, text(machine.file.description.name, ", steady at ", *a.rpm, " rpm"));
+    const solvers::History history = history_of(turbine, channels_of(turbine, a.stations), states,
+                                                text(machine.file.description.name, ", steady at ", *a.rpm, " rpm"));
     std::printf("%s: %s\n%s\n", history.title.c_str(), states.about.c_str(), in_words(ready.mesh).c_str());
     print(history, a.all ? all_names(history.channels) : main_channels(turbine.layout(), history.channels));
     write(history, a.out + ".h5", run_text("steady", command) + turbine.rotor().description);

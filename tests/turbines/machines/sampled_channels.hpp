@@ -1,8 +1,10 @@
-// Channels of a turbine at one state, by name and alias; a blade's mass moments and axes by hand.
+// Channels of a turbine at one state, by name and alias; random states; a blade's mass moments and axes by hand.
 #pragma once
 
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/dynamics.hpp"
 #include "solvers/time/recorder.hpp"
+#include "tests/support/random_tree.hpp"
 #include "turbines/model/channels.hpp"
 
 #include <Eigen/Geometry>
@@ -11,9 +13,10 @@
 
 namespace cardan::testing {
 
-/// Position, rates and accelerations of all coordinates.
+/// Position, rates and accelerations of all coordinates at a time.
 struct MachineState {
     Vector q, qd, qdd;
+    double time = 0;
     explicit MachineState(const turbines::Turbine& turbine)
         : q(Vector::Zero(turbine.system().model.size())), qd(q), qdd(q) {}
 };
@@ -23,11 +26,11 @@ public:
     Sampled(const System& system, const std::vector<ChannelGroup>& groups, const MachineState& at) {
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, at.q, workspace);
-        const JointLoads loads = joint_loads(kin, system.forces, at.qd, at.qdd);
+        const JointLoads loads = joint_loads(kin, system.forces, at.qd, at.qdd, at.time);
         const Vector none = Vector::Zero(at.q.size());
         for (const ChannelGroup& group : groups) {
             std::vector<double> own(group.channels.size());
-            group.sample({0, at.q, at.qd, at.qdd, none, kin, system.forces, loads}, own.data());
+            group.sample({at.time, at.q, at.qd, at.qdd, none, kin, system.forces, loads}, own.data());
             for (std::size_t i = 0; i < own.size(); ++i) {
                 values[group.channels[i].name] = own[i];
                 if (!group.channels[i].alias.empty()) aliases[group.channels[i].alias] = own[i];
@@ -52,15 +55,38 @@ public:
     std::map<std::string, double> values, aliases;
 };
 
-/// Mass of a straight blade and its first moment about the root, in axes x downwind, y toward the trailing edge, z to
-/// the tip at zero pitch: Simpson's rule between the stations, exact for linear mass times linear offset.
+/// A random state in consistent motion under the machine's forces, but for coordinates that are at rest at zero.
+inline MachineState in_motion(const turbines::Turbine& turbine, unsigned seed,
+                              const std::vector<std::string>& at_rest = {}) {
+    Random random(seed);
+    MachineState state(turbine);
+    const Model& model = turbine.system().model;
+    for (int i = 0; i < model.size(); ++i) {
+        state.q(i) = (model.body(i).revolute ? 0.02 : 0.001) * uniform(random, -1, 1);
+        state.qd(i) = 0.05 * uniform(random, -1, 1);
+    }
+    state.q(turbine.rotor().spin) = 0.9 + seed;
+    state.qd(turbine.rotor().spin) = 2.9;
+    for (const std::string& name : at_rest) state.q(model.index(name)) = state.qd(model.index(name)) = 0;
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, state.q, workspace);
+    Vector Q(model.size()), actuator(model.size());
+    turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
+    ForwardDynamics(model).solve(kin, state.qd, Q, state.qdd, actuator);
+    return state;
+}
+
+/// Mass of a straight blade, or of what is beyond a place on it, and its first moment about the root or that place, in
+/// axes x downwind, y toward the trailing edge, z to the tip at zero pitch: Simpson's rule between the stations, exact
+/// for linear mass times linear offset.
 struct BladeMoments {
     double mass = 0;
     Vec3 first = Vec3::Zero();
 
-    explicit BladeMoments(const BeamLine& line) {
-        std::vector<double> ends = line.breaks;
-        ends.insert(ends.begin(), 0);
+    explicit BladeMoments(const BeamLine& line, double from = 0) {
+        std::vector<double> ends{from};
+        for (const double x : line.breaks)
+            if (x > from) ends.push_back(x);
         ends.push_back(line.length);
         for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
             constexpr int steps = 64;  // the twist turns the offsets: not polynomial
@@ -71,7 +97,7 @@ struct BladeMoments {
                 const double weight = h / 3 * (k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2);
                 const BeamSection section = line.section(x);
                 mass += weight * section.mass;
-                first += weight * section.mass * Vec3(section.centre.z(), -section.centre.y(), x);
+                first += weight * section.mass * Vec3(section.centre.z(), -section.centre.y(), x - from);
             }
         }
     }

@@ -1,9 +1,7 @@
 // Channels of a turbine: loads against weights, first moments and springs by hand, deflections, names.
 #include "mbs/base/units.hpp"
-#include "mbs/kernels/dynamics.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/machines/sampled_channels.hpp"
 #include "turbines/machines/wt600_operation.hpp"
@@ -46,26 +44,6 @@ struct Weight {
         }
     }
 };
-
-// A random state in consistent motion under the machine's forces, but for coordinates that are at rest at zero.
-MachineState in_motion(const Turbine& turbine, unsigned seed, const std::vector<std::string>& at_rest = {}) {
-    Random random(seed);
-    MachineState state(turbine);
-    const Model& model = turbine.system().model;
-    for (int i = 0; i < model.size(); ++i) {
-        state.q(i) = (model.body(i).revolute ? 0.02 : 0.001) * uniform(random, -1, 1);
-        state.qd(i) = 0.05 * uniform(random, -1, 1);
-    }
-    state.q(turbine.rotor().spin) = 0.9 + seed;
-    state.qd(turbine.rotor().spin) = 2.9;
-    for (const std::string& name : at_rest) state.q(model.index(name)) = state.qd(model.index(name)) = 0;
-    Workspace workspace(model);
-    const Kinematics kin = kinematics(model, state.q, workspace);
-    Vector Q(model.size()), actuator(model.size());
-    turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
-    ForwardDynamics(model).solve(kin, state.qd, Q, state.qdd, actuator);
-    return state;
-}
 
 }  // namespace
 

@@ -16,6 +16,11 @@ struct ChannelSource {
     const MachineLayout& layout() const { return turbine.layout(); }
 };
 
+using Shared = std::shared_ptr<const ChannelSource>;
+
+/// @throws InputError for an external wrench without a function or on the base
+Shared shared_source(const Turbine& turbine, std::vector<ExternalWrench> external);
+
 /// Adds a wrench about `from` as one about `to`.
 inline void add_moved(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double sign = 1) {
     sum.force += sign * wrench.force;
