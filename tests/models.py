@@ -5,8 +5,9 @@ usage: CARDAN_MODELS=FOLDER tests/models.py [--refined] [--cardan PROGRAM] [--ti
 
 Every .fst file of OpenFAST and every .yaml of windIO below the folder is tried. The table says whether the model was read
 (or why not), the CPU time of the diagram, how many modes it has, the estimated error of the mesh and, with --refined, the
-largest difference of the first ten frequencies at rest from those of twice as many elements. Exit code 1 if a model that
-was read has no diagram, or if the refined frequencies differ by more than 0.3 %.
+largest difference of the first ten frequencies at rest from those of twice as many elements, and which names are not those
+of the refined mesh. Exit code 1 if a model that was read has no diagram, or if the refined frequencies differ by more than
+0.3 %.
 """
 import argparse
 import csv
@@ -51,10 +52,10 @@ def run(program, arguments, folder, timeout):
 
 
 def frequencies(table):
-    """The first natural frequencies of a table of one rotor speed."""
+    """The first natural frequencies of a table of one rotor speed, and the names of the modes."""
     with open(table, encoding="utf-8") as lines:
         rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-        return sorted(float(row["natural_frequency[Hz]"]) for row in rows)[:COMPARED]
+        return sorted((float(row["natural_frequency[Hz]"]), row["mode[-]"]) for row in rows)[:COMPARED]
 
 
 def elements(said):
@@ -73,7 +74,9 @@ def difference(program, model, mesh, folder, timeout):
         if code != 0:
             return None, said.strip().splitlines()[-1]
         all_hz.append(frequencies(pathlib.Path(folder) / f"refined{times}.csv"))
-    return max((100 * abs(a / b - 1) for a, b in zip(*all_hz) if b > 0), default=0.0), ""
+    pairs = list(zip(*all_hz))
+    renamed = [f"{b[1]}: {a[1]}" for a, b in pairs if a[1] != b[1]]
+    return max((100 * abs(a[0] / b[0] - 1) for a, b in pairs if b[0] > 0), default=0.0), ", ".join(renamed)
 
 
 def row(program, model, refined, timeout):
