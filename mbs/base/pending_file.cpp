@@ -110,7 +110,11 @@ bool PendingFile::lock_partial() {
     if (file.fd() < 0)
         throw FileError(path_,
                         text("cannot be written: ", std::generic_category().message(errno), " (", partial_, ")"));
-    if (is_locked(file.fd(), LOCK_EX)) throw FileError(path_, text("cannot be written: ", lock_holder(path_)));
+    // Where nobody is found, whoever had the lock is gone again: it only tried whether it could write, as several
+    // programs do that begin at once.
+    for (int patience = 10; is_locked(file.fd(), LOCK_EX); --patience)
+        if (const std::string who = lock_holder(path_); patience == 0 || who.find("(process ") != std::string::npos)
+            throw FileError(path_, text("cannot be written: ", who));
     struct stat mine {};
     struct stat now {};
     if (::fstat(file.fd(), &mine) == 0 &&

@@ -14,37 +14,37 @@ std::string group_of(const std::string& name) {
     return name.substr(0, name.rfind('/') + 1);
 }
 
-Shape shape_of(const Axes& axes) {
+Shape shape_of(const Hdf5Axes& axes) {
     Shape shape;
-    for (const Axis& axis : axes) shape.push_back(axis.size());
+    for (const Hdf5Axis& axis : axes) shape.push_back(axis.size());
     return shape;
 }
 
 /// The attribute that names the labels; none if there are no labels.
-Attributes coordinates_of(const Axes& axes) {
+Attributes coordinates_of(const Hdf5Axes& axes) {
     std::string names;
-    for (const Axis& axis : axes)
+    for (const Hdf5Axis& axis : axes)
         for (const AxisLabel& label : axis.labels) names += (names.empty() ? "" : " ") + label.name;
     if (names.empty()) return {};
     return {{"coordinates", names}};
 }
 
-void write_axes(Hdf5File& file, const std::string& array, const Axes& axes) {
-    for (const Axis& axis : axes) write_axis(file, group_of(array), axis);
+void write_axes(Hdf5File& file, const std::string& array, const Hdf5Axes& axes) {
+    for (const Hdf5Axis& axis : axes) write_axis(file, group_of(array), axis);
 }
 
-void attach(Hdf5File& file, const std::string& array, const Axes& axes) {
+void attach(Hdf5File& file, const std::string& array, const Hdf5Axes& axes) {
     for (std::size_t i = 0; i < axes.size(); ++i) file.attach(array, i, group_of(array) + axes[i].get().name);
 }
 
-Description with_coordinates(Description about, const Axes& axes) {
+Description with_coordinates(Description about, const Hdf5Axes& axes) {
     const Attributes more = coordinates_of(axes);
     about.more.insert(about.more.end(), more.begin(), more.end());
     return about;
 }
 
 template <class Value>
-void write_numbers(Hdf5File& file, const std::string& name, std::span<const Value> values, const Axes& axes,
+void write_numbers(Hdf5File& file, const std::string& name, std::span<const Value> values, const Hdf5Axes& axes,
                    const Description& about) {
     write_axes(file, name, axes);
     file.write(name, values, shape_of(axes), with_coordinates(about, axes));
@@ -64,11 +64,11 @@ void write_label(Hdf5File& file, const std::string& name, const AxisLabel& label
 
 }  // namespace
 
-std::size_t Axis::size() const {
+std::size_t Hdf5Axis::size() const {
     return std::visit([](const auto& all) { return all.size(); }, values);
 }
 
-Axis counting_axis(std::string name, std::size_t count, std::string long_name, std::vector<AxisLabel> labels) {
+Hdf5Axis counting_axis(std::string name, std::size_t count, std::string long_name, std::vector<AxisLabel> labels) {
     std::vector<std::int64_t> index(count);
     std::iota(index.begin(), index.end(), 0);
     return {std::move(name), std::move(index), {"1", std::move(long_name)}, std::move(labels)};
@@ -78,7 +78,7 @@ AxisLabel text_label(std::string name, std::vector<std::string> texts, std::stri
     return {std::move(name), std::move(texts), {"", std::move(long_name)}};
 }
 
-void write_axis(Hdf5File& file, const std::string& group, const Axis& axis) {
+void write_axis(Hdf5File& file, const std::string& group, const Hdf5Axis& axis) {
     const std::string scale = group + axis.name;
     if (!file.has(scale)) {
         std::visit([&](const auto& values) { file.write(scale, values, {values.size()}, axis.about); }, axis.values);
@@ -92,24 +92,24 @@ void write_axis(Hdf5File& file, const std::string& group, const Axis& axis) {
     }
 }
 
-void write_array(Hdf5File& file, const std::string& name, std::span<const double> values, const Axes& axes,
+void write_array(Hdf5File& file, const std::string& name, std::span<const double> values, const Hdf5Axes& axes,
                  const Description& about) {
     write_numbers(file, name, values, axes, about);
 }
 
-void write_array(Hdf5File& file, const std::string& name, std::span<const int> values, const Axes& axes,
+void write_array(Hdf5File& file, const std::string& name, std::span<const int> values, const Hdf5Axes& axes,
                  const Description& about) {
     write_numbers(file, name, values, axes, about);
 }
 
 void write_array(Hdf5File& file, const std::string& name, std::span<const std::complex<double>> values,
-                 const Axes& axes, const Description& about) {
+                 const Hdf5Axes& axes, const Description& about) {
     write_axes(file, name, axes);
     file.write(name, values, shape_of(axes), with_coordinates(about, axes));
     for (const char* part : {real_part, imaginary_part}) attach(file, name + part, axes);
 }
 
-void write_array(Hdf5File& file, const std::string& name, std::span<const std::string> texts, const Axes& axes,
+void write_array(Hdf5File& file, const std::string& name, std::span<const std::string> texts, const Hdf5Axes& axes,
                  const std::string& long_name) {
     write_axes(file, name, axes);
     file.write(name, texts, shape_of(axes), long_name, coordinates_of(axes));

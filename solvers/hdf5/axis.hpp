@@ -26,7 +26,7 @@ struct AxisLabel {
 };
 
 /// An axis; its values are those of the scale.
-struct Axis {
+struct Hdf5Axis {
     std::string name;  ///< of the scale
     std::variant<std::vector<double>, std::vector<std::int64_t>> values;
     Description about;
@@ -34,33 +34,33 @@ struct Axis {
 
     [[nodiscard]] std::size_t size() const;
     /// The same axis with other labels.
-    [[nodiscard]] Axis with(std::vector<AxisLabel> other) const { return {name, values, about, std::move(other)}; }
+    [[nodiscard]] Hdf5Axis with(std::vector<AxisLabel> other) const { return {name, values, about, std::move(other)}; }
 };
 
 /// An axis 0, 1, 2 ... over things that have names but no values of their own.
-[[nodiscard]] Axis counting_axis(std::string name, std::size_t count, std::string long_name,
-                                 std::vector<AxisLabel> labels = {});
+[[nodiscard]] Hdf5Axis counting_axis(std::string name, std::size_t count, std::string long_name,
+                                     std::vector<AxisLabel> labels = {});
 [[nodiscard]] AxisLabel text_label(std::string name, std::vector<std::string> texts, std::string long_name);
 
 /// The axes of an array, slowest first. They outlive the call.
-using Axes = std::vector<std::reference_wrapper<const Axis>>;
+using Hdf5Axes = std::vector<std::reference_wrapper<const Hdf5Axis>>;
 
 /// @name Arrays with axes
 /// Writes an array and, if its group has not got them yet, scales and labels of its axes. The attribute `coordinates`
 /// names the labels, as in the CF conventions. Axes of one name in one group are the same axis.
 /// @throws InputError, FileError as Hdf5File::write() and attach()
 ///@{
-void write_array(Hdf5File& file, const std::string& name, std::span<const double> values, const Axes& axes,
+void write_array(Hdf5File& file, const std::string& name, std::span<const double> values, const Hdf5Axes& axes,
                  const Description& about);
-void write_array(Hdf5File& file, const std::string& name, std::span<const int> values, const Axes& axes,
+void write_array(Hdf5File& file, const std::string& name, std::span<const int> values, const Hdf5Axes& axes,
                  const Description& about);
 void write_array(Hdf5File& file, const std::string& name, std::span<const std::complex<double>> values,
-                 const Axes& axes, const Description& about);
-void write_array(Hdf5File& file, const std::string& name, std::span<const std::string> texts, const Axes& axes,
+                 const Hdf5Axes& axes, const Description& about);
+void write_array(Hdf5File& file, const std::string& name, std::span<const std::string> texts, const Hdf5Axes& axes,
                  const std::string& long_name);
 ///@}
 
 /// Scale and labels of an axis in a group ("branches/", "" being the root), if they are not there yet.
-void write_axis(Hdf5File& file, const std::string& group, const Axis& axis);
+void write_axis(Hdf5File& file, const std::string& group, const Hdf5Axis& axis);
 
 }  // namespace cardan::solvers

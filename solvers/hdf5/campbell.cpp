@@ -32,8 +32,8 @@ std::string unit_of(const std::string& parameter) {
 }
 
 /// rotor_speed, or the parameter with the rotor speeds beside it.
-Axis axis_of_points(const Campbell& d) {
-    Axis speed{"rotor_speed", d.rotor_speeds(), {"rad s-1", "rotor speed"}};
+Hdf5Axis axis_of_points(const Campbell& d) {
+    Hdf5Axis speed{"rotor_speed", d.rotor_speeds(), {"rad s-1", "rotor speed"}};
     if (d.parameters.empty()) return speed;
     return {"parameter",
             d.parameters,
@@ -41,7 +41,7 @@ Axis axis_of_points(const Campbell& d) {
             {{speed.name, std::get<std::vector<double>>(speed.values), speed.about}}};
 }
 
-Axis axis_of_branches(const Campbell& d) {
+Hdf5Axis axis_of_branches(const Campbell& d) {
     const auto& b = d.branches;
     return counting_axis(
         "branch", b.size(), "index of the branch, a mode followed over rotor speed",
@@ -51,7 +51,7 @@ Axis axis_of_branches(const Campbell& d) {
                     "rotor pattern")});
 }
 
-Axis axis_of_components(const Campbell& d) {
+Hdf5Axis axis_of_components(const Campbell& d) {
     const auto& c = d.components;
     return counting_axis(
         "component", c.size(), "index of the component mode",
@@ -60,7 +60,7 @@ Axis axis_of_components(const Campbell& d) {
                     "family of the component mode and number within it")});
 }
 
-Axis axis_of_coordinates(const Campbell& d) {
+Hdf5Axis axis_of_coordinates(const Campbell& d) {
     const auto& c = d.coordinates;
     using Info = CoordinateInfo;
     return counting_axis(
@@ -70,7 +70,7 @@ Axis axis_of_coordinates(const Campbell& d) {
          text_label("part", column(c, [](const Info& x) { return x.part; }), "part that the coordinate belongs to")});
 }
 
-Axis axis_of_harmonics(int first, int last, std::string long_name) {
+Hdf5Axis axis_of_harmonics(int first, int last, std::string long_name) {
     std::vector<std::int64_t> harmonics(static_cast<std::size_t>(last - first + 1));
     std::iota(harmonics.begin(), harmonics.end(), first);
     return {"harmonic", std::move(harmonics), {"1", std::move(long_name)}};
@@ -180,7 +180,7 @@ private:
 
     // value(mode, k) for k < size of the axis, NaN without a mode: rotor speed by branch by axis
     template <class F>
-    void over_axis(const std::string& name, const Axis& axis, const char* long_name, F value) {
+    void over_axis(const std::string& name, const Hdf5Axis& axis, const char* long_name, F value) {
         std::vector<double> values;
         for (std::size_t i = 0; i < d_.points.size(); ++i)
             for (const Branch& branch : d_.branches) {
@@ -202,7 +202,7 @@ private:
 
     void components() {
         const auto& c = d_.components;
-        const Axis component = component_.with(
+        const Hdf5Axis component = component_.with(
             {text_label("part", column(c, [](const Component& x) { return x.part; }), "part of the machine"),
              text_label("name", column(c, [](const Component& x) { return x.family; }), "family")});
         write_array(file_, "components/ordinal", column(c, [](const Component& x) { return x.ordinal; }), {component},
@@ -215,8 +215,8 @@ private:
         const auto& x = d_.crossings;
         if (x.empty()) return;
         const auto name = [&](const Crossing& c) { return entry(d_.branches, c.branch).name; };
-        const Axis crossing = counting_axis("crossing", x.size(), "index of the crossing",
-                                            {text_label("name", column(x, name), "name of the mode")});
+        const Hdf5Axis crossing = counting_axis("crossing", x.size(), "index of the crossing",
+                                                {text_label("name", column(x, name), "name of the mode")});
         const auto put = [&](const char* what, const auto& values, const Description& about) {
             write_array(file_, std::string("crossings/") + what, values, {crossing}, about);
         };
@@ -239,13 +239,14 @@ private:
     }
 
     void shapes() {
-        const Axis frame = counting_axis("frame", d_.frames.size(), "index of the frame",
-                                         {text_label("frame_name", d_.frames, "name of the frame")});
-        const Axis axis = counting_axis("axis", 3, "axis of the ground: x downwind, y, z up",
-                                        {text_label("axis_name", {"x", "y", "z"}, "name of the axis of the ground")});
+        const Hdf5Axis frame = counting_axis("frame", d_.frames.size(), "index of the frame",
+                                             {text_label("frame_name", d_.frames, "name of the frame")});
+        const Hdf5Axis axis =
+            counting_axis("axis", 3, "axis of the ground: x downwind, y, z up",
+                          {text_label("axis_name", {"x", "y", "z"}, "name of the axis of the ground")});
         std::vector<double> position;
         for (const Vec3& p : d_.frame_positions) position.insert(position.end(), p.begin(), p.end());
-        const Axis named = frame.with({text_label("name", d_.frames, "name of the frame")});
+        const Hdf5Axis named = frame.with({text_label("name", d_.frames, "name of the frame")});
         write_array(file_, "frames/position", position, {named, axis},
                     {"m", "position undeformed at azimuth 0, ground axes (x downwind, z up)"});
         const auto part = [&](Eigen::Index first) {
@@ -258,7 +259,7 @@ private:
                                                                 : entry(d_.motions[i], branch.mode[i])[f].motion(k));
             return motion;
         };
-        const Axes axes{point_, branch_, frame, axis};
+        const Hdf5Axes axes{point_, branch_, frame, axis};
         const std::string how = " of every frame in the mode, ground axes, azimuth 0, at 1 J of modal energy";
         write_array(file_, "branches/frame_rotation", part(0), axes, {"rad", "complex rotation" + how});
         write_array(file_, "branches/frame_displacement", part(3), axes, {"m", "complex displacement" + how});
@@ -292,7 +293,7 @@ private:
                         values.push_back(coefficient(point, first + 2 * k, i));
             return values;
         };
-        const Axis harmonic = axis_of_harmonics(1, harmonics_, "multiple of the azimuth");
+        const Hdf5Axis harmonic = axis_of_harmonics(1, harmonics_, "multiple of the azimuth");
         const std::string of = " of the coordinates in the periodic steady state; the unit of each is in unit";
         write_array(file_, "steady_state/mean", part(0, 1), {point_, coordinate_}, {"rad or m", "mean" + of});
         write_array(file_, "steady_state/cosine", part(1, harmonics_), {point_, harmonic, coordinate_},
@@ -319,10 +320,11 @@ private:
                 line_of_point.push_back(static_cast<int>(l));
                 frame_of_point.push_back(point.index);
             }
-        const Axis line = counting_axis("line", d_.lines.size(), "index of the line",
-                                        {text_label("part", column(d_.lines, [](const Polyline& x) { return x.part; }),
-                                                    "part that the line shows")});
-        const Axis point = counting_axis("line_point", line_of_point.size(), "index of the point, line by line");
+        const Hdf5Axis line =
+            counting_axis("line", d_.lines.size(), "index of the line",
+                          {text_label("part", column(d_.lines, [](const Polyline& x) { return x.part; }),
+                                      "part that the line shows")});
+        const Hdf5Axis point = counting_axis("line_point", line_of_point.size(), "index of the point, line by line");
         write_array(file_, "lines/blade", column(d_.lines, [](const Polyline& x) { return x.blade; }), {line},
                     {"1", "blade number from 1, 0: no blade"});
         write_array(file_, "lines/point_line", line_of_point, {point},
@@ -332,7 +334,7 @@ private:
 
     const Campbell& d_;
     Hdf5File file_;
-    Axis point_, branch_, component_, row_, coordinate_;
+    Hdf5Axis point_, branch_, component_, row_, coordinate_;
     int harmonics_ = 0;  // of the periodic steady states; 0: they are constant
 };
 

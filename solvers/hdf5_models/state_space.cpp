@@ -31,7 +31,7 @@ auto column(const std::vector<Signal>& signals, Field Signal::*field) {
 }
 
 // Beside the matrices: who stands along the axis. "state" gets state_name and state_units.
-Axis axis_of(const std::string& name, const std::vector<Signal>& signals, const std::string& what) {
+Hdf5Axis axis_of(const std::string& name, const std::vector<Signal>& signals, const std::string& what) {
     return counting_axis(name, signals.size(), "index of the " + what,
                          {text_label(name + "_name", column(signals, &Signal::name), "name of the " + what),
                           text_label(name + "_units", column(signals, &Signal::units), "units of the " + what)});
@@ -50,11 +50,11 @@ struct SignalAxes {
                                    "index of the derivatives of the states, rows of A and B",
                                    {text_label("derivative_name", column(model.states, &Signal::name),
                                                "name of the state whose derivative it is")})) {}
-    Axis state, input, output, derivative;
+    Hdf5Axis state, input, output, derivative;
 };
 
 // With all there is to say about the signals, for a group of their own.
-Axis described(const Axis& axis, const std::vector<Signal>& signals, const std::string& what) {
+Hdf5Axis described(const Hdf5Axis& axis, const std::vector<Signal>& signals, const std::string& what) {
     return axis.with(
         {text_label("name", column(signals, &Signal::name), "name of the " + what),
          text_label("units", column(signals, &Signal::units), "units of the " + what),
@@ -62,9 +62,9 @@ Axis described(const Axis& axis, const std::vector<Signal>& signals, const std::
          text_label("alias", column(signals, &Signal::alias), "name in OpenFAST, if any, of the " + what)});
 }
 
-void write_signals(Hdf5File& file, const std::string& group, const Axis& axis, const std::vector<Signal>& signals,
+void write_signals(Hdf5File& file, const std::string& group, const Hdf5Axis& axis, const std::vector<Signal>& signals,
                    const std::string& what) {
-    const Axis with_all = described(axis, signals, what);
+    const Hdf5Axis with_all = described(axis, signals, what);
     write_array(file, group + "/blade", column(signals, &Signal::blade), {with_all},
                 {"1", "blade number, 0: none, of the " + what});
 }
@@ -81,8 +81,8 @@ constexpr const char* mixed = "SI, by row and column";
 struct NamedMatrix {
     const char* name;
     Matrix StateMatrices::*matrix;
-    Axis SignalAxes::*rows;
-    Axis SignalAxes::*columns;
+    Hdf5Axis SignalAxes::*rows;
+    Hdf5Axis SignalAxes::*columns;
 };
 constexpr NamedMatrix matrices[] = {{"A", &StateMatrices::A, &SignalAxes::derivative, &SignalAxes::state},
                                     {"B", &StateMatrices::B, &SignalAxes::derivative, &SignalAxes::input},
@@ -92,7 +92,7 @@ constexpr NamedMatrix matrices[] = {{"A", &StateMatrices::A, &SignalAxes::deriva
 // One matrix per place on the axis: items[first], items[first + step] ...
 template <class Items>
 void write_stack(Hdf5File& file, const std::string& name, const NamedMatrix& m, const Items& items, std::size_t first,
-                 std::size_t step, const Axis& axis, const SignalAxes& axes, const std::string& long_name) {
+                 std::size_t step, const Hdf5Axis& axis, const SignalAxes& axes, const std::string& long_name) {
     std::vector<double> values;
     for (std::size_t i = first; i < items.size(); i += step) append(values, items[i].*m.matrix);
     write_array(file, name, values, {axis, axes.*m.rows, axes.*m.columns}, {mixed, m.name + long_name});
@@ -120,7 +120,7 @@ void write_fourier(Hdf5File& file, const std::string& group, const std::vector<S
                    const SignalAxes& axes) {
     std::vector<std::int64_t> multiples(series.size() / 2);
     std::iota(multiples.begin(), multiples.end(), 1);
-    const Axis harmonic{"harmonic", multiples, {"1", "multiple of the azimuth"}};
+    const Hdf5Axis harmonic{"harmonic", multiples, {"1", "multiple of the azimuth"}};
     const std::string of = " of its Fourier series in the azimuth";
     for (const NamedMatrix& m : matrices) {
         const std::string name = group + m.name;
@@ -131,9 +131,9 @@ void write_fourier(Hdf5File& file, const std::string& group, const std::vector<S
     }
 }
 
-void write_operating_point(Hdf5File& file, const std::string& group, const LinearModel& model, const Axis& azimuth,
+void write_operating_point(Hdf5File& file, const std::string& group, const LinearModel& model, const Hdf5Axis& azimuth,
                            const SignalAxes& axes) {
-    const auto rows = [&](const char* name, Vector LinearSample::*field, const Axis& axis, const char* long_name) {
+    const auto rows = [&](const char* name, Vector LinearSample::*field, const Hdf5Axis& axis, const char* long_name) {
         std::vector<double> values;
         for (const LinearSample& sample : model.samples) append(values, (sample.*field).transpose());
         write_array(file, group + name, values, {azimuth, axis}, {"SI, by column", long_name});
@@ -145,7 +145,7 @@ void write_operating_point(Hdf5File& file, const std::string& group, const Linea
 }
 
 // The azimuths, with the times at which forces were evaluated.
-Axis axis_of_azimuths(const LinearModel& model) {
+Hdf5Axis axis_of_azimuths(const LinearModel& model) {
     std::vector<double> azimuth, time;
     for (const LinearSample& sample : model.samples) {
         azimuth.push_back(sample.azimuth);
@@ -162,12 +162,12 @@ Axis axis_of_azimuths(const LinearModel& model) {
 void write_periodic(Hdf5File& file, const LinearModel& model, const std::vector<StateMatrices>& series) {
     const std::string group = periodic_group + std::string("/");
     const SignalAxes axes(model);
-    const Axis azimuth = axis_of_azimuths(model);
+    const Hdf5Axis azimuth = axis_of_azimuths(model);
     for (const NamedMatrix& m : matrices)
         write_stack(file, group + m.name, m, model.samples, 0, 1, azimuth, axes,
                     "(azimuth) of x' = A x + B u, y = C x + D u");
     write_all_signals(file, group, axes, model);
-    const Axis output = described(axes.output, model.outputs, outputs_are);
+    const Hdf5Axis output = described(axes.output, model.outputs, outputs_are);
     write_array(file, group + "outputs/error",
                 std::vector<double>(model.output_error.begin(), model.output_error.end()), {output},
                 {"1", "estimated error of C and D over the largest difference of the output"});

@@ -70,11 +70,11 @@ if(manual)
 endif()
 
 # Stations along blades and tower, in all that has channels.
-add_example_test(example_stations_simulate cardan 0 "blade 2 at 40 m moment y +Spn2MLyb2 +N m.*tower at 43.8 m force z +TwHt1FLzt" simulate nrel5mw
+add_example_test(example_stations_simulate cardan 0 "tower at 43.8 m force z +TwHt1FLzt.*blade 2 at 40 m moment y +Spn2MLyb2 +N m" simulate nrel5mw
                  ${coarse} --blade-stations 20,40 --tower-stations 43.8 --list)
 add_example_test(example_stations_steady cardan 0 "blade 1 at 20 m accelerometer z" steady nrel5mw ${coarse} --blade-stations 20 --all --out
                  example_stations_steady)
-add_example_test(example_stations_linear cardan 0 "blade 3 at 20 m moment y" linearise nrel5mw ${coarse} --blade-stations 20 --order 6 --out
+add_example_test(example_stations_linear cardan 0 "71 outputs.*blade at 20 m moment y .collective" linearise nrel5mw ${coarse} --blade-stations 20 --order 6 --out
                  example_stations_linear)
 add_example_test(example_stations_bad cardan 1 "--blade-stations: value = 20,; allowed: numbers separated by commas" steady nrel5mw ${coarse}
                  --blade-stations 20,)

@@ -11,8 +11,8 @@ using cardan::test::Folder;
 namespace {
 
 struct TwoAxes {
-    Axis speed{"speed", std::vector<double>{1, 2.5}, {"rad s-1", "rotor speed"}};
-    Axis mode = counting_axis("mode", 3, "index of the mode", {text_label("name", {"a", "b", "c"}, "its name")});
+    Hdf5Axis speed{"speed", std::vector<double>{1, 2.5}, {"rad s-1", "rotor speed"}};
+    Hdf5Axis mode = counting_axis("mode", 3, "index of the mode", {text_label("name", {"a", "b", "c"}, "its name")});
 };
 
 }  // namespace
@@ -47,12 +47,12 @@ TEST_CASE("hdf5 axes: every group has the scales and labels of its own arrays, o
 
 TEST_CASE("hdf5 axes: labels may be numbers, and an axis may have others elsewhere", "[property]") {
     const Folder folder;
-    const Axis azimuth{"azimuth",
-                       std::vector<double>{0, 3},
-                       {"rad", "azimuth"},
-                       {{"time", std::vector<double>{0, 0.5}, {"s", "time"}},
-                        {"part", std::vector<int>{1, 2}, {"1", "part of the revolution"}}}};
-    const Axis named = azimuth.with({text_label("name", {"up", "down"}, "where blade 1 is")});
+    const Hdf5Axis azimuth{"azimuth",
+                           std::vector<double>{0, 3},
+                           {"rad", "azimuth"},
+                           {{"time", std::vector<double>{0, 0.5}, {"s", "time"}},
+                            {"part", std::vector<int>{1, 2}, {"1", "part of the revolution"}}}};
+    const Hdf5Axis named = azimuth.with({text_label("name", {"up", "down"}, "where blade 1 is")});
     Hdf5File file = Hdf5File::create(folder / "a.h5");
     const std::vector<double> values{1, 2};
     write_array(file, "a/x", values, {azimuth}, {"m", "x"});
@@ -72,6 +72,6 @@ TEST_CASE("hdf5 axes: values that do not fill the axes, and labels that do not f
     const std::vector<double> values{1, 2};
     CHECK_THROWS_WITH(write_array(file, "x", values, {e.mode}, {"m", "x"}),
                       Catch::Contains("x: 2 values do not fill a shape of 3"));
-    const Axis wrong = e.mode.with({text_label("short", {"a"}, "too few")});
+    const Hdf5Axis wrong = e.mode.with({text_label("short", {"a"}, "too few")});
     CHECK_THROWS_WITH(write_axis(file, "g/", wrong), Catch::Contains("axis 0 has 1 values, g/mode has 3"));
 }

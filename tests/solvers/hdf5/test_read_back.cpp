@@ -67,7 +67,7 @@ TEST_CASE("read back: texts and numbers are found as they were written, and what
     if (!ReadBack::possible()) return;
     const Folder folder;
     const std::vector<std::string> table{"first", "", "G\xC3\xA4ngigkeit", " b", "\xE2\x82\xAC", "a longer one"};
-    const Axis mode = counting_axis("mode", 3, "mode", {text_label("name", {"p", "", "r"}, "name")}),
+    const Hdf5Axis mode = counting_axis("mode", 3, "mode", {text_label("name", {"p", "", "r"}, "name")}),
                side = counting_axis("side", 2, "side");
     ReadBack expected;
     {
@@ -110,7 +110,7 @@ TEST_CASE("read back: an axis without a scale, without values, or hidden by anot
                    file.attach("g/x", 0, "mode");
                }),
                Contains("axis mode has no values"));
-    const Axis mode = counting_axis("mode", 3, "mode"), other = counting_axis("other", 3, "other");
+    const Hdf5Axis mode = counting_axis("mode", 3, "mode"), other = counting_axis("other", 3, "other");
     CHECK_THAT(said_if([&](Hdf5File& file) {
                    write_array(file, "x", values, {mode}, {"m", "x"});
                    write_array(file, "g/mode", values, {other}, {"m", "mode"});

@@ -32,7 +32,11 @@ private:
         EngineeringSection section;
         section.mass = 900, section.EI_flap = section.EI_edge = EI;
         d.tower.line = uniform_beam(height, section);
-        const Turbine bare = isolated_tower(d, {.tower_elements = elements});
+        d.tower.first_mode_damping = 0;
+        d.tower.damping = {};
+        AssemblyOptions options;
+        options.tower_beam = {.elements = elements, .torsion = false};
+        const Turbine bare = isolated_tower(d, options);
         ForceSet forces = bare.forces();
         forces.add_wrench({"top", bare.layout().tower_top, {F, Vec3::Zero()}, WrenchAxes::base});
         return bare.with_forces(forces);

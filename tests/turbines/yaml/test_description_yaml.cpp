@@ -184,7 +184,10 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
     }
     SECTION("texts with quotes, line ends, control characters; numbers of all sizes") {
         TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
-        d.name = "a \"quoted\" \\ name: # no comment\t\x01 \xC3\xA4";
+        // The last ones: next line, line and paragraph separators, which YAML folds; a byte order mark.
+        d.name =
+            "a \"quoted\" \\ name: # no comment\t\x01 \xC3\xA4 a\xC2\x85z a\xE2\x80\xA8z a\xE2\x80\xA9z \xEF\xBB\xBF "
+            "\xC2\x80";
         d.source = "1\n\n 2: x\r\n- y\n";
         d.nacelle.inertia.J << 1.0 / 3, 5e-324, -1e-300, 5e-324, 1.7976931348623157e308, 0.1, -1e-300, 0.1, 2.0 / 7;
         d.blade.damping.time_constants = {0.1, 1e-17, 3, 0, 1.0 / 3, 2};

@@ -5,8 +5,10 @@
 #include "mbs/base/error.hpp"
 #include "turbines/model/detail/description_fields.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
+#include <string_view>
 
 namespace cardan::turbines {
 
@@ -19,19 +21,41 @@ inline std::string digits(double value, const std::string& where, bool or_infini
     return std::string(buffer.data(), end);
 }
 
-inline std::string quoted(const std::string& words) {
+// What YAML folds as a line end or does not take as it is, in UTF-8, and its escape; C2 80 ... C2 9F apart.
+struct Escape {
+    std::string_view bytes, text;
+};
+inline constexpr std::array<Escape, 7> escapes{{{"\"", "\\\""},
+                                                {"\\", "\\\\"},
+                                                {"\n", "\\n"},
+                                                {"\xE2\x80\xA8", "\\L"},
+                                                {"\xE2\x80\xA9", "\\P"},
+                                                {"\xEF\xBB\xBF", "\\uFEFF"},
+                                                {"\xEF\xBF\xBE", "\\uFFFE"}}};
+
+inline std::string quoted(const std::string& text) {
     constexpr auto hex = "0123456789abcdef";
+    std::string_view words = text;
     std::string out = "\"";
-    for (char c : words) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            out += std::string("\\") + c;
-        else if (c == '\n')
-            out += "\\n";
-        else if (byte < 0x20 || byte == 0x7F)
-            out += std::string("\\x") + hex[byte >> 4] + hex[byte & 15];
-        else
-            out += c;
+    const auto number = [&](unsigned char byte) { out += std::string("\\x") + hex[byte >> 4] + hex[byte & 15]; };
+    while (!words.empty()) {
+        const auto* const escape =
+            std::ranges::find_if(escapes, [&](const Escape& e) { return words.starts_with(e.bytes); });
+        const auto first = static_cast<unsigned char>(words[0]),
+                   second = static_cast<unsigned char>(words.size() > 1 ? words[1] : '\0');
+        std::size_t taken = 1;
+        if (escape != escapes.end()) {
+            out += escape->text;
+            taken = escape->bytes.size();
+        } else if (first < 0x20 || first == 0x7F) {
+            number(first);
+        } else if (first == 0xC2 && second >= 0x80 && second < 0xA0) {  // further control characters
+            number(second);
+            taken = 2;
+        } else {
+            out += words[0];
+        }
+        words.remove_prefix(taken);
     }
     return out + "\"";
 }
