@@ -106,8 +106,8 @@ TEST_CASE("load over time: a half sine by rows comes closer with the square of t
         }
         errors.push_back(worst);
     }
-    // The chord of a sine is too low by up to (pi / rows)^2 / 8 of its height, on one side: at most twice that in static
-    // deflection.
+    // The chord of a sine is too low by up to (pi / rows)^2 / 8 of its height, on one side: at most twice that in
+    // static deflection.
     CHECK(errors[2] < 2 * std::pow(pi / 32, 2) / 8 * F / stiffness);
     CHECK(observed_order(errors[0], errors[1]) == Approx(2).margin(0.1));
     CHECK(observed_order(errors[1], errors[2]) == Approx(2).margin(0.1));

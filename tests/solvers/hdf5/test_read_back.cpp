@@ -68,7 +68,7 @@ TEST_CASE("read back: texts and numbers are found as they were written, and what
     const Folder folder;
     const std::vector<std::string> table{"first", "", "G\xC3\xA4ngigkeit", " b", "\xE2\x82\xAC", "a longer one"};
     const Hdf5Axis mode = counting_axis("mode", 3, "mode", {text_label("name", {"p", "", "r"}, "name")}),
-               side = counting_axis("side", 2, "side");
+                   side = counting_axis("side", 2, "side");
     ReadBack expected;
     {
         Hdf5File file = Hdf5File::create(folder / "a.h5");
