@@ -80,10 +80,11 @@ void print_file(const solvers::Hdf5File& file) {
         if (file.has_attribute("/", name))
             if (const std::string value = file.string_attribute("/", name); !value.empty())
                 std::cout << std::left << std::setw(15) << name << " " << value << "\n";
-    for (const char* names : {"branches/name", "states/name", "inputs/name", "outputs/name"}) {
-        if (!file.has(names)) continue;
-        const std::vector<std::string> all = file.read_strings(names);
-        std::cout << std::string(names, std::string(names).find('/')) << " (" << all.size() << ")\n";
+    for (const std::string& names :
+         std::vector<std::string>{"branches", "model/states", "model/inputs", "model/outputs"}) {
+        if (!file.has(names + "/name")) continue;
+        const std::vector<std::string> all = file.read_strings(names + "/name");
+        std::cout << names.substr(names.find('/') + 1) << " (" << all.size() << ")\n";
         for (const std::string& name : all) std::cout << "  " << name << "\n";
     }
 }
