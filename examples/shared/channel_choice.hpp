@@ -2,13 +2,12 @@
 /// Which channels a machine has beside the usual ones, and which of them tables and pictures show without being asked.
 #pragma once
 
-#include "mbs/base/error.hpp"
 #include "solvers/pictures/history.hpp"
 #include "turbines/model/station_channels.hpp"
 
 #include "examples/shared/command_line.hpp"
+#include "examples/shared/words.hpp"
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <vector>
 
@@ -30,15 +29,9 @@ inline void add_station_options(CommandLine& app, StationOptions& options) {
 /// "5,10.5"; empty: none.  @throws InputError naming the option
 inline std::vector<double> places(const char* option, const std::string& given) {
     std::vector<double> all;
-    const char* const end = given.data() + given.size();
-    for (const char* at = given.data(); at < end;) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || (next != end && *next != ',') || next + 1 == end)
-            throw InputError(option, "value", given, "numbers separated by commas, m");
-        all.push_back(value);
-        at = next == end ? end : next + 1;
-    }
+    if (given.empty()) return all;
+    for (const std::string& word : split(given, ','))
+        all.push_back(number(option, given, word, "numbers separated by commas, m"));
     return all;
 }
 
@@ -81,13 +74,7 @@ inline std::vector<std::string> main_channels(const turbines::MachineLayout& lay
 
 /// "TTDspFA+TTDspSS" as one panel.
 inline solvers::HistoryPanel panel_of(const std::string& joined) {
-    solvers::HistoryPanel panel;
-    for (std::size_t at = 0; at <= joined.size();) {
-        const std::size_t plus = std::min(joined.find('+', at), joined.size());
-        panel.channels.push_back(joined.substr(at, plus - at));
-        at = plus + 1;
-    }
-    return panel;
+    return {split(joined, '+')};
 }
 
 /// Of the first blade that is there.

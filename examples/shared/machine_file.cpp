@@ -3,20 +3,15 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/oc3_hywind.hpp"
-#include "turbines/machines/teetered.hpp"
-#include "turbines/machines/wt600_operation.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/openfast.hpp"
 #include "turbines/yaml/description.hpp"
 #include "turbines/yaml/foundation.hpp"
 #include "turbines/yaml/windio.hpp"
 
+#include "examples/shared/built_in_machines.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/run_record.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -26,74 +21,6 @@
 namespace cardan::program {
 
 namespace {
-
-// Directions that stay free in a machine as its own programs have it.
-enum class Beams : std::uint8_t { as_they_are, without_torsion };
-
-// As a table, so that the file of a result holds what was computed.
-BeamLine as_table(const BeamLine& line, Beams beams) {
-    const turbines::BeamTable* own = turbines::table_of(line);
-    turbines::BeamTable table = own != nullptr ? *own : turbines::sampled(line);
-    if (beams == Beams::without_torsion)
-        for (EngineeringSection& section : table.sections)
-            section.GJ = section.EA = std::numeric_limits<double>::infinity();
-    return turbines::beam_line(table);
-}
-
-MachineFile built_in(turbines::TurbineDescription d, double rotor_speed, Beams blades = Beams::as_they_are,
-                     Beams tower = Beams::as_they_are) {
-    MachineFile machine;
-    d.blade.line = as_table(d.blade.line, blades);
-    d.tower.line = as_table(d.tower.line, tower);
-    machine.file.yaw_drive = d.yaw.rotation;
-    machine.file.dofs.generator = d.drive_train.spin == CoordinateRole::free;
-    machine.file.description = std::move(d);
-    machine.file.rotor_speed = rotor_speed;
-    return machine;
-}
-
-MachineFile wt600_machine() {
-    return built_in(turbines::wt600_description(), turbines::wt600_rated_speed());
-}
-
-MachineFile teetered_machine() {
-    const turbines::TurbineDescription description = turbines::teetered_description();
-    return built_in(description, description.rotor_speed);
-}
-
-MachineFile nrel5mw_as(turbines::Nrel5mwVariant variant) {
-    constexpr double rated = 12.1;  // rpm, Table 1-1 of the report
-    using turbines::Nrel5mwVariant;
-    return built_in(turbines::nrel5mw_description(turbines::nrel5mw_options(variant)), rated * units::rpm,
-                    variant == Nrel5mwVariant::fast ? Beams::without_torsion : Beams::as_they_are,
-                    variant == Nrel5mwVariant::report ? Beams::as_they_are : Beams::without_torsion);
-}
-
-MachineFile nrel5mw_spar() {
-    const turbines::TurbineDescription description = turbines::nrel5mw_oc3_hywind_description();
-    return built_in(description, description.rotor_speed);
-}
-
-struct BuiltIn {
-    const char *name, *about;
-    MachineFile (*machine)();
-};
-
-using turbines::Nrel5mwVariant;
-constexpr std::array machines{
-    BuiltIn{"wt600", "600 kW, three blades", wt600_machine},
-    BuiltIn{"teetered", "two blades on a teetered hub, downwind, free to yaw", teetered_machine},
-    BuiltIn{"nrel5mw", "NREL 5 MW, three blades, as in its report", [] { return nrel5mw_as(Nrel5mwVariant::report); }},
-    BuiltIn{"nrel5mw-fast", "likewise, as modelled in ElastoDyn", [] { return nrel5mw_as(Nrel5mwVariant::fast); }},
-    BuiltIn{"nrel5mw-beamdyn", "likewise, with the blades of BeamDyn",
-            [] { return nrel5mw_as(Nrel5mwVariant::beamdyn); }},
-    BuiltIn{"nrel5mw-spar", "likewise, afloat on the OC3-Hywind spar; with --gravity", nrel5mw_spar}};
-
-std::string names() {
-    std::string all;
-    for (const BuiltIn& one : machines) all += text(all.empty() ? "" : ", ", one.name);
-    return all;
-}
 
 void refuse(const std::vector<turbines::ModelAddition>& additions) {
     if (!additions.empty())
@@ -128,28 +55,15 @@ bool is_word(const std::filesystem::path& path) {
     return !path.has_parent_path() && !path.has_extension() && !std::filesystem::exists(path, error);
 }
 
-// What a description says of how it runs.
-MachineFile of_description(turbines::TurbineDescription description, MachineKind kind) {
-    MachineFile machine;
-    machine.kind = kind;
-    turbines::TurbineFile& file = machine.file;
-    file.rotor_speed = description.rotor_speed;
-    file.yaw_drive = description.yaw.rotation;
-    file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
-    file.dofs.tower_fore_aft = file.dofs.tower_side_side = !description.tower.rigid;
-    file.description = std::move(description);
-    return machine;
-}
-
 MachineFile read_file(const std::filesystem::path& path, const std::vector<turbines::ModelAddition>& additions) {
     MachineFile machine;
     if (is_result(path)) {
-        machine = of_description(turbines::parse_description(machine_text(path), path.string()), MachineKind::result);
+        machine = machine_of(turbines::parse_description(machine_text(path), path.string()), MachineKind::result);
     } else if (!is_yaml(path)) {
         machine.kind = MachineKind::openfast;
         machine.file = turbines::read_openfast(path);
     } else if (turbines::is_description(text_file(path))) {
-        machine = of_description(turbines::read_description(path), MachineKind::description);
+        machine = machine_of(turbines::read_description(path), MachineKind::description);
     } else {
         machine.kind = MachineKind::windio;
         machine.file = turbines::read_windio(path, additions);
@@ -251,28 +165,37 @@ void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::As
 
 }  // namespace
 
+MachineFile machine_of(turbines::TurbineDescription description, MachineKind kind) {
+    MachineFile machine;
+    machine.kind = kind;
+    turbines::TurbineFile& file = machine.file;
+    file.rotor_speed = description.rotor_speed;
+    file.yaw_drive = description.yaw.rotation;
+    file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
+    file.dofs.tower_fore_aft = file.dofs.tower_side_side = !description.tower.rigid;
+    file.description = std::move(description);
+    return machine;
+}
+
 bool is_yaml(const std::filesystem::path& path) {
     const std::string ending = lower_case(path.extension().string());
     return ending == ".yaml" || ending == ".yml";
 }
 
 std::string machine_help() {
-    std::string help =
-        "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own, .h5 of a result), or one "
-        "of:\n";
-    for (const BuiltIn& one : machines)
-        help += text("  ", one.name, std::string(18 - std::string(one.name).size(), ' '), one.about, "\n");
-    return help;
+    return "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own, .h5 of a result), or "
+           "one "
+           "of:\n" +
+           built_in_help();
 }
 
 MachineFile read_machine(const std::string& machine, const std::vector<turbines::ModelAddition>& additions) {
-    for (const BuiltIn& one : machines)
-        if (machine == one.name) {
-            refuse(additions);
-            return one.machine();
-        }
+    if (std::optional<MachineFile> built_in = built_in_machine(machine)) {
+        refuse(additions);
+        return *std::move(built_in);
+    }
     const std::filesystem::path path(machine);
-    if (is_word(path)) throw InputError("machine", "name", machine, text(names(), ", or a file"));
+    if (is_word(path)) throw InputError("machine", "name", machine, text(built_in_names(), ", or a file"));
     return read_file(path, additions);
 }
 

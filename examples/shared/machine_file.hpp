@@ -30,6 +30,9 @@ struct MachineFile {
     MachineKind kind = MachineKind::built_in;
 };
 
+/// A description, with what it says of how it runs.
+MachineFile machine_of(turbines::TurbineDescription description, MachineKind kind);
+
 /// What may be given as a machine, with the names of the built-in ones: for the help of a program.
 std::string machine_help();
 

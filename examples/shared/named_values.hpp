@@ -2,24 +2,13 @@
 /// Options such as --q elbow=0.5: numbers by name, or one number for all.
 #pragma once
 
-#include "mbs/base/error.hpp"
 #include "mbs/model/coordinates.hpp"
 
-#include <charconv>
-#include <cmath>
+#include "examples/shared/words.hpp"
 #include <string>
 #include <vector>
 
 namespace cardan::program {
-
-/// A finite number, all of the text.
-inline double number(const char* option, const std::string& given, const std::string& word, const char* allowed) {
-    double value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [at, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || at != end || !std::isfinite(value)) throw InputError(option, "value", given, allowed);
-    return value;
-}
 
 /// The values of all coordinates: `initial`, changed in turn by "name=value" or, if `for_all`, by "value" alone.
 /// @throws InputError naming the option

@@ -58,7 +58,7 @@ private:
         if (!(value > 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: > 0"));
         return value;
     }
-    double not_negative(const char* keyword) {
+    double not_negative(std::string_view keyword) {
         const double value = file_.number(keyword);
         if (!(value >= 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: >= 0"));
         return value;
@@ -258,9 +258,7 @@ private:
     double tip_mass(int k) {
         const std::string keyword = numbered("TipMass", k);
         if (!file_.has(keyword)) return k == 1 ? 0 : d_.blade.tip_mass;
-        const double value = file_.number(keyword);
-        if (!(value >= 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: >= 0"));
-        return value;
+        return not_negative(keyword);
     }
 
     void note_blade(int k) {

@@ -1,6 +1,7 @@
 #include "turbines/readers/turbine_file.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 
 #include <algorithm>
 
@@ -24,12 +25,13 @@ std::string refused(TurbineDescription machine, bool unusual) {
 
 double pitch_at(const std::vector<PitchAt>& schedule, double rotor_speed) {
     if (schedule.empty()) throw InputError("schedule of the pitch", "entries", 0, "at least one");
-    const auto after = std::ranges::upper_bound(schedule, rotor_speed, {}, &PitchAt::rotor_speed);
-    if (after == schedule.begin()) return schedule.front().pitch;
-    if (after == schedule.end()) return schedule.back().pitch;
-    const PitchAt &low = *(after - 1), &high = *after;
-    return low.pitch +
-           (high.pitch - low.pitch) * (rotor_speed - low.rotor_speed) / (high.rotor_speed - low.rotor_speed);
+    if (schedule.size() == 1) return schedule.front().pitch;
+    std::vector<double> speeds, angles;
+    for (const PitchAt& one : schedule) {
+        speeds.push_back(one.rotor_speed);
+        angles.push_back(one.pitch);
+    }
+    return place_among(speeds, std::clamp(rotor_speed, speeds.front(), speeds.back())).of(angles);
 }
 
 void admit_unusual(TurbineFile& file, const std::string& name) {

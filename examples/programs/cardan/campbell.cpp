@@ -12,8 +12,8 @@
 #include "examples/programs/campbell_program.hpp"
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
+#include "examples/shared/words.hpp"
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
 
@@ -57,23 +57,16 @@ std::vector<double> speeds_of(CampbellArguments& a, const turbines::TurbineFile&
 
 // "0:4,7.5:1" to rad/s and rad.
 std::vector<turbines::PitchAt> parse_schedule(const std::string& given) {
+    constexpr auto option = "--pitch-schedule", allowed = "RPM:DEG separated by commas, speeds increasing";
     std::vector<turbines::PitchAt> schedule;
-    const auto refuse = [&] {
-        throw InputError("--pitch-schedule", "value", given, "RPM:DEG separated by commas, speeds increasing");
-    };
-    for (std::size_t at = 0; at <= given.size();) {
-        const std::size_t comma = std::min(given.find(',', at), given.size()), colon = given.find(':', at);
-        if (colon == std::string::npos || colon > comma) refuse();
-        double rpm = 0, pitch = 0;
-        const char* const from = given.data();
-        const auto speed = std::from_chars(from + at, from + colon, rpm);
-        const auto angle = std::from_chars(from + colon + 1, from + comma, pitch);
-        if (speed.ec != std::errc() || speed.ptr != from + colon || angle.ec != std::errc() ||
-            angle.ptr != from + comma)
-            refuse();
-        schedule.push_back({rpm * units::rpm, pitch * units::degree});
-        if (schedule.size() > 1 && !(rpm * units::rpm > schedule[schedule.size() - 2].rotor_speed)) refuse();
-        at = comma + 1;
+    for (const std::string& word : split(given, ',')) {
+        const std::vector<std::string> pair = split(word, ':');
+        if (pair.size() != 2) throw InputError(option, "value", given, allowed);
+        const double speed = number(option, given, pair[0], allowed) * units::rpm,
+                     pitch = number(option, given, pair[1], allowed) * units::degree;
+        if (!schedule.empty() && !(speed > schedule.back().rotor_speed))
+            throw InputError(option, "value", given, allowed);
+        schedule.push_back({speed, pitch});
     }
     return schedule;
 }
@@ -129,10 +122,6 @@ solvers::Campbell diagram_of(const MachineFile& machine, const CampbellArguments
     return solvers::campbell(cases, "", options);
 }
 
-std::string title(const solvers::Campbell& diagram) {
-    return diagram.remark.empty() ? diagram.machine : text(diagram.machine, ", ", diagram.remark);
-}
-
 int run(CampbellArguments& a, const CommandLine& command) {
     const MachineFile machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell");
@@ -145,17 +134,15 @@ int run(CampbellArguments& a, const CommandLine& command) {
     check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
     solvers::CampbellOptions options = campbell_options(*a.max_frequency);
     options.method = diagram_method(machine, a.machine);
-    options.spin = machine.file.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+    options.spin = rotor_spin(machine);
     solvers::Campbell diagram = diagram_of(machine, a, ready.turbine, speeds, pitch, options);
     stop_at_once();
-    diagram.remark = foundation_in_words(machine);
-    diagram.accuracy = in_words(ready.mesh);
-    diagram.source = run_text("campbell", command) + diagram.source;
+    tell_origin(diagram, machine, ready, run_text("campbell", command));
     print_table(diagram);
     if (diagram.points.empty()) return 130;
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = *a.max_frequency;
-    picture.title = title(diagram);
+    picture.title = title_of(diagram);
     write_files(diagram, a.out, picture);
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png\n";
     return diagram.complete ? 0 : 130;

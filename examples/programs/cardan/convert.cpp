@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "turbines/model/description_text.hpp"
 
@@ -37,13 +38,8 @@ void declare(CommandLine& app, ConvertArguments& a) {
     app.footer(text("\n", machine_help()));
 }
 
-// A header field in quotes if it has to be.
 std::string field(const std::string& name, const std::string& units) {
-    std::string plain = name + "[" + (units == "1" ? "-" : units) + "]";
-    if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
-    std::string quoted = "\"";
-    for (const char c : plain) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
+    return solvers::csv_field(name + "[" + (units == "1" ? "-" : units) + "]");
 }
 
 void write_rows(std::ostream& out, const solvers::History& history) {

@@ -190,8 +190,7 @@ int run(LineariseArguments& a, const CommandLine& command) {
     std::printf("%s\n", in_words(ready.mesh).c_str());
     check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
 
-    const solvers::RotorSpin spin =
-        machine.file.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+    const solvers::RotorSpin spin = rotor_spin(machine);
     solvers::LinearModel model = linearise(turbine, a.model, speed, spin,
                                            a.machine.gravity ? LinearisedAbout::periodic : LinearisedAbout::automatic);
     model.description = run_text("linearise", command) + model.description;

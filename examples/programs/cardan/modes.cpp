@@ -78,13 +78,11 @@ int run(ModesArguments& a, const CommandLine& command) {
     solvers::CampbellOptions options = campbell_options(*a.max_frequency);
     options.progress = {};
     options.method = diagram_method(machine, a.machine);
-    options.spin = machine.file.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+    options.spin = rotor_spin(machine);
     solvers::Campbell diagram = solvers::campbell(ready.turbine.system(), ready.turbine.rotor(), {speed}, options);
     stop_at_once();
     if (diagram.points.empty()) return 130;
-    diagram.remark = foundation_in_words(machine);
-    diagram.accuracy = in_words(ready.mesh);
-    diagram.source = run_text("modes", command) + diagram.source;
+    tell_origin(diagram, machine, ready, run_text("modes", command));
     print(diagram);
     solvers::write_hdf5(diagram, a.out + ".h5");
     solvers::write_csv(diagram, a.out + ".csv");

@@ -37,6 +37,21 @@ solvers::CampbellMethod diagram_method(const MachineFile& machine, const Machine
                : solvers::CampbellMethod::automatic;
 }
 
+solvers::RotorSpin rotor_spin(const MachineFile& machine) {
+    return machine.file.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+}
+
+void tell_origin(solvers::Campbell& diagram, const MachineFile& machine, const ReadyMachine& ready,
+                 const std::string& run) {
+    diagram.remark = foundation_in_words(machine);
+    diagram.accuracy = in_words(ready.mesh);
+    diagram.source = run + diagram.source;
+}
+
+std::string title_of(const solvers::Campbell& diagram) {
+    return diagram.remark.empty() ? diagram.machine : text(diagram.machine, ", ", diagram.remark);
+}
+
 std::string default_prefix(const std::string& machine, const char* what) {
     return std::filesystem::path(machine).stem().string() + "_" + what;
 }

@@ -19,6 +19,17 @@ void set_pitch(const MachineFile& machine, MachineOptions& options, double rotor
 /// approximation that serves them. Else what suits.
 solvers::CampbellMethod diagram_method(const MachineFile& machine, const MachineOptions& options);
 
+/// Free, or prescribed where the generator is locked.
+solvers::RotorSpin rotor_spin(const MachineFile& machine);
+
+/// Puts into a diagram what it holds for, how accurate it is, and by which command it was made.
+/// @param run  run_text()
+void tell_origin(solvers::Campbell& diagram, const MachineFile& machine, const ReadyMachine& ready,
+                 const std::string& run);
+
+/// Of a picture: the machine, and what the diagram holds for.
+std::string title_of(const solvers::Campbell& diagram);
+
 /// The name of the machine's file without its ending, and what was made of it: "NREL-5MW_campbell".
 std::string default_prefix(const std::string& machine, const char* what);
 

@@ -13,6 +13,7 @@
 #include "turbines/readers/csv.hpp"
 
 #include "examples/programs/cardan/commands.hpp"
+#include "examples/programs/cardan/operation.hpp"
 #include "examples/shared/history_parts.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/run_record.hpp"
@@ -239,9 +240,7 @@ int draw_diagram(const PlotArguments& a) {
     check_outputs(a.out, {".svg"});
     solvers::CampbellPlotOptions options;
     options.max_frequency_hz = a.max_frequency;
-    options.title = !a.title.empty()         ? a.title
-                    : diagram.remark.empty() ? diagram.machine
-                                             : text(diagram.machine, ", ", diagram.remark);
+    options.title = a.title.empty() ? title_of(diagram) : a.title;
     draw(a, "", text("Campbell diagram, ", diagram.branches.size(), " modes"),
          [&](const std::string& path) { solvers::plot(diagram, path, options); });
     return 0;

@@ -1,0 +1,35 @@
+/// @file
+/// Words of options: numbers, lists with separators.
+#pragma once
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace cardan::program {
+
+/// A finite number, all of the text.
+inline double number(const char* option, const std::string& given, const std::string& word, const char* allowed) {
+    double value = 0;
+    const char* const end = word.data() + word.size();
+    const auto [at, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || at != end || !std::isfinite(value)) throw InputError(option, "value", given, allowed);
+    return value;
+}
+
+/// What stands between separators, empty words included; at least one.
+inline std::vector<std::string> split(const std::string& joined, char separator) {
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at <= joined.size();) {
+        const std::size_t end = std::min(joined.find(separator, at), joined.size());
+        words.push_back(joined.substr(at, end - at));
+        at = end + 1;
+    }
+    return words;
+}
+
+}  // namespace cardan::program
