@@ -47,12 +47,27 @@ hid_t registered() {
     return id;
 }
 
+/// Limits HDF5's cache of metadata, which by itself grows from 2 to 32 MiB and would let a long run take more memory
+/// the longer it gets. 64 KiB is least at which no growth was seen over 4e6 steps.
+inline bool limit_metadata_cache(hid_t access_list) {
+    constexpr std::size_t most = 64 * 1024;
+    H5AC_cache_config_t config{};
+    config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+    if (H5Pget_mdc_config(access_list, &config) < 0) return false;
+    config.set_initial_size = true;
+    config.initial_size = most;
+    config.max_size = most;
+    config.min_size = most / 2;
+    return H5Pset_mdc_config(access_list, &config) >= 0;
+}
+
 /// File access list that carries `access` to Driver::open(). Its files have the format of HDF5 1.8.
 template <class Driver>
 Handle access_through(const typename Driver::Access& access) {
     Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    if (list.valid() && (H5Pset_driver(list.get(), registered<Driver>(), &access) < 0 ||
-                         H5Pset_libver_bounds(list.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0))
+    if (list.valid() &&
+        (H5Pset_driver(list.get(), registered<Driver>(), &access) < 0 ||
+         H5Pset_libver_bounds(list.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || !limit_metadata_cache(list.get())))
         list.close();
     return list;
 }
