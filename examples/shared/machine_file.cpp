@@ -267,14 +267,15 @@ void set_foundation(const std::string& file, turbines::TurbineFile& model) {
 
 // What the model's tower stands on, where it is left out.
 bool is_clamped(const MachineFile& machine) {
-    return !machine.file.foundation.name.empty() && !machine.file.description.platform;
+    const turbines::TurbineDescription& d = machine.file.description;
+    return !d.missing_foundation.name.empty() && !d.platform;
 }
 
 }  // namespace
 
 std::string foundation_in_words(const MachineFile& machine) {
-    const turbines::FileFoundation& f = machine.file.foundation;
-    return is_clamped(machine) ? text("tower clamped at its foot, ", f.name, " left out") : "";
+    const std::string& name = machine.file.description.missing_foundation.name;
+    return is_clamped(machine) ? text("tower clamped at its foot, ", name, " left out") : "";
 }
 
 MachineFile prepared_machine(MachineOptions& options) {
@@ -286,10 +287,11 @@ MachineFile prepared_machine(MachineOptions& options) {
     if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(model);
     tell_dofs(model, options);
     std::cout << "degrees of freedom: " << dofs_in_words(model) << "\n";
-    if (is_clamped(machine))
-        std::cout << "foundation: the " << model.foundation.name
-                  << " of the model is left out, and the tower clamped at its foot, " << model.foundation.where
-                  << "; --foundation FILE gives it springs\n";
+    if (is_clamped(machine)) {
+        const auto& [name, where] = model.description.missing_foundation;
+        std::cout << "foundation: the " << name << " of the model is left out, and the tower clamped at its foot, "
+                  << where << "; --foundation FILE gives it springs\n";
+    }
     if (options.generator_inertia != 0) model.description.drive_train.generator_inertia = options.generator_inertia;
     return machine;
 }

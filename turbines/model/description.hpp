@@ -103,6 +103,13 @@ struct BladeDescription {
     BeamDamping damping = {};  ///< in its place or beside it
 };
 
+/// What the tower stands on in the source of a description that does not hold it: the tower is clamped at its foot
+/// unless the description gets a platform.
+struct MissingFoundation {
+    std::string name;   ///< "floating platform", "substructure"; empty: nothing is missing
+    std::string where;  ///< the foot of the tower is, with the source: "10 m above the water (TowerBsHt)"
+};
+
 struct TurbineDescription {
     std::string name;
     std::string source;      ///< the text it was read from; kept with every result
@@ -118,6 +125,7 @@ struct TurbineDescription {
     std::map<int, std::optional<BladeDescription>> own_blades = {};
     /// What the tower stands on, prescribed or free: a floating platform, a shaking table; none: fixed to the ground.
     std::optional<PlatformDescription> platform = std::nullopt;
+    MissingFoundation missing_foundation = {};
 
     /// Angles and ratios outside the ranges of machines are meant so, not degrees or per cent.
     bool unusual = false;

@@ -81,7 +81,7 @@ private:
         const double top = file_.number("TowerHt"), base = file_.number("TowerBsHt");
         if (!(top > base)) file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above TowerBsHt = ", base));
         if (base != 0) file_.note("TowerBsHt", "the origin of the ground axes is the foot of the tower here");
-        out_.foundation.where = text(base, " m above the ground or the still water (TowerBsHt)");
+        d_.missing_foundation.where = text(base, " m above the ground or the still water (TowerBsHt)");
         const std::filesystem::path path = file_.path("TwrFile");
         ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
         d_.tower.line = tower.line;
@@ -292,7 +292,7 @@ private:
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
             if (file_.flag_or(keyword, false)) {
                 file_.note(keyword, "the tower is clamped at its foot; see TurbineDescription::platform");
-                out_.foundation.name = "floating platform";
+                d_.missing_foundation.name = "floating platform";
             }
         if (file_.flag_or("PitchDOF", false)) file_.note("PitchDOF", "the pitch bearings are rigid");
         if (file_.flag_or("Furling", false)) file_.note("Furling", "furling is not part of the model");

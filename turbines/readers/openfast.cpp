@@ -47,7 +47,7 @@ void read_blades(OpenFastFile& main, const std::filesystem::path& elastodyn, Ela
 }
 
 // SubDyn's structure has ElastoDyn's degrees of freedom of a platform as well.
-std::string foundation(OpenFastFile& main, const std::string& of_elastodyn) {
+std::string missing_foundation(OpenFastFile& main, const std::string& of_elastodyn) {
     if (main.number_or("CompSub", 0) != 0) return "substructure";
     if (main.number_or("CompMooring", 0) != 0) return "floating platform";
     if (!of_elastodyn.empty()) return of_elastodyn;
@@ -89,7 +89,8 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     if (kind == 2) read_blades(main, elastodyn, context);
     TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
     out.description.name = main.machine_name();
-    out.foundation.name = foundation(main, out.foundation.name);
+    std::string& foundation = out.description.missing_foundation.name;
+    foundation = missing_foundation(main, foundation);
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
         main.note_unless(keyword, 0,
                          "what the tower stands on is not part of the description; it is clamped at its foot");

@@ -30,12 +30,6 @@ struct FileDofs {
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
 };
 
-/// What the tower stands on in the files where the description does not hold it: here the tower is clamped at its foot.
-struct FileFoundation {
-    std::string name;   ///< "floating platform", "substructure"; empty: there is nothing but the ground
-    std::string where;  ///< the foot of the tower is, with the source: "10 m above the water (TowerBsHt)"
-};
-
 /// How the blades are set at a rotor speed below or at the rated one.
 struct PitchAt {
     double rotor_speed = 0;  ///< rad/s
@@ -59,7 +53,6 @@ struct TurbineFile {
     std::string pitch_source;        ///< where it is from; empty: not given in the files
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
-    FileFoundation foundation = {};
 };
 
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule

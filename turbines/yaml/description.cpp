@@ -201,6 +201,10 @@ public:
     void since(int version, const Content& content) {
         if (version_ >= version) content();
     }
+    template <class Content>
+    void group_if(bool /*given*/, const char* key, const Content& content) {
+        if (at().find(key)) group(key, content);
+    }
     template <class T, class Content>
     void optional_group(const char* key, std::optional<T>& value, const Content& content) {
         if (at().find(key)) group(key, [&] { content(value.emplace()); });

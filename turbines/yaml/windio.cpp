@@ -186,12 +186,12 @@ private:
     }
     // What the tower stands on is not read: its name is.
     void read_foundation() {
-        out_.foundation.where = "at the lower end of its reference axis";
+        d_.missing_foundation.where = "at the lower end of its reference axis";
         const auto components = file_.find({"components"});
         if (!components) return;
         for (const std::string& key : components->keys())
             for (const char* name : {"floating_platform", "monopile", "jacket"})
-                if (key == name) out_.foundation.name = key == "floating_platform" ? "floating platform" : key;
+                if (key == name) d_.missing_foundation.name = key == "floating_platform" ? "floating platform" : key;
     }
     // Cone and tilt, in rad.
     double small_angle(const YamlNode& node) const {

@@ -5,6 +5,8 @@
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "tests/support/catch.hpp"
 #include "turbines/machines/wt600.hpp"
+#include "turbines/model/description_text.hpp"
+#include "turbines/yaml/description.hpp"
 #include "turbines/yaml/foundation.hpp"
 
 #include <algorithm>
@@ -89,6 +91,15 @@ TEST_CASE("foundation: other keys, sizes and matrices that are not symmetric are
     const std::string coupled = with(two, "[0, 0, 4.0e8, 0, 0, 0]", "[0, 3.0e8, 4.0e8, 0, 0, 0]");
     refused(with(coupled, "[0, 1.0e8, 0, 0", "[0, 1.0e8, 3.0e8, 0"), {"lowest eigenvalue", "> 0"});
     refused("stiffness:\n- [1, 2]\n", {"f.yaml", "1 rows; allowed: 6"});
+}
+
+TEST_CASE("foundation: one that a description does not hold is known by its name in YAML too", "[property]") {
+    TurbineDescription d = wt600_description();
+    CHECK_THAT(description_text(d), !Catch::Contains("missing_foundation"));
+    d.missing_foundation = {"floating platform", "10 m above the still water"};
+    const TurbineDescription again = parse_description(description_text(d), "own");
+    CHECK(again.missing_foundation.name == d.missing_foundation.name);
+    CHECK(again.missing_foundation.where == d.missing_foundation.where);
 }
 
 }  // namespace cardan::testing::foundations

@@ -129,6 +129,10 @@ void description_fields(Archive& archive, Description& d) {
     archive.numbered_groups("own_blades", d.own_blades, d.blades, [&](auto& blade) { blade_fields(archive, blade); });
     archive.since(2, [&] {
         archive.optional_group("platform", d.platform, [&](auto& platform) { platform_fields(archive, platform); });
+        archive.group_if(!d.missing_foundation.name.empty(), "missing_foundation", [&] {
+            archive.word("name", d.missing_foundation.name);
+            archive.word("where", d.missing_foundation.where);
+        });
     });
 }
 

@@ -145,6 +145,10 @@ public:
     void since(int /*version*/, const Content& content) {
         content();
     }
+    template <class Content>
+    void group_if(bool given, const char* key, const Content& content) {
+        if (given) group(key, content);
+    }
     template <class T, class Content>
     void optional_group(const char* key, const std::optional<T>& value, const Content& content) {
         if (value) group(key, [&] { content(*value); });
