@@ -229,8 +229,8 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
 /// "Coleman (fixed frame)", "Floquet (principal frequencies, fixed frame); chosen: the blades differ"
 std::string method_in_words(const Campbell& diagram);
 
-/// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings, for a
-/// terminal.
+/// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings in the upper
+/// half of the range, for a terminal.
 std::string table(const Campbell& diagram);
 
 }  // namespace cardan::solvers

@@ -120,6 +120,29 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
     return out.str();
 }
 
+// Those in the upper half of the range, where machines run; high multiples cross everything at low speeds.
+std::string crossings(const Campbell& diagram) {
+    if (diagram.crossings.empty()) return "";
+    const double half =
+        std::max(std::abs(diagram.points.front().rotor_speed), std::abs(diagram.points.back().rotor_speed)) / 2;
+    std::ostringstream out;
+    out << std::fixed << "\ncrossings with multiples of the rotor speed\n";
+    long lower = 0;
+    for (const Crossing& crossing : diagram.crossings) {
+        if (std::abs(crossing.rotor_speed) < half) {
+            ++lower;
+            continue;
+        }
+        out << "  " << std::setw(2) << crossing.multiple << "P at " << std::setw(6) << std::setprecision(2)
+            << crossing.rotor_speed * units::to_rpm << " rpm, " << std::setw(7) << std::setprecision(4)
+            << crossing.frequency_hz << " Hz: " << entry(diagram.branches, crossing.branch).name << "\n";
+    }
+    if (lower > 0)
+        out << "  " << lower << " more below " << std::setprecision(2) << half * units::to_rpm
+            << " rpm: in files of the diagram\n";
+    return out.str();
+}
+
 }  // namespace
 
 std::string method_in_words(const Campbell& diagram) {
@@ -156,13 +179,7 @@ std::string table(const Campbell& diagram) {
     if (!diagram.accuracy.empty()) out << diagram.accuracy << "\n";
     out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";
     if (has_blade_frequencies(diagram)) out << "modes of one blade: frequencies in its rotating frame\n";
-    if (!diagram.crossings.empty()) {
-        out << "\ncrossings with multiples of the rotor speed\n";
-        for (const Crossing& crossing : diagram.crossings)
-            out << "  " << std::setw(2) << crossing.multiple << "P at " << std::setw(6) << std::setprecision(2)
-                << crossing.rotor_speed * units::to_rpm << " rpm, " << std::setw(7) << std::setprecision(4)
-                << crossing.frequency_hz << " Hz: " << entry(diagram.branches, crossing.branch).name << "\n";
-    }
+    out << crossings(diagram);
     if (!diagram.warning.empty()) out << "\nwarning: " << diagram.warning << "\n";
     if (!diagram.complete) out << "\nthe sweep was interrupted: only the rotor speeds above were computed\n";
     return out.str();
