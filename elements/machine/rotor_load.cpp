@@ -164,7 +164,7 @@ ChannelGroup rotor_load_channels(const RotorLoad& load) {
                       {.name = load.name + " power", .units = "W", .long_name = "prescribed torque times rotor speed"},
                       {.name = "wind speed", .units = "m s-1", .long_name = "wind speed of the prescribed rotor load"}};
     group.sample = [load](const ChannelInput& in, double* values) {
-        const ForceInput at{in.time, in.q, in.qd, in.kinematics};
+        const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
         const RotorCurve::Value v = load.value(at);
         values[0] = v.torque;
         values[1] = v.thrust;

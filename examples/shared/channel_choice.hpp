@@ -54,6 +54,7 @@ inline bool has(const std::vector<Channel>& channels, const std::string& name) {
 
 inline std::vector<std::string> all_names(const std::vector<Channel>& channels) {
     std::vector<std::string> names;
+    names.reserve(channels.size());
     for (const Channel& channel : channels) names.push_back(channel.name);
     return names;
 }

@@ -27,7 +27,8 @@ struct ChannelInput {
     const Vector& actuator;  ///< generalised forces of the drives on their coordinates, N m or N
     const Kinematics& kinematics;
     const Forces& forces;
-    const JointLoads& loads;  ///< motion and joint loads of all bodies
+    const JointLoads& loads;       ///< motion and joint loads of all bodies
+    const Vector &s, &s_rate, &u;  ///< states beside the coordinates, their rates, inputs
 };
 
 /// Channels that are computed together.

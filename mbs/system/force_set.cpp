@@ -90,13 +90,26 @@ void ForceSet::add_user(UserForce force) {
     users_.push_back(std::move(force));
 }
 
+void ForceSet::add_states(StateElement element) {
+    if (!element.rates) throw InputError(text("element '", element.name, "': the function `rates` is missing"));
+    state_elements_.push_back(std::move(element));
+}
+
+void ForceSet::add_input(InputInfo input) {
+    inputs_.push_back(std::move(input));
+}
+
 void ForceSet::set_gravity(const Vec3& g) {
     if (!g.allFinite()) throw InputError("gravity", "vector [m/s^2]", g.transpose(), "finite");
     gravity_ = g;
 }
 
 Forces::Forces(const ForceSet& set, const Model& model)
-    : loads_(set.loads()), gravity_(set.gravity()), model_(model.serial()), size_(model.size()) {
+    : loads_(set.loads()),
+      states_(set.state_elements(), set.inputs(), model),
+      gravity_(set.gravity()),
+      model_(model.serial()),
+      size_(model.size()) {
     for (const UserForce& force : set.users()) users_.push_back({force});
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
@@ -181,6 +194,7 @@ Forces Forces::with_load_factor(double factor, bool gravity_too) const {
     for (FrameLoad& load : other.loads_) scale(load, factor);
     for (User& user : other.users_)
         if (!user.own.elastic) user.factor *= factor;
+    other.states_.scale(factor);
     if (gravity_too) other.gravity_ *= factor;
     return other;
 }

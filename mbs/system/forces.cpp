@@ -41,7 +41,7 @@ void difference(const UserForce& user, const ForceInput& at, MatrixOut by_q, Mat
     Workspace own(model);
     const auto force = [&](const Vector& q, const Vector& qd) {
         Vector Q = Vector::Zero(n);
-        user.force({at.time, q, qd, kinematics(model, q, own)}, Q);
+        user.force({at.time, q, qd, kinematics(model, q, own), at.s, at.u}, Q);
         return Q;
     };
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -149,8 +149,24 @@ void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT
 
 void Forces::generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                                 VectorOut Q) const {
+    require_no_states("forces");
     generalised_forces_of_elements<double>(kin, q, qd, Q, time);
-    for (const User& user : users_) add_user(user, {time, q, qd, kin}, Q);
+    add_users({time, q, qd, kin, no_states, no_states}, Q);
+}
+
+void Forces::evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const {
+    generalised_forces_of_elements<double>(at.kinematics, at.q, at.qd, Q, at.time);
+    add_users(at, Q);
+    states_.rates({at.time, at.q, at.qd, at.s, at.u}, Q, rates);
+}
+
+void Forces::require_no_states(const char* where) const {
+    if (has_states())
+        throw InputError(where, "number of states", states().size(), "0: they are not taken into account here");
+}
+
+void Forces::add_users(const ForceInput& at, VectorOut& Q) const {
+    for (const User& user : users_) add_user(user, at, Q);
 }
 
 // A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
@@ -233,8 +249,19 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
 
 void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                          ForceDerivatives& out) const {
-    require_state<double>(kin, q, qd);
-    const Eigen::Index n = q.size();
+    require_no_states("forces");
+    mechanical_derivatives({time, q, qd, kin, no_states, no_states}, out);
+}
+
+void Forces::derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const {
+    mechanical_derivatives(at, out);
+    states_.derivatives({at.time, at.q, at.qd, at.s, at.u}, out.loads, out.damping, states);
+}
+
+void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const {
+    const Kinematics& kin = at.kinematics;
+    require_state<double>(kin, at.q, at.qd);
+    const Eigen::Index n = at.q.size();
     for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
     for (const Law& law : laws_)
         for (Eigen::Index i = 0; i < law.K.rows(); ++i)
@@ -243,8 +270,8 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
                 out.damping(entry(law.at, i), entry(law.at, j)) += law.D(i, j);
             }
     if (has_gravity()) gravity_stiffness(kin, out.gravity);
-    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, time, out.loads);
-    for (const User& user : users_) user_derivatives(user, {time, q, qd, kin}, out);
+    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, at.time, out.loads);
+    for (const User& user : users_) user_derivatives(user, at, out);
 }
 
 double Forces::dissipation(const Vector& qd) const {
@@ -266,6 +293,12 @@ double Forces::gravity_energy(const Kinematics& kin) const {
 }
 
 std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    require_no_states("forces");
+    return report({time, q, qd, kin, no_states, no_states});
+}
+
+std::vector<ForceReport> Forces::report(const ForceInput& at) const {
+    const auto& [time, q, qd, kin, s, u] = at;
     require_state<double>(kin, q, qd);
     std::vector<ForceReport> reports;
     Vector Q = Vector::Zero(q.size());
@@ -292,7 +325,6 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
         reports.push_back({load.name, energy, power()});
     }
     for (const User& user : users_) {
-        const ForceInput at{time, q, qd, kin};
         VectorOut sum = Q;
         add_user(user, at, sum);
         std::optional<double> energy;
@@ -303,9 +335,18 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
 }
 
 double Forces::potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
+    require_no_states("forces");
+    return potential_energy({time, q, qd, kin, no_states, no_states});
+}
+
+double Forces::potential_energy(const ForceInput& at) const {
     double sum = 0;
-    for (const ForceReport& element : report(kin, time, q, qd)) sum += element.energy.value_or(0.0);
+    for (const ForceReport& element : report(at)) sum += element.energy.value_or(0.0);
     return sum;
+}
+
+StateEnergy Forces::state_energy(const ForceInput& at) const {
+    return states_.energy({at.time, at.q, at.qd, at.s, at.u});
 }
 
 template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/kernels/metric.hpp"
+#include "mbs/system/state_forces.hpp"
 
 #include <functional>
 #include <optional>
@@ -17,13 +18,17 @@ struct Wrench {
 /// Axes in which a wrench is constant: those of the base (dead load) or those of the frame (follower load).
 enum class WrenchAxes : std::uint8_t { base, frame };
 
-/// State handed to user forces.
+/// A motion with the states beside it and the inputs: what forces depend on.
 struct ForceInput {
     double time;
     const Vector& q;
     const Vector& qd;
     const Kinematics& kinematics;
+    const Vector& s;  ///< states, Forces::states(); for user forces to look at, not to depend on: see StateElement
+    const Vector& u;  ///< inputs, Forces::inputs()
 };
+/// Of a system without states or inputs.
+inline const Vector no_states;
 
 /// A user-defined force. Without `jacobian` its derivatives are central differences (step 1e-6, double precision),
 /// which allocate; with it the library allocates nothing.
@@ -78,18 +83,26 @@ public:
     /// Also one that changes with time: loads of channels and joints take either into account.
     void add_wrench(FrameLoad load);
     void add_user(UserForce force);
+    /// Equations of first order, and the forces that depend on their states.
+    void add_states(StateElement element);
+    /// A value that elements with states may name.
+    void add_input(InputInfo input);
     /// Gravity vector in base axes, m/s^2, e.g. (0, 0, -9.80665).
     void set_gravity(const Vec3& g);
 
     const std::vector<LinearLaw>& laws() const { return laws_; }
     const std::vector<FrameLoad>& loads() const { return loads_; }
     const std::vector<UserForce>& users() const { return users_; }
+    const std::vector<StateElement>& state_elements() const { return state_elements_; }
+    const std::vector<InputInfo>& inputs() const { return inputs_; }
     const Vec3& gravity() const { return gravity_; }
 
 private:
     std::vector<LinearLaw> laws_;
     std::vector<FrameLoad> loads_;
     std::vector<UserForce> users_;
+    std::vector<StateElement> state_elements_;
+    std::vector<InputInfo> inputs_;
     Vec3 gravity_ = Vec3::Zero();
 };
 
@@ -104,7 +117,7 @@ struct ForceReport {
 struct ForceDerivatives {
     Matrix elastic;  ///< -dQ/dq of linear laws and elastic user forces
     Matrix gravity;  ///< -dQ/dq of gravity
-    Matrix loads;    ///< -dQ/dq of wrenches and other user forces
+    Matrix loads;    ///< -dQ/dq of wrenches, other user forces and elements with states
     Matrix damping;  ///< -dQ/dqd of all
 };
 
@@ -118,7 +131,11 @@ public:
     /// Q_a, the sum over all elements.
     /// @param Q  out, size n, N m or N; overwritten; must not alias q or qd. Cost O(n d); allocates nothing unless a
     ///           user force does.
+    /// @throws InputError if there are states: evaluate()
     void generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd, VectorOut Q) const;
+    /// The same with states.
+    /// @param rates  out, of the states: ds/dt
+    void evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const;
     /// Likewise without user forces, for any scalar (tests).
     template <class S>
     void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
@@ -126,13 +143,26 @@ public:
     /// -dQ/dq and -dQ/dqd by origin.
     /// @param out  overwritten; matrices of the right size are reused. Cost O(n^2), then without allocation unless a
     ///             user force has no Jacobian.
+    /// @throws InputError if there are states
     void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                      ForceDerivatives& out) const;
+    /// The same with states.  @param states  overwritten
+    void derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const;
 
-    /// Potential energy of all elements that have one, J.
+    /// Potential energy of all elements that have one, J; that in elements with states apart, state_energy().
+    double potential_energy(const ForceInput& at) const;
     double potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
+    /// Of all elements but those with states.
     std::vector<ForceReport> report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
+    std::vector<ForceReport> report(const ForceInput& at) const;
+    /// Energy of the elements with states that tell it, without load factors.
+    StateEnergy state_energy(const ForceInput& at) const;
 
+    /// @throws InputError if there are elements with states: for analyses that do not know them
+    void require_no_states(const char* where) const;
+    bool has_states() const { return !states_.empty(); }
+    const StateTable& states() const { return states_.states(); }
+    const InputTable& inputs() const { return states_.inputs(); }
     const std::vector<FrameLoad>& loads() const { return loads_; }
     /// A load as it acts at a time: force and moment at the frame's origin, base axes.
     Wrench at_frame(const FrameLoad& load, const Kinematics& kin, double time = 0) const;
@@ -149,7 +179,8 @@ public:
     /// A copy with another gravity.  @throws InputError if it is not finite
     Forces with_gravity(const Vec3& g) const;
     /// A copy with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian and
-    /// energy) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
+    /// energy), forces of elements with states (not the rates of these) and, if `gravity_too`, gravity. Springs and
+    /// dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.
     Forces with_load_factor(double factor, bool gravity_too) const;
 
@@ -190,6 +221,8 @@ private:
     void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
     void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const;
+    void add_users(const ForceInput& at, VectorOut& Q) const;
+    void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
@@ -200,6 +233,7 @@ private:
     Runs springs_, dampers_;
     std::vector<FrameLoad> loads_;
     std::vector<User> users_;
+    StateForces states_;
     Vec3 gravity_;
     std::uint64_t model_;  ///< Model::serial()
     int size_;             ///< number of coordinates

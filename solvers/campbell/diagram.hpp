@@ -100,11 +100,19 @@ struct CampbellMode {
     std::string kind_name() const;
 };
 
+/// Motion of states of first order rather than of the machine (Mode::is_state_motion()): a lag, a current, an inflow;
+/// no vibration, even if it oscillates.
+struct StateMotion {
+    Mode mode;
+    int state = 0;  ///< of Campbell::states: the one that moves most, by its scale
+};
+
 struct CampbellPoint {
-    double rotor_speed = 0;           ///< rad/s
-    OperatingPoint at;                ///< steady state, at azimuth 0
-    std::vector<CampbellMode> modes;  ///< by natural frequency
-    /// Smallest decay rate of the modes except rigid ones, 1/s; negative: unstable. NaN where eigenvalues do not
+    double rotor_speed = 0;                       ///< rad/s
+    OperatingPoint at;                            ///< steady state, at azimuth 0
+    std::vector<CampbellMode> modes;              ///< by natural frequency
+    std::vector<StateMotion> state_motions = {};  ///< oscillating ones first, each by |eigenvalue|
+    /// Smallest decay rate of both, except rigid ones, 1/s; negative: unstable. NaN where eigenvalues do not
     /// describe motions (frozen azimuth).
     double stability_margin = std::numeric_limits<double>::quiet_NaN();
     std::optional<PeriodicSteadyState> periodic = {};  ///< where the method is `floquet` or `averaged`
@@ -154,9 +162,10 @@ struct Campbell {
     std::string method_reason;
     RotorSpin spin = RotorSpin::free;
     int blades = 0;
-    CoordinateTable coordinates;    ///< all coordinates of the model
-    std::vector<int> unknowns;      ///< model index of every row of the modes' shapes
-    std::vector<std::string> rows;  ///< their names; blade coordinates with their rotor pattern
+    CoordinateTable coordinates;           ///< all coordinates of the model
+    std::vector<int> unknowns;             ///< model index of every row of the modes' shapes
+    std::vector<std::string> rows;         ///< their names; blade coordinates with their rotor pattern
+    std::vector<std::string> states = {};  ///< of the states of first order, likewise
     std::vector<Component> components;
     std::vector<std::string> frames;    ///< names of the frames whose motions are kept
     std::vector<Vec3> frame_positions;  ///< undeformed, azimuth 0, m

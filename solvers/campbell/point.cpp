@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace cardan::solvers {
@@ -59,6 +60,7 @@ void set_stability_margin(CampbellPoint& point) {
         const double scale = std::isfinite(lowest) ? std::max(size, lowest) : size;
         growth = std::max(growth, std::abs(own) < 1e-8 * scale ? 0 : own);
     }
+    for (const StateMotion& motion : point.state_motions) growth = std::max(growth, motion.mode.eigenvalue.real());
     point.stability_margin = growth == 0 ? 0 : -growth;
 }
 
@@ -70,10 +72,10 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       plain_rows_(unknowns_.size()),
       steady_solver_(system, rotor.spin),
       lineariser_(system),
-      mode_solver_(std::ssize(unknowns_)) {
+      mode_solver_(std::ssize(unknowns_), system.forces.states().size()) {
     const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
     const bool blades = rotor.blades.size() > 1 && without_multi_blade_coordinates(rotor, unknowns_).empty();
-    if (disc || blades) coleman_.emplace(rotor, unknowns_);
+    if (disc || blades) coleman_.emplace(rotor, unknowns_, system.forces.states());
 }
 
 void PointSolver::find_steady_state(double rotor_speed) {
@@ -81,6 +83,7 @@ void PointSolver::find_steady_state(double rotor_speed) {
     steady_solver_.solve(steady_options_, steady_);
     require_result(steady_, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     steady_options_.initial = steady_.at.q;
+    steady_options_.states = steady_.at.s;
 }
 
 // At the first point: the components, and memory that it may not need itself (nothing is averaged at standstill).
@@ -129,9 +132,23 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     set_system(rotor_speed);
     point.rotor_speed = rotor_speed;
     point.at = steady_.at;
-    set_count(point.modes, mode_solver_.solve(current_, range_.largest(options_, rotor_speed)));
-    for (std::size_t i = 0; i < point.modes.size(); ++i) {
-        CampbellMode& m = point.modes[i];
+    set_modes(mode_solver_.solve(current_, range_.largest(options_, rotor_speed)), point);
+    range_.set(point.modes, rotor_speed);
+    if (rotor_speed == 0 && blades_stand_out()) set_blade_shares(point);
+    point.periodic.reset();
+    set_margin(point);
+}
+
+// Those of the solver, and motions of states apart.
+void PointSolver::set_modes(std::size_t count, CampbellPoint& point) {
+    const auto is_motion_of_states = [&](std::size_t i) { return mode_solver_.state_share(i) >= 0.5; };
+    point.state_motions.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        if (is_motion_of_states(i)) point.state_motions.push_back(state_motion(i));
+    set_count(point.modes, count - point.state_motions.size());
+    for (std::size_t i = 0, next = 0; i < count; ++i) {
+        if (is_motion_of_states(i)) continue;
+        CampbellMode& m = point.modes[next++];
         mode_solver_.copy(i, m.mode);
         mode_solver_.energy_by_row(i, m.row_shares);
         energy_shares_->shares(m.mode, m.shares);
@@ -139,10 +156,13 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
         m.floquet.reset();
         m.blade_shares.resize(0);
     }
-    range_.set(point.modes, rotor_speed);
-    if (rotor_speed == 0 && blades_stand_out()) set_blade_shares(point);
-    point.periodic.reset();
-    set_margin(point);
+}
+
+StateMotion PointSolver::state_motion(std::size_t mode) const {
+    StateMotion out;
+    mode_solver_.copy(mode, out.mode);
+    (out.mode.states.cwiseAbs().array() / current_.states.scales.array()).maxCoeff(&out.state);
+    return out;
 }
 
 bool PointSolver::blades_stand_out() const {
@@ -173,7 +193,7 @@ Vector PointSolver::blade_energies(const Linearisation& lin, const ComplexVector
 // The number of modes varies with rotor speed (a pair may turn into two aperiodic motions). Memory of modes that
 // disappear is kept here, and there is memory for the largest possible number.
 void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count) {
-    const std::size_t most = 2 * unknowns_.size();
+    const std::size_t most = 2 * unknowns_.size() + static_cast<std::size_t>(system_.forces.states().size());
     modes.reserve(most);
     spare_.reserve(most);
     const auto n = std::ssize(unknowns_);
@@ -258,6 +278,24 @@ std::vector<std::string> PointSolver::row_names() const {
         const std::string& name = system_.model.coordinates()[coordinate].name;
         names.push_back(blade ? text(name, " (", multi_blade_name(row), ")") : name);
     }
+    return names;
+}
+
+std::vector<std::string> PointSolver::state_names() const {
+    const StateTable& states = system_.forces.states();
+    std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(states.size()));
+    for (const StateInfo& state : states) names.push_back(state.name);
+    if (!coleman_) return names;
+    // Rows of the same state of all blades are called after that of the first, which is the collective one's.
+    std::map<int, std::string> first;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const MultiBladeRow& row = coleman_->state_rows()[i];
+        if (row.kind == MultiBlade::collective) first[row.blade_coordinate] = names[i];
+    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (const MultiBladeRow& row = coleman_->state_rows()[i]; row.blade_coordinate >= 0)
+            names[i] = text(first[row.blade_coordinate], " (", multi_blade_name(row), ")");
     return names;
 }
 

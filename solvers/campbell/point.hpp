@@ -26,6 +26,8 @@ public:
     virtual const std::vector<int>& unknowns() const = 0;
     /// Names of the rows; blade coordinates are named after blade 1, with the pattern that the row stands for.
     virtual std::vector<std::string> row_names() const = 0;
+    /// Names of the states of first order, likewise.
+    virtual std::vector<std::string> state_names() const { return {}; }
     /// The (transformed) system of the last point, averaged over the azimuth.
     virtual const SecondOrderSystem& system() const = 0;
     /// Made at the first point; null before.
@@ -64,6 +66,7 @@ public:
 
     const std::vector<int>& unknowns() const override { return unknowns_; }
     std::vector<std::string> row_names() const override;
+    std::vector<std::string> state_names() const override;
     const SecondOrderSystem& system() const override { return current_; }
     const EnergyShares* energy_shares() const override { return energy_shares_ ? &*energy_shares_ : nullptr; }
     Matrix rotating_coordinates() const override;
@@ -99,6 +102,8 @@ private:
     bool warned_of(std::string_view what) const;
     void warn(const std::string& what);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);
+    void set_modes(std::size_t count, CampbellPoint& point);
+    StateMotion state_motion(std::size_t mode) const;
 
     const System& system_;
     const RotorMap& rotor_;

@@ -120,6 +120,32 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
     return out.str();
 }
 
+// A line for each state and each of its motions: "real part, 1/s; frequency, Hz".
+std::string state_motions(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
+    std::vector<std::vector<std::vector<Complex>>> found(diagram.states.size());  // [state][shown]
+    for (auto& of_state : found) of_state.resize(shown.size());
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        for (const StateMotion& motion : diagram.points[shown[i]].state_motions)
+            entry(found, motion.state)[i].push_back(motion.mode.eigenvalue);
+    std::ostringstream out;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        std::size_t lines = 0;
+        for (const auto& at : found[k]) lines = std::max(lines, at.size());
+        for (std::size_t line = 0; line < lines; ++line) {
+            out << std::left << std::setw(width) << diagram.states[k] << std::right << std::setprecision(4);
+            for (const auto& at : found[k])
+                if (line < at.size())
+                    out << std::setw(10) << at[line].real() << std::setw(9) << at[line].imag() / (2 * pi) << "  ";
+                else
+                    out << std::setw(19) << "-"
+                        << "  ";
+            out << "\n";
+        }
+    }
+    if (out.str().empty()) return {};
+    return text("\nmotions of states rather than of the machine: real part, 1/s, and frequency, Hz\n", out.str());
+}
+
 // Those in the upper half of the range, where machines run; high multiples cross everything at low speeds.
 std::string crossings(const Campbell& diagram) {
     if (diagram.crossings.empty()) return "";
@@ -175,6 +201,7 @@ std::string table(const Campbell& diagram) {
         for (std::size_t i : shown) out << cell(diagram, branch, i);
         out << "\n";
     }
+    out << state_motions(diagram, shown, width);
     out << margins(diagram, shown, width);
     if (!diagram.accuracy.empty()) out << diagram.accuracy << "\n";
     out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";

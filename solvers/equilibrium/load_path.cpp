@@ -57,7 +57,7 @@ public:
                 attempt.reason = found.message;
                 return attempt;
             }
-            const Matrix K = linearise(loaded, found.at).stiffness()(unknowns_, unknowns_);
+            const Matrix K = static_stiffness(restrict_to(linearise(loaded, found.at), unknowns_));
             attempt.point = {factor, found.at, found.iterations, found.residual, negative_pivots(K)};
         } catch (const NumericalError& error) {  // no constant state at all
             attempt.reason = error.what();

@@ -24,7 +24,7 @@ void free_kinsol(void* memory) {
     KINFree(&memory);
 }
 
-// Residual and Jacobian on the unknowns (free coordinates without the spin).
+// Residual and Jacobian on the unknowns: free coordinates without the spin, then states that settle.
 class Residual {
 public:
     Residual(const System& system, int spin)
@@ -36,7 +36,13 @@ public:
         for (Vector* v : {&at.q, &at.qd, &at.qdd, &tau_, &Q_}) v->setZero(n);
         by_q_.setZero(n, n);
         by_qd_.setZero(n, n);
+        const StateTable& table = system.forces.states();
+        for (int i = 0; i < table.size(); ++i)
+            if (table[i].kind != StateKind::angle) states.push_back(i);
+        f_.setZero(table.size());
+        at.u = system.forces.inputs().initial();
     }
+    std::size_t size() const { return unknowns.size() + states.size(); }
 
     void start(const SteadyOptions& options) {
         if (options.initial.size() > 0)
@@ -47,31 +53,53 @@ public:
             at.q(spin_) = options.azimuth;
             at.qd(spin_) = options.rotor_speed;
         }
+        at.s = options.states.size() > 0 ? options.states : system_.forces.states().initial();
         thrown = nullptr;
     }
     void set(const double* x) {
-        for (std::size_t i = 0; i < unknowns.size(); ++i) at.q(unknowns[i]) = x[i];
+        for (const int i : unknowns) at.q(i) = *x++;
+        for (const int i : states) at.s(i) = *x++;
+    }
+    void get(double* x) const {
+        for (const int i : unknowns) *x++ = at.q(i);
+        for (const int i : states) *x++ = at.s(i);
     }
     void turn_to(double azimuth) { at.q(spin_) = azimuth; }
     void evaluate(double* r) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         inverse_dynamics<double>(kin, at.qd, at.qdd, tau_);
-        system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
-        for (std::size_t i = 0; i < unknowns.size(); ++i) r[i] = tau_(unknowns[i]) - Q_(unknowns[i]);
+        if (system_.forces.has_states())
+            system_.forces.evaluate({at.time, at.q, at.qd, kin, at.s, at.u}, Q_, f_);
+        else
+            system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
+        for (const int i : unknowns) *r++ = tau_(i) - Q_(i);
+        for (const int i : states) *r++ = -f_(i);
     }
     /// @param J  out, over the unknowns, column-major
     void jacobian(double* J) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, by_q_, by_qd_);
-        system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+        if (system_.forces.has_states())
+            system_.forces.derivatives({at.time, at.q, at.qd, kin, at.s, at.u}, forces_, by_states_);
+        else
+            system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
         by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
-        for (int b : unknowns)
+        for (int b : unknowns) {
             for (int a : unknowns) *J++ = by_q_(a, b);
+            for (int a : states) *J++ = -by_states_.f_q(a, b);
+        }
+        for (int b : states) {
+            for (int a : unknowns) *J++ = -by_states_.Q_s(a, b);
+            for (int a : states) *J++ = -by_states_.f_s(a, b);
+        }
     }
     // Stiffness of the springs alone, at the state of the last call of jacobian().
     double elastic_diagonal(Eigen::Index i) const { return forces_.elastic(entry(unknowns, i), entry(unknowns, i)); }
 
-    std::vector<int> unknowns;
+    const StateTable& table() const { return system_.forces.states(); }
+    double scale_of(std::size_t state) const { return system_.forces.states()[states[state]].scale; }
+
+    std::vector<int> unknowns, states;
     OperatingPoint at;
     std::exception_ptr thrown;
 
@@ -79,9 +107,10 @@ private:
     const System& system_;
     int spin_;
     Workspace workspace_;
-    Vector tau_, Q_;
+    Vector tau_, Q_, f_;
     Matrix by_q_, by_qd_;
     ForceDerivatives forces_;
+    StateDerivatives by_states_;
 };
 
 // Exceptions must not cross KINSOL: kept and rethrown outside.
@@ -166,7 +195,7 @@ const char* reason(int flag) {
         case KIN_LSETUP_FAIL:
         case KIN_LSOLVE_FAIL:
         case KIN_LINSOLV_NO_RECOVERY:
-            return "the stiffness matrix is singular (a mechanism, or buckling)";
+            return "the stiffness matrix is singular (a mechanism, buckling, or a state that nothing determines)";
         case KIN_SYSFUNC_FAIL:
         case KIN_FIRST_SYSFUNC_ERR:
             return "the residual could not be evaluated";
@@ -201,7 +230,7 @@ private:
 
 SteadySolver::Memory::Memory(const System& system, int spin)
     : spin_(spin), coordinates_(system.model.size()), residual_(system, spin) {
-    const auto n = static_cast<sunindextype>(residual_.unknowns.size());
+    const auto n = static_cast<sunindextype>(residual_.size());
     if (n == 0) return;
     scale_.resize(n);
     r_.resize(n);
@@ -209,6 +238,8 @@ SteadySolver::Memory::Memory(const System& system, int spin)
     SUNContext context = context_.get();
     for (SundialsVector* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
     N_VConst(1.0, x_scale_.get());
+    for (std::size_t i = 0; i < residual_.states.size(); ++i)
+        N_VGetArrayPointer(x_scale_.get())[residual_.unknowns.size() + i] = 1 / residual_.scale_of(i);
     J_.reset(SUNDenseMatrix(n, n, context));
     linear_.emplace(n, context);
     kinsol_.reset(KINCreate(context));
@@ -234,6 +265,14 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
         if (!std::isfinite(options.initial(i)))
             throw InputError("steady state", text("coordinate number ", i, " of the starting point"),
                              options.initial(i), "finite");
+    const StateTable& states = residual_.table();
+    if (options.states.size() != 0 && options.states.size() != states.size())
+        throw InputError("steady state", "number of states of the starting point", options.states.size(),
+                         text(states.size(), ", or empty"));
+    for (int i = 0; i < static_cast<int>(options.states.size()); ++i)
+        if (!std::isfinite(options.states(i)))
+            throw InputError("steady state", text("state '", states[i].name, "' of the starting point"),
+                             options.states(i), "finite");
     require_positive("steady state", "tolerance", options.tolerance);
     if (options.iterations < 1) throw InputError("steady state", "limit of iterations", options.iterations, ">= 1");
 }
@@ -242,14 +281,23 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
 // springs at least, for at a critical load they and the loads cancel.
 void SteadySolver::Memory::set_scale() {
     residual_.jacobian(SUNDenseMatrix_Data(J_.get()));
-    const Eigen::Index n = scale_.size();
-    const auto stiffness = [&](Eigen::Index i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (n + 1)]); };
+    const Eigen::Index size = scale_.size(), n = std::ssize(residual_.unknowns);
+    const auto stiffness = [&](Eigen::Index i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (size + 1)]); };
     const auto spring = [&](Eigen::Index i) { return std::abs(residual_.elastic_diagonal(i)); };
     double stiffest = 1e-280;
     for (Eigen::Index i = 0; i < n; ++i) stiffest = std::max({stiffest, stiffness(i), spring(i)});
     for (Eigen::Index i = 0; i < n; ++i) {
         const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
+    }
+    // Of states, by how much their rate changes with what counts as much of everything it depends on: 1 rad, 1 m and
+    // the scales of the states.
+    const Eigen::Map<const Matrix> J(SUNDenseMatrix_Data(J_.get()), size, size);
+    for (Eigen::Index i = n; i < size; ++i) {
+        double sensitivity = J.row(i).head(n).lpNorm<1>();
+        for (Eigen::Index j = n; j < size; ++j)
+            sensitivity += std::abs(J(i, j)) * residual_.scale_of(static_cast<std::size_t>(j - n));
+        scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = 1 / std::max(sensitivity, 1e-280);
     }
 }
 
@@ -280,7 +328,7 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
     result.message.clear();
     check(options);
     residual_.start(options);
-    if (residual_.unknowns.empty()) {
+    if (residual_.size() == 0) {
         result.converged = true;
         result.at = residual_.at;
         result.residual = result.iterations = 0;
@@ -288,7 +336,7 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
     }
     set_scale();
     double* x = N_VGetArrayPointer(x_.get());
-    for (std::size_t i = 0; i < residual_.unknowns.size(); ++i) x[i] = residual_.at.q(residual_.unknowns[i]);
+    residual_.get(x);
     void* kin = kinsol_.get();
     if (KINSetNumMaxIters(kin, options.iterations) != 0 || KINSetFuncNormTol(kin, options.tolerance) != 0)
         throw NumericalError("SUNDIALS: KINSOL could not be set up");

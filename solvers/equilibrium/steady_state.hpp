@@ -15,19 +15,21 @@ struct SteadyOptions {
     double rotor_speed = 0;    ///< rate of the spin coordinate, rad/s
     double azimuth = 0;        ///< its position, rad
     Vector initial = {};       ///< starting point of the iteration; empty: zero
-    double tolerance = 1e-11;  ///< residual over stiffness (rad, m), largest entry
+    Vector states = {};        ///< of the states; empty: as their table says. Those of kind `angle` stay there
+    double tolerance = 1e-11;  ///< residual over stiffness (rad, m; of states: over their scale), largest entry
     int iterations = 60;
 };
 
 /// Result of steady_state(); `at` is the last iterate also if it did not converge.
 struct [[nodiscard]] SteadyState : Outcome {
     OperatingPoint at;
-    double residual = 0;  ///< largest residual over stiffness, rad or m
+    double residual = 0;  ///< largest residual over stiffness, rad or m; of states, over their scale
     int iterations = 0;
 };
 
-/// Constant free coordinates while only the spin coordinate moves: r(q) = Gamma_abc qd^b qd^c - Q_a = 0 on the free
-/// coordinates, the spin being prescribed. KINSOL's Newton iteration with line search and the exact Jacobian.
+/// Constant free coordinates and states while only the spin coordinate moves: r(q) = Gamma_abc qd^b qd^c - Q_a = 0 on
+/// the free coordinates, the spin being prescribed, and f = 0 of the states. KINSOL's Newton iteration with line search
+/// and the exact Jacobian.
 ///
 /// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady
 /// state periodic, there is no constant solution and a NumericalError says so.

@@ -33,6 +33,15 @@ constexpr std::array<Field<Work, double>, 3> work_numbers{{
     {"work_of_dissipation", "J", "time integral of the power of linear dampers since the start", &Work::dissipation},
     {"work_of_drives", "J", "work of the drives since the start", &Work::drives},
 }};
+constexpr std::array<Field<Work, double>, 3> state_work_numbers{{
+    {"energy_supplied_to_states", "J", "energy supplied to elements with states since the start", &Work::state_supply},
+    {"energy_dissipated_by_states", "J", "energy dissipated by elements with states since the start",
+     &Work::state_dissipation},
+    {"work_of_states", "J", "work of the forces of elements with states since the start", &Work::state_work},
+}};
+constexpr Field<Checkpoint, double> stored_at_start{
+    "energy_of_states_at_start", "J", "energy in elements with states at the start", &Checkpoint::stored_at_start};
+constexpr const char* controllers_group = "run/checkpoint/controllers";
 constexpr const char* method_steps = "method_steps";
 constexpr const char* positions_at_start = "positions_at_start";
 constexpr std::array<Field<MethodState, double>, 3> method_numbers{{
@@ -82,6 +91,8 @@ struct IndexAxis {
     const char* long_name;
 };
 constexpr IndexAxis coordinate_axis{"coordinate", "index of the coordinate"};
+constexpr IndexAxis first_order_axis{"state", "index of the state of first order"};
+constexpr IndexAxis input_axis{"input", "index of the input"};
 constexpr IndexAxis state_axis{"method_state_index", "index of the state"};
 constexpr IndexAxis memory_axis{"method_memory_index", "index of what is remembered"};
 
@@ -134,8 +145,33 @@ void put_method(Hdf5File& file, const MethodState& method) {
         put(file, group + positions_at_start, method.positions, {"rad or m", "coordinates at the first start"},
             coordinate_axis);
     if (method.steps < 0) return;
-    put(file, group + "method_state", method.x, {"SI", "free coordinates and their rates"}, state_axis);
+    put(file, group + "method_state", method.x, {"SI", "free coordinates, their rates, and states of first order"},
+        state_axis);
     put(file, group + "method_memory", method.memory, {"SI", "what the method remembers besides"}, memory_axis);
+}
+
+void put_controller(Hdf5File& file, const SampledState& controller) {
+    const std::string group = text(controllers_group, "/", controller.name, "/");
+    const auto list = [&](const char* name, std::span<const double> values, const char* axis, const char* long_name) {
+        if (values.empty()) return;
+        const bool first = !file.has(group + name);
+        put<double>(file, group + name, values, {values.size()}, H5T_NATIVE_DOUBLE, {"1", long_name});
+        if (!first) return;
+        file.make_index(group + axis, values.size(), text("index of the ", axis));
+        file.attach(group + name, 0, group + axis);
+    };
+    put(file, group + "next", std::int64_t{controller.next}, {"1", "sample to come"});
+    list("pending", {controller.pending.data(), static_cast<std::size_t>(controller.pending.size())}, "output",
+         "what is put out at the next sample, if it is delayed");
+    list("memory", controller.memory, "number", "what the controller keeps for itself");
+}
+
+SampledState controller_of(const Hdf5File& file, const std::string& name) {
+    const std::string group = text(controllers_group, "/", name, "/");
+    SampledState out{name, static_cast<long>(file.read_ints(group + "next").at(0))};
+    if (file.has(group + "pending")) out.pending = vector_of(file, group + "pending");
+    if (file.has(group + "memory")) out.memory = file.read_doubles(group + "memory");
+    return out;
 }
 
 Checkpoint checkpoint_of(const Hdf5File& file) {
@@ -145,6 +181,15 @@ Checkpoint checkpoint_of(const Hdf5File& file) {
     for (const auto& f : work_numbers) checkpoint.work.*f.member = file.read_doubles(group + f.name).at(0);
     checkpoint.q = vector_of(file, group + "q");
     checkpoint.qd = vector_of(file, group + "qd");
+    if (file.has(group + "s")) {
+        checkpoint.s = vector_of(file, group + "s");
+        for (const auto& f : state_work_numbers) checkpoint.work.*f.member = file.read_doubles(group + f.name).at(0);
+        checkpoint.stored_at_start = file.read_doubles(group + stored_at_start.name).at(0);
+    }
+    if (file.has(group + "u")) checkpoint.u = vector_of(file, group + "u");
+    if (file.has(controllers_group))
+        for (const std::string& name : file.children(controllers_group))
+            checkpoint.controllers.push_back(controller_of(file, name));
     checkpoint.method = method_of(file);
     if (file.has(notes_group))
         for (const std::string& name : file.children(notes_group))
@@ -161,6 +206,15 @@ void put_checkpoint(Hdf5File& file, const Checkpoint& checkpoint, std::size_t ro
     for (const auto& f : work_numbers) put(file, group + f.name, checkpoint.work.*f.member, {f.units, f.long_name});
     put(file, group + "q", checkpoint.q, {"rad or m", "coordinates"}, coordinate_axis);
     put(file, group + "qd", checkpoint.qd, {"rad s-1 or m s-1", "rates of the coordinates"}, coordinate_axis);
+    if (checkpoint.s.size() > 0) {
+        put(file, group + "s", checkpoint.s, {"SI", "states of first order beside the coordinates"}, first_order_axis);
+        for (const auto& f : state_work_numbers)
+            put(file, group + f.name, checkpoint.work.*f.member, {f.units, f.long_name});
+        const auto& f = stored_at_start;
+        put(file, group + f.name, checkpoint.*f.member, {f.units, f.long_name});
+    }
+    if (checkpoint.u.size() > 0) put(file, group + "u", checkpoint.u, {"SI", "inputs"}, input_axis);
+    for (const SampledState& controller : checkpoint.controllers) put_controller(file, controller);
     put_method(file, checkpoint.method);
     for (const auto& [name, value] : checkpoint.notes)
         put(file, text(notes_group, "/", name), value, {"1", "note of the program for itself"});

@@ -18,7 +18,8 @@ const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const 
                                              const Forces& forces) {
     const Kinematics kin = kinematics(system_->model, state.q, workspace_);
     const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads};
+    const ChannelInput input{state.time, state.q, state.qd,  state.qdd, actuator, kin,
+                             forces,     loads,   no_states, no_states, no_states};
     double* next = values_.data();
     for (const ChannelGroup& group : groups_) {
         group.sample(input, next);

@@ -110,8 +110,9 @@ bool ColemanTransform::exists(const RotorMap& rotor, const std::vector<int>& coo
     return blades > 1 && blades <= max_blades && without_multi_blade_coordinates(rotor, coordinates).empty();
 }
 
-ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates)
-    : blades_(static_cast<int>(rotor.blades.size())), rows_(coordinates.size()) {
+ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates, const StateTable& states)
+    : blades_(static_cast<int>(rotor.blades.size())) {
+    coordinates_.kinds.resize(coordinates.size());
     if (blades_ == 1 || (blades_ == 0 && rotor.rotating_pairs.empty()))
         throw InputError(rotor.machine, "number of blades", blades_, "at least 2 for a multi-blade transformation");
     if (blades_ > max_blades) throw InputError(rotor.machine, "number of blades", blades_, text("<= ", max_blades));
@@ -123,24 +124,48 @@ ColemanTransform::ColemanTransform(const RotorMap& rotor, const std::vector<int>
         std::vector<int> rows;
         for (const std::vector<int>& blade : rotor.blades) rows.push_back(row_of(coordinates, blade[i]));
         if (rows[0] < 0) continue;  // held on all blades
-        at_.push_back(rows);
-        for (int k = 0; k < blades_; ++k) {
-            const int row = entry(rows, k);
-            const MultiBladeRow z = row_kind(k, blades_, static_cast<int>(i));
-            entry(rows_, row) = z;
-            if (z.kind == MultiBlade::cosine)
-                pairs_.push_back({row, entry(rows, k + 1), static_cast<double>(z.harmonic)});
-        }
+        add_blade_rows(coordinates_, std::move(rows), static_cast<int>(i));
     }
+    add_states(rotor, states);
     // A vector fixed in space, seen from a part that turns by sense * psi about its x axis.
     for (const RotatingPair& pair : rotor.rotating_pairs) {
         const int y = row_of(coordinates, pair.y), z = row_of(coordinates, pair.z);
         if (y < 0 || z < 0) continue;
-        if (pair.turns) pairs_.push_back({y, z, pair.sense});
+        if (pair.turns) coordinates_.pairs.push_back({y, z, pair.sense});
         if (blades_ > 0) continue;
-        entry(rows_, y).kind = pair.sense > 0 ? MultiBlade::cosine : MultiBlade::sine;
-        entry(rows_, z).kind = pair.sense > 0 ? MultiBlade::sine : MultiBlade::cosine;
-        for (const int row : {y, z}) entry(rows_, row).harmonic = 1;
+        std::vector<MultiBladeRow>& kinds = coordinates_.kinds;
+        entry(kinds, y).kind = pair.sense > 0 ? MultiBlade::cosine : MultiBlade::sine;
+        entry(kinds, z).kind = pair.sense > 0 ? MultiBlade::sine : MultiBlade::cosine;
+        for (const int row : {y, z}) entry(kinds, row).harmonic = 1;
+    }
+}
+
+// One coordinate, or state, of every blade.
+void ColemanTransform::add_blade_rows(Part& part, std::vector<int> rows, int in_blade) const {
+    for (int k = 0; k < blades_; ++k) {
+        const int row = entry(rows, k);
+        const MultiBladeRow z = row_kind(k, blades_, in_blade);
+        entry(part.kinds, row) = z;
+        if (z.kind == MultiBlade::cosine)
+            part.pairs.push_back({row, entry(rows, k + 1), static_cast<double>(z.harmonic)});
+    }
+    part.at.push_back(std::move(rows));
+}
+
+void ColemanTransform::add_states(const RotorMap& rotor, const StateTable& states) {
+    states_.kinds.resize(static_cast<std::size_t>(states.size()));
+    std::vector<std::vector<int>> of_blade(rotor.blades.size());
+    for (int i = 0; i < states.size(); ++i)
+        for (std::size_t k = 0; k < of_blade.size(); ++k)
+            if (states[i].blade == number_of_blade(rotor, k)) of_blade[k].push_back(i);
+    for (std::size_t k = 1; k < of_blade.size(); ++k)
+        if (of_blade[k].size() != of_blade[0].size())
+            throw InputError(rotor.machine, text("states of blade ", number_of_blade(rotor, k)), of_blade[k].size(),
+                             text("as many as of blade ", number_of_blade(rotor, 0), ", ", of_blade[0].size()));
+    for (std::size_t i = 0; !of_blade.empty() && i < of_blade[0].size(); ++i) {
+        std::vector<int> rows;
+        for (const std::vector<int>& own : of_blade) rows.push_back(own[i]);
+        add_blade_rows(states_, std::move(rows), static_cast<int>(i));
     }
 }
 
@@ -181,9 +206,9 @@ private:
 }  // namespace
 
 // A T: every row alike.
-void ColemanTransform::transform_columns(double psi, Matrix& A) const {
+void ColemanTransform::transform_columns(const Part& part, double psi, Matrix& A) const {
     std::array<double, max_blades * strip> x{}, y{};
-    for (const std::vector<int>& rows : at_)
+    for (const std::vector<int>& rows : part.at)
         for (Index i = 0; i < A.rows(); i += strip) {
             const Index count = std::min<Index>(strip, A.rows() - i);
             for (Index k = 0; k < blades_; ++k) std::copy_n(&A(i, entry(rows, k)), count, &entry(x, k * strip));
@@ -192,7 +217,7 @@ void ColemanTransform::transform_columns(double psi, Matrix& A) const {
         }
     if (psi == 0) return;
     Turn turn(psi);
-    for (const TurningPair& pair : pairs_) {
+    for (const TurningPair& pair : part.pairs) {
         turn.set(pair.factor);
         for (Index i = 0; i < A.rows(); ++i) {
             const double a = A(i, pair.a), b = A(i, pair.b);
@@ -203,12 +228,12 @@ void ColemanTransform::transform_columns(double psi, Matrix& A) const {
 }
 
 // T^T A: every column alike.
-void ColemanTransform::transform_rows(double psi, Matrix& A) const {
+void ColemanTransform::transform_rows(const Part& part, double psi, Matrix& A) const {
     std::array<double, max_blades * strip> x{}, y{};
     Turn turn(psi);
     for (Index from = 0; from < A.cols(); from += strip) {
         const Index count = std::min<Index>(strip, A.cols() - from);
-        for (const std::vector<int>& rows : at_) {
+        for (const std::vector<int>& rows : part.at) {
             for (Index k = 0; k < blades_; ++k)
                 for (Index c = 0; c < count; ++c) entry(x, k * strip + c) = A(entry(rows, k), from + c);
             combine(x.data(), y.data(), blades_, blade_block_.data());
@@ -216,7 +241,7 @@ void ColemanTransform::transform_rows(double psi, Matrix& A) const {
                 for (Index c = 0; c < count; ++c) A(entry(rows, k), from + c) = entry(y, k * strip + c);
         }
         if (psi == 0) continue;
-        for (const TurningPair& pair : pairs_) {
+        for (const TurningPair& pair : part.pairs) {
             turn.set(pair.factor);
             for (Index j = from; j < from + count; ++j) {
                 const double a = A(pair.a, j), b = A(pair.b, j);
@@ -228,18 +253,18 @@ void ColemanTransform::transform_rows(double psi, Matrix& A) const {
 }
 
 void ColemanTransform::congruence(double psi, Matrix& A) const {
-    transform_columns(psi, A);
-    transform_rows(psi, A);
+    transform_columns(coordinates_, psi, A);
+    transform_rows(coordinates_, psi, A);
 }
 
 Matrix ColemanTransform::matrix(double psi, int derivative) const {
     if (derivative < 0) throw InputError("multi-blade transformation", "derivative", derivative, ">= 0");
-    const auto n = std::ssize(rows_);
+    const auto n = std::ssize(rows());
     Matrix T = Matrix::Identity(n, n);
-    transform_columns(psi, T);
+    transform_columns(coordinates_, psi, T);
     for (int d = 0; d < derivative; ++d) {
         Matrix next = Matrix::Zero(n, n);
-        for (const TurningPair& pair : pairs_) {
+        for (const TurningPair& pair : turning_pairs()) {
             next.col(pair.a) = -pair.factor * T.col(pair.b);
             next.col(pair.b) = pair.factor * T.col(pair.a);
         }
@@ -249,17 +274,42 @@ Matrix ColemanTransform::matrix(double psi, int derivative) const {
 }
 
 void ColemanTransform::transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const {
-    const auto size = std::ssize(rows_);
+    const auto size = std::ssize(rows());
     for (const Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic})
         require_size("multi-blade transformation", "matrix of the system", *A, size, size);
     for (Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic}) congruence(psi, *A);
-    for (const TurningPair& pair : pairs_) {
+    for (const TurningPair& pair : turning_pairs()) {
         const double n = pair.factor * rotor_speed;
         auto &M = system.M, &C = system.C, &K = system.K;
         K.col(pair.a) -= n * C.col(pair.b) + (n * n) * M.col(pair.a);
         K.col(pair.b) += n * C.col(pair.a) - (n * n) * M.col(pair.b);
         C.col(pair.a) -= 2 * n * M.col(pair.b);
         C.col(pair.b) += 2 * n * M.col(pair.a);
+    }
+    if (system.states.size() == 0) return;
+    require_size("multi-blade transformation", "f_s", system.states.f_s, std::ssize(state_rows()),
+                 std::ssize(state_rows()));
+    transform_states(system.states, psi, rotor_speed);
+}
+
+void ColemanTransform::transform_states(StateTerms& terms, double psi, double rotor_speed) const {
+    transform_rows(coordinates_, psi, terms.Q_s);
+    transform_columns(states_, psi, terms.Q_s);
+    for (Matrix* A : {&terms.f_q, &terms.f_qd}) {
+        transform_rows(states_, psi, *A);
+        transform_columns(coordinates_, psi, *A);
+    }
+    transform_rows(states_, psi, terms.f_s);
+    transform_columns(states_, psi, terms.f_s);
+    for (const TurningPair& pair : turning_pairs()) {
+        const double n = pair.factor * rotor_speed;
+        terms.f_q.col(pair.a) -= n * terms.f_qd.col(pair.b);
+        terms.f_q.col(pair.b) += n * terms.f_qd.col(pair.a);
+    }
+    for (const TurningPair& pair : states_.pairs) {
+        const double n = pair.factor * rotor_speed;
+        terms.f_s(pair.a, pair.b) -= n;
+        terms.f_s(pair.b, pair.a) += n;
     }
 }
 

@@ -41,19 +41,24 @@ std::string without_multi_blade_coordinates(const RotorMap& rotor, const std::ve
 ///
 /// T is orthogonal, so symmetric matrices stay symmetric and energies keep their meaning. Rotating pairs (shaft
 /// bending) are turned into the fixed frame. z rows replace the blades' coordinates one to one: the collective row
-/// takes the place of blade 1, cosine and sine those of blades 2 and 3, and so on.
+/// takes the place of blade 1, cosine and sine those of blades 2 and 3, and so on. States of first order that belong to
+/// blades (StateInfo::blade) are transformed alike, by their order on each blade.
 class ColemanTransform {
 public:
     /// Two blades have the collective and the differential row only; T is constant and the system stays periodic (see
     /// floquet()). Without blades only rotating pairs are transformed.
-    /// @throws InputError if there is one blade or more than 32, and as without_multi_blade_coordinates()
-    ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates);
+    /// @param states  all of them
+    /// @throws InputError if there is one blade or more than 32, as without_multi_blade_coordinates(), and if blades
+    /// differ in their states
+    ColemanTransform(const RotorMap& rotor, const std::vector<int>& coordinates, const StateTable& states = {});
     /// Whether the constructor accepts them.
     static bool exists(const RotorMap& rotor, const std::vector<int>& coordinates);
 
     /// T, dT/dpsi or its second derivative at azimuth psi, as a full matrix.
     Matrix matrix(double psi, int derivative = 0) const;
-    const std::vector<MultiBladeRow>& rows() const { return rows_; }
+    const std::vector<MultiBladeRow>& rows() const { return coordinates_.kinds; }
+    /// Of the states; `blade_coordinate` is the position among the states of a blade.
+    const std::vector<MultiBladeRow>& state_rows() const { return states_.kinds; }
 
     /// Two columns that rotate into one another: a' = -factor b, b' = factor a (derivatives by psi), so that T(psi) is
     /// T(0) with them rotated by factor * psi.
@@ -61,7 +66,7 @@ public:
         int a, b;
         double factor;
     };
-    const std::vector<TurningPair>& turning_pairs() const { return pairs_; }
+    const std::vector<TurningPair>& turning_pairs() const { return coordinates_.pairs; }
 
     /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
     /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G
@@ -70,7 +75,11 @@ public:
     ///     M_z = T^T M T,  C_z = T^T C T + 2 Omega M_z G,  K_z = T^T K T + Omega (T^T C T) G + Omega^2 M_z G^2.
     ///
     /// T couples only the B blades' rows of one coordinate, and T(psi) is T(0) with its cosine-sine pairs of columns
-    /// rotated by n psi.  Cost O(n^2 B).
+    /// rotated by n psi.  Cost O(n^2 B).  States, with T_s and G_s of their own:
+    ///
+    ///     Q_s,z = T^T Q_s T_s,  f_qd,z = T_s^T f_qd T,  f_q,z = T_s^T f_q T + Omega f_qd,z G,
+    ///     f_s,z = T_s^T f_s T_s - Omega G_s.
+    ///
     /// @param system  overwritten by its transform; nothing is allocated
     void transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const;
     /// Transforms a copy.
@@ -79,15 +88,22 @@ public:
     static constexpr int max_blades = 32;
 
 private:
-    void transform_columns(double psi, Matrix& A) const;
-    void transform_rows(double psi, Matrix& A) const;
+    /// Coordinates, or states.
+    struct Part {
+        std::vector<std::vector<int>> at;  ///< [coordinate in blade][blade] -> row
+        std::vector<TurningPair> pairs;
+        std::vector<MultiBladeRow> kinds;  ///< by row
+    };
+    void add_blade_rows(Part& part, std::vector<int> rows, int in_blade) const;
+    void add_states(const RotorMap& rotor, const StateTable& states);
+    void transform_columns(const Part& part, double psi, Matrix& A) const;
+    void transform_rows(const Part& part, double psi, Matrix& A) const;
     void congruence(double psi, Matrix& A) const;
+    void transform_states(StateTerms& terms, double psi, double rotor_speed) const;
 
     int blades_;
-    std::vector<std::vector<int>> at_;  ///< [coordinate in blade][blade] -> row
-    std::vector<TurningPair> pairs_;
     Matrix blade_block_;  ///< T(0) of one coordinate: [blade][multi-blade coordinate]
-    std::vector<MultiBladeRow> rows_;
+    Part coordinates_, states_;
 };
 
 }  // namespace cardan::solvers

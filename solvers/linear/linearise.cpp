@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
+#include "solvers/algebra/dense.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
@@ -30,6 +31,30 @@ void check(const CoordinateTable& table, const OperatingPoint& at) {
     if (!std::isfinite(at.time)) throw InputError(in_linearisation, "time [s]", at.time, "finite");
 }
 
+void check_states(const StateTable& table, const Vector& s) {
+    require_size(in_linearisation, "states", s, table.size());
+    for (int i = 0; i < table.size(); ++i)
+        if (!std::isfinite(s(i)))
+            throw InputError(text(in_linearisation, ": state '", table[i].name, "'"), "value", s(i), "finite");
+}
+
+void restrict_states(const Linearisation& lin, const std::vector<int>& coordinates, StateTerms& out) {
+    const Eigen::Index n = std::ssize(coordinates), m = lin.states.size();
+    const StateDerivatives& all = lin.state_derivatives;
+    out.f_s = all.f_s;
+    out.Q_s.resize(n, m);
+    out.f_q.resize(m, n);
+    out.f_qd.resize(m, n);
+    out.scales.resize(m);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const int at = entry(coordinates, i);
+        out.Q_s.row(i) = all.Q_s.row(at);
+        out.f_q.col(i) = all.f_q.col(at);
+        out.f_qd.col(i) = all.f_qd.col(at);
+    }
+    for (int i = 0; i < lin.states.size(); ++i) out.scales(i) = lin.states[i].scale;
+}
+
 }  // namespace
 
 Lineariser::Lineariser(const System& system) : system_(system), workspace_(system.model) {}
@@ -44,7 +69,16 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
         m->resize(n, n);
     metric(kin, out.mass);
     inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, out.inertial, out.gyroscopic);
-    system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+    if (system_.forces.has_states()) {
+        out.states = system_.forces.states();
+        if (at.s.size() == 0) out.at.s = out.states.initial();
+        if (at.u.size() == 0) out.at.u = system_.forces.inputs().initial();
+        check_states(out.states, out.at.s);
+        system_.forces.derivatives({at.time, at.q, at.qd, kin, out.at.s, out.at.u}, forces_, out.state_derivatives);
+    } else {
+        out.states = {};
+        system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+    }
     // Exchanged, not moved: the next call writes into the matrices that `out` had.
     std::swap(out.elastic, forces_.elastic);
     std::swap(out.gravity, forces_.gravity);
@@ -79,12 +113,31 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
             out.K_elastic(i, j) = lin.elastic(a, b);
         }
     }
+    if (lin.states.size() > 0)
+        restrict_states(lin, coordinates, out.states);
+    else if (out.states.size() > 0)
+        out.states = {};
     const int at = row_of(coordinates, spin);
     if (at < 0) return;
-    if (out.K.col(at).norm() < 1e-9 * out.K.norm() && out.K_elastic.col(at).isZero(0)) {
+    const bool states_see_it = out.states.size() > 0 && !out.states.f_q.col(at).isZero(0);
+    if (out.K.col(at).norm() < 1e-9 * out.K.norm() && out.K_elastic.col(at).isZero(0) && !states_see_it) {
         out.cyclic = at;
         out.K.col(at).setZero();
     }
+}
+
+Matrix static_stiffness(const SecondOrderSystem& system) {
+    const StateTerms& t = system.states;
+    if (t.size() == 0) return system.K;
+    LuFactors f_s(t.size());
+    f_s.matrix() = t.f_s;
+    f_s.factorise();
+    Matrix follow = t.f_q;
+    f_s.solve(follow);
+    if (!f_s.regular() || !follow.allFinite())
+        throw NumericalError(
+            text(in_linearisation, ": no static stiffness: a state settles nowhere by itself (an integrator)"));
+    return system.K + t.Q_s * follow;
 }
 
 SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin) {

@@ -18,10 +18,13 @@ struct Linearisation {
     Matrix gyroscopic;  ///< d(Gamma qd qd)/dqd
     Matrix elastic;     ///< -dQ/dq of the linear laws
     Matrix gravity;     ///< -dQ/dq of gravity
-    Matrix loads;       ///< -dQ/dq of wrenches and user forces
+    Matrix loads;       ///< -dQ/dq of wrenches, user forces and elements with states
     Matrix inertial;    ///< d(g qdd + Gamma qd qd)/dq
     OperatingPoint at;
     CoordinateTable coordinates;
+    /// With states s: Q_s ds stands on the right, and ds' = f_q dq + f_qd dq' + f_s ds. Inputs are held.
+    StateDerivatives state_derivatives = {};
+    StateTable states = {};
 
     Matrix velocity() const { return damping + gyroscopic; }
     Matrix geometric() const { return gravity + loads + inertial; }
@@ -49,14 +52,43 @@ private:
 /// A single linearisation with a temporary Lineariser. @throws also MemoryError
 Linearisation linearise(const System& system, const OperatingPoint& at);
 
+/// How states s of first order couple to the rows x of a system of second order:
+///
+///     M x'' + C x' + K x = Q_s s,   s' = f_q x + f_qd x' + f_s s.
+struct StateTerms {
+    Matrix Q_s, f_q, f_qd, f_s;
+    Vector scales;  ///< StateInfo::scale
+
+    Eigen::Index size() const { return f_s.rows(); }
+    /// Adds the matrices.
+    StateTerms& operator+=(const StateTerms& other) {
+        Q_s += other.Q_s, f_q += other.f_q, f_qd += other.f_qd, f_s += other.f_s;
+        return *this;
+    }
+};
+
 /// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
 struct SecondOrderSystem {
     Matrix M, C, K, K_elastic;
     std::vector<int> coordinates;  ///< model index of every row
     int cyclic = -1;               ///< row of a coordinate on which nothing depends (a free spin), -1: none
+    StateTerms states = {};
 };
 
-/// The rows and columns of `coordinates`. The spin is cyclic if it is among them and no force depends on it.
+/// Calls `f` with every matrix of a system.
+template <class System, class F>
+void for_each_matrix(System& system, const F& f) {
+    f(system.M), f(system.C), f(system.K), f(system.K_elastic);
+    if (system.states.size() == 0) return;
+    f(system.states.Q_s), f(system.states.f_q), f(system.states.f_qd), f(system.states.f_s);
+}
+
+/// Stiffness against a motion so slow that the states follow: K + Q_s f_s^-1 f_q.
+/// @throws NumericalError if there is a state that settles nowhere by itself, such as an integrator
+Matrix static_stiffness(const SecondOrderSystem& system);
+
+/// The rows and columns of `coordinates`, with all states. The spin is cyclic if it is among them and no force depends
+/// on it.
 /// @param out  overwritten; allocates nothing if it has the right size already.  Cost O(n^2).
 /// @throws InputError for coordinates out of range and matrices of different sizes
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out);

@@ -10,22 +10,44 @@ namespace cardan::solvers {
 
 namespace {
 
-// Size of (lambda^2 M + lambda C + K) x beside that of its terms, rows weighed by `d`.
+// Size of (lambda^2 M + lambda C + K) x - Q_s s beside that of its terms, rows weighed by `d`.
 template <class Shape>
 double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda, const Shape& shape) {
     double rest = 0, terms = 0;
-    for (Eigen::Index i = 0; i < d.size(); ++i) {
+    const Eigen::Index n = system.M.rows(), m = system.states.size();
+    for (Eigen::Index i = 0; i < n; ++i) {
         Complex inertial = 0, damping = 0, stiffness = 0;
-        for (Eigen::Index j = 0; j < d.size(); ++j) {
+        for (Eigen::Index j = 0; j < n; ++j) {
             const Complex x = shape(j);
             inertial += system.M(i, j) * x, damping += system.C(i, j) * x, stiffness += system.K(i, j) * x;
         }
+        for (Eigen::Index j = 0; j < m; ++j) stiffness -= system.states.Q_s(i, j) * shape(n + j);
         inertial *= lambda * lambda, damping *= lambda;
         const double weight = d(i) * d(i);
         rest += weight * std::norm(inertial + damping + stiffness);
         terms += weight * (std::norm(inertial) + std::norm(damping) + std::norm(stiffness));
     }
     return std::sqrt(rest / terms);
+}
+
+// Of an almost singular matrix, by inverse iteration, in real arithmetic: A^H (x + i y) = b.
+ComplexVector left_null_vector(const ComplexMatrix& A) {
+    const Eigen::Index n = A.rows();
+    LuFactors lu(2 * n);
+    Matrix& B = lu.matrix();
+    B.topLeftCorner(n, n) = B.bottomRightCorner(n, n) = A.real().transpose();
+    B.topRightCorner(n, n) = A.imag().transpose();
+    B.bottomLeftCorner(n, n) = -A.imag().transpose();
+    lu.factorise();
+    Vector x = Vector::Ones(2 * n);
+    for (int i = 0; i < 3; ++i) {
+        lu.solve(x);
+        x.normalize();
+    }
+    ComplexVector left(n);
+    left.real() = x.head(n);
+    left.imag() = x.tail(n);
+    return left;
 }
 
 constexpr double largest_rest = 0.01;  // of the equations' terms
@@ -75,35 +97,44 @@ Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
     return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());
 }
 
-ModeSolver::ModeSolver(Eigen::Index rows)
-    : eigen_(2 * rows, rows),
-      d_(rows),
-      K_s_(rows),
-      right_(rows, 2 * rows),
-      S_(2 * rows, 2 * rows),
-      shapes_(rows, 2 * rows),
-      elastic_(rows, 2 * rows),
-      inertial_(rows, 2 * rows) {
-    found_.reserve(static_cast<std::size_t>(2 * rows));
+ModeSolver::ModeSolver(Eigen::Index rows, Eigen::Index states)
+    : eigen_(2 * rows + states, rows + states),
+      rows_(rows),
+      states_(states),
+      d_(rows + states),
+      K_s_(rows + states),
+      mass_(rows, rows),
+      right_(rows + states, 2 * rows + states),
+      S_(2 * rows + states, 2 * rows + states),
+      shapes_(rows + states, 2 * rows + states),
+      elastic_(rows, 2 * rows + states),
+      inertial_(rows, 2 * rows + states) {
+    found_.reserve(static_cast<std::size_t>(2 * rows + states));
 }
 
 // The eigenvalues of S = (A - sigma)^-1, A the state matrix, sigma real, positive and below the lowest frequency:
 //   x = -K_s^-1 [(C + sigma M) a + M b],  y = a + sigma x,  K_s = K + sigma C + sigma^2 M.
 // In joint coordinates flexibilities are known with small relative error, so the low modes, which are the large
 // eigenvalues of S, come out to working precision however stiff the high ones are; rigid-body modes stay at lambda = 0.
+//
+// With states (w to z), in the order a, w, b:
+//   [ K_s, -Q_s; -(f_q + sigma f_qd), sigma - f_s ] [x; z] = [ -(C + sigma M) a - M b; f_qd a - w ].
 std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
     if (!(largest > 0)) throw InputError("modes", "largest eigenvalue", largest, "> 0");
     found_.clear();
     columns_ = 0;
-    const Eigen::Index n = d_.size();
-    check_modes_input(system, n, K_s_.matrix());
-    if (n == 0) return 0;
+    const Eigen::Index n = rows_;
+    check_modes_input(system, n, states_, mass_);
+    if (n + states_ == 0) return 0;
     const double scale = lowest_scale(system);
     shift(system, scale);
-    const bool few = n >= least_for_few && largest < doubtful_ratio_of_modes * scale && largest < too_many_;
+    const bool few =
+        n >= least_for_few && states_ == 0 && largest < doubtful_ratio_of_modes * scale && largest < too_many_;
     if (!few || !solve_few(scale, largest)) solve_all(system, scale);
+    std::erase_if(found_, [&](const Found& found) { return std::abs(found.eigenvalue) > largest; });
+    if (states_ > 0) find_shares(system);
     std::erase_if(found_, [&](const Found& found) {
-        return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale || std::abs(found.eigenvalue) > largest;
+        return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale && found.state_share < 0.5;
     });
     std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
         const bool first = a.eigenvalue.imag() > 0, second = b.eigenvalue.imag() > 0;
@@ -115,25 +146,58 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
 
 // Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
 void ModeSolver::shift(const SecondOrderSystem& system, double scale) {
-    const Eigen::Index n = d_.size();
+    const Eigen::Index n = rows_;
     constexpr double s = mode_shift;
-    d_ = system.M.diagonal().cwiseSqrt().cwiseInverse();
+    d_.head(n) = system.M.diagonal().cwiseSqrt().cwiseInverse();
     for (Eigen::Index j = 0; j < n; ++j)
         for (Eigen::Index i = 0; i < n; ++i) {
             const double unit = d_(i) * d_(j), M = unit * system.M(i, j), C = unit * system.C(i, j) / scale,
                          K = unit * system.K(i, j) / (scale * scale);
             K_s_.matrix()(i, j) = K + s * C + s * s * M;
             right_(i, j) = -(C + s * M);
-            right_(i, n + j) = -M;
+            right_(i, n + states_ + j) = -M;
         }
+    if (states_ > 0) shift_states(system.states, scale);
     K_s_.factorise();
 }
 
+// In units in which a state acts on the motion about as much as the motion on it; powers of two round nothing.
+void ModeSolver::shift_states(const StateTerms& states, double scale) {
+    const Eigen::Index n = rows_, m = states_;
+    constexpr double s = mode_shift;
+    for (Eigen::Index i = 0; i < m; ++i) {
+        const double own = states.scales(i);
+        double acts = 0, reacts = 0;
+        for (Eigen::Index j = 0; j < n; ++j) {
+            acts += std::abs(d_(j) * states.Q_s(j, i)) * own / (scale * scale);
+            reacts += d_(j) / own * (std::abs(states.f_q(i, j)) / scale + std::abs(states.f_qd(i, j)));
+        }
+        const bool both = acts > 0 && reacts > 0;
+        d_(n + i) = own * (both ? std::exp2(std::round(std::log2(reacts / acts) / 2)) : 1.0);
+    }
+    for (Eigen::Index i = 0; i < m; ++i) {
+        const double own = 1 / d_(n + i);
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const double f_q = own * d_(j) * states.f_q(i, j) / scale, f_qd = own * d_(j) * states.f_qd(i, j);
+            K_s_.matrix()(n + i, j) = -(f_q + s * f_qd);
+            K_s_.matrix()(j, n + i) = -d_(j) * d_(n + i) * states.Q_s(j, i) / (scale * scale);
+            right_(n + i, j) = f_qd;
+            right_(n + i, n + m + j) = 0;
+            right_(j, n + i) = 0;
+        }
+        for (Eigen::Index j = 0; j < m; ++j) {
+            const double unit = i == j ? 1 : 0;
+            K_s_.matrix()(n + i, n + j) = s * unit - own * d_(n + j) * states.f_s(i, j) / scale;
+            right_(n + i, n + j) = -unit;
+        }
+    }
+}
+
 void ModeSolver::solve_all(const SecondOrderSystem& system, double scale) {
-    const Eigen::Index n = d_.size();
+    const Eigen::Index n = rows_;
     K_s_.solve(right_);
-    S_.topRows(n) = right_;
-    S_.bottomRows(n) = mode_shift * right_;
+    S_.topRows(n + states_) = right_;
+    S_.bottomRows(n) = mode_shift * right_.topRows(n);
     S_.bottomLeftCorner(n, n).diagonal().array() += 1;
     if (!eigen_.compute(S_)) throw NumericalError("modes: the eigenvalue iteration did not converge");
     for (const RealEigen::Value& value : eigen_.values()) {
@@ -153,7 +217,7 @@ void ModeSolver::solve_all(const SecondOrderSystem& system, double scale) {
 }
 
 bool ModeSolver::solve_few(double scale, double largest) {
-    const Eigen::Index n = d_.size();
+    const Eigen::Index n = rows_;
     Vector b(n);
     const auto apply = [&](const Vector& x, Vector& y) {
         b.noalias() = right_ * x;
@@ -188,9 +252,48 @@ void ModeSolver::add(Complex mu, double scale) {
     if (complex) shapes_.col(columns_ - 1) *= -1;
 }
 
-// To unit modal energy.
+// From the left null vector (y, w) of
+//   P(lambda) = [ lambda^2 M + lambda C + K, -Q_s; -(f_q + lambda f_qd), lambda - f_s ],
+// by inverse iteration next to the eigenvalue, in the units of d_.
+void ModeSolver::find_shares(const SecondOrderSystem& system) {
+    const Eigen::Index n = rows_, m = states_, size = n + m;
+    const StateTerms& t = system.states;
+    const auto unit = d_.asDiagonal();
+    const auto assemble = [&](Complex lambda) {
+        ComplexMatrix P(size, size);
+        P.topLeftCorner(n, n) = (lambda * lambda) * system.M + lambda * system.C + system.K;
+        P.topRightCorner(n, m) = -t.Q_s;
+        P.bottomLeftCorner(m, n) = -(t.f_q + lambda * t.f_qd);
+        P.bottomRightCorner(m, m) = lambda * Matrix::Identity(m, m) - t.f_s;
+        return P;
+    };
+    for (Found& found : found_) {
+        ComplexVector right(size);
+        right.real() = shapes_.col(found.column);
+        if (found.eigenvalue.imag() != 0)
+            right.imag() = shapes_.col(found.column + 1);
+        else
+            right.imag().setZero();
+        const Complex lambda = found.eigenvalue, near = lambda + Complex(1, 1) * (1e-9 * std::abs(lambda) + 1e-12);
+        ComplexMatrix P = assemble(near);
+        P.topRows(n) = d_.head(n).asDiagonal() * P.topRows(n);
+        P.bottomRows(m) = d_.tail(m).cwiseInverse().asDiagonal() * P.bottomRows(m);
+        P = P * unit;
+        ComplexVector left = left_null_vector(P);
+        left.head(n) = d_.head(n).asDiagonal() * left.head(n);
+        left.tail(m) = d_.tail(m).cwiseInverse().asDiagonal() * left.tail(m);
+        const ComplexVector x = right.head(n);
+        const Complex states = left.tail(m).dot(right.tail(m)),
+                      motion = left.head(n).dot(2.0 * lambda * product(system.M, x) + product(system.C, x)) -
+                               left.tail(m).dot(product(t.f_qd, x));
+        const double total = std::abs(states) + std::abs(motion);
+        found.state_share = total > 0 ? std::abs(states) / total : 0.0;
+    }
+}
+
+// To unit modal energy; motions of states, to a largest scaled state of 1.
 void ModeSolver::normalise(const SecondOrderSystem& system) {
-    const auto shapes = shapes_.leftCols(columns_);
+    const auto shapes = shapes_.topLeftCorner(rows_, columns_);
     auto elastic = elastic_.leftCols(columns_), inertial = inertial_.leftCols(columns_);
     elastic.setZero();
     inertial.setZero();
@@ -198,40 +301,57 @@ void ModeSolver::normalise(const SecondOrderSystem& system) {
     add_product(inertial, system.M, shapes);
     const auto square = [&](const Matrix& force, const Found& found) {
         const Eigen::Index j = found.column;
-        const auto re = shapes_.col(j);
+        const auto re = shapes_.col(j).head(rows_);
         const auto f = force.col(j);
         if (found.eigenvalue.imag() == 0) return Complex(re.dot(f));
-        const auto im = shapes_.col(j + 1);
+        const auto im = shapes_.col(j + 1).head(rows_);
         const auto g = force.col(j + 1);
         return Complex(re.dot(f) + im.dot(g), re.dot(g) - im.dot(f));
     };
     for (const Found& found : found_) {
         const Complex energy = square(elastic_, found) + std::norm(found.eigenvalue) * square(inertial_, found);
-        const double factor = std::sqrt(2 / std::abs(energy));
         const Eigen::Index columns = found.eigenvalue.imag() == 0 ? 1 : 2;
+        double factor = std::sqrt(2 / std::abs(energy));
+        if (found.state_share >= 0.5) {
+            double largest = 0;
+            for (Eigen::Index i = 0; i < states_; ++i)
+                largest = std::max(largest,
+                                   shapes_.block(rows_ + i, found.column, 1, columns).norm() / system.states.scales(i));
+            factor = 1 / largest;
+        }
         shapes_.middleCols(found.column, columns) *= factor;
         elastic_.middleCols(found.column, columns) *= factor;
     }
+}
+
+double ModeSolver::state_share(std::size_t mode) const {
+    require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), std::ssize(found_));
+    return found_[mode].state_share;
 }
 
 void ModeSolver::copy(std::size_t mode, Mode& out) const {
     require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), std::ssize(found_));
     const Found& found = found_[mode];
     out.eigenvalue = found.eigenvalue;
-    out.shape.resize(d_.size());
-    out.shape.real() = shapes_.col(found.column);
-    if (out.oscillates())
-        out.shape.imag() = shapes_.col(found.column + 1);
-    else
-        out.shape.imag().setZero();
+    out.state_share = found.state_share;
+    const auto take = [&](Eigen::Index first, Eigen::Index size, ComplexVector& part) {
+        part.resize(size);
+        part.real() = shapes_.col(found.column).segment(first, size);
+        if (out.oscillates())
+            part.imag() = shapes_.col(found.column + 1).segment(first, size);
+        else
+            part.imag().setZero();
+    };
+    take(0, rows_, out.shape);
+    take(rows_, states_, out.states);
 }
 
 void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
     require_index("modes", "mode", static_cast<std::ptrdiff_t>(mode), std::ssize(found_));
     const Found& found = found_[mode];
     const Eigen::Index j = found.column;
-    out = shapes_.col(j).cwiseProduct(elastic_.col(j));
-    if (found.eigenvalue.imag() > 0) out += shapes_.col(j + 1).cwiseProduct(elastic_.col(j + 1));
+    out = shapes_.col(j).head(rows_).cwiseProduct(elastic_.col(j));
+    if (found.eigenvalue.imag() > 0) out += shapes_.col(j + 1).head(rows_).cwiseProduct(elastic_.col(j + 1));
     const double total = out.sum();
     if (total > 0)
         out /= total;
@@ -240,7 +360,7 @@ void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
 }
 
 std::vector<Mode> modes(const SecondOrderSystem& system, double largest) {
-    ModeSolver solver(system.M.rows());
+    ModeSolver solver(system.M.rows(), system.states.size());
     std::vector<Mode> all(solver.solve(system, largest));
     for (std::size_t i = 0; i < all.size(); ++i) solver.copy(i, all[i]);
     return all;

@@ -14,7 +14,16 @@ namespace cardan::solvers {
 struct Mode {
     Complex eigenvalue;   ///< 1/s
     ComplexVector shape;  ///< over the rows of the system, unit modal energy x^H K_e x + |lambda|^2 x^H M x = 2 (J)
+    /// Over the states of first order; empty without.
+    ComplexVector states = {};
+    /// How much of the mode is motion of these states, 0 ... 1: their share in the product of left and right
+    /// eigenvector, |w^H s| : |y^H (2 lambda M + C) x - w^H f_qd x|, which does not depend on units and scales. From
+    /// 1/2 on it is the states' motion (a lag, a current, an inflow) rather than a vibration, whether it oscillates or
+    /// not; energy is not of the essence there, and `shape` and `states` are normalised together to a largest scaled
+    /// state of 1.
+    double state_share = 0;
 
+    bool is_state_motion() const { return state_share >= 0.5; }
     bool oscillates() const { return eigenvalue.imag() > 0; }
     double natural_hz() const { return std::abs(eigenvalue) / (2 * pi); }
     double damped_hz() const { return eigenvalue.imag() / (2 * pi); }
@@ -31,10 +40,13 @@ inline constexpr double max_reliable_ratio = 1e7;
 /// of about 1e-16 r^2. Above 1e6 times the lowest frequency (a coordinate with almost no mass) a mode that does not
 /// satisfy the equations to one per cent is regarded as rounding and left out.
 ///
-/// Made once for a number of rows: only the memory is kept from one system to the next. One per thread.
+/// With states of first order the problem is that of twice the rows and the states, solved densely; zero eigenvalues
+/// are then left out only where they are rigid-body motions, not integrators.
+///
+/// Made once for a number of rows and states: only the memory is kept from one system to the next. One per thread.
 class ModeSolver {
 public:
-    explicit ModeSolver(Eigen::Index rows);
+    explicit ModeSolver(Eigen::Index rows, Eigen::Index states = 0);
 
     /// Results are valid until the next call. Cost of one real eigenvalue problem of twice the size; nothing is
     /// allocated.
@@ -49,6 +61,8 @@ public:
     /// iteration fails; the solver can be used again
     std::size_t solve(const SecondOrderSystem& system, double largest = std::numeric_limits<double>::infinity());
 
+    /// Mode::state_share of a mode.
+    double state_share(std::size_t mode) const;
     /// @param out  overwritten; nothing is allocated if its shape has the right size already
     void copy(std::size_t mode, Mode& out) const;
     /// See the free function of the same name.
@@ -58,16 +72,21 @@ private:
     struct Found {
         Complex eigenvalue;
         Eigen::Index column;  // of shapes_: real part, with the imaginary part in the next column
+        double state_share = 0;
     };
     void shift(const SecondOrderSystem& system, double scale);
+    void shift_states(const StateTerms& states, double scale);
+    void find_shares(const SecondOrderSystem& system);
     void solve_all(const SecondOrderSystem& system, double scale);
     bool solve_few(double scale, double largest);
     void add(Complex mu, double scale);
     void normalise(const SecondOrderSystem& system);
 
     RealEigen eigen_;
-    Vector d_;                            // inverse roots of the diagonal of the mass matrix
+    Eigen::Index rows_, states_;
+    Vector d_;                            // inverse roots of the diagonal of the mass matrix, then scales of the states
     LuFactors K_s_;                       // shifted stiffness
+    Matrix mass_;                         // scratch of the check
     Matrix right_, S_;                    // right sides, inverse of the shifted state matrix
     Matrix shapes_, elastic_, inertial_;  // of all modes side by side; K_e x, M x
     Eigen::Index columns_ = 0;            // of these that are in use

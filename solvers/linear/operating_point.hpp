@@ -6,10 +6,12 @@
 
 namespace cardan::solvers {
 
-/// Position, velocity and acceleration of all coordinates at a time.
+/// Position, velocity and acceleration of all coordinates at a time, with the states beside them and the inputs.
 struct OperatingPoint {
     Vector q, qd, qdd;
     double time = 0;
+    Vector s = {};  ///< Forces::states(); empty: as their table says
+    Vector u = {};  ///< Forces::inputs(); empty: as their table says
 };
 
 }  // namespace cardan::solvers

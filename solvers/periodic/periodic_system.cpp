@@ -99,6 +99,7 @@ void PeriodicSystem::at(double time, Matrix& E, Matrix& A) const {
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns) {
     const char* here = "linearised system";
     const int size = system.model.size();
+    system.forces.require_no_states(here);
     if (!about.converged) throw InputError(here, "periodic steady state", "not converged", "converged");
     if (about.coefficients.rows() != size)
         throw InputError(here, "rows of the periodic steady state", about.coefficients.rows(),

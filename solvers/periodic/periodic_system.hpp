@@ -58,7 +58,7 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
 /// The system in multi-blade rows, rotating with psi = rotor_speed * t from psi = 0.
 PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed);
 
-/// Mean of M, C, K and K_elastic at `samples` equidistant azimuths or times of a period: exact for harmonics below that
+/// Mean of the matrices at `samples` equidistant azimuths or times of a period: exact for harmonics below that
 /// number. Allocates nothing once both systems have their size.
 /// @param at  `at(i, out)` fills in the matrices of sample i, i = 1 ... samples - 1
 /// @param mean  holds the matrices of sample 0; overwritten
@@ -68,8 +68,9 @@ void average(int samples, const At& at, SecondOrderSystem& mean, SecondOrderSyst
     for (int i = 1; i < samples; ++i) {
         at(i, scratch);
         mean.M += scratch.M, mean.C += scratch.C, mean.K += scratch.K, mean.K_elastic += scratch.K_elastic;
+        if (mean.states.size() > 0) mean.states += scratch.states;
     }
-    for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) *m /= samples;
+    for_each_matrix(mean, [&](Matrix& m) { m /= samples; });
 }
 
 /// Q identical parts that take each other's places after a Q-th of the period: if x(t) is a solution, P x(t + T/Q) is

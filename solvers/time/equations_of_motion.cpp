@@ -71,6 +71,8 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
     for (int i = 0; i < n; ++i)
         if (!entry(driven_, i)) free_.push_back(i);
     for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_, &all_, &product_}) v->setZero(n);
+    s_ = f_ = Vector::Zero(system.forces.states().size());
+    u_ = system.forces.inputs().initial();
 }
 
 void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
@@ -91,7 +93,20 @@ void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
 }
 
 void EquationsOfMotion::set_forces(const Forces* forces) {
-    forces_ = forces ? forces : &system_->forces;
+    if (!forces) forces = &system_->forces;
+    const auto same = [](const auto& a, const auto& b) { return a.name == b.name && a.unit == b.unit; };
+    const Forces& own = system_->forces;
+    if (!std::ranges::equal(forces->states(), own.states(), same) ||
+        !std::ranges::equal(forces->inputs(), own.inputs(), same) || forces->has_states() != own.has_states())
+        throw InputError(in_integration, "states and inputs of other forces",
+                         text(forces->states().size(), " and ", forces->inputs().size()),
+                         text("those of the system, ", own.states().size(), " and ", own.inputs().size()));
+    forces_ = forces;
+}
+
+void EquationsOfMotion::set_inputs(const Vector& u) {
+    require_size(in_integration, "inputs", u, u_.size());
+    u_ = u;
 }
 
 std::vector<double> EquationsOfMotion::breaks() const {
@@ -119,6 +134,7 @@ void EquationsOfMotion::expand(double time, const double* x) {
         q_(free_[i]) = x[i];
         qd_(free_[i]) = x[m + i];
     }
+    std::copy_n(x + 2 * m, states(), s_.data());
     drive_at(time);
 }
 
@@ -130,31 +146,54 @@ bool EquationsOfMotion::all_finite(const Vector& values, const char* quantity) {
     return false;
 }
 
+bool EquationsOfMotion::states_finite(const Vector& values, const char* quantity) {
+    if (values.allFinite()) return true;
+    int i = 0;
+    while (std::isfinite(values(i))) ++i;
+    problem_ = text("the ", quantity, " '", state_table()[i].name, "' at ", time_, " s is ", values(i));
+    return false;
+}
+
+bool EquationsOfMotion::motion_finite() {
+    return all_finite(q_, "position") && all_finite(qd_, "rate") && states_finite(s_, "state");
+}
+
+// Forces, and rates of the states, at the state of kin_.
+void EquationsOfMotion::evaluate_forces() {
+    if (forces_->has_states())
+        forces_->evaluate(input(), Q_, f_);
+    else
+        forces_->generalised_forces(*kin_, time_, q_, qd_, Q_);
+}
+
 bool EquationsOfMotion::solve(double time, const double* x) {
     expand(time, x);
-    if (!all_finite(q_, "position") || !all_finite(qd_, "rate")) return false;
+    if (!motion_finite()) return false;
     const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
-    forces_->generalised_forces(kin, time, q_, qd_, Q_);
-    if (!all_finite(Q_, "generalised force")) return false;
+    evaluate_forces();
+    if (!all_finite(Q_, "generalised force") || !states_finite(f_, "rate of the state")) return false;
     forward_.solve(kin, qd_, Q_, qdd_, actuator_);
     return all_finite(qdd_, "acceleration");
 }
 
-bool EquationsOfMotion::accelerations(double time, const double* x, double* qdd) {
+bool EquationsOfMotion::accelerations(double time, const double* x, double* xdd) {
     if (!solve(time, x)) return false;
-    for (std::size_t i = 0; i < free_.size(); ++i) qdd[i] = qdd_(free_[i]);
+    for (std::size_t i = 0; i < free_.size(); ++i) xdd[i] = qdd_(free_[i]);
+    std::copy_n(f_.data(), states(), xdd + size());
     return true;
 }
 
-bool EquationsOfMotion::residual(double time, const double* x, const double* qdd, double* r) {
+bool EquationsOfMotion::residual(double time, const double* x, const double* xdd, double* r) {
     expand(time, x);
-    for (std::size_t i = 0; i < free_.size(); ++i) qdd_(free_[i]) = qdd[i];
-    if (!all_finite(q_, "position") || !all_finite(qd_, "rate") || !all_finite(qdd_, "acceleration")) return false;
+    for (std::size_t i = 0; i < free_.size(); ++i) qdd_(free_[i]) = xdd[i];
+    if (!motion_finite() || !all_finite(qdd_, "acceleration")) return false;
     const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
-    forces_->generalised_forces(kin, time, q_, qd_, Q_);
+    evaluate_forces();
     inverse_dynamics<double>(kin, qd_, qdd_, tau_);
     for (std::size_t i = 0; i < free_.size(); ++i) r[i] = tau_(free_[i]) - Q_(free_[i]);
-    return all_finite(tau_, "inertial force") && all_finite(Q_, "generalised force");
+    for (int i = 0; i < states(); ++i) r[size() + i] = xdd[size() + i] - f_(i);
+    return all_finite(tau_, "inertial force") && all_finite(Q_, "generalised force") &&
+           states_finite(f_, "rate of the state");
 }
 
 bool EquationsOfMotion::linearise(double time, const double* x) {
@@ -173,7 +212,10 @@ void EquationsOfMotion::linearise_residual() {
 void EquationsOfMotion::differentiate() {
     const Kinematics& kin = *kin_;
     ForceDerivatives& forces = force_derivatives_;
-    forces_->derivatives(kin, time_, q_, qd_, forces);
+    if (forces_->has_states())
+        forces_->derivatives(input(), forces, state_derivatives_);
+    else
+        forces_->derivatives(kin, time_, q_, qd_, forces);
     metric<double>(kin, g_);
     inverse_dynamics_derivatives<double>(kin, qd_, qdd_, tau_q_, tau_qd_);
     stiffness_ = tau_q_;
@@ -219,12 +261,12 @@ void EquationsOfMotion::subtract_stiffness(double c, const Vector& v, Vector& y)
     for (std::size_t i = 0; i < free_.size(); ++i) y(static_cast<Eigen::Index>(i)) -= c * product_(free_[i]);
 }
 
-void EquationsOfMotion::spread(const Vector& unknowns, Vector& all) const {
+void EquationsOfMotion::spread(VectorIn unknowns, Vector& all) const {
     for (std::size_t i = 0; i < free_.size(); ++i) all(free_[i]) = unknowns(static_cast<Eigen::Index>(i));
     for (const Drive& drive : drives_) all(drive.coordinate) = 0;
 }
 
-void EquationsOfMotion::gather(const Vector& all, Vector& unknowns) const {
+void EquationsOfMotion::gather(const Vector& all, VectorOut unknowns) const {
     for (std::size_t i = 0; i < free_.size(); ++i) unknowns(static_cast<Eigen::Index>(i)) = all(free_[i]);
 }
 
@@ -235,6 +277,9 @@ bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out
     out.qd = qd_;
     out.qdd = qdd_;
     out.actuator = actuator_;
+    out.s = s_;
+    out.s_rate = f_;
+    out.u = u_;
     return true;
 }
 
@@ -243,11 +288,13 @@ void EquationsOfMotion::positions(double time, const double* x, DynamicState& ou
     out.time = time;
     out.q = q_;
     out.qd = qd_;
+    out.s = s_;
 }
 
 bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
     if (!solve(time, x)) return false;
-    out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_)};
+    out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_), {}};
+    if (forces_->has_states()) out.states = forces_->state_energy(input());
     return true;
 }
 
@@ -256,17 +303,23 @@ double EquationsOfMotion::kinetic_energy(const DynamicState& at) {
 }
 
 double EquationsOfMotion::potential_energy(const DynamicState& at) {
-    return forces_->potential_energy(kinematics(model(), at.q, workspace_), at.time, at.q, at.qd);
+    return forces_->potential_energy({at.time, at.q, at.qd, kinematics(model(), at.q, workspace_), at.s, at.u});
+}
+
+double EquationsOfMotion::stored_energy(const DynamicState& at) {
+    if (!forces_->has_states()) return 0;
+    return forces_->state_energy({at.time, at.q, at.qd, kinematics(model(), at.q, workspace_), at.s, at.u}).stored;
 }
 
 double EquationsOfMotion::evaluate(const std::function<double(const ForceInput&)>& function, double time,
                                    const double* x) {
     expand(time, x);
-    const Kinematics kin = kinematics(model(), q_, workspace_);
-    return function({time, q_, qd_, kin});
+    kin_.emplace(kinematics(model(), q_, workspace_));
+    return function(input());
 }
 
 std::string EquationsOfMotion::name_of(int index) const {
+    if (index >= 2 * size()) return text("state '", state_table()[index - 2 * size()].name, "'");
     const bool rate = index >= size();
     const int coordinate = entry(free_, rate ? index - size() : index);
     return text(rate ? "rate of '" : "position of '", model().coordinates()[coordinate].name, "'");

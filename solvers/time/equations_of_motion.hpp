@@ -23,26 +23,32 @@ struct Drive {
     Motion motion = Motion::constant(0);
 };
 
-/// All coordinates at a time, with the forces of the drives.
+/// All coordinates at a time, with the forces of the drives and the states beside the coordinates.
 struct DynamicState {
     double time = 0;
     Vector q, qd, qdd;
-    Vector actuator;  ///< generalised force of the drive on its coordinate, N m or N; zero on free ones
+    Vector actuator;     ///< generalised force of the drive on its coordinate, N m or N; zero on free ones
+    Vector s = {};       ///< Forces::states()
+    Vector s_rate = {};  ///< ds/dt
+    Vector u = {};       ///< Forces::inputs()
 };
 
 /// Rates of work at a state, W.
 struct Powers {
-    double forces = 0;       ///< Q . qd of all force elements
-    double dissipation = 0;  ///< power dissipated by the dampers of the linear laws, >= 0
-    double drives = 0;       ///< power of the drives, positive if they supply energy
+    double forces = 0;        ///< Q . qd of all force elements
+    double dissipation = 0;   ///< power dissipated by the dampers of the linear laws, >= 0
+    double drives = 0;        ///< power of the drives, positive if they supply energy
+    StateEnergy states = {};  ///< of elements with states that tell it
 };
 
-/// The free coordinates f are the unknowns, x = (q_f, qd_f); the driven ones follow from the time. Coordinates are
-/// driven by a motion or, if only their role says "driven", at their constant initial rate.
+/// The free coordinates f and the states s beside them are the unknowns, x = (q_f, qd_f, s); the driven coordinates
+/// follow from the time. Coordinates are driven by a motion or, if only their role says "driven", at their constant
+/// initial rate.
 ///
-/// Two forms of the same equations: accelerations for first-order methods, and the residual
+/// Two forms of the same equations: rates xdd = (qdd_f, ds/dt) of the second part of x for first-order methods, and the
+/// residual
 ///
-///     r_f = g qdd + Gamma qd qd - Q
+///     r_f = g qdd + Gamma qd qd - Q,   r_s = ds/dt - f
 ///
 /// for second-order methods. Nothing allocates after construction except user forces and motions. Keeps a reference to
 /// the system; one object per thread.
@@ -56,28 +62,39 @@ public:
     /// Indices of the unknown coordinates, and their number.
     const std::vector<int>& unknowns() const { return free_; }
     int size() const { return static_cast<int>(free_.size()); }
+    /// Number of states.
+    int states() const { return static_cast<int>(s_.size()); }
+    /// Lengths of x and of its second part, of which xdd are the rates.
+    int length() const { return 2 * size() + states(); }
+    int rates() const { return size() + states(); }
+    const StateTable& state_table() const { return system_->forces.states(); }
     const std::vector<Drive>& drives() const { return drives_; }
     bool is_driven(int coordinate) const { return entry(driven_, coordinate); }
     /// Replaces the motion of a driven coordinate from now on.
     /// @throws InputError if the coordinate is not driven, or if its position or rate would jump at `time`
     void set_motion(int coordinate, Motion motion, double time);
     /// Replaces the forces from now on (nullptr: those of the system); they must outlive their use.
+    /// @throws InputError for forces with other states or inputs
     void set_forces(const Forces* forces);
     const Forces& forces() const { return *forces_; }
+
+    /// Values of the inputs, Forces::inputs(), from now on.
+    const Vector& inputs() const { return u_; }
+    void set_inputs(const Vector& u);
 
     /// Breaks of all motions and loads, ascending, without duplicates.
     std::vector<double> breaks() const;
     /// Motions are evaluated on the smooth piece that is active at this time, until the next call.
     void set_piece(double inside) { inside_ = inside; }
 
-    /// Accelerations of the unknowns.
-    /// @param x    2 size(): positions, rates
-    /// @param qdd  out, size()
+    /// Accelerations of the unknowns and rates of the states.
+    /// @param x    length(): positions, rates, states
+    /// @param xdd  out, rates()
     /// @return false if a number in the state or in the result is not finite; problem() says which
-    bool accelerations(double time, const double* x, double* qdd);
-    /// Residual of the unknowns at given accelerations.
-    /// @param x, qdd  as above;  @param r  out, size()
-    bool residual(double time, const double* x, const double* qdd, double* r);
+    bool accelerations(double time, const double* x, double* xdd);
+    /// Residual of the unknowns at given accelerations and rates.
+    /// @param x, xdd  as above;  @param r  out, rates()
+    bool residual(double time, const double* x, const double* xdd, double* r);
 
     /// Exact derivatives of the residual at a state and its accelerations: dr/dqdd = g, dr/dqd = C, dr/dq = S, kept
     /// until the next call. Those of the accelerations are -g^-1 S and -g^-1 C.
@@ -95,9 +112,11 @@ public:
     /// y = g v and y -= c S v; v and y by unknowns.
     void multiply_metric(const Vector& v, Vector& y);
     void subtract_stiffness(double c, const Vector& v, Vector& y);
+    /// Derivatives of the states' part at the last linearise...(), by all coordinates.
+    const StateDerivatives& state_derivatives() const { return state_derivatives_; }
     /// From the unknowns to all coordinates, zero for the driven ones, and back.
-    void spread(const Vector& unknowns, Vector& all) const;
-    void gather(const Vector& all, Vector& unknowns) const;
+    void spread(VectorIn unknowns, Vector& all) const;
+    void gather(const Vector& all, VectorOut unknowns) const;
 
     /// All coordinates, accelerations and drive forces at a state. @return false, with `out` unchanged, if a number is
     /// not finite; problem() says which
@@ -107,21 +126,27 @@ public:
     bool powers(double time, const double* x, Powers& out);
     double kinetic_energy(const DynamicState& at);
     double potential_energy(const DynamicState& at);
+    /// Stored in elements with states, J.
+    double stored_energy(const DynamicState& at);
     /// Evaluates a user function at a state.
     double evaluate(const std::function<double(const ForceInput&)>& function, double time, const double* x);
 
     /// What went wrong when a function returned false.
     const std::string& problem() const { return problem_; }
     void clear_problem() { problem_.clear(); }
-    /// "position of 'name'" or "rate of 'name'" of an entry of x.
+    /// "position of 'name'", "rate of 'name'" or "state 'name'" of an entry of x.
     std::string name_of(int index) const;
 
 private:
     void drive_at(double time);
+    ForceInput input() const { return {time_, q_, qd_, *kin_, s_, u_}; }
+    void evaluate_forces();
     void expand(double time, const double* x);
     bool solve(double time, const double* x);
     void differentiate();
     bool all_finite(const Vector& values, const char* quantity);
+    bool states_finite(const Vector& values, const char* quantity);
+    bool motion_finite();
 
     const System* system_;
     const Forces* forces_;
@@ -138,6 +163,8 @@ private:
     bool on_branches_ = true;           ///< and that is all of it
     double inside_, time_ = 0;
     Vector q_, qd_, qdd_, Q_, tau_, actuator_, all_, product_;
+    Vector s_, f_, u_;  ///< states, their rates, inputs
+    StateDerivatives state_derivatives_;
     std::string problem_;
 };
 

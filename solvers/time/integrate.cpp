@@ -59,12 +59,16 @@ private:
 
 Integrator::Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
                        IntegrationOptions options)
-    : options_(std::move(options)), equations_(system, std::move(drives), time, q, qd) {
+    : options_(std::move(options)),
+      equations_(system, std::move(drives), time, q, qd),
+      controllers_(options_.controllers, system.forces.inputs(), time),
+      workspace_(system.model) {
     check_options(time);
     const Eigen::Index m = equations_.size();
-    if (m == 0) throw InputError(in_integration, "number of free coordinates", m, ">= 1");
-    x_.resize(2 * m);
-    x_between_.resize(2 * m);
+    if (equations_.length() == 0) throw InputError(in_integration, "number of free coordinates and states", 0, ">= 1");
+    x_.resize(equations_.length());
+    x_between_.resize(x_.size());
+    x_.tail(equations_.states()) = states_at_start();
     for (Eigen::Index i = 0; i < m; ++i) {
         x_(i) = q(entry(equations_.unknowns(), i));
         x_(m + i) = qd(entry(equations_.unknowns(), i));
@@ -75,13 +79,14 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     state_.time = time;
     since_ = moved_ = time;
     positions_ = q;
-    for (Vector* v : {&seen_end_, &now_}) v->setZero(m);
+    for (Vector* v : {&seen_end_, &now_}) v->setZero(equations_.rates());
     find_breaks();
     begin_piece();
     if (!equations_.complete(time, x_.data(), state_))
         throw NumericalError(text(in_integration, ": no start: ", equations_.problem()));
     kinetic_at_start_ = equations_.kinetic_energy(state_);
     potential_at_start_ = equations_.potential_energy(state_);
+    stored_at_start_ = equations_.stored_energy(state_);
     x_between_ = x_;
     for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, time);
     set_sides(-1);
@@ -92,7 +97,8 @@ Integrator::~Integrator() = default;
 void Integrator::check_options(double time) const {
     const Tolerances& tolerances = options_.tolerances;
     require_positive(in_integration, "relative tolerance", tolerances.relative);
-    for (double value : {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed})
+    for (double value :
+         {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed, tolerances.state})
         require_positive(in_integration, "absolute tolerance", value);
     const std::array steps{std::pair{"largest step [s]", options_.max_step},
                            std::pair{"first step [s]", options_.first_step},
@@ -121,6 +127,18 @@ void Integrator::check_options(double time) const {
     }
 }
 
+Vector Integrator::states_at_start() const {
+    const StateTable& table = equations_.state_table();
+    if (options_.states.size() == 0) return table.initial();
+    if (options_.states.size() != table.size())
+        throw InputError(in_integration, "number of states at the start", options_.states.size(), text(table.size()));
+    for (int i = 0; i < table.size(); ++i)
+        if (!std::isfinite(options_.states(i)))
+            throw InputError(text(in_integration, ": state '", table[i].name, "'"), "value at the start",
+                             options_.states(i), "finite");
+    return options_.states;
+}
+
 void Integrator::find_breaks() {
     breaks_ = equations_.breaks();
     breaks_.insert(breaks_.end(), options_.breaks.begin(), options_.breaks.end());
@@ -131,10 +149,33 @@ void Integrator::find_breaks() {
 void Integrator::begin_piece() {
     const double now = state_.time;
     const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), now + resolution(now));
-    piece_end_ = next == breaks_.end() ? infinity : *next;
-    equations_.set_piece(next == breaks_.end() ? now + 1 : (now + piece_end_) / 2);
+    break_ = next == breaks_.end() ? infinity : *next;
+    piece_end_ = std::min(break_, controllers_.next());
+    equations_.set_piece(next == breaks_.end() ? now + 1 : (now + break_) / 2);
     start_pending_ = true;
-    repeat_pending_ = false;
+    go_on_pending_ = repeat_pending_ = false;
+}
+
+bool Integrator::sample_due() const {
+    return controllers_.next() <= state_.time + resolution(state_.time);
+}
+
+// A break, or the time of a sample, or both.
+void Integrator::pass_piece_end() {
+    const double now = state_.time;
+    const bool at_break = now >= break_, was_running = !start_pending_;
+    if (sample_due()) {
+        if (!equations_.complete(now, x_.data(), state_))
+            throw NumericalError(text(in_integration, ": no forces at ", now, " s: ", equations_.problem()));
+        u_ = equations_.inputs();
+        controllers_.run({0, state_, kinematics(model(), state_.q, workspace_), equations_.forces()}, resolution(now),
+                         u_);
+        equations_.set_inputs(u_);
+    }
+    begin_piece();
+    if (at_break || !was_running) return;
+    start_pending_ = false;
+    go_on_pending_ = true;
 }
 
 double Integrator::event_value(std::size_t event, double time) {
@@ -220,6 +261,9 @@ bool Integrator::accumulate(double to) {
         sum.forces += weight * power.forces;
         sum.dissipation += weight * power.dissipation;
         sum.drives += weight * power.drives;
+        sum.state_supply += weight * power.states.supplied;
+        sum.state_dissipation += weight * power.states.dissipated;
+        sum.state_work += weight * power.states.work;
     }
     work_ = sum;
     return true;
@@ -272,17 +316,19 @@ bool Integrator::process(double to, Advance& result) {
 // Those at the end of the step, once for each step that outputs lie in.
 void Integrator::note_accelerations() {
     const double end = stepper_->time();
-    if (start_pending_ || !(end > state_.time) || end == seen_at_) return;
+    if (start_pending_ || go_on_pending_ || !(end > state_.time) || end == seen_at_) return;
     stepper_->state_at(end, x_between_.data());
     if (equations_.accelerations(end, x_between_.data(), seen_end_.data())) seen_at_ = end;
 }
 
 // Have forces changed since the present state was completed, or since the method has stepped beyond it?
 bool Integrator::accelerations_changed() {
-    if (start_pending_) return false;
+    if (start_pending_ || go_on_pending_) return false;
     if (!equations_.accelerations(state_.time, x_.data(), now_.data())) return true;
-    for (Eigen::Index i = 0; i < now_.size(); ++i)
+    const Eigen::Index m = equations_.size();
+    for (Eigen::Index i = 0; i < m; ++i)
         if (now_(i) != state_.qdd(entry(equations_.unknowns(), i))) return true;
+    if (now_.tail(equations_.states()) != state_.s_rate) return true;
     if (seen_at_ != stepper_->time() || seen_at_ <= state_.time) return false;
     stepper_->state_at(seen_at_, x_between_.data());
     return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
@@ -303,10 +349,14 @@ bool Integrator::take_step(double horizon, Advance& result) {
         result.end = Advance::End::cancelled;
         return false;
     }
-    if (start_pending_) {
-        stepper_->start(state_.time, x_.data(), piece_end_);
-        ++starts_;
-        start_pending_ = false;
+    if (start_pending_ || go_on_pending_) {
+        if (start_pending_) {
+            stepper_->start(state_.time, x_.data(), piece_end_);
+            ++starts_;
+        } else {
+            stepper_->go_on(state_.time, x_.data(), piece_end_);
+        }
+        start_pending_ = go_on_pending_ = false;
         seen_at_ = never;
     }
     const bool done = stepper_->step(horizon), still = done && stands_still();
@@ -333,8 +383,9 @@ Advance Integrator::advance(double target, bool one_step) try {
         begin_piece();
     bool stepped = false;
     while (one_step ? !stepped : state_.time < target) {
-        if (state_.time >= piece_end_) begin_piece();
-        if ((start_pending_ || stepper_->time() <= state_.time) && !take_step(one_step ? infinity : target, result))
+        if (state_.time >= piece_end_ || sample_due()) pass_piece_end();
+        if ((start_pending_ || go_on_pending_ || stepper_->time() <= state_.time) &&
+            !take_step(one_step ? infinity : target, result))
             break;
         stepped = true;
         if (!process(one_step ? stepper_->time() : std::min(target, stepper_->time()), result)) break;

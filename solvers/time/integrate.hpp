@@ -4,6 +4,7 @@
 
 #include "mbs/base/error.hpp"
 #include "solvers/time/equations_of_motion.hpp"
+#include "solvers/time/sampled.hpp"
 
 #include <limits>
 #include <map>
@@ -27,13 +28,14 @@ enum class Method : std::uint8_t {
 };
 
 /// Required accuracy: the estimated error of a step is kept below absolute + relative times the magnitude, as an RMS
-/// over positions and rates. Angles count as 1 rad at most, whatever the number of turns.
+/// over positions, rates and states. Angles count as 1 rad at most, whatever the number of turns.
 struct Tolerances {
     double relative = 1e-6;
     double angle = 1e-8;         ///< rad
     double length = 1e-8;        ///< m
     double angular_rate = 1e-7;  ///< rad/s
     double speed = 1e-7;         ///< m/s
+    double state = 1e-8;         ///< of a state, times its scale
 };
 
 struct IntegrationStatistics {
@@ -81,8 +83,10 @@ struct IntegrationOptions {
     /// Integrates the work done along with the motion by Gauss quadrature, which costs two evaluations per step (three
     /// with dirk and erk).
     bool integrate_work = true;
+    Vector states = {};               ///< states at the start; empty: as their table says
     std::vector<double> breaks = {};  ///< further times, ascending, at which to restart: jumps of user forces
     std::vector<Event> events = {};
+    std::vector<SampledController> controllers = {};                               ///< called in this order
     std::function<bool()> cancelled = {};                                          ///< called before every step
     std::function<void(double time, const IntegrationStatistics&)> progress = {};  ///< called after every step
 };
@@ -90,6 +94,7 @@ struct IntegrationOptions {
 /// Time integrals of Powers since the start, J. Work-energy theorem: forces + drives = change of kinetic energy.
 struct Work {
     double forces = 0, dissipation = 0, drives = 0;
+    double state_supply = 0, state_dissipation = 0, state_work = 0;  ///< of StateEnergy
 };
 
 /// Energies at a state and the work that was done, J.
@@ -101,6 +106,10 @@ struct EnergyBalance {
     double loads = 0;
     /// Change of kinetic energy minus the work of all forces: energy lost or gained by the integration method.
     double error = 0;
+    /// Of elements with states that tell their energy: stored, and supplied and dissipated since the start.
+    double stored = 0, state_supply = 0, state_dissipation = 0;
+    /// Change of what is stored minus supply, plus dissipation and work of their forces: error of the integration.
+    double state_error = 0;
 };
 
 /// How advance() ended.
@@ -125,7 +134,7 @@ struct MethodState {
     long steps = -1;        ///< taken since; -1: nothing to repeat, the method restarts
     double time = 0;        ///< s, there
     double horizon = 0;     ///< s, the next output time then: a scale of the first step
-    Vector x = {};          ///< unknowns there: positions, rates
+    Vector x = {};          ///< unknowns there: positions, rates, states
     Vector memory = {};     ///< of the step control there
     double since = 0;       ///< s, the first start
     Vector positions = {};  ///< of all coordinates at that time: where motions at a constant rate began
@@ -143,13 +152,17 @@ struct Checkpoint {
     IntegrationStatistics statistics;
     std::map<std::string, double> notes = {};  ///< see Integrator::note()
     MethodState method = {};
+    Vector s = {};               ///< states
+    double stored_at_start = 0;  ///< J, in elements with states
+    Vector u = {};               ///< inputs
+    std::vector<SampledState> controllers = {};
 };
 
 class Stepper;
 
-/// Integrates the equations of motion. It restarts at breaks of the motions and of loads over time
-/// (FrameLoad::breaks), so that the method sees only smooth functions; outputs between steps come from the method's own
-/// interpolation.
+/// Integrates the equations of motion and those of the states beside them. It restarts at breaks of the motions and of
+/// loads over time (FrameLoad::breaks), so that the method sees only smooth functions; outputs between steps come from
+/// the method's own interpolation.
 ///
 /// Forces may change in the action of an event and between two calls of advance(), not within one. By then the method
 /// has stepped beyond the output time: if accelerations have changed, at that time or at the end of the step, advance()
@@ -223,6 +236,7 @@ private:
     void go_on_from(const Checkpoint& from);
     void repeat_steps();
     void check_options(double time) const;
+    Vector states_at_start() const;
     void check_allowed(const char* what, Doing latest) const;
     bool accelerations_changed();
     bool take_step(double horizon, Advance& result);
@@ -230,6 +244,8 @@ private:
     bool stands_still();
     void find_breaks();
     void begin_piece();
+    void pass_piece_end();
+    bool sample_due() const;
     Advance advance(double target, bool one_step);
     bool process(double to, Advance& result);
     int first_event(double to, double& at);
@@ -243,23 +259,26 @@ private:
 
     IntegrationOptions options_;
     EquationsOfMotion equations_;
+    SampledControllers controllers_;
+    Workspace workspace_;
+    Vector u_;
     std::unique_ptr<Stepper> stepper_;
     std::vector<double> breaks_;
-    double piece_end_ = 0;
-    bool start_pending_ = true, repeat_pending_ = false;
+    double break_ = 0, piece_end_ = 0;  ///< s, of the next break, and of that or the next sample
+    bool start_pending_ = true, go_on_pending_ = false, repeat_pending_ = false;
     long starts_ = 0;
     Doing doing_ = Doing::nothing;
     long steps_ = 0;    ///< since `moved_`
     double moved_ = 0;  ///< s
     Vector x_, x_between_;
     double seen_at_ = std::numeric_limits<double>::quiet_NaN();  ///< s, end of the step of `seen_end_`
-    Vector seen_end_, now_;                                      ///< accelerations there; to compare
+    Vector seen_end_, now_;                                      ///< xdd there; to compare
     MethodState from_;                                           ///< to be repeated
     std::vector<double> values_;                                 ///< of the event functions at the end of the stretch
     std::vector<int> sides_;                                     ///< last sign of each event function that was not zero
     DynamicState state_;
     Work work_;
-    double kinetic_at_start_ = 0, potential_at_start_ = 0;
+    double kinetic_at_start_ = 0, potential_at_start_ = 0, stored_at_start_ = 0;
     std::map<std::string, double> notes_;
     IntegrationStatistics earlier_;  ///< up to the checkpoint it started from, less those that were repeated
     double since_ = 0;               ///< s, of the first start

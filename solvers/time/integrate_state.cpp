@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace cardan::solvers {
@@ -17,10 +18,14 @@ void check(const Checkpoint& from) {
           std::pair{"work of drives [J]", from.work.drives},
           std::pair{"kinetic energy at the start [J]", from.kinetic_at_start},
           std::pair{"potential energy at the start [J]", from.potential_at_start},
+          std::pair{"energy of states at the start [J]", from.stored_at_start},
+          std::pair{"work of states [J]", from.work.state_supply + from.work.state_dissipation + from.work.state_work},
           std::pair{"time of the first start [s]", from.method.since}})
         if (!std::isfinite(value)) throw InputError("checkpoint", what, value, "finite");
     for (const auto& [name, value] : from.notes)
         if (!std::isfinite(value)) throw InputError("checkpoint", text("note '", name, "'"), value, "finite");
+    for (const double value : from.s)
+        if (!std::isfinite(value)) throw InputError("checkpoint", "state", value, "finite");
     for (const double value : from.method.positions)
         if (!std::isfinite(value)) throw InputError("checkpoint", "position at the first start", value, "finite");
 }
@@ -38,11 +43,19 @@ std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, 
     return drives;
 }
 
+IntegrationOptions options_from(const System& system, const Checkpoint& from, IntegrationOptions options) {
+    if (from.s.size() != system.forces.states().size())
+        throw InputError("checkpoint", "number of states", from.s.size(), text(system.forces.states().size()));
+    options.states = from.s;
+    return options;
+}
+
 }  // namespace
 
 Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                        IntegrationOptions options)
-    : Integrator(system, drives_from(system, std::move(drives), from), from.time, from.q, from.qd, std::move(options)) {
+    : Integrator(system, drives_from(system, std::move(drives), from), from.time, from.q, from.qd,
+                 options_from(system, from, std::move(options))) {
     go_on_from(from);
 }
 
@@ -50,6 +63,10 @@ void Integrator::go_on_from(const Checkpoint& from) {
     work_ = from.work;
     kinetic_at_start_ = from.kinetic_at_start;
     potential_at_start_ = from.potential_at_start;
+    stored_at_start_ = from.stored_at_start;
+    if (from.u.size() > 0) equations_.set_inputs(from.u);
+    controllers_.restore(from.controllers);
+    if (!controllers_.empty()) begin_piece();
     notes_ = from.notes;
     earlier_ = from.statistics;
     if (from.method.positions.size() == positions_.size()) {
@@ -65,7 +82,8 @@ void Integrator::go_on_from(const Checkpoint& from) {
 // different - forces, options, the processor - and it restarts.
 void Integrator::repeat_steps() {
     repeat_pending_ = false;
-    bool same = stepper_->repeat(from_, piece_end_) && stepper_->time() >= state_.time;
+    const double stop = sample_due() ? std::numeric_limits<double>::infinity() : piece_end_;
+    bool same = stepper_->repeat(from_, stop) && stepper_->time() >= state_.time;
     if (same) {
         stepper_->state_at(state_.time, x_between_.data());
         same = x_between_ == x_;
@@ -89,6 +107,11 @@ EnergyBalance Integrator::energy() {
     balance.drives = work_.drives;
     balance.loads = work_.forces + work_.dissipation + balance.potential - potential_at_start_;
     balance.error = balance.kinetic - kinetic_at_start_ - work_.forces - work_.drives;
+    balance.stored = equations_.stored_energy(state_);
+    balance.state_supply = work_.state_supply;
+    balance.state_dissipation = work_.state_dissipation;
+    balance.state_error =
+        balance.stored - stored_at_start_ - work_.state_supply + work_.state_dissipation + work_.state_work;
     return balance;
 }
 
@@ -100,12 +123,20 @@ IntegrationStatistics Integrator::statistics() const {
 
 Checkpoint Integrator::checkpoint() const {
     MethodState method = repeat_pending_ ? from_ : stepper_->origin();
+    const bool at_sample = sample_due() && state_.time < break_ && !start_pending_ && !repeat_pending_;
+    if (at_sample) {
+        method = stepper_->present();
+        method.time = state_.time;
+        method.x = x_;
+    }
     // A start is to come, here or at the end of the action.
-    if ((start_pending_ && !repeat_pending_) || state_.time >= piece_end_ || doing_ == Doing::acting) method.steps = -1;
+    if ((start_pending_ && !repeat_pending_) || (state_.time >= piece_end_ && !at_sample) || doing_ == Doing::acting)
+        method.steps = -1;
     method.since = since_;
     method.positions = positions_;
-    return {state_.time,         state_.q,     state_.qd, work_, kinetic_at_start_,
-            potential_at_start_, statistics(), notes_,    method};
+    return {state_.time,         state_.q, state_.qd, work_,    kinetic_at_start_, potential_at_start_,
+            statistics(),        notes_,   method,    state_.s, stored_at_start_,  equations_.inputs(),
+            controllers_.state()};
 }
 
 void Integrator::note(const std::string& name, double value) {

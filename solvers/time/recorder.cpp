@@ -19,6 +19,10 @@ std::array<double, 6> values_of(const EnergyBalance& e) {
     return {e.kinetic, e.potential, e.dissipated, e.drives, e.loads, e.error};
 }
 
+std::array<double, 4> state_values_of(const EnergyBalance& e) {
+    return {e.stored, e.state_supply, e.state_dissipation, e.state_error};
+}
+
 std::array<double, 7> values_of(const IntegrationStatistics& s) {
     const auto number = [](long count) { return static_cast<double>(count); };
     return {
@@ -36,6 +40,8 @@ Recorder::Recorder(const Integrator& integrator, std::vector<ChannelGroup> more,
       workspace_(integrator.model()) {
     add_states(options, integrator);
     if (energies_) add_energies();
+    state_energies_ = energies_ && integrator.forces().has_states();
+    if (state_energies_) add_state_energies();
     if (statistics_) add_statistics();
     for (const ChannelGroup& group : more_) {
         if (!group.sample)
@@ -59,6 +65,12 @@ void Recorder::add_states(const RecorderOptions& options, const Integrator& inte
     if (options.coordinates) add("", "position", "", &DynamicState::q);
     if (options.rates) add(" rate", "rate", " s-1", &DynamicState::qd);
     if (options.accelerations) add(" acceleration", "acceleration", " s-2", &DynamicState::qdd);
+    if (options.states)
+        for (int k = 0; const StateInfo& state : integrator.forces().states()) {
+            channels_.push_back(
+                {.name = state.name, .units = state.unit, .long_name = text("state '", state.name, "'")});
+            states_.push_back({&DynamicState::s, k++});
+        }
     if (!options.actuators) return;
     for (int k = 0; k < table.size(); ++k) {
         if (!integrator.is_driven(k)) continue;
@@ -80,6 +92,16 @@ void Recorder::add_energies() {
     add("energy from drives", "energy supplied by drives since the start");
     add("energy from loads", "energy supplied by forces without potential since the start");
     add("energy error", "change of kinetic energy less the work of all forces: error of the integration");
+}
+
+void Recorder::add_state_energies() {
+    const auto add = [&](const char* name, const char* long_name) {
+        channels_.push_back({.name = name, .units = "J", .long_name = long_name});
+    };
+    add("energy in states", "energy stored in elements with states");
+    add("energy supplied to states", "energy supplied to elements with states since the start");
+    add("energy dissipated by states", "energy dissipated by elements with states since the start");
+    add("state energy error", "change of the energy in states less all that went in and out: error of the integration");
 }
 
 void Recorder::add_statistics() {
@@ -116,13 +138,18 @@ void Recorder::sample(Integrator& integrator, double* values) {
                              "the driven coordinates of the integrator that the recorder was made for");
     const DynamicState& state = integrator.state();
     for (const State& s : states_) *values++ = (state.*s.vector)(s.entry);
-    if (energies_) values = std::ranges::copy(values_of(integrator.energy()), values).out;
+    if (energies_) {
+        const EnergyBalance balance = integrator.energy();
+        values = std::ranges::copy(values_of(balance), values).out;
+        if (state_energies_) values = std::ranges::copy(state_values_of(balance), values).out;
+    }
     if (statistics_) values = std::ranges::copy(values_of(integrator.statistics()), values).out;
     if (more_.empty()) return;
     const Kinematics kin = kinematics(*model_, state.q, workspace_);
     const Forces& forces = integrator.forces();
     const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd, state.actuator, kin, forces, loads};
+    const ChannelInput input{state.time, state.q, state.qd, state.qdd,    state.actuator, kin,
+                             forces,     loads,   state.s,  state.s_rate, state.u};
     for (const ChannelGroup& group : more_) {
         group.sample(input, values);
         values += group.channels.size();

@@ -15,6 +15,7 @@ struct RecorderOptions {
     bool coordinates = true;     ///< "<coordinate>", rad or m
     bool rates = true;           ///< "<coordinate> rate"
     bool accelerations = false;  ///< "<coordinate> acceleration"
+    bool states = true;          ///< "<state>", of those beside the coordinates
     bool actuators = true;       ///< "<coordinate> drive": force of the drive, for driven coordinates
     bool energies = true;        ///< "kinetic energy" ... "energy error", J; see EnergyBalance
     bool statistics = true;      ///< "steps", "rejected steps" ..., see IntegrationStatistics
@@ -41,13 +42,14 @@ private:
     };
     void add_states(const RecorderOptions& options, const Integrator& integrator);
     void add_energies();
+    void add_state_energies();
     void add_statistics();
     void check_names() const;
 
     const Model* model_;
     std::vector<Channel> channels_;
     std::vector<State> states_;
-    bool energies_, statistics_;
+    bool energies_, statistics_, state_energies_ = false;
     std::vector<ChannelGroup> more_;
     Workspace workspace_;
 };

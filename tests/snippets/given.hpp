@@ -3,11 +3,15 @@
 /// <!-- given: turbine, integrator -->
 #pragma once
 
+#include "elements/machine/joints.hpp"
 #include "solvers/time/recorder.hpp"
 #include "turbines/machines/wt600.hpp"
 #include "turbines/model/channels.hpp"
 
 extern const cardan::turbines::Turbine turbine;
+extern const cardan::JointedFrame slide;
+extern const cardan::BodyId shaft;
+extern cardan::ForceSet forces;
 extern std::vector<cardan::solvers::Drive> drives;
 extern cardan::solvers::IntegrationOptions options;
 extern cardan::solvers::Integrator integrator;

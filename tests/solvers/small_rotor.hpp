@@ -7,6 +7,7 @@
 #include "tests/support/tree_tools.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace cardan::testing {
 
@@ -24,6 +25,8 @@ struct SmallRotorSpec {
     bool elastic_support = false;
     double rigid_yaw = 0;  ///< a spring beside that of the support, N m/rad
     Vec3 gravity = Vec3::Zero();
+    /// Adds further forces, given the bodies of every blade.
+    std::function<void(ForceSet&, const std::vector<std::vector<BodyId>>& blades)> more = {};
 };
 
 struct SmallRotor {
@@ -91,6 +94,7 @@ inline SmallRotor small_rotor(const SmallRotorSpec& spec = {}) {
         if (both) hinge(true, true, spec.lag_to_flap * spec.stiffness[k], spec.lag_damping);
         if (k == 0) tip = tree.add_frame(reached, Placement::translation({spec.arm, 0, 0}), "tip");
     }
+    if (spec.more) spec.more(forces, bodies);
     SmallRotor rotor{System(tree, forces), {}};
     rotor.map.machine = "small rotor";
     rotor.map.spin = rotor.system.model.index(spin.body);

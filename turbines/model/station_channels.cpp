@@ -59,7 +59,8 @@ void sample(const Gauge& gauge, const ChannelSource& source, const ChannelInput&
     Wrench load = gauge.station.load(kin, in.forces, in.loads);
     for (const ExternalWrench& external : source.external)
         if (gauge.station.is_inboard_of(external.frame, kin))
-            add_moved(load, external.wrench({in.time, in.q, in.qd, kin}), pose(kin, external.frame).p, here.p);
+            add_moved(load, external.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, external.frame).p,
+                      here.p);
     const Vec3 moved = root.R.transpose() * (here.p - root.p) - gauge.undeformed.p;
     const Mat3 turned = root.R.transpose() * here.R * gauge.undeformed.R.transpose();
     const Vec3 acceleration = gauge.station.acceleration(kin, in.loads);

@@ -32,7 +32,7 @@ void add_external(Wrench& sum, const ChannelSource& source, const ChannelInput& 
     const Kinematics& kin = in.kinematics;
     for (const ExternalWrench& load : source.external)
         if (kin.model().precedes(subtree, kin.model().frame(load.frame).body))
-            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin}), pose(kin, load.frame).p, at);
+            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, load.frame).p, at);
 }
 
 RigidTower::RigidTower(const Turbine& turbine) : carrier_(Tree::base()) {
@@ -80,7 +80,7 @@ Wrench RigidTower::load_above(FrameId cut, const ChannelSource& source, const Ch
             add_moved(sum, in.forces.at_frame(load, kin, in.time), pose(kin, load.frame).p, at);
     for (const ExternalWrench& load : source.external)
         if (stands_on(tree, load.frame, cut))
-            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin}), pose(kin, load.frame).p, at);
+            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, load.frame).p, at);
     return sum;
 }
 

@@ -20,7 +20,25 @@ double lowest_scale(const SecondOrderSystem& system) {
     return std::isfinite(lowest) ? lowest : 1.0;
 }
 
-void check_modes_input(const SecondOrderSystem& system, Eigen::Index n, Matrix& scratch) {
+namespace {
+
+void check_states(const StateTerms& t, Eigen::Index n, Eigen::Index m) {
+    if (t.size() != m) throw InputError("modes", "number of states", t.size(), text(m));
+    if (m == 0) return;
+    require_size("modes", "Q_s", t.Q_s, n, m);
+    require_size("modes", "f_q", t.f_q, m, n);
+    require_size("modes", "f_qd", t.f_qd, m, n);
+    require_size("modes", "f_s", t.f_s, m, m);
+    require_size("modes", "scales of states", t.scales, m);
+    for (const Matrix* A : {&t.Q_s, &t.f_q, &t.f_qd, &t.f_s})
+        if (!all_finite(*A)) throw NumericalError("modes: a matrix of the states is not finite");
+    for (const double scale : t.scales) require_positive("modes", "scale of a state", scale);
+}
+
+}  // namespace
+
+void check_modes_input(const SecondOrderSystem& system, Eigen::Index n, Eigen::Index states, Matrix& scratch) {
+    check_states(system.states, n, states);
     for (const Matrix* m : {&system.M, &system.C, &system.K, &system.K_elastic})
         if (m->rows() != n || m->cols() != n)
             throw InputError("modes", "size of a system matrix", text(m->rows(), " x ", m->cols()), text(n, " x ", n));

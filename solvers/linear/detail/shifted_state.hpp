@@ -18,8 +18,9 @@ inline constexpr double mode_shift = 0.1;
 double lowest_scale(const SecondOrderSystem& system);
 
 /// @param scratch  overwritten
-/// @throws InputError for matrices that are not n x n, NumericalError if one is not finite or the mass matrix is not
-/// positive definite
-void check_modes_input(const SecondOrderSystem& system, Eigen::Index n, Matrix& scratch);
+/// @param states  number of them
+/// @throws InputError for matrices that are not n x n, or have other states, NumericalError if one is not finite or the
+/// mass matrix is not positive definite
+void check_modes_input(const SecondOrderSystem& system, Eigen::Index n, Eigen::Index states, Matrix& scratch);
 
 }  // namespace cardan::solvers

@@ -31,7 +31,8 @@ NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
     : equations_(equations),
       start_(equations.size()),
       change_(equations.size()),
-      rates_(equations.size()),
+      rates_(equations.rates()),
+      all_(Vector::Zero(equations.model().size())),
       reduced_(equations),
       matrix_(SUNMatNewEmpty(context)),
       solver_(SUNLinSolNewEmpty(context)) {
@@ -52,13 +53,13 @@ bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
         ++jacobians;
     }
     c_ = c;
-    reduced_.form(1, c, c * c);
+    reduced_.form({.qdd = 1, .qd = c, .q = c * c, .s_rate = 1, .s = c});
     ++factorisations;
     return true;
 }
 
 void NewtonMatrix::solve(const double* b, double* x) {
-    const Eigen::Index m = rates_.size();
+    const Eigen::Index m = start_.size();
     start_ = Eigen::Map<const Vector>(b, m);
     change_ = Eigen::Map<const Vector>(b + m, m);
     equations_.multiply_metric(change_, rates_);
@@ -66,11 +67,15 @@ void NewtonMatrix::solve(const double* b, double* x) {
     // reaches the rates as b_1 / c at most, however stiff S is.
     if (start_.lpNorm<Eigen::Infinity>() > 1e-6 * c_ * change_.lpNorm<Eigen::Infinity>())
         equations_.subtract_stiffness(c_, start_, rates_);
-    reduced_.solve(rates_);
-    for (Eigen::Index i = 0; i < m; ++i) {
-        x[i] = start_(i) + c_ * rates_(i);
-        x[m + i] = rates_(i);
+    if (const Eigen::Index states = equations_.states(); states > 0) {
+        equations_.spread(start_, all_);
+        auto right = rates_.tail(states);
+        right = Eigen::Map<const Vector>(b + 2 * m, states);
+        right.noalias() += c_ * equations_.state_derivatives().f_q * all_;
     }
+    reduced_.solve(rates_);
+    for (Eigen::Index i = 0; i < m; ++i) x[i] = start_(i) + c_ * rates_(i);
+    std::copy_n(rates_.data(), rates_.size(), x + m);
 }
 
 }  // namespace cardan::solvers

@@ -14,6 +14,9 @@ namespace cardan::solvers {
 /// M = I - c J of x = (q, qd), J = [0 I; -g^-1 S, -g^-1 C] with the derivatives S, C of the residual. The positions are
 /// eliminated, and the rest is multiplied by the metric, which gives it the pattern of the tree:
 ///   (g + c C + c^2 S) x_2 = g b_2 - c S b_1,   x_1 = b_1 + c x_2.
+/// With states s, x = (q, qd, s), further terms couple x_2 and x_3:
+///   (g + c C + c^2 S) x_2 - c Q_s x_3 = g b_2 - c S b_1,
+///   -(c f_qd + c^2 f_q) x_2 + (1 - c f_s) x_3 = b_3 + c f_q b_1.
 ///
 /// Cost O(n d^2) to form, O(n d) to solve, d the depth of the tree; allocates nothing.
 class NewtonMatrix {
@@ -23,7 +26,7 @@ public:
     /// @param fresh  evaluates g, C and S at the state; otherwise the previous ones are reused
     /// @return false if they cannot be evaluated; problem() of the equations says why
     bool form(double time, const double* x, double c, bool fresh);
-    /// x = M^-1 b, both of size 2 n; may be the same
+    /// x = M^-1 b, both of the length of x; may be the same
     void solve(const double* b, double* x);
 
     /// Handles for SUNDIALS that refer to this object and live as long as it does.
@@ -43,7 +46,8 @@ private:
     EquationsOfMotion& equations_;
     double c_ = 0;
     bool has_jacobian_ = false;
-    Vector start_, change_, rates_;  ///< b_1, b_2, x_2
+    Vector start_, change_, rates_;  ///< b_1, b_2, (x_2, x_3)
+    Vector all_;                     ///< by coordinates
     TangentFactors reduced_;
     std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix> matrix_;
     std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeSolver> solver_;

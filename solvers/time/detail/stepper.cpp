@@ -8,7 +8,7 @@
 namespace cardan::solvers {
 
 ErrorWeights::ErrorWeights(const EquationsOfMotion& equations, const Tolerances& tolerances)
-    : relative_(tolerances.relative), absolute_(2 * Eigen::Index{equations.size()}), largest_(absolute_.size()) {
+    : relative_(tolerances.relative), absolute_(equations.length()), largest_(absolute_.size()) {
     const Eigen::Index m = equations.size();
     for (Eigen::Index i = 0; i < m; ++i) {
         const bool angle = equations.model().body(entry(equations.unknowns(), i)).revolute;
@@ -16,6 +16,11 @@ ErrorWeights::ErrorWeights(const EquationsOfMotion& equations, const Tolerances&
         absolute_(m + i) = angle ? tolerances.angular_rate : tolerances.speed;
         largest_(i) = angle ? 1 : std::numeric_limits<double>::max();
         largest_(m + i) = std::numeric_limits<double>::max();
+    }
+    for (Eigen::Index i = 0; const StateInfo& state : equations.state_table()) {
+        absolute_(2 * m + i) = tolerances.state * state.scale;
+        largest_(2 * m + i) = state.kind == StateKind::angle ? state.scale : std::numeric_limits<double>::max();
+        ++i;
     }
 }
 
@@ -50,6 +55,27 @@ void Stepper::start(double time, const double* x, double stop) {
     origin_.time = time;
     std::copy(x, x + origin_.x.size(), origin_.x.data());
     origin_.memory.setZero();
+}
+
+MethodState Stepper::present() {
+    MethodState now = origin_;
+    if (now.memory.size() == 0) return now;
+    now.steps = 0;
+    now.time = time();
+    state_at(now.time, now.x.data());
+    remember(now.memory.data());
+    return now;
+}
+
+void Stepper::go_on(double time, const double* x, double stop) {
+    if (origin_.memory.size() == 0 || origin_.steps < 0) return start(time, x, stop);
+    stop_at_ = stop;
+    renew(time, x);
+    remember(origin_.memory.data());
+    origin_.steps = 0;
+    origin_.time = time;
+    std::copy(x, x + origin_.x.size(), origin_.x.data());
+    do_resume(time, x, stop, origin_.memory.data());
 }
 
 bool Stepper::step(double horizon) {

@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// Weights of the error norm, one per entry of x = (q_f, qd_f).
+/// Weights of the error norm, one per entry of x = (q_f, qd_f, s).
 class ErrorWeights {
 public:
     ErrorWeights(const EquationsOfMotion& equations, const Tolerances& tolerances);
@@ -43,11 +43,16 @@ public:
     virtual ~Stepper() = default;
     /// Starts without history. Steps will not go beyond `stop` (infinity: no limit).
     void start(double time, const double* x, double stop);
+    /// Goes on from a state at which an input has changed: a one-step method with the step that it would have taken, a
+    /// multistep method from the start.
+    void go_on(double time, const double* x, double stop);
     /// One accepted step. @param horizon  the next output time: a scale for the first step, not a limit
     /// @return false: no step was possible, failure() says why. Exceptions of user functions propagate.
     bool step(double horizon);
     /// From what the present state has been computed; for a multistep method: nothing to repeat.
     const MethodState& origin() const { return origin_; }
+    /// The present state with what determines the next steps; for a multistep method: nothing to repeat.
+    MethodState present();
     /// Repeats those steps. @return false if they belong to another method, or if one fails
     bool repeat(const MethodState& from, double stop);
     /// End of the last step.
@@ -62,6 +67,8 @@ protected:
     Stepper(int unknowns, int memory);
     virtual void do_start(double time, const double* x, double stop) = 0;
     virtual bool do_step(double horizon) = 0;
+    /// The state stays, its rates may have changed.
+    virtual void renew(double /*time*/, const double* /*x*/) {}
     /// Writes the next step size, s, and whatever else determines the next steps.
     virtual void remember(double* /*memory*/) const {}
     /// Drops everything except that.
@@ -84,7 +91,7 @@ private:
 /// Number of values that one-step methods remember: the same for all, so that a file written by one has room for
 /// another.
 inline int step_memory(const EquationsOfMotion& equations) {
-    return 3 + 3 * equations.size();
+    return 3 + 3 * equations.rates();
 }
 
 /// @throws InputError for options the method does not support; NumericalError if SUNDIALS cannot be set up

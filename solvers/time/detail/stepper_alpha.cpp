@@ -17,9 +17,12 @@ struct Alpha {
           f(rho / (rho + 1)),
           gamma(0.5 - m + f),
           beta((1 - m + f) * (1 - m + f) / 4),
-          error(beta + (m - f) / 2 - 1.0 / 6) {}
+          error(beta + (m - f) / 2 - 1.0 / 6),
+          m_states((3 * rho - 1) / (2 * (rho + 1))),
+          gamma_states(0.5 - m_states + f) {}
     double m, f, gamma, beta;
     double error;  // of the positions after a step, over h^3 times the third derivative
+    double m_states, gamma_states;
 };
 
 // The equations hold at the ends of the steps, so that a metric that varies does no harm; what the method averages is a
@@ -28,6 +31,11 @@ struct Alpha {
 //   q_1  = q_0 + h qd_0 + h^2 ((1/2 - beta) a_0 + beta a_1)
 //   qd_1 = qd_0 + h ((1 - gamma) a_0 + gamma a_1)
 // a_0 stands for the acceleration at t_0 + (m - f) h.                  [Chung and Hulbert 1993; Arnold and Bruels 2007]
+//
+// States likewise, of first order, with their own m and gamma, which give the same spectral radius at infinity:
+//   (1 - m) w_1 + m w_0 = (1 - f) sd_1 + f sd_0,   s_1 = s_0 + h ((1 - gamma) w_0 + gamma w_1)
+//                                                                             [Jansen, Whiting and Hulbert 2000]
+// Vectors of accelerations hold the rates of the states behind them.
 class AlphaStepper : public Stepper {
 public:
     AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
@@ -39,6 +47,7 @@ public:
 private:
     void do_start(double time, const double* x, double stop) override;
     bool do_step(double horizon) override;
+    void renew(double time, const double* x) override;
     void remember(double* memory) const override;
     void do_resume(double time, const double* x, double stop, const double* memory) override;
     struct End {
@@ -56,15 +65,18 @@ private:
     // d qdd / d q and d qd / d q at the end of a step.
     double per_position(double h) const { return (1 - alpha_.m) / ((1 - alpha_.f) * alpha_.beta * h * h); }
     double per_rate(double h) const { return alpha_.gamma / (alpha_.beta * h); }
+    // d s_rate / d s.
+    double per_state(double h) const { return (1 - alpha_.m_states) / ((1 - alpha_.f) * alpha_.gamma_states * h); }
     void correct(double h);
     double error(double h);
+    double weighted_norm() const;
     void accept(double h);
     void propose(double h, double e);
 
     EquationsOfMotion& equations_;
     ErrorWeights weights_;
     Alpha alpha_;
-    Eigen::Index m_;
+    Eigen::Index m_, k_;  ///< numbers of unknown coordinates and of states
     double max_step_, wanted_first_, fixed_step_;
     double time_ = 0, begin_ = 0, stop_ = 0, next_ = 0, last_ = 0;
     End from_, to_;
@@ -77,29 +89,30 @@ private:
 };
 
 AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
-    : Stepper(2 * equations.size(), step_memory(equations)),
+    : Stepper(equations.length(), step_memory(equations)),
       equations_(equations),
       weights_(equations, options.tolerances),
       alpha_(options.spectral_radius),
       m_(equations.size()),
+      k_(equations.states()),
       max_step_(options.max_step > 0 ? options.max_step : std::numeric_limits<double>::max()),
       wanted_first_(options.first_step),
       fixed_step_(options.fixed_step),
       matrix_(equations) {
     for (End* end : {&from_, &to_}) {
-        end->x.setZero(2 * m_);
-        end->qdd.setZero(m_);
-        end->a.setZero(m_);
+        end->x.setZero(2 * m_ + k_);
+        end->qdd.setZero(m_ + k_);
+        end->a.setZero(m_ + k_);
     }
-    for (Vector* v : {&a_start_, &jerk_, &change_}) v->setZero(m_);
-    for (Vector* v : {&w_, &errors_}) v->setZero(2 * m_);
+    for (Vector* v : {&a_start_, &jerk_, &change_}) v->setZero(m_ + k_);
+    for (Vector* v : {&w_, &errors_}) v->setZero(2 * m_ + k_);
     statistics_.order = 2;
 }
 
 void AlphaStepper::do_start(double time, const double* x, double stop) {
     time_ = begin_ = time;
     stop_ = stop;
-    std::copy(x, x + 2 * m_, to_.x.data());
+    std::copy_n(x, to_.x.size(), to_.x.data());
     ++statistics_.evaluations;
     if (!equations_.accelerations(time, x, to_.qdd.data()))
         throw NumericalError(text("time integration: no start at ", time, " s: ", equations_.problem()));
@@ -109,25 +122,35 @@ void AlphaStepper::do_start(double time, const double* x, double stop) {
     matrix_step_ = 0;  // forces may have changed
 }
 
+void AlphaStepper::renew(double time, const double* x) {
+    ++statistics_.evaluations;
+    if (!equations_.accelerations(time, x, to_.qdd.data()))
+        throw NumericalError(text("time integration: no forces at ", time, " s: ", equations_.problem()));
+    to_.a = to_.qdd;
+    last_ = 0;
+    has_jerk_ = false;
+}
+
 // The step to come, the last one, whether there is a derivative of the accelerations; both accelerations and that.
 void AlphaStepper::remember(double* memory) const {
     memory[0] = controlled() ? next_ : fixed_step_;
     memory[1] = last_;
     memory[2] = has_jerk_ ? 1 : 0;
-    Eigen::Map<Vector>(memory + 3, 3 * m_) << to_.qdd, to_.a, jerk_;
+    Eigen::Map<Vector>(memory + 3, 3 * (m_ + k_)) << to_.qdd, to_.a, jerk_;
 }
 
 void AlphaStepper::do_resume(double time, const double* x, double stop, const double* memory) {
     time_ = begin_ = time;
     stop_ = stop;
-    std::copy(x, x + 2 * m_, to_.x.data());
+    std::copy_n(x, to_.x.size(), to_.x.data());
     next_ = memory[0];
     last_ = memory[1];
     has_jerk_ = memory[2] > 0;
-    const Eigen::Map<const Vector> accelerations(memory + 3, 3 * m_);
-    to_.qdd = accelerations.head(m_);
-    to_.a = accelerations.segment(m_, m_);
-    jerk_ = accelerations.tail(m_);
+    const Eigen::Index size = m_ + k_;
+    const Eigen::Map<const Vector> accelerations(memory + 3, 3 * size);
+    to_.qdd = accelerations.head(size);
+    to_.a = accelerations.segment(size, size);
+    jerk_ = accelerations.tail(size);
     matrix_step_ = 0;
 }
 
@@ -139,7 +162,9 @@ double AlphaStepper::first_step(double horizon) {
     if (wanted_first_ > 0) return std::min(wanted_first_, longest);
     double largest = 0;
     for (Eigen::Index i = 0; i < m_; ++i) largest = std::max(largest, std::abs(to_.qdd(i) * w_(i)));
-    return largest > 0 ? std::min(longest, 1 / std::sqrt(largest)) : 1e-3 * longest;
+    double first = largest > 0 ? std::min(longest, 1 / std::sqrt(largest)) : 1e-3 * longest;
+    for (Eigen::Index i = m_; i < m_ + k_; ++i) first = std::min(first, 1 / std::abs(to_.qdd(i) * w_(m_ + i)));
+    return first;
 }
 
 // Ends exactly at the stop, and leaves no tiny remainder before it.
@@ -152,7 +177,7 @@ double AlphaStepper::trial_step() const {
 bool AlphaStepper::fail(std::string_view why, double h) {
     failure_ = text("no step possible at ", time_, " s: ", why, " (step ", h, " s)");
     if (!equations_.problem().empty()) failure_ += text("; ", equations_.problem());
-    const LimitingEntry worst = limiting_entry(errors_.data(), w_.data(), static_cast<int>(2 * m_));
+    const LimitingEntry worst = limiting_entry(errors_.data(), w_.data(), static_cast<int>(w_.size()));
     if (worst.entry >= 0 && worst.error > informative)
         failure_ += text("; the largest local error or correction, ", worst.error, " times the allowed one, has the ",
                          equations_.name_of(worst.entry));
@@ -161,10 +186,18 @@ bool AlphaStepper::fail(std::string_view why, double h) {
 }
 
 void AlphaStepper::correct(double h) {
-    const auto q0 = from_.x.head(m_), qd0 = from_.x.tail(m_);
-    to_.a = ((1 - alpha_.f) * to_.qdd + alpha_.f * from_.qdd - alpha_.m * a_start_) / (1 - alpha_.m);
-    to_.x.head(m_) = q0 + h * qd0 + h * h * ((0.5 - alpha_.beta) * a_start_ + alpha_.beta * to_.a);
-    to_.x.tail(m_) = qd0 + h * ((1 - alpha_.gamma) * a_start_ + alpha_.gamma * to_.a);
+    const auto q0 = from_.x.head(m_), qd0 = from_.x.segment(m_, m_);
+    const auto a0 = a_start_.head(m_);
+    auto a1 = to_.a.head(m_);
+    a1 = ((1 - alpha_.f) * to_.qdd.head(m_) + alpha_.f * from_.qdd.head(m_) - alpha_.m * a0) / (1 - alpha_.m);
+    to_.x.head(m_) = q0 + h * qd0 + h * h * ((0.5 - alpha_.beta) * a0 + alpha_.beta * a1);
+    to_.x.segment(m_, m_) = qd0 + h * ((1 - alpha_.gamma) * a0 + alpha_.gamma * a1);
+    if (k_ == 0) return;
+    const auto w0 = a_start_.tail(k_);
+    auto w1 = to_.a.tail(k_);
+    w1 = ((1 - alpha_.f) * to_.qdd.tail(k_) + alpha_.f * from_.qdd.tail(k_) - alpha_.m_states * w0) /
+         (1 - alpha_.m_states);
+    to_.x.tail(k_) = from_.x.tail(k_) + h * ((1 - alpha_.gamma_states) * w0 + alpha_.gamma_states * w1);
 }
 
 void AlphaStepper::predict(double h) {
@@ -179,7 +212,7 @@ void AlphaStepper::predict(double h) {
 // The tangent by the positions at the end, at the last residual.
 void AlphaStepper::form_matrix(double h) {
     equations_.linearise_residual();
-    matrix_.form(per_position(h), per_rate(h), 1);
+    matrix_.form({.qdd = per_position(h), .qd = per_rate(h), .q = 1, .s_rate = per_state(h), .s = 1});
     matrix_step_ = h;
     contraction_ = 1;
     ++statistics_.jacobians;
@@ -207,11 +240,13 @@ bool AlphaStepper::iterate(double h, Tangent tangent) {
         if (!change_.allFinite()) return false;
         // What dominates a matrix of another step grows with 1/h^2: half of that is made up for.
         change_ *= 2 / (1 + per_position(h) / per_position(matrix_step_));
-        to_.qdd -= per_position(h) * change_;
+        to_.qdd.head(m_) -= per_position(h) * change_.head(m_);
+        to_.qdd.tail(k_) -= per_state(h) * change_.tail(k_);
         correct(h);
-        errors_.head(m_) = change_;
-        errors_.tail(m_) = per_rate(h) * change_;
-        const double norm = std::sqrt(errors_.cwiseProduct(w_).squaredNorm() / static_cast<double>(2 * m_));
+        errors_.head(m_) = change_.head(m_);
+        errors_.segment(m_, m_) = per_rate(h) * change_.head(m_);
+        errors_.tail(k_) = change_.tail(k_);
+        const double norm = weighted_norm();
         if (i > 0) contraction_ = std::max(0.3 * contraction_, norm / norm_before);
         if (norm * std::min(1.0, contraction_) < 1e-3) return true;
         if (i > 0 && contraction_ > (tangent == Tangent::kept ? 0.5 : 2.0)) return false;
@@ -223,12 +258,17 @@ bool AlphaStepper::iterate(double h, Tangent tangent) {
 // Weighted norm of the local error. Positions: the leading term, with the change of a for the third derivative. Rates:
 // that of the trapezoidal rule, and by how much the method differs from it.
 double AlphaStepper::error(double h) {
-    errors_.head(m_) = alpha_.error * h * h * (to_.a - a_start_);
-    errors_.tail(m_) = to_.x.tail(m_) - from_.x.tail(m_) - h / 2 * (from_.qdd + to_.qdd);
+    errors_.head(m_) = alpha_.error * h * h * (to_.a - a_start_).head(m_);
+    auto rates = errors_.tail(m_ + k_);
+    rates = to_.x.tail(m_ + k_) - from_.x.tail(m_ + k_) - h / 2 * (from_.qdd + to_.qdd);
     if (has_jerk_)
-        errors_.tail(m_) = errors_.tail(m_).cwiseAbs() +
-                           h * h * h / 12 * (((to_.qdd - from_.qdd) / h - jerk_) / ((h + last_) / 2)).cwiseAbs();
-    return std::sqrt(errors_.cwiseProduct(w_).squaredNorm() / static_cast<double>(2 * m_));
+        rates =
+            rates.cwiseAbs() + h * h * h / 12 * (((to_.qdd - from_.qdd) / h - jerk_) / ((h + last_) / 2)).cwiseAbs();
+    return weighted_norm();
+}
+
+double AlphaStepper::weighted_norm() const {
+    return std::sqrt(errors_.cwiseProduct(w_).squaredNorm() / static_cast<double>(w_.size()));
 }
 
 void AlphaStepper::accept(double h) {
@@ -281,7 +321,7 @@ bool AlphaStepper::do_step(double horizon) {
 // Hermite's cubics: positions through positions and rates, rates through rates and accelerations.
 void AlphaStepper::state_at(double time, double* x) {
     const double h = time_ - begin_;
-    Eigen::Map<Vector> out(x, 2 * m_);
+    Eigen::Map<Vector> out(x, w_.size());
     if (h <= 0 || time == time_) {
         out = to_.x;
         return;
@@ -292,8 +332,10 @@ void AlphaStepper::state_at(double time, double* x) {
     }
     const double s = (time - begin_) / h, u = 1 - s;
     const double f0 = u * u * (1 + 2 * s), f1 = s * s * (1 + 2 * u), g0 = h * s * u * u, g1 = -h * s * s * u;
-    out.head(m_) = f0 * from_.x.head(m_) + f1 * to_.x.head(m_) + g0 * from_.x.tail(m_) + g1 * to_.x.tail(m_);
-    out.tail(m_) = f0 * from_.x.tail(m_) + f1 * to_.x.tail(m_) + g0 * from_.qdd + g1 * to_.qdd;
+    out.head(m_) =
+        f0 * from_.x.head(m_) + f1 * to_.x.head(m_) + g0 * from_.x.segment(m_, m_) + g1 * to_.x.segment(m_, m_);
+    const Eigen::Index rest = m_ + k_;
+    out.tail(rest) = f0 * from_.x.tail(rest) + f1 * to_.x.tail(rest) + g0 * from_.qdd + g1 * to_.qdd;
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ private:
     void set_up(const IntegrationOptions& options);
     bool set_up_newton(void* ark);
     void complete_ends();
+    void complete_states();
+    void interpolate(double s, double* x) const;
     IntegrationStatistics since_start() const override;
     bool local_errors() override;
     ARKRhsFn explicit_rates() const { return implicit_ ? nullptr : rates; }
@@ -42,12 +44,15 @@ private:
 
     bool implicit_;
     double fixed_step_;
+    double resumed_with_ = 0;  ///< s, step that it goes on with; 0: it has gone on
     struct End {
         double time = 0;
-        Vector x, qdd;
-        bool known = false;  ///< the accelerations
+        Vector x, xdd;
+        bool known = false;  ///< the accelerations and rates of states
     };
     End from_, to_;
+    Vector quartic_;                  ///< of the states' interpolation
+    Vector between_, between_rates_;  ///< x and xdd within the step
     std::unique_ptr<void, SundialsDeleter<free_arkode>> arkode_;
 };
 
@@ -57,8 +62,11 @@ ArkodeStepper::ArkodeStepper(EquationsOfMotion& equations, const IntegrationOpti
       fixed_step_(options.fixed_step) {
     for (End* end : {&from_, &to_}) {
         end->x.setZero(weights_.size());
-        end->qdd.setZero(equations.size());
+        end->xdd.setZero(equations.rates());
     }
+    quartic_.setZero(equations.states());
+    between_.setZero(weights_.size());
+    between_rates_.setZero(equations.rates());
     set_up(options);
 }
 
@@ -94,8 +102,8 @@ bool ArkodeStepper::set_up_newton(void* ark) {
 // The length of the next step; the step control starts afresh with it, within the bounds of steps that are not the
 // first.
 void ArkodeStepper::remember(double* memory) const {
-    memory[0] = fixed_step_;
-    if (fixed_step_ == 0 && ARKStepGetCurrentStep(arkode_.get(), memory) != 0)
+    memory[0] = fixed_step_ > 0 ? fixed_step_ : resumed_with_;
+    if (memory[0] == 0 && ARKStepGetCurrentStep(arkode_.get(), memory) != 0)
         throw NumericalError("SUNDIALS: ARKODE does not know its step");
 }
 
@@ -103,6 +111,7 @@ void ArkodeStepper::remember(double* memory) const {
 void ArkodeStepper::begin_at(double time, const double* x, double stop, double next_step) {
     constexpr double largest_growth = 20;  // of the library, but for a first step
     begin(time, x, stop);
+    resumed_with_ = next_step;
     to_.time = from_.time = time;
     to_.known = false;
     std::copy(x, x + weights_.size(), to_.x.data());
@@ -127,6 +136,7 @@ bool ArkodeStepper::do_step(double horizon) {
                            "motion that ends in infinity");
         return false;
     }
+    resumed_with_ = 0;
     std::swap(from_, to_);
     to_.time = time_;
     to_.known = false;
@@ -136,38 +146,67 @@ bool ArkodeStepper::do_step(double horizon) {
 
 // Both ends of the last step with their accelerations, evaluated where they are wanted for the first time.
 void ArkodeStepper::complete_ends() {
-    const auto evaluate = [&](double time, const Vector& x, Vector& qdd, bool& known) {
-        if (!known && !equations_.accelerations(time, x.data(), qdd.data()))
+    const auto evaluate = [&](double time, const Vector& x, Vector& xdd, bool& known) {
+        if (!known && !equations_.accelerations(time, x.data(), xdd.data()))
             throw NumericalError(text("time integration: ", equations_.problem()));
         known = true;
     };
-    evaluate(from_.time, from_.x, from_.qdd, from_.known);
-    evaluate(to_.time, to_.x, to_.qdd, to_.known);
+    const bool fresh = !to_.known;
+    evaluate(from_.time, from_.x, from_.xdd, from_.known);
+    evaluate(to_.time, to_.x, to_.xdd, to_.known);
+    if (fresh && equations_.states() > 0) complete_states();
+}
+
+// Hermite's cubic in the states is of order 4 in the step, one less than the rates of the motion. The rates of the
+// states at a fifth place, found with the cubic there, make it a quartic: where the derivative of s^2 (1 - s)^2 is
+// largest.
+void ArkodeStepper::complete_states() {
+    constexpr double place = 0.21132486540518712, slope = 0.19245008972987526;  // (1 - 3^-1/2) / 2, and there
+    quartic_.setZero();
+    interpolate(place, between_.data());
+    const double h = to_.time - from_.time;
+    if (!equations_.accelerations(from_.time + place * h, between_.data(), between_rates_.data()))
+        throw NumericalError(text("time integration: ", equations_.problem()));
+    const Eigen::Index m = equations_.size(), k = equations_.states();
+    const double s = place, u = 1 - s;
+    for (Eigen::Index i = 0; i < k; ++i) {
+        const double rise = to_.x(2 * m + i) - from_.x(2 * m + i), r0 = from_.xdd(m + i), r1 = to_.xdd(m + i);
+        const double cubic = 6 * s * u * rise / h + u * (1 - 3 * s) * r0 + s * (3 * s - 2) * r1;
+        quartic_(i) = h * (between_rates_(m + i) - cubic) / slope;
+    }
 }
 
 // Hermite's quintic through positions, rates and accelerations at both ends, and its derivative: of order 5 in the
 // rates, one evaluation per step. ARKODE's own interpolation would cost some at every call.
 void ArkodeStepper::state_at(double time, double* x) {
-    Eigen::Map<Vector> out(x, weights_.size());
-    if (time == to_.time || to_.time <= from_.time) {
-        out = to_.x;
-        return;
-    }
-    if (time == from_.time) {
-        out = from_.x;
+    const bool at_end = time == to_.time || to_.time <= from_.time;
+    if (at_end || time == from_.time) {
+        std::copy_n((at_end ? to_ : from_).x.data(), weights_.size(), x);
         return;
     }
     complete_ends();
+    interpolate((time - from_.time) / (to_.time - from_.time), x);
+}
+
+// @param s  0 ... 1
+void ArkodeStepper::interpolate(double s, double* x) const {
+    Eigen::Map<Vector> out(x, weights_.size());
     const Eigen::Index m = equations_.size();
-    const double h = to_.time - from_.time, s = (time - from_.time) / h;
+    const double h = to_.time - from_.time;
     for (Eigen::Index i = 0; i < m; ++i) {
         // p(s) = p0 + v0 s + a0 s^2/2 + s^3 (c + s (d + s e)), in units of the step
-        const double v0 = h * from_.x(m + i), a0 = h * h * from_.qdd(i), v1 = h * to_.x(m + i), a1 = h * h * to_.qdd(i);
+        const double v0 = h * from_.x(m + i), a0 = h * h * from_.xdd(i), v1 = h * to_.x(m + i), a1 = h * h * to_.xdd(i);
         const double rise = to_.x(i) - from_.x(i) - v0 - a0 / 2, rate = v1 - v0 - a0, bend = a1 - a0;
         const double c = 10 * rise - 4 * rate + bend / 2, d = -15 * rise + 7 * rate - bend,
                      e = 6 * rise - 3 * rate + bend / 2;
         out(i) = from_.x(i) + s * (v0 + s * (a0 / 2 + s * (c + s * (d + s * e))));
         out(m + i) = (v0 + s * (a0 + s * (3 * c + s * (4 * d + s * 5 * e)))) / h;
+    }
+    const double u = 1 - s;
+    for (Eigen::Index i = 0; i < equations_.states(); ++i) {
+        const double r0 = h * from_.xdd(m + i), r1 = h * to_.xdd(m + i);
+        out(2 * m + i) = u * u * (1 + 2 * s) * from_.x(2 * m + i) + s * s * (1 + 2 * u) * to_.x(2 * m + i) +
+                         s * u * (u * r0 - s * r1) + s * s * u * u * quartic_(i);
     }
 }
 

@@ -12,7 +12,7 @@ namespace cardan::solvers {
 
 SundialsStepper::SundialsStepper(const char* library, EquationsOfMotion& equations, const IntegrationOptions& options,
                                  int memory)
-    : Stepper(2 * equations.size(), memory),
+    : Stepper(equations.length(), memory),
       equations_(equations),
       weights_(equations, options.tolerances),
       first_step_(options.first_step),
@@ -105,7 +105,7 @@ std::string SundialsStepper::explain(int flag, std::string_view advice) {
     if (!equations_.problem().empty()) message += text("; ", equations_.problem());
     if (local_errors()) {
         const LimitingEntry worst = limiting_entry(N_VGetArrayPointer(errors_.get()),
-                                                   N_VGetArrayPointer(error_weights_.get()), 2 * equations_.size());
+                                                   N_VGetArrayPointer(error_weights_.get()), equations_.length());
         if (worst.entry >= 0 && worst.error > informative)
             message += text("; the largest local error, ", worst.error, " times the allowed one, has the ",
                             equations_.name_of(worst.entry));

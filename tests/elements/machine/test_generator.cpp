@@ -181,7 +181,7 @@ TEST_CASE("generator: its channels are torque on its own shaft and power", "[pro
     const Kinematics kin = kinematics(system.model, q, workspace);
     const JointLoads loads = joint_loads(kin, system.forces, qd, none);
     double values[2];
-    group.sample({0, q, qd, none, none, kin, system.forces, loads}, values);
+    group.sample({0, q, qd, none, none, kin, system.forces, loads, no_states, no_states, no_states}, values);
     CHECK(values[0] == machine.torque(160.0));
     CHECK(values[1] == Approx(160 * machine.torque(160.0)).epsilon(1e-14));
 }

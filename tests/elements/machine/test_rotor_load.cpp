@@ -110,7 +110,7 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
             });
         };
         ForcedTree own = with(true), differenced = with(false);
-        const ForceInput now{own.time, own.q, own.qd, own.kin()};
+        const ForceInput now{own.time, own.q, own.qd, own.kin(), no_states, no_states};
         const Wrench wrench = load.wrench(now);
         ForcedTree dead(seed, [&](ForcedTree& at, ForceSet& set) {
             set.add_wrench({"wrench", at.add_tip(), wrench, WrenchAxes::base});

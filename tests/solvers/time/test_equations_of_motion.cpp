@@ -117,7 +117,7 @@ TEST_CASE("equations of motion: factors on branches, and of full matrices where 
         BranchMatrix on_branches(system.model);
         CHECK(equations.tangent_on_branches(1, 0.1, 0.01, on_branches) == !joined);
         TangentFactors factors(equations);
-        factors.form(1, 0.1, 0.01);
+        factors.form({.qdd = 1, .qd = 0.1, .q = 0.01, .s_rate = 1, .s = 0});
         Matrix K(m, m), g(m, m), S(m, m);
         equations.tangent(1, 0.1, 0.01, K);
         equations.tangent(1, 0, 0, g);

@@ -30,7 +30,9 @@ public:
         const Vector none = Vector::Zero(at.q.size());
         for (const ChannelGroup& group : groups) {
             std::vector<double> own(group.channels.size());
-            group.sample({at.time, at.q, at.qd, at.qdd, none, kin, system.forces, loads}, own.data());
+            group.sample(
+                {at.time, at.q, at.qd, at.qdd, none, kin, system.forces, loads, no_states, no_states, no_states},
+                own.data());
             for (std::size_t i = 0; i < own.size(); ++i) {
                 values[group.channels[i].name] = own[i];
                 if (!group.channels[i].alias.empty()) aliases[group.channels[i].alias] = own[i];

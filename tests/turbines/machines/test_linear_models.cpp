@@ -102,7 +102,9 @@ public:
         Vector values(400);
         Eigen::Index count = 0;
         for (const ChannelGroup& group : groups_) {
-            group.sample({at.time, at.q, at.qd, qdd, actuator, kin, system.forces, loads}, values.data() + count);
+            group.sample(
+                {at.time, at.q, at.qd, qdd, actuator, kin, system.forces, loads, no_states, no_states, no_states},
+                values.data() + count);
             count += std::ssize(group.channels);
         }
         return values.head(count);

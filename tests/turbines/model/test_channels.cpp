@@ -213,8 +213,8 @@ TEST_CASE("channels: an external wrench counts as one of the force set does", "[
     const Turbine bare = assemble(wt600_description(), heavy());
     const MachineState state = in_motion(machine.turbine, 4);
     Workspace workspace(bare.system().model);
-    const Wrench load =
-        machine.rotor.wrench({0, state.q, state.qd, kinematics(bare.system().model, state.q, workspace)});
+    const Wrench load = machine.rotor.wrench(
+        {0, state.q, state.qd, kinematics(bare.system().model, state.q, workspace), no_states, no_states});
     ForceSet forces = bare.forces();
     forces.add_wrench({"load", bare.layout().hub, load, WrenchAxes::base});
     const Turbine known = bare.with_forces(forces);

@@ -98,7 +98,8 @@ struct State {
         const Kinematics at = kin();
         const JointLoads loads = joint_loads(at, machine.system().forces, qd, qdd);
         std::vector<double> values(group.channels.size());
-        group.sample({0, q, qd, qdd, actuator, at, machine.system().forces, loads}, values.data());
+        group.sample({0, q, qd, qdd, actuator, at, machine.system().forces, loads, no_states, no_states, no_states},
+                     values.data());
         return values;
     }
 };

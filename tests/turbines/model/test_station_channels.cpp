@@ -293,7 +293,8 @@ TEST_CASE("stations: sampling allocates nothing", "[property]") {
     const Kinematics kin = kinematics(system.model, state.q, workspace);
     const JointLoads loads = joint_loads(kin, system.forces, state.qd, state.qdd);
     const Vector none = Vector::Zero(state.q.size());
-    const ChannelInput input{0, state.q, state.qd, state.qdd, none, kin, system.forces, loads};
+    const ChannelInput input{0,     state.q,   state.qd,  state.qdd, none, kin, system.forces,
+                             loads, no_states, no_states, no_states};
     for (const ChannelGroup& group : turbines::station_channels(turbine, {.blades = places, .tower = {3, 30}})) {
         std::vector<double> values(group.channels.size());
         CHECK(allocations([&] { group.sample(input, values.data()); }) == 0);

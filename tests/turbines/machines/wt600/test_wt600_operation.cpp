@@ -122,7 +122,8 @@ TEST_CASE("wt600 operation: a command turns all blades toward feather, against t
     CHECK(force(0) == Approx(still).margin(1e-6));
     CHECK(force(3) < still - 0.1 * 5e7);
     CHECK(machine.pitch->at(2).rate == Approx(8 * units::degree));
-    const RotorCurve::Value there = machine.rotor.value({0, q, qd, kinematics(model, q, workspace)});
+    const RotorCurve::Value there =
+        machine.rotor.value({0, q, qd, kinematics(model, q, workspace), no_states, no_states});
     CHECK(there.torque == Approx(machine.rotor.curve.torque(11.86, 0.0, 0.0, 0.3)).epsilon(1e-12));
 }
 

@@ -1,0 +1,60 @@
+/// @file
+/// The elements with states of a force set, bound to a model.
+#pragma once
+
+#include "mbs/model/model.hpp"
+#include "mbs/system/state_element.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cardan {
+
+/// Allocates nothing after the first call in a thread, unless an element's own functions do.
+class StateForces {
+public:
+    StateForces() = default;
+    /// @throws InputError for coordinates, states and inputs that the system does not have, and for names that occur
+    /// twice
+    StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model);
+
+    bool empty() const { return elements_.empty(); }
+    const StateTable& states() const { return states_; }
+    const InputTable& inputs() const { return inputs_; }
+
+    /// @param q, qd, s, u  of the whole system
+    struct At {
+        double time;
+        const Vector &q, &qd, &s, &u;
+    };
+    /// Adds the forces to Q and writes the rates of the states.  @param f  out, number of states
+    void rates(const At& at, VectorOut Q, VectorOut f) const;
+    /// Subtracts dQ/dq from K and dQ/dqd from D (n x n), and writes the rest.
+    void derivatives(const At& at, Matrix& K, Matrix& D, StateDerivatives& out) const;
+    /// Sum over the elements that tell their energy.
+    StateEnergy energy(const At& at) const;
+    /// Multiplies the forces Q, not the rates.
+    void scale(double factor);
+
+private:
+    struct Bound {
+        StateElement own;
+        std::vector<int> at, reads, inputs;  ///< indices in the system
+        int first = 0;                       ///< index of its first state
+    };
+    // Values, results and derivatives of one element, in memory of the thread.
+    class Local;
+
+    void bind(Bound& element, const Model& model);
+    void difference(const Bound& element, double time, Local& local) const;
+    double step(const Bound& element, int column) const;
+    void require_sizes(const At& at) const;
+
+    std::vector<Bound> elements_;
+    StateTable states_;
+    InputTable inputs_;
+    int size_ = 0;
+    double factor_ = 1;
+};
+
+}  // namespace cardan

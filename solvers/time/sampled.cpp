@@ -1,0 +1,124 @@
+#include "solvers/time/sampled.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cardan::solvers {
+
+namespace {
+
+std::string named(const SampledController& controller) {
+    return text("controller '", controller.name, "'");
+}
+
+void check(const SampledController& controller) {
+    const std::string where = named(controller);
+    if (controller.name.empty() || controller.name == "." || controller.name.find('/') != std::string::npos)
+        throw InputError(where, "name", text("'", controller.name, "'"), "neither empty nor '.', and without '/'");
+    require_positive(where, "period [s]", controller.period);
+    if (!std::isfinite(controller.first)) throw InputError(where, "first sample [s]", controller.first, "finite");
+    if (!controller.update) throw InputError(text(where, ": the function `update` is missing"));
+    if (static_cast<bool>(controller.save) != static_cast<bool>(controller.restore))
+        throw InputError(text(where, ": of `save` and `restore` one is missing"));
+}
+
+}  // namespace
+
+SampledControllers::SampledControllers(std::vector<SampledController> controllers, const InputTable& inputs,
+                                       double start)
+    : inputs_(&inputs) {
+    std::vector<std::string> taken(static_cast<std::size_t>(inputs.size()));
+    for (SampledController& controller : controllers) {
+        check(controller);
+        const std::string where = named(controller);
+        for (const Running& other : controllers_)
+            if (other.own.name == controller.name) throw InputError(where, "controllers of this name", 2, "one");
+        Running running{std::move(controller), {}, 0, {}, {}};
+        for (const std::string& name : running.own.inputs) {
+            const int at = inputs.find(name);
+            if (at < 0) throw InputError(where, "input", text("'", name, "'"), "an input of the system");
+            if (!entry(taken, at).empty())
+                throw InputError(where, text("input '", name, "'"), text("set by '", entry(taken, at), "' already"),
+                                 "one controller for an input");
+            entry(taken, at) = running.own.name;
+            running.at.push_back(at);
+        }
+        running.values.setZero(std::ssize(running.at));
+        running.pending.resize(running.values.size());
+        for (std::size_t i = 0; i < running.at.size(); ++i)
+            running.pending(static_cast<Eigen::Index>(i)) = inputs[running.at[i]].initial;
+        // Samples before the start have not been.
+        const double first = std::ceil((start - running.own.first) / running.own.period - 1e-9);
+        running.next = static_cast<long>(std::max(0.0, first));
+        controllers_.push_back(std::move(running));
+    }
+}
+
+double SampledControllers::next() const {
+    double time = std::numeric_limits<double>::infinity();
+    for (const Running& controller : controllers_) time = std::min(time, time_of(controller));
+    return time;
+}
+
+void SampledControllers::run(const SampleInput& at, double resolution, Vector& u) {
+    for (Running& controller : controllers_) {
+        if (time_of(controller) > at.state.time + resolution) continue;
+        update(controller, at, u);
+        ++controller.next;
+    }
+}
+
+void SampledControllers::update(Running& controller, const SampleInput& at, Vector& u) {
+    const auto put = [&](const Vector& values) {
+        for (Eigen::Index i = 0; i < values.size(); ++i) u(entry(controller.at, i)) = values(i);
+    };
+    if (controller.own.delayed) put(controller.pending);
+    Vector& values = controller.values;
+    for (Eigen::Index i = 0; i < values.size(); ++i) values(i) = u(entry(controller.at, i));
+    controller.own.update({controller.next, at.state, at.kinematics, at.forces}, values);
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        if (!std::isfinite(values(i)))
+            throw NumericalError(text(named(controller.own), ": at ", at.state.time, " s its output '",
+                                      (*inputs_)[entry(controller.at, i)].name, "' is ", values(i)));
+    if (controller.own.delayed)
+        controller.pending = values;
+    else
+        put(values);
+}
+
+std::vector<SampledState> SampledControllers::state() const {
+    std::vector<SampledState> states;
+    states.reserve(controllers_.size());
+    for (const Running& controller : controllers_) {
+        if (controller.own.keeps_to_itself)
+            throw InputError(named(controller.own), "checkpoint", "none",
+                             "a controller that gives its memory away: this one keeps it to itself");
+        SampledState state{controller.own.name, controller.next, controller.pending};
+        if (controller.own.save) state.memory = controller.own.save();
+        states.push_back(std::move(state));
+    }
+    return states;
+}
+
+void SampledControllers::restore(const std::vector<SampledState>& states) {
+    if (states.size() != controllers_.size())
+        throw InputError("checkpoint", "number of controllers", states.size(), text(controllers_.size()));
+    for (Running& controller : controllers_) {
+        const auto found = std::ranges::find(states, controller.own.name, &SampledState::name);
+        if (found == states.end())
+            throw InputError("checkpoint", "controller", text("'", controller.own.name, "'"), "one that is there");
+        const SampledState& from = *found;
+        if (from.pending.size() != controller.pending.size() || from.next < 0)
+            throw InputError("checkpoint", text("outputs of the controller '", from.name, "'"), from.pending.size(),
+                             text(controller.pending.size()));
+        controller.next = from.next;
+        controller.pending = from.pending;
+        if (controller.own.restore) controller.own.restore(from.memory);
+    }
+}
+
+}  // namespace cardan::solvers

@@ -1,0 +1,84 @@
+/// @file
+/// Controllers that run every so often, as on a computer, and hold their output in between.
+#pragma once
+
+#include "solvers/time/equations_of_motion.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cardan::solvers {
+
+/// What a sampled controller sees.
+struct SampleInput {
+    long sample;  ///< 0, 1, 2 ...
+    const DynamicState& state;
+    const Kinematics& kinematics;
+    const Forces& forces;
+};
+
+/// A controller that is called at exact multiples of its period, first + k period. The integration ends a step there,
+/// so that no step spans a change of its output. What is recorded at that time holds the output before.
+///
+/// In linearisations and steady states its outputs are held: inputs of the system (open loop).
+struct SampledController {
+    std::string name;
+    std::vector<std::string> inputs;  ///< of the system, which it sets: names of Forces::inputs()
+    double period = 0;                ///< s
+    double first = 0;                 ///< s, time of sample 0
+    /// What it computes at a sample is put out at the next one: the time that it takes to compute.
+    bool delayed = false;
+    /// @param u  in: the present values of its inputs, out: the new ones
+    std::function<void(const SampleInput& in, VectorOut u)> update = {};
+    /// Its memory for checkpoints, and back; both empty: it has none. `keeps_to_itself`: it has one that it does not
+    /// give away; then there are no checkpoints.
+    std::function<std::vector<double>()> save = {};
+    std::function<void(std::span<const double>)> restore = {};
+    bool keeps_to_itself = false;
+};
+
+/// A controller in a checkpoint.
+struct SampledState {
+    std::string name;
+    long next = 0;                    ///< sample to come
+    Vector pending = {};              ///< what a delayed one puts out then
+    std::vector<double> memory = {};  ///< of SampledController::save
+};
+
+/// The controllers of a run. Internal to the integrator.
+class SampledControllers {
+public:
+    /// @throws InputError: unknown inputs, two controllers for one, a period that is not positive, a missing function
+    SampledControllers(std::vector<SampledController> controllers, const InputTable& inputs, double start);
+
+    bool empty() const { return controllers_.empty(); }
+    /// Time of the next sample, s; infinity: there is none.
+    double next() const;
+    /// Calls those whose time has come, within `resolution`, s.
+    /// @param u  all inputs of the system  @throws NumericalError for an output that is not finite, with its time
+    void run(const SampleInput& at, double resolution, Vector& u);
+
+    std::vector<SampledState> state() const;
+    /// @throws InputError unless the states are those of these controllers
+    void restore(const std::vector<SampledState>& states);
+
+private:
+    struct Running {
+        SampledController own;
+        std::vector<int> at;  ///< its inputs among those of the system
+        long next = 0;
+        Vector pending, values;
+    };
+    static double time_of(const Running& controller) {
+        return controller.own.first + static_cast<double>(controller.next) * controller.own.period;
+    }
+    void update(Running& controller, const SampleInput& at, Vector& u);
+
+    std::vector<Running> controllers_;
+    const InputTable* inputs_;
+};
+
+}  // namespace cardan::solvers
