@@ -13,6 +13,7 @@ room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files
 
 room(elements/sections SEES mbs/model USES boost) # cross sections, reference lines
 room(elements/machine SEES mbs/system) # joints, drives, brakes, generators, stops, loads
+room(elements/control SEES mbs/system) # signals, filters, actuators, controllers
 room(elements/cardan_beam SEES elements/sections elements/machine) # the cardanic joint beam element
 room(elements/reference SEES elements/sections) # other beams to compare with: mixed element, assumed modes
 
@@ -33,7 +34,7 @@ room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
 room(turbines/readers SEES turbines/model) # OpenFAST's files, tables
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
-room(turbines/machines SEES turbines/readers) # 600 kW, teetered, NREL 5 MW
+room(turbines/machines SEES turbines/readers elements/control) # 600 kW, teetered, NREL 5 MW
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 

@@ -1,0 +1,86 @@
+/// @file
+/// The usual controller of a turbine with variable speed and pitch: torque over filtered generator speed below rated
+/// power, constant power and a PI controller of the pitch above.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cardan {
+
+/// Parameters, SI, of the generator's side of the gearbox.
+///                    [J. Jonkman, S. Butterfield, W. Musial, G. Scott 2009, NREL/TP-500-38060, section 7]
+struct VariableSpeedParameters {
+    std::string name = "variable-speed controller";
+    double period = 0;            ///< s, between two samples
+    double corner_frequency = 0;  ///< of the filter of the generator speed, rad/s
+
+    /// Below `cut_in` no torque, up to `optimum_from` linear, then optimal_gain speed^2, until that meets the line of
+    /// an induction machine with this slip at rated power, which ends at `rated_speed`.
+    double cut_in = 0, optimum_from = 0, rated_speed = 0;  ///< rad/s
+    double optimal_gain = 0;                               ///< N m / (rad/s)^2
+    double slip = 0;                                       ///< rated speed over the synchronous one, minus 1
+    double rated_power = 0;                                ///< mechanical, W: constant power above rated speed
+    double largest_torque = 0;                             ///< N m
+    double largest_torque_rate = 0;                        ///< N m/s
+    /// Above this pitch angle the power is constant whatever the speed, rad.
+    double constant_power_pitch = 0;
+
+    double reference_speed = 0;                 ///< of the pitch controller, rad/s
+    double proportional = 0;                    ///< at zero pitch, s (rad per rad/s)
+    double integral = 0;                        ///< at zero pitch, 1 (rad per rad)
+    double doubling_pitch = 0;                  ///< pitch angle at which the gain is halved, rad
+    double least_pitch = 0, largest_pitch = 0;  ///< rad
+    double largest_pitch_rate = 0;              ///< rad/s
+
+    /// Where the line of the induction machine begins, rad/s.
+    double synchronous_speed() const { return rated_speed / (1 + slip); }
+    /// Its slope, N m s/rad.
+    double slope() const { return rated_power / rated_speed / (rated_speed - synchronous_speed()); }
+    /// Where it meets the parabola, rad/s.
+    double transition_speed() const;
+    /// @throws InputError naming the parameter
+    void check() const;
+};
+
+/// The controller as a program that is called once per period.
+class VariableSpeedController {
+public:
+    struct Measured {
+        double generator_speed = 0;  ///< rad/s
+        double pitch = 0;            ///< of the blades, towards feather, rad
+    };
+    struct Demand {
+        double torque = 0;  ///< of the generator, N m
+        double pitch = 0;   ///< rad
+    };
+
+    /// @throws InputError as VariableSpeedParameters::check()
+    explicit VariableSpeedController(VariableSpeedParameters parameters);
+
+    /// The next sample; the first one starts filter and integral from what is measured.
+    Demand step(const Measured& now);
+
+    /// Torque at a filtered speed and pitch, without limits of rate, N m.
+    double torque(double speed, double pitch) const;
+    /// Gain of the pitch controller at a pitch, relative to that at zero.
+    double gain(double pitch) const { return 1 / (1 + pitch / own_.doubling_pitch); }
+
+    /// What it remembers, and back.
+    std::vector<double> save() const { return {memory_.begin(), memory_.end()}; }
+    /// @throws InputError for another number of values
+    void restore(std::span<const double> from);
+
+    const VariableSpeedParameters& parameters() const { return own_; }
+
+private:
+    enum Memory : std::size_t { started, filtered_speed, integral, torque_before, pitch_before, count };
+
+    VariableSpeedParameters own_;
+    std::array<double, count> memory_{};
+};
+
+}  // namespace cardan

@@ -1,0 +1,75 @@
+// Controllers in shared libraries with Bladed's interface: the records, failures, what cannot be loaded.
+#include "elements/control/bladed_controller.hpp"
+#include "mbs/base/error.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/refusal.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+namespace cardan::testing::bladed_controllers {
+
+namespace {
+
+BladedController loaded(const std::string& input) {
+    return {CARDAN_TEST_CONTROLLER, {.input = input, .period = 0.1}};
+}
+
+BladedController::Measured at(double time, double speed = 100) {
+    return {.time = time, .pitch = {0.1, 0.2, 0.3}, .generator_speed = speed, .generator_torque = 5};
+}
+
+}  // namespace
+
+TEST_CASE("Bladed controller: demands are functions of what is measured, in single precision", "[property]") {
+    BladedController controller = loaded("follow");
+    const BladedController::Demand first = controller.step(at(0));
+    CHECK(first.torque == 200);
+    CHECK(first.message == "follow starts with a period of 0.1 s");
+    const BladedController::Demand next = controller.step(at(0.3, 110));
+    CHECK(next.torque == 220);
+    for (const double pitch : next.pitch) CHECK(pitch == Approx(0.03).epsilon(1e-6));
+    CHECK(next.message.empty());
+    controller.finish();
+    check_refused([&] { (void)controller.step(at(0.4)); }, {"call = after the last one"});
+}
+
+TEST_CASE("Bladed controller: every blade may have a pitch of its own", "[property]") {
+    BladedController controller = loaded("individual");
+    const BladedController::Demand demand = controller.step(at(0));
+    CHECK(demand.pitch[0] == Approx(0.11).epsilon(1e-6));
+    CHECK(demand.pitch[1] == Approx(0.22).epsilon(1e-6));
+    CHECK(demand.pitch[2] == Approx(0.33).epsilon(1e-6));
+}
+
+TEST_CASE("Bladed controller: failures and demands that are no numbers are errors with the time", "[property]") {
+    BladedController fails = loaded("fail"), nan = loaded("nan");
+    (void)fails.step(at(0));
+    CHECK_THROWS_WITH(fails.step(at(0.6)), Catch::Contains("at 0.6 s it reports a failure (-1)") &&
+                                               Catch::Contains("the pitch sensor is dead"));
+    (void)nan.step(at(0));
+    CHECK_THROWS_WITH(nan.step(at(0.7)), Catch::Contains("at 0.7 s it demands a generator torque of"));
+}
+
+TEST_CASE("Bladed controller: what cannot be loaded is refused with the system's reason", "[property]") {
+    const auto message = [](const std::filesystem::path& path, BladedController::Options options) {
+        try {
+            const BladedController controller(path, std::move(options));
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("(accepted)");
+    };
+    CHECK_THAT(message("no/such/file.so", {.period = 0.1}),
+               Catch::Contains("no/such/file.so") && Catch::Contains("No such file"));
+    const test::Folder folder;
+    std::ofstream(folder / "text.so") << "no library\n";
+    CHECK_THAT(message(folder / "text.so", {.period = 0.1}), Catch::Contains("no controller"));
+    CHECK_THAT(message(CARDAN_TEST_CONTROLLER, {.function = "DISCONN", .period = 0.1}),
+               Catch::Contains("no function 'DISCONN'"));
+    CHECK_THAT(message(CARDAN_TEST_CONTROLLER, {}), Catch::Contains("period [s] = 0"));
+    CHECK_THAT(message(CARDAN_TEST_CONTROLLER, {.blades = 4, .period = 0.1}), Catch::Contains("number of blades = 4"));
+}
+
+}  // namespace cardan::testing::bladed_controllers
