@@ -32,14 +32,16 @@ struct LinearModelArguments {
     std::string out = {};
 };
 
+inline constexpr auto max_frequency_of_models =
+    "modes are printed, and the balanced model is right, up to this frequency, Hz";
+
+/// All but --max-frequency.
 inline void add_linear_model_options(CommandLine& app, LinearModelArguments& a) {
     app.add_option("--azimuths", a.azimuths, "azimuths per revolution");
     app.add_option("--error", a.error,
                    "error of the balanced model, % of the largest response of every input and output up to the largest "
                    "frequency; its order follows");
     app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
-    app.add_option("--max-frequency", a.max_frequency,
-                   "modes are printed, and the balanced model is right, up to this frequency, Hz");
     add_station_options(app, a.stations);
     app.add_option("--out", a.out, "prefix of the files");
 }

@@ -30,6 +30,7 @@ int parse(int argc, char** argv, Arguments& a) {
     a.model.out = "wt600_linear_model";
     app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min");
     program::add_linear_model_options(app, a.model);
+    app.add_option("--max-frequency", a.model.max_frequency, program::max_frequency_of_models);
     app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade");
     app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower");
     app.add_flag("--gravity", a.gravity, "about the periodic steady state under gravity");

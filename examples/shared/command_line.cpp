@@ -111,7 +111,7 @@ Option CommandLine::add_option(const std::string& name, std::filesystem::path& t
 
 Option CommandLine::add_option(const std::string& name, std::vector<std::string>& target, const std::string& what) {
     remember(name, [name, &target](Words& all) {
-        for (const std::string& word : target) all.push_back(name + "=" + word);
+        for (const std::string& word : target) all.push_back(std::string(name).append("=").append(word));
     });
     CLI::Option* option = app_->add_option(name, target, what);
     if (!target.empty()) option->capture_default_str();

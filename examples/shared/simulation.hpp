@@ -67,12 +67,12 @@ public:
     RowFile(const std::string& path, const solvers::HistoryMetadata& about, solvers::Integrator& integrator,
             const solvers::Recorder& recorder)
         : writer_(solvers::HistoryWriter::create(path, recorder.channels(), about, {.replace = true})) {
-        writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
+        if (integrator.resumable()) writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
     }
     /// Goes on with a file that was broken off, from its checkpoint.
     RowFile(const std::string& path, solvers::Integrator& integrator, const solvers::Recorder& recorder)
         : writer_(solvers::HistoryWriter::append_to(path, recorder.channels())), rows_(writer_->rows()) {
-        writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
+        if (integrator.resumable()) writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
     }
     /// @return false if there is a row of that time: where a run was stopped and goes on
     bool append(double time, const std::vector<double>& values) {

@@ -197,7 +197,7 @@ void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
 }
 
 Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin, double time) const {
-    const Wrench own = load.at(time);
+    Wrench own = load.at(time);
     if (load.axes == WrenchAxes::base) return own;
     const Mat3 R = pose(kin, load.frame).R;
     return {R * own.force, R * own.moment};
@@ -298,7 +298,9 @@ std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, cons
 }
 
 std::vector<ForceReport> Forces::report(const ForceInput& at) const {
-    const auto& [time, q, qd, kin, s, u] = at;
+    const double time = at.time;
+    const Vector &q = at.q, &qd = at.qd;
+    const Kinematics& kin = at.kinematics;
     require_state<double>(kin, q, qd);
     std::vector<ForceReport> reports;
     Vector Q = Vector::Zero(q.size());

@@ -136,7 +136,7 @@ void StateForces::require_sizes(const At& at) const {
     require_size("elements with states", "u", at.u, inputs_.size());
 }
 
-void StateForces::rates(const At& at, VectorOut Q, VectorOut f) const {
+void StateForces::rates(const At& at, VectorOut& Q, VectorOut& f) const {
     require_sizes(at);
     require_size("elements with states", "Q", Q, size_);
     require_size("elements with states", "f", f, states_.size());

@@ -28,7 +28,7 @@ public:
         const Vector &q, &qd, &s, &u;
     };
     /// Adds the forces to Q and writes the rates of the states.  @param f  out, number of states
-    void rates(const At& at, VectorOut Q, VectorOut f) const;
+    void rates(const At& at, VectorOut& Q, VectorOut& f) const;
     /// Subtracts dQ/dq from K and dQ/dqd from D (n x n), and writes the rest.
     void derivatives(const At& at, Matrix& K, Matrix& D, StateDerivatives& out) const;
     /// Sum over the elements that tell their energy.

@@ -8,10 +8,10 @@ namespace cardan {
 
 /// A place on an element and the rigid segment it belongs to.
 struct Cut {
-    const CardanBeam::Element* element;
+    const CardanBeam::Element* element = nullptr;
     ElementLine line;
-    std::size_t segment;  ///< 0 ... 3
-    double s, x;          ///< along the reference line; along the chord; m
+    std::size_t segment = 0;  ///< 0 ... 3
+    double s = 0, x = 0;      ///< along the reference line; along the chord; m
 };
 
 /// @param s  arc length along the reference line; at a node: in the element inboard of it

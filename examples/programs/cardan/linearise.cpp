@@ -22,7 +22,7 @@ namespace {
 struct LineariseArguments {
     MachineOptions machine;
     LinearModelArguments model{.azimuths = 24};
-    std::optional<double> rpm;
+    std::optional<double> rpm, max_frequency;
     double azimuth = 0;
 };
 
@@ -30,6 +30,8 @@ void declare(CommandLine& app, LineariseArguments& a) {
     add_machine(app, a.machine);
     app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the model's)");
     add_linear_model_options(app, a.model);
+    app.add_option("--max-frequency", a.max_frequency,
+                   text(max_frequency_of_models, " (default: 1.3 times the third of the blade, clamped and at rest)"));
     app.add_option("--azimuth", a.azimuth,
                    "of a periodic model that is given as a constant one, deg; the nearest there is");
     app.add_flag("--gravity", a.machine.gravity, "about the periodic steady state under gravity");
@@ -183,6 +185,8 @@ int run(LineariseArguments& a, const CommandLine& command) {
     if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, "linear");
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;
+    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
+    a.model.max_frequency = *a.max_frequency;
     check(a.model, *a.rpm);
     set_pitch(machine, a.machine, speed);
     const ReadyMachine ready = ready_machine(machine, a.machine, a.model.max_frequency, std::abs(speed));
