@@ -60,7 +60,7 @@ struct Follower {
         const double w = own.frequency, c = 2 * own.damping * w;
         return {w * w * (target.value - in.s(0)) - c * in.s(1), -w * w, -c, w * w * target.slope};
     }
-    void rates(const StateInput& in, VectorOut f) const {
+    void rates(const StateInput& in, VectorOut& f) const {
         Gradient gradient;
         const double wanted = demand.value(in, gradient);
         f(0) = rate(in, wanted).value;
@@ -102,7 +102,7 @@ ControlBlock low_pass(const LowPass& block) {
     StateElement element{.name = block.name.name, .states = {state_of(block.name)}};
     const ControlWire input(block.input, element);
     const double tau = block.time_constant;
-    element.rates = [input, tau](const StateInput& in, VectorOut, VectorOut f) {
+    element.rates = [input, tau](const StateInput& in, const VectorOut&, VectorOut f) {
         Gradient gradient;
         f(0) = (input.value(in, gradient) - in.s(0)) / tau;
     };
@@ -122,7 +122,7 @@ ControlBlock second_order_filter(const SecondOrderFilter& block) {
     const double w = block.frequency, c = 2 * block.damping * w;
     StateElement element{.name = block.name.name, .states = {state_of(block.name), rate_of(block.name, w)}};
     const ControlWire input(block.input, element);
-    element.rates = [=](const StateInput& in, VectorOut, VectorOut f) {
+    element.rates = [=](const StateInput& in, const VectorOut&, VectorOut f) {
         Gradient gradient;
         f(0) = in.s(1);
         f(1) = w * w * (input.value(in, gradient) - in.s(0)) - c * in.s(1);
@@ -150,7 +150,7 @@ ControlBlock pi_controller(const PiController& block) {
     const double back = 1 / block.unwinding;
     const ControlSignal change = block.gain * (block.integral * block.error) + back * (output - wanted);
     const ControlWire rate(change, element);
-    element.rates = [rate](const StateInput& in, VectorOut, VectorOut f) {
+    element.rates = [rate](const StateInput& in, const VectorOut&, VectorOut f) {
         Gradient gradient;
         f(0) = rate.value(in, gradient);
     };
@@ -166,7 +166,7 @@ ControlBlock actuator(const Actuator& block) {
     StateElement element = states_of(block);
     const ControlWire demand(block.demand, element);
     const Follower follower{block, demand};
-    element.rates = [follower](const StateInput& in, VectorOut, VectorOut f) { follower.rates(in, f); };
+    element.rates = [follower](const StateInput& in, const VectorOut&, VectorOut f) { follower.rates(in, f); };
     element.jacobian = [follower](const StateInput& in, StateJacobian& d) { follower.jacobian(in, d); };
     return {std::move(element), signal::state(block.name.name)};
 }

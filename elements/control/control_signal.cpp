@@ -53,6 +53,13 @@ ControlSignal ControlSignal::through(std::function<Point(double)> f) const {
             }};
 }
 
+ControlSignal ControlSignal::through(const MonotoneCubic& table) const {
+    return through([table](double x) {
+        const MonotoneCubic::Value at = table.at(x);
+        return Point{at.value, at.slope};
+    });
+}
+
 ControlSignal operator+(const ControlSignal& a, const ControlSignal& b) {
     return sum(a, 1, b);
 }

@@ -2,6 +2,7 @@
 /// Signals: what filters, controllers and actuators measure and hand on to one another.
 #pragma once
 
+#include "mbs/base/monotone_cubic.hpp"
 #include "mbs/system/state_element.hpp"
 
 #include <array>
@@ -43,6 +44,8 @@ public:
         double value, slope;
     };
     ControlSignal through(std::function<Point(double x)> f) const;
+    /// A table of this signal: a schedule of gains, a curve of torques.
+    ControlSignal through(const MonotoneCubic& table) const;
 
     friend ControlSignal operator+(const ControlSignal& a, const ControlSignal& b);
     friend ControlSignal operator-(const ControlSignal& a, const ControlSignal& b);

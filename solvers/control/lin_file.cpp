@@ -131,13 +131,14 @@ private:
     }
     std::vector<Row> states(const Vector& values, bool derivative) const {
         std::vector<Row> rows;
-        const Index half = std::ssize(m_.states) / 2;
+        const Index half = (std::ssize(m_.states) - m_.first_order) / 2;
         for (Index i = 0; i < std::ssize(m_.states); ++i) {
-            const Signal& position = entry(m_.states, i % half);
+            const bool first_order = i >= 2 * half;
+            const Signal& position = entry(m_.states, first_order ? i : i % half);
             std::string name = text(position.name, ", ", units_of(position));
-            if (i >= half) name = text("First time derivative of ", name, "/s");
+            if (i >= half && !first_order) name = text("First time derivative of ", name, "/s");
             // Blade coordinates come in sets always; their numbers stand somewhere in the name.
-            rows.push_back({values(i), position.blade > 0, 2,
+            rows.push_back({values(i), position.blade > 0, first_order ? 1 : 2,
                             derivative ? text("First time derivative of Cardan ", name, "/s") : text("Cardan ", name)});
         }
         return rows;

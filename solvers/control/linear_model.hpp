@@ -42,10 +42,11 @@ struct LinearModel {
     std::string machine, description;
     double rotor_speed = 0;  ///< rad/s
     int blades = 0;
-    /// Positions first, then the rates in the same order.
+    /// Positions first, then the rates in the same order, then states of first order (Forces::states()).
     std::vector<Signal> states;
     std::vector<Signal> inputs, outputs;
     std::vector<int> coordinates;  ///< model index of every position among the states
+    int first_order = 0;           ///< number of states of first order
     std::vector<LinearSample> samples;
     /// Per output: estimated error of the finite differences behind C and D, relative to the largest difference caused
     /// by a step of any state or input.

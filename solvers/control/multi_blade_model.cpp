@@ -103,22 +103,35 @@ const RotorMap& with_three_blades(const RotorMap& rotor) {
 class States {
 public:
     States(const LinearModel& model, const RotorMap& rotor)
-        : coleman_(with_three_blades(rotor), model.coordinates),
+        : coleman_(with_three_blades(rotor), model.coordinates, states_of(model)),
           rotor_speed_(model.rotor_speed),
-          scale_(scales(rotor)) {}
+          scale_(scales(rotor, coleman_.rows())),
+          state_scale_(scales(rotor, coleman_.state_rows())) {}
 
     Matrix matrix(double psi) const { return block(psi, 0); }
     // Change with time.
     Matrix rate(double psi) const { return rotor_speed_ * block(psi, 1); }
     const std::vector<MultiBladeRow>& rows() const { return coleman_.rows(); }
+    const std::vector<MultiBladeRow>& state_rows() const { return coleman_.state_rows(); }
 
 private:
+    static StateTable states_of(const LinearModel& model) {
+        std::vector<StateInfo> states;
+        states.reserve(static_cast<std::size_t>(model.first_order));
+        for (std::size_t i = model.states.size() - static_cast<std::size_t>(model.first_order); i < model.states.size();
+             ++i)
+            states.push_back({.name = model.states[i].name,
+                              .unit = model.states[i].units,
+                              .scale = 1,
+                              .blade = model.states[i].blade});
+        return StateTable(std::move(states));
+    }
     // From the orthonormal coordinates of ColemanTransform to those whose collective value is the mean.
-    Vector scales(const RotorMap& rotor) const {
+    static Vector scales(const RotorMap& rotor, const std::vector<MultiBladeRow>& rows) {
         const double B = static_cast<double>(rotor.blades.size());
-        Vector scale = Vector::Ones(std::ssize(rows()));
+        Vector scale = Vector::Ones(std::ssize(rows));
         for (Index i = 0; i < scale.size(); ++i) {
-            const MultiBlade kind = entry(rows(), i).kind;
+            const MultiBlade kind = entry(rows, i).kind;
             if (kind == MultiBlade::none) continue;
             const bool whirls = kind == MultiBlade::cosine || kind == MultiBlade::sine;
             scale(i) = std::sqrt(whirls ? B / 2 : B);
@@ -127,35 +140,49 @@ private:
     }
     // q = T z, qd = rotor_speed T' z + T zd, or the derivative of this by psi.
     Matrix block(double psi, int derivative) const {
-        const Index n = scale_.size();
+        const Index n = scale_.size(), m = state_scale_.size();
         const Matrix T = coleman_.matrix(psi, derivative) * scale_.asDiagonal();
-        Matrix V = Matrix::Zero(2 * n, 2 * n);
+        Matrix V = Matrix::Zero(2 * n + m, 2 * n + m);
         V.topLeftCorner(n, n) = T;
-        V.bottomRightCorner(n, n) = T;
-        V.bottomLeftCorner(n, n) = rotor_speed_ * coleman_.matrix(psi, derivative + 1) * scale_.asDiagonal();
+        V.block(n, n, n, n) = T;
+        V.block(n, 0, n, n) = rotor_speed_ * coleman_.matrix(psi, derivative + 1) * scale_.asDiagonal();
+        V.bottomRightCorner(m, m) = coleman_.state_matrix(psi, derivative) * state_scale_.asDiagonal();
         return V;
     }
 
     ColemanTransform coleman_;
     double rotor_speed_;
-    Vector scale_;
+    Vector scale_, state_scale_;
 };
 
 std::vector<Signal> state_signals(const LinearModel& model, const RotorMap& rotor,
-                                  const std::vector<MultiBladeRow>& rows) {
+                                  const std::vector<MultiBladeRow>& rows, const std::vector<MultiBladeRow>& states) {
     std::vector<Signal> signals = model.states;
-    for (std::size_t i = 0; i < signals.size(); ++i) {
+    const auto rename = [&](Signal& signal, const Signal& source, const MultiBladeRow& row) {
+        const std::string name = without_number(source);
+        const Signal first = source;
+        signal = first;
+        signal.name = text(name.empty() ? first.name : name, " (", multi_blade_name(row), ")");
+        signal.long_name = text("multi-blade coordinate of '", first.name, "' and its like");
+        signal.blade = 0;
+    };
+    // Named after blade 1, whose row is the collective one.
+    const std::size_t from = 2 * rows.size();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (states[i].kind == MultiBlade::none) continue;
+        const auto collective = std::ranges::find_if(states, [&](const MultiBladeRow& other) {
+            return other.kind == MultiBlade::collective && other.blade_coordinate == states[i].blade_coordinate;
+        });
+        rename(signals[from + i], model.states[from + static_cast<std::size_t>(collective - states.begin())],
+               states[i]);
+    }
+    for (std::size_t i = 0; i < from; ++i) {
         const MultiBladeRow& row = rows[i % rows.size()];
         if (row.kind == MultiBlade::none) continue;
         // Named after blade 1.
         const int coordinate = entry(rotor.blades[0], row.blade_coordinate);
         const auto first = std::ranges::find(model.coordinates, coordinate) - model.coordinates.begin();
-        const Signal& source = entry(model.states, first + (i < rows.size() ? 0 : std::ssize(rows)));
-        const std::string name = without_number(source);
-        signals[i] = source;
-        signals[i].name = text(name.empty() ? source.name : name, " (", multi_blade_name(row), ")");
-        signals[i].long_name = text("multi-blade coordinate of '", source.name, "' and its like");
-        signals[i].blade = 0;
+        rename(signals[i], entry(model.states, first + (i < rows.size() ? 0 : std::ssize(rows))), row);
     }
     return signals;
 }
@@ -231,7 +258,7 @@ MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor) {
     result.machine = model.machine;
     result.description = model.description;
     result.rotor_speed = model.rotor_speed;
-    result.states = state_signals(model, rotor, states.rows());
+    result.states = state_signals(model, rotor, states.rows(), states.state_rows());
     result.inputs = inputs.signals();
     result.outputs = outputs.signals();
     result.input_sets = inputs.names();

@@ -47,7 +47,7 @@ private:
     Workspace workspace_;
     Linearisation lin_;
     Directions directions_;
-    Vector actuator_;
+    Vector actuator_, state_rates_;
     Vector error_, size_;  // of the outputs' differences
 };
 
@@ -61,6 +61,7 @@ LinearModel Builder::empty(double rotor_speed) const {
     model.inputs = layout_.input_signals;
     model.outputs = differences_.signals();
     model.coordinates = layout_.coordinates;
+    model.first_order = static_cast<int>(layout_.first_order());
     return model;
 }
 
@@ -86,7 +87,11 @@ void Builder::find_forces(const OperatingPoint& at, LinearModel& model) {
     const Kinematics kin = kinematics(system_.model, at.q, workspace_);
     Vector tau(n), Q(n);
     inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
-    system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+    state_rates_.resize(layout_.first_order());
+    if (system_.forces.has_states())
+        system_.forces.evaluate({at.time, at.q, at.qd, kin, lin_.at.s, lin_.at.u}, Q, state_rates_);
+    else
+        system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
     const Vector missing = tau - Q;
     actuator_ = Vector::Zero(n);
     for (int i : layout_.driven) actuator_(i) = missing(i);
@@ -99,33 +104,47 @@ void Builder::find_forces(const OperatingPoint& at, LinearModel& model) {
     const Matrix M = lin_.mass(layout_.unknowns, layout_.unknowns);
     const Vector off = M.llt().solve(on_unknowns);
     if (off.size() > 0) model.imbalance = std::max(model.imbalance, off.cwiseAbs().maxCoeff());
+    // States that do not stand still, by their scales, in a second.
+    for (int i = 0; const StateInfo& state : system_.forces.states()) {
+        const double rate = state.kind == StateKind::angle ? 0 : std::abs(state_rates_(i)) / state.scale;
+        model.imbalance = std::max(model.imbalance, rate);
+        ++i;
+    }
 }
 
 void Builder::add(const OperatingPoint& at, double psi, LinearModel& model) {
     lineariser_.linearise(at, lin_);
     layout_.begin(kinematics(system_.model, at.q, workspace_), directions_);
     // Prescribed accelerations stand in qdd already; the others are zero and follow.
-    const Matrix right = directions_.Q - lin_.mass * directions_.qdd - lin_.velocity() * directions_.qd -
-                         lin_.stiffness() * directions_.q;
+    Matrix right = directions_.Q - lin_.mass * directions_.qdd - lin_.velocity() * directions_.qd -
+                   lin_.stiffness() * directions_.q;
+    const StateDerivatives& d = lin_.state_derivatives;
+    if (system_.forces.has_states()) {
+        right += d.Q_s * directions_.s + d.Q_u * directions_.u;
+        directions_.s_rate =
+            d.f_q * directions_.q + d.f_qd * directions_.qd + d.f_s * directions_.s + d.f_u * directions_.u;
+    }
     solve(right);
     find_forces(at, model);
 
-    const Index states = layout_.states(), half = states / 2, inputs = layout_.columns() - states;
+    const Index states = layout_.states(), half = std::ssize(layout_.coordinates), first = layout_.first_order(),
+                inputs = layout_.columns() - states;
     LinearSample sample;
     sample.azimuth = psi;
     sample.time = at.time;
     Matrix rates(states, layout_.columns());
     rates.topRows(half) = directions_.qd(layout_.coordinates, Eigen::all);
-    rates.bottomRows(half) = directions_.qdd(layout_.coordinates, Eigen::all);
+    rates.middleRows(half, half) = directions_.qdd(layout_.coordinates, Eigen::all);
+    if (first > 0) rates.bottomRows(first) = directions_.s_rate;
     sample.A = rates.leftCols(states);
     sample.B = rates.rightCols(inputs);
     sample.x.resize(states);
-    sample.x << at.q(layout_.coordinates), at.qd(layout_.coordinates);
+    sample.x << at.q(layout_.coordinates), at.qd(layout_.coordinates), lin_.at.s;
     sample.xdot.resize(states);
-    sample.xdot << at.qd(layout_.coordinates), at.qdd(layout_.coordinates);
+    sample.xdot << at.qd(layout_.coordinates), at.qdd(layout_.coordinates), state_rates_;
     sample.u = layout_.input_values(at);
-    sample.y = differences_.at(at, actuator_, system_.forces);
-    const Matrix slopes = differences_.along(at, actuator_, directions_, layout_, error_, size_);
+    sample.y = differences_.at(lin_.at, actuator_, system_.forces);
+    const Matrix slopes = differences_.along(lin_.at, actuator_, directions_, layout_, error_, size_);
     sample.C = slopes.leftCols(states);
     sample.D = slopes.rightCols(inputs);
 

@@ -16,7 +16,7 @@ namespace cardan::solvers {
 /// What acts on the machine from outside, as deviation from the steady state.
 class LinearInput {
 public:
-    enum class Kind : std::uint8_t { generalised_force, force, moment, motion };
+    enum class Kind : std::uint8_t { generalised_force, force, moment, motion, system_input };
     /// Coordinates (index in the model) with factors.
     using Coordinates = std::vector<std::pair<int, double>>;
 
@@ -34,6 +34,8 @@ public:
     static LinearInput motion(std::string name, Coordinates coordinates);
     /// Likewise with a single input, "name acceleration"; position and rate of each coordinate become states.
     static LinearInput acceleration(std::string name, Coordinates coordinates);
+    /// An input of the system's elements with states (Forces::inputs()), of the same name.
+    static LinearInput system_input(std::string name);
 
     Kind kind() const { return kind_; }
     const std::string& name() const { return name_; }
@@ -65,7 +67,8 @@ struct StateSpaceOptions {
 };
 
 /// Linearises about a periodic steady state. The states are the deviations of the free coordinates and their rates,
-/// plus or minus those that inputs add or remove. A and B are exact (solvers/linear/linearise.hpp). C and D come from
+/// plus or minus those that inputs add or remove, and of the states of first order; inputs of the system that are not
+/// among `inputs` are held. A and B are exact (solvers/linear/linearise.hpp). C and D come from
 /// central differences of the channels with two steps, extrapolated; positions, rates, accelerations and drive forces
 /// follow the linear model, so that accelerations and loads have the correct feedthrough, and wrenches among the inputs
 /// count as loads. A channel in rad may jump by 2 pi. Channels see the forces of the system, but only gravity and

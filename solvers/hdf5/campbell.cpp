@@ -98,6 +98,7 @@ public:
         branches();
         components();
         crossings();
+        state_motions();
         coordinates();
         if (!d_.motions.empty()) shapes();
         if (harmonics_ > 0) floquet();
@@ -227,6 +228,31 @@ private:
             {"rad s-1", "rotor speed at the crossing"});
         put("frequency", column(x, [](const Crossing& c) { return c.frequency_hz; }),
             {"Hz", "frequency at the crossing"});
+    }
+
+    // A list over all points: their number changes from one to the next.
+    void state_motions() {
+        struct Row {
+            std::size_t point;
+            const StateMotion* motion;
+        };
+        std::vector<Row> rows;
+        for (std::size_t i = 0; i < d_.points.size(); ++i)
+            for (const StateMotion& motion : d_.points[i].state_motions) rows.push_back({i, &motion});
+        if (rows.empty()) return;
+        std::ranges::stable_sort(rows, {}, [](const Row& row) { return std::pair(row.point, row.motion->state); });
+        const auto name = [&](const Row& row) { return entry(d_.states, row.motion->state); };
+        const Hdf5Axis axis = counting_axis("state_motion", rows.size(), "index of the motion",
+                                            {text_label("name", column(rows, name), "state that moves most")});
+        const auto put = [&](const char* what, const auto& values, const Description& about) {
+            write_array(file_, std::string("state_motions/") + what, values, {axis}, about);
+        };
+        put("point", column(rows, [](const Row& row) { return static_cast<int>(row.point); }),
+            {"1", "index of the point, from 0"});
+        put("eigenvalue", column(rows, [](const Row& row) { return row.motion->mode.eigenvalue; }),
+            {"s-1", "eigenvalue lambda of a motion of states of first order"});
+        put("share", column(rows, [](const Row& row) { return row.motion->mode.state_share; }),
+            {"1", "share of the states in the motion"});
     }
 
     void coordinates() {

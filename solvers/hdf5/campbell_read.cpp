@@ -30,6 +30,7 @@ public:
         axis();
         branches();
         crossings();
+        state_motions();
         return std::move(d_);
     }
 
@@ -122,6 +123,28 @@ private:
             if (branch[i] >= 0 && branch[i] < std::ssize(d_.branches))
                 d_.crossings.push_back(
                     {static_cast<int>(branch[i]), static_cast<int>(multiple[i]), speed[i], frequency[i]});
+    }
+
+    void state_motions() {
+        if (!file_.has("state_motions/point")) return;
+        const std::vector<std::int64_t> point = file_.read_ints("state_motions/point");
+        const std::vector<double> real = file_.read_doubles("state_motions/eigenvalue_real"),
+                                  imag = file_.read_doubles("state_motions/eigenvalue_imag"),
+                                  share = file_.read_doubles("state_motions/share");
+        const std::vector<std::string> name = file_.read_strings("state_motions/name");
+        for (std::size_t i = 0; i < point.size(); ++i) {
+            for (const std::size_t size : {real.size(), imag.size(), share.size(), name.size()})
+                require_size("state_motions", size, point.size());
+            if (point[i] < 0 || point[i] >= std::ssize(d_.points))
+                throw FileError(file_.path(), text("state_motions/point has the value ", point[i]));
+            StateMotion motion;
+            motion.mode.eigenvalue = {real[i], imag[i]};
+            motion.mode.state_share = share[i];
+            const auto at = std::ranges::find(d_.states, name[i]);
+            motion.state = static_cast<int>(at - d_.states.begin());
+            if (at == d_.states.end()) d_.states.push_back(name[i]);
+            d_.points[static_cast<std::size_t>(point[i])].state_motions.push_back(std::move(motion));
+        }
     }
 
     Hdf5File file_;

@@ -69,7 +69,7 @@ Hdf5File create_journaled(const PendingFile& pending, detail::JournalLink& link)
 class CheckpointsFrom {
 public:
     CheckpointsFrom(const Integrator& integrator, HistoryWriter& into) : into_(into) {
-        into_.take_checkpoints([&integrator] { return integrator.checkpoint(); });
+        if (integrator.resumable()) into_.take_checkpoints([&integrator] { return integrator.checkpoint(); });
     }
     ~CheckpointsFrom() { into_.take_checkpoints({}); }
     CheckpointsFrom(const CheckpointsFrom&) = delete;

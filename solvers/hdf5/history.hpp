@@ -96,8 +96,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Records into a history, with checkpoints, and flushes at the end; see record() in recorder.hpp. Times already in the
-/// history are skipped, so that a continued run may be given the times of the whole run.
+/// Records into a history, with checkpoints if the integrator is resumable(), and flushes at the end; see record() in
+/// recorder.hpp. Times already in the history are skipped, so that a continued run may be given the times of the whole
+/// run.
 /// @throws InputError if the channels of the history differ from the recorder's
 Advance record(Integrator& integrator, Recorder& recorder, const std::vector<double>& times, HistoryWriter& into);
 

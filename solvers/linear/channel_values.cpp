@@ -18,8 +18,14 @@ const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const 
                                              const Forces& forces) {
     const Kinematics kin = kinematics(system_->model, state.q, workspace_);
     const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
-    const ChannelInput input{state.time, state.q, state.qd,  state.qdd, actuator, kin,
-                             forces,     loads,   no_states, no_states, no_states};
+    if (system_->forces.has_states()) {
+        s_ = state.s.size() > 0 ? state.s : system_->forces.states().initial();
+        u_ = state.u.size() > 0 ? state.u : system_->forces.inputs().initial();
+        Q_.resize(state.q.size());
+        s_rate_.resize(s_.size());
+        system_->forces.evaluate({state.time, state.q, state.qd, kin, s_, u_}, Q_, s_rate_);
+    }
+    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads, s_, s_rate_, u_};
     double* next = values_.data();
     for (const ChannelGroup& group : groups_) {
         group.sample(input, next);

@@ -30,6 +30,7 @@ private:
     std::span<const ChannelGroup> groups_;
     Workspace workspace_;
     std::vector<double> values_;
+    Vector s_, s_rate_, u_, Q_;  ///< of the states beside the coordinates
 };
 
 }  // namespace cardan::solvers

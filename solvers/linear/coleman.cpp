@@ -164,6 +164,7 @@ void ColemanTransform::add_states(const RotorMap& rotor, const StateTable& state
                              text("as many as of blade ", number_of_blade(rotor, 0), ", ", of_blade[0].size()));
     for (std::size_t i = 0; !of_blade.empty() && i < of_blade[0].size(); ++i) {
         std::vector<int> rows;
+        rows.reserve(of_blade.size());
         for (const std::vector<int>& own : of_blade) rows.push_back(own[i]);
         add_blade_rows(states_, std::move(rows), static_cast<int>(i));
     }
@@ -258,13 +259,21 @@ void ColemanTransform::congruence(double psi, Matrix& A) const {
 }
 
 Matrix ColemanTransform::matrix(double psi, int derivative) const {
+    return matrix(coordinates_, psi, derivative);
+}
+
+Matrix ColemanTransform::state_matrix(double psi, int derivative) const {
+    return matrix(states_, psi, derivative);
+}
+
+Matrix ColemanTransform::matrix(const Part& part, double psi, int derivative) const {
     if (derivative < 0) throw InputError("multi-blade transformation", "derivative", derivative, ">= 0");
-    const auto n = std::ssize(rows());
+    const auto n = std::ssize(part.kinds);
     Matrix T = Matrix::Identity(n, n);
-    transform_columns(coordinates_, psi, T);
+    transform_columns(part, psi, T);
     for (int d = 0; d < derivative; ++d) {
         Matrix next = Matrix::Zero(n, n);
-        for (const TurningPair& pair : turning_pairs()) {
+        for (const TurningPair& pair : part.pairs) {
             next.col(pair.a) = -pair.factor * T.col(pair.b);
             next.col(pair.b) = pair.factor * T.col(pair.a);
         }

@@ -56,6 +56,8 @@ public:
 
     /// T, dT/dpsi or its second derivative at azimuth psi, as a full matrix.
     Matrix matrix(double psi, int derivative = 0) const;
+    /// T_s of the states, likewise.
+    Matrix state_matrix(double psi, int derivative = 0) const;
     const std::vector<MultiBladeRow>& rows() const { return coordinates_.kinds; }
     /// Of the states; `blade_coordinate` is the position among the states of a blade.
     const std::vector<MultiBladeRow>& state_rows() const { return states_.kinds; }
@@ -99,6 +101,7 @@ private:
     void transform_columns(const Part& part, double psi, Matrix& A) const;
     void transform_rows(const Part& part, double psi, Matrix& A) const;
     void congruence(double psi, Matrix& A) const;
+    Matrix matrix(const Part& part, double psi, int derivative) const;
     void transform_states(StateTerms& terms, double psi, double rotor_speed) const;
 
     int blades_;

@@ -113,7 +113,7 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
             out.K_elastic(i, j) = lin.elastic(a, b);
         }
     }
-    if (lin.states.size() > 0)
+    if (!lin.states.empty())
         restrict_states(lin, coordinates, out.states);
     else if (out.states.size() > 0)
         out.states = {};

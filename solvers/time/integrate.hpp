@@ -209,7 +209,10 @@ public:
     /// Energies at the present state. Allocates.  @throws InputError if the work is not integrated
     EnergyBalance energy();
     IntegrationStatistics statistics() const;
+    /// @throws InputError unless resumable()
     Checkpoint checkpoint() const;
+    /// False: a controller keeps its memory to itself, and there are no checkpoints.
+    bool resumable() const { return controllers_.tell_their_state(); }
     /// Stores a number in all further checkpoints, e.g. what the action of an event has done, so that a continued run
     /// can repeat it. It has no other effect.
     /// @throws InputError for a name that is empty, "." or has a '/'

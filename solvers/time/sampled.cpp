@@ -90,6 +90,10 @@ void SampledControllers::update(Running& controller, const SampleInput& at, Vect
         put(values);
 }
 
+bool SampledControllers::tell_their_state() const {
+    return std::ranges::none_of(controllers_, [](const Running& c) { return c.own.keeps_to_itself; });
+}
+
 std::vector<SampledState> SampledControllers::state() const {
     std::vector<SampledState> states;
     states.reserve(controllers_.size());

@@ -61,6 +61,8 @@ public:
     /// @param u  all inputs of the system  @throws NumericalError for an output that is not finite, with its time
     void run(const SampleInput& at, double resolution, Vector& u);
 
+    /// False: one of them keeps its memory to itself, and state() throws InputError.
+    bool tell_their_state() const;
     std::vector<SampledState> state() const;
     /// @throws InputError unless the states are those of these controllers
     void restore(const std::vector<SampledState>& states);

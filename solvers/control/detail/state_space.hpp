@@ -13,10 +13,11 @@ namespace cardan::solvers::detail {
 /// Effect of a unit change of each state (first) and input on the whole machine: one column each, one row per
 /// coordinate.
 struct Directions {
-    Matrix q, qd;     ///< change of positions and rates
-    Matrix qdd;       ///< of accelerations, by the linear model
-    Matrix actuator;  ///< of what drives add to Q on their coordinates
-    Matrix Q;         ///< generalised forces of inputs
+    Matrix q, qd;         ///< change of positions and rates
+    Matrix qdd;           ///< of accelerations, by the linear model
+    Matrix actuator;      ///< of what drives add to Q on their coordinates
+    Matrix Q;             ///< generalised forces of inputs
+    Matrix s, s_rate, u;  ///< of the states of first order, their rates, the system's inputs
 };
 
 /// States, driven coordinates and columns of a model, from the inputs.
@@ -26,7 +27,8 @@ public:
     Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
            const StateSpaceOptions& options);
 
-    Eigen::Index states() const { return 2 * std::ssize(coordinates); }
+    Eigen::Index states() const { return 2 * std::ssize(coordinates) + first_order(); }
+    Eigen::Index first_order() const { return system_.forces.states().size(); }
     Eigen::Index columns() const { return states() + std::ssize(input_signals); }
 
     std::vector<int> coordinates;       ///< whose positions and rates are states

@@ -49,6 +49,10 @@ LinearInput LinearInput::acceleration(std::string name, Coordinates coordinates)
     return input;
 }
 
+LinearInput LinearInput::system_input(std::string name) {
+    return {Kind::system_input, std::move(name)};
+}
+
 int blade_number(std::string_view name) {
     constexpr std::string_view stem = "blade ";
     if (!name.starts_with(stem)) return 0;
@@ -120,6 +124,10 @@ void Layout::check(const LinearInput& input) const {
             throw InputError(where, "direction", input.direction().transpose(), "finite and not zero");
         return;
     }
+    if (input.kind() == LinearInput::Kind::system_input) {
+        (void)system_.forces.inputs().index(input.name());
+        return;
+    }
     if (input.coordinates().empty()) throw InputError(where, "number of coordinates", 0, ">= 1");
     std::set<int> seen;
     for (const auto& [coordinate, factor] : input.coordinates()) {
@@ -142,6 +150,10 @@ void Layout::check(const LinearInput& input) const {
 std::string Layout::units(const LinearInput& input) const {
     if (input.kind() == LinearInput::Kind::force) return "N";
     if (input.kind() == LinearInput::Kind::moment) return "N m";
+    if (input.kind() == LinearInput::Kind::system_input) {
+        const InputTable& table = system_.forces.inputs();
+        return table[table.index(input.name())].unit;
+    }
     const std::string& unit = system_.model.coordinates()[input.coordinates()[0].first].unit;
     if (input.kind() == LinearInput::Kind::motion) return unit;
     return unit == "m" ? "N" : "N m";
@@ -176,12 +188,20 @@ void Layout::name_states() {
                                      .long_name = text(rate ? "rate" : "position", " of '", info.name, "', deviation"),
                                      .blade = info.blade});
         }
+    for (const StateInfo& info : system_.forces.states())
+        state_signals.push_back({.name = info.name,
+                                 .units = info.unit,
+                                 .long_name = text("state '", info.name, "', deviation"),
+                                 .blade = info.blade});
 }
 
 void Layout::begin(const Kinematics& kin, Directions& out) const {
     const Eigen::Index n = system_.model.size();
     for (Matrix* m : {&out.q, &out.qd, &out.qdd, &out.actuator, &out.Q}) m->setZero(n, columns());
-    const Eigen::Index half = states() / 2;
+    out.s.setZero(first_order(), columns());
+    out.u.setZero(system_.forces.inputs().size(), columns());
+    const Eigen::Index half = std::ssize(coordinates);
+    for (Eigen::Index i = 0; i < first_order(); ++i) out.s(i, 2 * half + i) = 1;
     for (Eigen::Index i = 0; i < half; ++i) {
         const int coordinate = entry(coordinates, i);
         out.q(coordinate, i) = 1;
@@ -195,6 +215,10 @@ void Layout::begin(const Kinematics& kin, Directions& out) const {
             frame_jacobian<double>(kin, load->frame, J);
             const Wrench at = system_.forces.at_frame(*load, kin);
             out.Q.col(column) = J.topRows(3).transpose() * at.moment + J.bottomRows(3).transpose() * at.force;
+            continue;
+        }
+        if (input.kind() == LinearInput::Kind::system_input) {
+            out.u(system_.forces.inputs().index(input.name()), column) = 1;
             continue;
         }
         Matrix& target = input.kind() == LinearInput::Kind::generalised_force ? out.Q
@@ -223,6 +247,11 @@ Vector Layout::input_values(const OperatingPoint& at) const {
     for (Eigen::Index c = 0; c < values.size(); ++c) {
         const Column& own = entry(columns_, c);
         const LinearInput& input = inputs_[own.input];
+        if (input.kind() == LinearInput::Kind::system_input) {
+            const InputTable& table = system_.forces.inputs();
+            const int i = table.index(input.name());
+            values(c) = at.u.size() > 0 ? at.u(i) : table[i].initial;
+        }
         if (input.kind() != LinearInput::Kind::motion) continue;
         const auto& [coordinate, factor] = input.coordinates()[0];
         const Vector& from = own.derivative == 0 ? at.q : own.derivative == 1 ? at.qd : at.qdd;

@@ -21,6 +21,14 @@ Forces with_wrench(const System& system, FrameLoad load, double factor) {
     return Forces(set, system.model);
 }
 
+// Of the one entry that a direction has.
+template <class Table, class Direction>
+double scale_of(const Table& table, const Direction& direction) {
+    Eigen::Index at = 0;
+    direction.cwiseAbs().maxCoeff(&at);
+    return table[static_cast<int>(at)].scale;
+}
+
 std::string listed(const std::vector<ChannelGroup>& groups) {
     std::string names;
     for (const ChannelGroup& group : groups)
@@ -73,12 +81,16 @@ Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actua
     if (rows == 0) return slopes;
     for (Eigen::Index j = 0; j < layout.columns(); ++j) {
         const auto q = directions.q.col(j), qd = directions.qd.col(j), qdd = directions.qdd.col(j);
+        const auto s = directions.s.col(j), u = directions.u.col(j);
         const std::optional<FrameLoad> load = layout.wrench_of(j);
         // Positions: the error of the extrapolated difference, h^4, and rounding, 1e-16 / h, are about alike. Channels
         // are quadratic in the rates and linear in accelerations and forces: a large step has the least rounding.
         // By the largest entry of the direction: the factor of an input of motion may be anything.
         const auto largest = [](const auto& direction) { return direction.cwiseAbs().maxCoeff(); };
-        const double h = !q.isZero(0)     ? 1e-3 / largest(q)
+        // States and inputs: a hundredth of what counts as much.
+        const double h = !s.isZero(0)     ? 1e-2 * scale_of(system_.forces.states(), s)
+                         : !u.isZero(0)   ? 1e-2 * scale_of(system_.forces.inputs(), u)
+                         : !q.isZero(0)   ? 1e-3 / largest(q)
                          : !qd.isZero(0)  ? 1e-2 / largest(qd)
                          : !qdd.isZero(0) ? 100 / largest(qdd)
                                           : 1;
@@ -87,6 +99,8 @@ Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actua
             moved.q += step * q;
             moved.qd += step * qd;
             moved.qdd += step * qdd;
+            moved.s += step * s;
+            moved.u += step * u;
             const Vector forced = actuator + step * directions.actuator.col(j);
             return load ? at(moved, forced, with_wrench(system_, *load, step)) : at(moved, forced, system_.forces);
         };

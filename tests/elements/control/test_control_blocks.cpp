@@ -105,6 +105,8 @@ TEST_CASE("control blocks: exact derivatives, in and out of limits", "[property]
                        .limits = {-0.4, 0.6}});
     check_derivatives(pi.element, {filter.element});
     check_derivatives(actuator(pitch_drive(signal::input("demand"))).element);
+    const MonotoneCubic table({-1, 0, 1, 3}, {0.2, 0.5, 0.4, 1.5}, MonotoneCubic::Ends::parabola);
+    check_derivatives(low_pass({named("table"), signal::input("demand").through(table), 0.4}).element);
     check_derivatives(position_actuator(pitch_drive(pi.output), names.vane, 60, 3, -1).element,
                       {filter.element, pi.element});
     Actuator second = pitch_drive(signal::input("demand"));

@@ -1,10 +1,12 @@
 // States of blades in multi-blade coordinates: the definition, constancy, and the roots of lags that nobody feels.
 #include "mbs/base/decompositions.hpp"
 #include "solvers/campbell/diagram.hpp"
+#include "solvers/hdf5/campbell.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
-#include "tests/solvers/small_rotor.hpp"
+#include "tests/solvers/rotor_with_lags.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <algorithm>
@@ -14,66 +16,6 @@ namespace cardan::testing::multi_blade_states {
 using namespace solvers;
 
 namespace {
-
-// On every blade a lagging damper in flap with two states, and one state of the support beside them.
-SmallRotor rotor_with_lags(double coupling, int blades = 3) {
-    SmallRotorSpec spec{.stiffness = std::vector<double>(static_cast<std::size_t>(blades), 2000.0),
-                        .damping = 2,
-                        .hinges = BladeHinges::flap_and_lag,
-                        .elastic_support = true};
-    spec.more = [coupling](ForceSet& forces, const std::vector<std::vector<BodyId>>& bodies) {
-        StateElement support{.name = "support",
-                             .states = {{.name = "support lag", .unit = "N m", .scale = 100}},
-                             .coordinates = {BodyId{0}}};
-        support.rates = [coupling](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = -coupling * in.s(0);
-            f(0) = 800 * in.qd(0) - 3 * in.s(0);
-        };
-        forces.add_states(support);
-        for (std::size_t k = 0; k < bodies.size(); ++k) {
-            const int blade = static_cast<int>(k) + 1;
-            StateElement lag{.name = text("blade ", blade, " lag"),
-                             .states = {{.name = text("blade ", blade, " first"),
-                                         .unit = "N m",
-                                         .scale = 50,
-                                         .part = "blade",
-                                         .blade = blade},
-                                        {.name = text("blade ", blade, " second"),
-                                         .unit = "N m",
-                                         .scale = 50,
-                                         .part = "blade",
-                                         .blade = blade}},
-                             .coordinates = {bodies[k][0], bodies[k][1]}};
-            lag.rates = [coupling](const StateInput& in, VectorOut Q, VectorOut f) {
-                Q(0) = -coupling * in.s(0);
-                Q(1) = coupling * in.s(1);
-                f(0) = 900 * in.qd(0) - 4 * in.s(0);
-                f(1) = 300 * in.q(1) + 2 * in.s(0) - 7 * in.s(1);
-            };
-            forces.add_states(lag);
-        }
-    };
-    return small_rotor(spec);
-}
-
-struct FirstOrder {
-    Matrix A;
-    Eigen::Index n, m;
-};
-
-FirstOrder first_order(const SecondOrderSystem& z) {
-    const Eigen::Index n = z.M.rows(), m = z.states.size();
-    Matrix A = Matrix::Zero(2 * n + m, 2 * n + m);
-    const Eigen::LLT<Matrix> mass(z.M);
-    A.block(0, n, n, n).setIdentity();
-    A.block(n, 0, n, n) = -Matrix(mass.solve(z.K));
-    A.block(n, n, n, n) = -Matrix(mass.solve(z.C));
-    A.block(n, 2 * n, n, m) = mass.solve(z.states.Q_s);
-    A.block(2 * n, 0, m, n) = z.states.f_q;
-    A.block(2 * n, n, m, n) = z.states.f_qd;
-    A.block(2 * n, 2 * n, m, m) = z.states.f_s;
-    return {A, n, m};
-}
 
 // T of the states by its definition.
 Matrix state_transform(const ColemanTransform& coleman, const StateTable& states, double psi) {
@@ -149,6 +91,9 @@ TEST_CASE("coleman with states: lags that nobody feels have the roots -a and -a 
     CHECK(with.states[static_cast<std::size_t>(rotor.system.forces.states().index("blade 2 first"))] ==
           "blade 1 first (cosine 1)");
     CHECK_THAT(table(with), Catch::Contains("motions of states") && Catch::Contains("support lag"));
+    const test::Folder folder;
+    write_hdf5(with, folder / "lags.h5");
+    CHECK(table(read_campbell(folder / "lags.h5")) == table(with));
 }
 
 TEST_CASE("coleman with states: modes of the coupled rotor are the decays of its motion in time", "[analytic]") {

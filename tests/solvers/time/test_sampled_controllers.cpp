@@ -234,7 +234,16 @@ TEST_CASE("sampled controllers: what cannot be is refused with the controller's 
     options.controllers = {feedback(0.1)};
     options.controllers[0].keeps_to_itself = true;
     Integrator secretive(system, {}, 0, vector({0}), vector({0}), options);
+    CHECK_FALSE(secretive.resumable());
     check_refused([&] { (void)secretive.checkpoint(); }, {"controller 'feedback'", "checkpoint", "keeps it to itself"});
+
+    // A history of such a run has rows, and no checkpoint.
+    const test::Folder folder;
+    Recorder recorder(secretive);
+    HistoryWriter writer = HistoryWriter::create(folder / "run.h5", recorder.channels(), {}, {});
+    REQUIRE(record(secretive, recorder, sample_times(0, 0.3, 0.1), writer).reached());
+    writer.finish();
+    CHECK_FALSE(read_checkpoint(folder / "run.h5"));
 
     options.controllers[0].update = [](const SampleInput& in, VectorOut u) { u(0) = in.state.time > 0.55 ? NAN : 0; };
     Integrator failing(system, {}, 0, vector({0}), vector({0}), options);
