@@ -7,8 +7,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/refusal.hpp"
 
-using namespace cardan;
-using namespace cardan::testing;
+namespace cardan::testing::loads_over_time {
 
 namespace {
 
@@ -226,3 +225,5 @@ TEST_CASE("load over time: bad tables are refused with the load's name", "[prope
     load.breaks = {infinite};
     check_refused([&] { forces.add_wrench(load); }, {"time of a break [s] = inf"});
 }
+
+}  // namespace cardan::testing::loads_over_time

@@ -155,8 +155,10 @@ TEST_CASE("states in time: with fixed steps the methods keep their order, and so
         Method method;
         double step, order;
     };
-    for (const auto& [method, step, order] :
+    for (const Case& one :
          {Case{Method::dirk, 0.1, 5}, Case{Method::erk, 0.05, 5}, Case{Method::generalised_alpha, 0.01, 2}}) {
+        const Method method = one.method;
+        const double step = one.step, order = one.order;
         CAPTURE(static_cast<int>(method));
         const System system = actuated_pendulum();
         const auto with_step = [&](double h) {
