@@ -9,6 +9,7 @@
 #include "turbines/model/channels.hpp"
 
 extern const cardan::turbines::Turbine turbine;
+extern const cardan::Tree tree;
 extern const cardan::JointedFrame slide;
 extern const cardan::BodyId shaft;
 extern cardan::ForceSet forces;
