@@ -21,8 +21,8 @@ add_example_test(example_turbine_linear_missing_still cardan 0
     "1 azimuths.*the model is constant.*1st tower fore-aft.*balanced model.*1 files" linearise missing_blade.yaml --rpm 0 ${coarse} --out
     example_turbine_linear_missing_still)
 add_example_test(example_turbine_linear_hub_alone cardan 0
-    "the model is constant.* 1.323[0-9]+ +0.5000 +1.323[0-9]+ +0.5000  1st tower fore-aft" linearise hub_alone.yaml --out
-    example_turbine_linear_hub_alone)
+    "the model is constant.* 1.3235[0-9]+ +0.5000 +1.3235[0-9]+ +0.5000  1st tower fore-aft" linearise hub_alone.yaml
+    --max-frequency 10 --out example_turbine_linear_hub_alone)
 add_example_test(example_turbine_linear_openfast cardan 0
     "generator locked.* rpm: [0-9]+ states, 3 inputs, 17 outputs.*modes of A and of.*1st tower fore-aft\n.*balanced model: order [0-9]+ and 0 " linearise
     ${models}/openfast/small.fst ${coarse} --generator locked --out example_turbine_linear_openfast)
