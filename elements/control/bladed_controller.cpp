@@ -44,7 +44,6 @@ public:
     ~Library() { dlclose(handle_); }
 
     /// Record i, counted from 1.
-    float& operator[](std::size_t i) { return swap_[i - 1]; }
     void set(std::size_t i, double value) { swap_[i - 1] = static_cast<float>(value); }
     double at(std::size_t i) const { return static_cast<double>(swap_[i - 1]); }
 
@@ -91,40 +90,46 @@ BladedController::~BladedController() {
 }
 
 void BladedController::write(const Measured& now) {
-    Library& swap = *library_;
-    swap.set(2, now.time);
-    swap.set(3, own_.period);
-    swap.set(4, now.pitch[0]);
-    swap.set(33, now.pitch[1]);
-    swap.set(34, now.pitch[2]);
-    swap.set(5, own_.fine_pitch);
-    swap.set(6, own_.fine_pitch);
-    swap.set(7, own_.largest_pitch);
-    swap.set(8, own_.least_pitch_rate);
-    swap.set(9, own_.largest_pitch_rate);
-    swap.set(15, now.power);
-    swap.set(17, 0);
-    swap.set(18, own_.rated_speed);
-    swap.set(19, own_.rated_speed);
-    swap.set(20, now.generator_speed);
-    swap.set(21, now.rotor_speed);
-    swap.set(22, own_.largest_torque);
-    swap.set(23, now.generator_torque);
-    swap.set(24, now.yaw_error);
-    swap.set(27, now.wind_speed);
+    struct Record {
+        std::size_t number;
+        double value;
+    };
+    const auto all = std::to_array<Record>({
+        {2, now.time},
+        {3, own_.period},
+        {4, now.pitch[0]},
+        {33, now.pitch[1]},
+        {34, now.pitch[2]},
+        {5, own_.fine_pitch},
+        {6, own_.fine_pitch},
+        {7, own_.largest_pitch},
+        {8, own_.least_pitch_rate},
+        {9, own_.largest_pitch_rate},
+        {15, now.power},
+        {17, 0},
+        {18, own_.rated_speed},
+        {19, own_.rated_speed},
+        {20, now.generator_speed},
+        {21, now.rotor_speed},
+        {22, own_.largest_torque},
+        {23, now.generator_torque},
+        {24, now.yaw_error},
+        {27, now.wind_speed},
+        {37, now.yaw},
+        {53, now.tower_acceleration},
+        {60, now.azimuth},
+        {61, static_cast<double>(own_.blades)},
+        {63, 1000},  // where the controller's own outputs may begin, how many, and how long their names may be
+        {64, 0},
+        {65, 0},
+        {83, now.nacelle_nodding},
+        {129, static_cast<double>(records)},
+    });
+    for (const Record& record : all) library_->set(record.number, record.value);
     for (std::size_t k = 0; k < 3; ++k) {
-        swap.set(30 + k, now.out_of_plane.at(k));
-        swap.set(69 + k, now.in_plane.at(k));
+        library_->set(30 + k, now.out_of_plane.at(k));
+        library_->set(69 + k, now.in_plane.at(k));
     }
-    swap.set(37, now.yaw);
-    swap.set(53, now.tower_acceleration);
-    swap.set(60, now.azimuth);
-    swap.set(61, own_.blades);
-    swap.set(83, now.nacelle_nodding);
-    swap.set(63, 1000);  // where the controller's own outputs may begin, how many, and how long their names may be
-    swap.set(64, 0);
-    swap.set(65, 0);
-    swap.set(129, static_cast<double>(records));
 }
 
 void BladedController::call(double status, const Measured& now) {

@@ -169,26 +169,20 @@ double ControlWire::value(const StateInput& in, std::array<double, ControlSignal
     return signal_.value(x.data(), gradient.data());
 }
 
-namespace {
-
-MatrixOut& block_of(std::uint8_t block, const std::array<MatrixOut*, 5>& blocks) {
-    return *entry(blocks, block);
+void ControlWire::add(const std::array<MatrixOut*, 5>& blocks, Eigen::Index row, double factor,
+                      const std::array<double, ControlSignal::most_sources>& gradient) const {
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+        (*entry(blocks, static_cast<int>(ends_[i].block)))(row, ends_[i].at) += factor * gradient.at(i);
 }
-
-}  // namespace
 
 void ControlWire::add_to_Q(StateJacobian& d, Eigen::Index row, double factor,
                            const std::array<double, ControlSignal::most_sources>& gradient) const {
-    for (std::size_t i = 0; i < ends_.size(); ++i)
-        block_of(static_cast<std::uint8_t>(ends_[i].block), {&d.Q_q, &d.Q_qd, &d.Q_s, &d.Q_others, &d.Q_u})(
-            row, ends_[i].at) += factor * gradient.at(i);
+    add({&d.Q_q, &d.Q_qd, &d.Q_s, &d.Q_others, &d.Q_u}, row, factor, gradient);
 }
 
 void ControlWire::add_to_f(StateJacobian& d, Eigen::Index row, double factor,
                            const std::array<double, ControlSignal::most_sources>& gradient) const {
-    for (std::size_t i = 0; i < ends_.size(); ++i)
-        block_of(static_cast<std::uint8_t>(ends_[i].block), {&d.f_q, &d.f_qd, &d.f_s, &d.f_others, &d.f_u})(
-            row, ends_[i].at) += factor * gradient.at(i);
+    add({&d.f_q, &d.f_qd, &d.f_s, &d.f_others, &d.f_u}, row, factor, gradient);
 }
 
 }  // namespace cardan

@@ -94,6 +94,9 @@ public:
                   const std::array<double, ControlSignal::most_sources>& gradient) const;
 
 private:
+    void add(const std::array<MatrixOut*, 5>& blocks, Eigen::Index row, double factor,
+             const std::array<double, ControlSignal::most_sources>& gradient) const;
+
     enum class Block : std::uint8_t { q, qd, s, others, u };
     struct End {
         Block block;

@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace cardan {
@@ -12,18 +13,17 @@ namespace {
 using ColumnMap = Eigen::Map<Vector>;
 using MatrixMap = Eigen::Map<Matrix>;
 
+/// @param taken  names so far, to which this one is added
 template <class Info>
-void check(const Info& info, const std::string& where, const char* kind, const StateTable& states,
-           const InputTable& inputs, const Model& model) {
+void check(const Info& info, const std::string& where, const char* kind, std::set<std::string>& taken) {
     const std::string name = text(where, ": ", kind, " '", info.name, "'");
     if (info.name.empty()) throw InputError(text(where, ": a ", kind, " without a name"));
     if (info.unit.empty()) throw InputError(text(name, ": the unit is missing; '1' for a pure number"));
     require_positive(name, text("scale [", info.unit, "]"), info.scale);
     if (!std::isfinite(info.initial))
         throw InputError(name, text("value at the start [", info.unit, "]"), info.initial, "finite");
-    bool taken = states.find(info.name) >= 0 || inputs.find(info.name) >= 0;
-    for (const CoordinateInfo& coordinate : model.coordinates()) taken = taken || coordinate.name == info.name;
-    if (taken) throw InputError(text(name, ": a state, an input or a coordinate of this name is there already"));
+    if (!taken.insert(info.name).second)
+        throw InputError(text(name, ": a state, an input or a coordinate of this name is there already"));
 }
 
 }  // namespace
@@ -92,22 +92,19 @@ private:
 
 StateForces::StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model)
     : size_(model.size()) {
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const std::vector<InputInfo> earlier(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(i));
-        check(inputs[i], "inputs", "input", states_, InputTable(earlier), model);
-    }
+    std::set<std::string> taken;
+    for (const CoordinateInfo& coordinate : model.coordinates()) taken.insert(coordinate.name);
+    for (const InputInfo& input : inputs) check(input, "inputs", "input", taken);
     inputs_ = InputTable(std::move(inputs));
     std::vector<StateInfo> all;
     for (StateElement& element : elements) {
         const std::string where = text("element '", element.name, "'");
-        Bound bound{std::move(element), {}, {}, {}, static_cast<int>(all.size())};
-        for (const StateInfo& state : bound.own.states) {
-            check(state, where, "state", states_, inputs_, model);
-            all.push_back(state);
-            states_ = StateTable(all);
-        }
-        elements_.push_back(std::move(bound));
+        for (const StateInfo& state : element.states) check(state, where, "state", taken);
+        const int first = static_cast<int>(all.size());
+        all.insert(all.end(), element.states.begin(), element.states.end());
+        elements_.push_back({std::move(element), {}, {}, {}, first});
     }
+    states_ = StateTable(std::move(all));
     for (Bound& element : elements_) bind(element, model);
 }
 
