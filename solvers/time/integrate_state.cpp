@@ -124,11 +124,7 @@ IntegrationStatistics Integrator::statistics() const {
 Checkpoint Integrator::checkpoint() const {
     MethodState method = repeat_pending_ ? from_ : stepper_->origin();
     const bool at_sample = sample_due() && state_.time < break_ && !start_pending_ && !repeat_pending_;
-    if (at_sample) {
-        method = stepper_->present();
-        method.time = state_.time;
-        method.x = x_;
-    }
+    if (at_sample) method = stepper_->present(state_.time, x_);
     // A start is to come, here or at the end of the action.
     if ((start_pending_ && !repeat_pending_) || (state_.time >= piece_end_ && !at_sample) || doing_ == Doing::acting)
         method.steps = -1;

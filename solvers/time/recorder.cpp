@@ -82,26 +82,25 @@ void Recorder::add_states(const RecorderOptions& options, const Integrator& inte
     }
 }
 
+void Recorder::add_energy(const char* name, const char* long_name) {
+    channels_.push_back({.name = name, .units = "J", .long_name = long_name});
+}
+
 void Recorder::add_energies() {
-    const auto add = [&](const char* name, const char* long_name) {
-        channels_.push_back({.name = name, .units = "J", .long_name = long_name});
-    };
-    add("kinetic energy", "kinetic energy");
-    add("potential energy", "potential energy of all forces that have one");
-    add("dissipated energy", "energy dissipated by the dampers of linear laws since the start");
-    add("energy from drives", "energy supplied by drives since the start");
-    add("energy from loads", "energy supplied by forces without potential since the start");
-    add("energy error", "change of kinetic energy less the work of all forces: error of the integration");
+    add_energy("kinetic energy", "kinetic energy");
+    add_energy("potential energy", "potential energy of all forces that have one");
+    add_energy("dissipated energy", "energy dissipated by the dampers of linear laws since the start");
+    add_energy("energy from drives", "energy supplied by drives since the start");
+    add_energy("energy from loads", "energy supplied by forces without potential since the start");
+    add_energy("energy error", "change of kinetic energy less the work of all forces: error of the integration");
 }
 
 void Recorder::add_state_energies() {
-    const auto add = [&](const char* name, const char* long_name) {
-        channels_.push_back({.name = name, .units = "J", .long_name = long_name});
-    };
-    add("energy in states", "energy stored in elements with states");
-    add("energy supplied to states", "energy supplied to elements with states since the start");
-    add("energy dissipated by states", "energy dissipated by elements with states since the start");
-    add("state energy error", "change of the energy in states less all that went in and out: error of the integration");
+    add_energy("energy in states", "energy stored in elements with states");
+    add_energy("energy supplied to states", "energy supplied to elements with states since the start");
+    add_energy("energy dissipated by states", "energy dissipated by elements with states since the start");
+    add_energy("state energy error",
+               "change of the energy in states less all that went in and out: error of the integration");
 }
 
 void Recorder::add_statistics() {

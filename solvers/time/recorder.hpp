@@ -41,6 +41,7 @@ private:
         Eigen::Index entry;
     };
     void add_states(const RecorderOptions& options, const Integrator& integrator);
+    void add_energy(const char* name, const char* long_name);
     void add_energies();
     void add_state_energies();
     void add_statistics();

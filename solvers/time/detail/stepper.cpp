@@ -57,12 +57,12 @@ void Stepper::start(double time, const double* x, double stop) {
     origin_.memory.setZero();
 }
 
-MethodState Stepper::present() {
+MethodState Stepper::present(double time, const Vector& x) const {
     MethodState now = origin_;
     if (now.memory.size() == 0) return now;
     now.steps = 0;
-    now.time = time();
-    state_at(now.time, now.x.data());
+    now.time = time;
+    now.x = x;
     remember(now.memory.data());
     return now;
 }

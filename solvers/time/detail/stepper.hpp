@@ -51,8 +51,8 @@ public:
     bool step(double horizon);
     /// From what the present state has been computed; for a multistep method: nothing to repeat.
     const MethodState& origin() const { return origin_; }
-    /// The present state with what determines the next steps; for a multistep method: nothing to repeat.
-    MethodState present();
+    /// A state within the last step with what determines the next ones; for a multistep method: nothing to repeat.
+    MethodState present(double time, const Vector& x) const;
     /// Repeats those steps. @return false if they belong to another method, or if one fails
     bool repeat(const MethodState& from, double stop);
     /// End of the last step.
