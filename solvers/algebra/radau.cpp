@@ -56,20 +56,26 @@ RadauIIA::RadauIIA(int stages) {
     A2 = A * A;
 }
 
-RadauStage::RadauStage(const RadauIIA& method, Index coordinates)
+RadauStage::RadauStage(const RadauIIA& method, Index rows, Index states)
     : method_(&method),
-      n_(coordinates),
+      n_(rows),
+      second_(rows - states),
       C_(static_cast<std::size_t>(method.stages())),
       K_(C_.size()),
-      factors_(method.stages() * coordinates) {}
+      factors_(method.stages() * rows) {}
 
 void RadauStage::set(Index stage, double h, const Matrix& M, const Matrix& C, const Matrix& K) {
     entry(C_, stage) = C;
     entry(K_, stage) = K;
+    const Index states = n_ - second_;
     for (Index j = 0; j < method_->stages(); ++j) {
+        const double a = h * method_->A(stage, j), a2 = h * h * method_->A2(stage, j);
         auto block = factors_.matrix().block(stage * n_, j * n_, n_, n_);
-        block.noalias() = h * method_->A(stage, j) * C + h * h * method_->A2(stage, j) * K;
-        if (j == stage) block += M;
+        block.leftCols(second_).noalias() = a * C.leftCols(second_) + a2 * K.leftCols(second_);
+        if (states > 0) block.rightCols(states).noalias() = a * K.rightCols(states);
+        if (j != stage) continue;
+        block.leftCols(second_) += M.leftCols(second_);
+        if (states > 0) block.rightCols(states) += C.rightCols(states);
     }
 }
 
@@ -82,19 +88,23 @@ void RadauStage::solve(Matrix& f) const {
 }
 
 void RadauStage::transition(double h, Matrix& Phi) {
-    const Index s = method_->stages();
-    right_.resize(s * n_, 2 * n_);
+    const Index s = method_->stages(), n = second_, states = n_ - second_, size = 2 * n + states;
+    right_.resize(s * n_, size);
     for (Index i = 0; i < s; ++i) {
-        right_.block(i * n_, 0, n_, n_) = -entry(K_, i);
-        right_.block(i * n_, n_, n_, n_) = -method_->c(i) * h * entry(K_, i) - entry(C_, i);
+        const Matrix &C = entry(C_, i), &K = entry(K_, i);
+        auto own = right_.middleRows(i * n_, n_);
+        own.leftCols(n) = -K.leftCols(n);
+        own.middleCols(n, n) = -method_->c(i) * h * K.leftCols(n) - C.leftCols(n);
+        if (states > 0) own.rightCols(states) = -K.rightCols(states);
     }
     solve(right_);
-    Phi.setIdentity(2 * n_, 2 * n_);
-    Phi.topRightCorner(n_, n_).diagonal().setConstant(h);
+    Phi.setIdentity(size, size);
+    Phi.block(0, n, n, n).diagonal().setConstant(h);
     for (Index j = 0; j < s; ++j) {
-        const auto a = right_.middleRows(j * n_, n_);
-        Phi.topRows(n_) += h * h * method_->A2(s - 1, j) * a;
-        Phi.bottomRows(n_) += h * method_->A(s - 1, j) * a;
+        const auto a = right_.middleRows(j * n_, n);
+        Phi.topRows(n) += h * h * method_->A2(s - 1, j) * a;
+        Phi.middleRows(n, n) += h * method_->A(s - 1, j) * a;
+        if (states > 0) Phi.bottomRows(states) += h * method_->A(s - 1, j) * right_.middleRows(j * n_ + n, states);
     }
 }
 

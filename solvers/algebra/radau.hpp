@@ -25,23 +25,27 @@ struct RadauIIA {
 /// accelerations a_i at the stages; positions and rates there are
 ///
 ///     q_i = q + c_i h v + h^2 sum_j (A^2)_ij a_j,   v_i = v + h sum_j A_ij a_j.
+///
+/// The last rows may be states s of first order (append_states(): no second derivatives), of which the unknowns are the
+/// rates w_i, with s_i = s + h sum_j A_ij w_j.
 class RadauStage {
 public:
-    RadauStage(const RadauIIA& method, Eigen::Index coordinates);
+    /// @param states  how many of the rows are of first order
+    RadauStage(const RadauIIA& method, Eigen::Index rows, Eigen::Index states = 0);
 
     /// All stages must be set before factorise().
     void set(Eigen::Index stage, double h, const Matrix& M, const Matrix& C, const Matrix& K);
     /// Cost 2/3 (s n)^3.
     void factorise();
-    /// Accelerations at the stages from right-hand sides f at the stages, in place, s n rows.
+    /// Accelerations and rates of states at the stages from right-hand sides f at the stages, in place, s n rows.
     void solve(Matrix& f) const;
-    /// Solutions of the homogeneous equations at the end of the step, from unit positions and unit rates.
-    /// @param Phi  out, 2 n x 2 n: positions above rates
+    /// Solutions of the homogeneous equations at the end of the step, from unit positions, unit rates and unit states.
+    /// @param Phi  out: positions above rates above states
     void transition(double h, Matrix& Phi);
 
 private:
     const RadauIIA* method_;
-    Eigen::Index n_;
+    Eigen::Index n_, second_;  ///< rows, and how many are of second order
     Matrix right_;
     std::vector<Matrix> C_, K_;
     LuFactors factors_;

@@ -64,6 +64,12 @@ void set_stability_margin(CampbellPoint& point) {
     point.stability_margin = growth == 0 ? 0 : -growth;
 }
 
+StateMotion state_motion(Mode mode, const Vector& scales) {
+    StateMotion out{.mode = std::move(mode)};
+    (out.mode.states.cwiseAbs().array() / scales.array()).maxCoeff(&out.state);
+    return out;
+}
+
 PointSolver::PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
     : system_(system),
       rotor_(rotor),
@@ -144,7 +150,11 @@ void PointSolver::set_modes(std::size_t count, CampbellPoint& point) {
     const auto is_motion_of_states = [&](std::size_t i) { return mode_solver_.state_share(i) >= 0.5; };
     point.state_motions.clear();
     for (std::size_t i = 0; i < count; ++i)
-        if (is_motion_of_states(i)) point.state_motions.push_back(state_motion(i));
+        if (is_motion_of_states(i)) {
+            Mode mode;
+            mode_solver_.copy(i, mode);
+            point.state_motions.push_back(state_motion(std::move(mode), current_.states.scales));
+        }
     set_count(point.modes, count - point.state_motions.size());
     for (std::size_t i = 0, next = 0; i < count; ++i) {
         if (is_motion_of_states(i)) continue;
@@ -156,13 +166,6 @@ void PointSolver::set_modes(std::size_t count, CampbellPoint& point) {
         m.floquet.reset();
         m.blade_shares.resize(0);
     }
-}
-
-StateMotion PointSolver::state_motion(std::size_t mode) const {
-    StateMotion out;
-    mode_solver_.copy(mode, out.mode);
-    (out.mode.states.cwiseAbs().array() / current_.states.scales.array()).maxCoeff(&out.state);
-    return out;
 }
 
 bool PointSolver::blades_stand_out() const {

@@ -48,6 +48,10 @@ inline constexpr double negligible_remainder = 1e-9;
 /// times the lowest are ignored.
 void set_stability_margin(CampbellPoint& point);
 
+/// A mode that is a motion of states, with the state that moves most.
+/// @param scales  of the states
+StateMotion state_motion(Mode mode, const Vector& scales);
+
 /// Steady state, linearisation, Coleman transformation, modes and their energy shares at one rotor speed after another.
 /// Its memory, some twenty matrices over the coordinates, is allocated with the first point. Keeps references to system
 /// and machine; one per thread.
@@ -103,7 +107,6 @@ private:
     void warn(const std::string& what);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);
     void set_modes(std::size_t count, CampbellPoint& point);
-    StateMotion state_motion(std::size_t mode) const;
 
     const System& system_;
     const RotorMap& rotor_;

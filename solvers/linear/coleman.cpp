@@ -152,8 +152,7 @@ void ColemanTransform::add_blade_rows(Part& part, std::vector<int> rows, int in_
     part.at.push_back(std::move(rows));
 }
 
-void ColemanTransform::add_states(const RotorMap& rotor, const StateTable& states) {
-    states_.kinds.resize(static_cast<std::size_t>(states.size()));
+std::vector<std::vector<int>> states_of_blades(const RotorMap& rotor, const StateTable& states) {
     std::vector<std::vector<int>> of_blade(rotor.blades.size());
     for (int i = 0; i < states.size(); ++i)
         for (std::size_t k = 0; k < of_blade.size(); ++k)
@@ -162,12 +161,16 @@ void ColemanTransform::add_states(const RotorMap& rotor, const StateTable& state
         if (of_blade[k].size() != of_blade[0].size())
             throw InputError(rotor.machine, text("states of blade ", number_of_blade(rotor, k)), of_blade[k].size(),
                              text("as many as of blade ", number_of_blade(rotor, 0), ", ", of_blade[0].size()));
-    for (std::size_t i = 0; !of_blade.empty() && i < of_blade[0].size(); ++i) {
-        std::vector<int> rows;
-        rows.reserve(of_blade.size());
-        for (const std::vector<int>& own : of_blade) rows.push_back(own[i]);
-        add_blade_rows(states_, std::move(rows), static_cast<int>(i));
-    }
+    std::vector<std::vector<int>> all(of_blade.empty() ? 0 : of_blade[0].size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const std::vector<int>& own : of_blade) all[i].push_back(own[i]);
+    return all;
+}
+
+void ColemanTransform::add_states(const RotorMap& rotor, const StateTable& states) {
+    states_.kinds.resize(static_cast<std::size_t>(states.size()));
+    int in_blade = 0;
+    for (std::vector<int>& rows : states_of_blades(rotor, states)) add_blade_rows(states_, std::move(rows), in_blade++);
 }
 
 namespace {

@@ -35,6 +35,10 @@ std::string uneven_spacing(const RotorMap& rotor);
 /// coordinates than blade 1".
 std::string without_multi_blade_coordinates(const RotorMap& rotor, const std::vector<int>& coordinates);
 
+/// States of first order that belong to blades (StateInfo::blade), by their order on each: [state of a blade][blade].
+/// @throws InputError if blades differ in their number
+std::vector<std::vector<int>> states_of_blades(const RotorMap& rotor, const StateTable& states);
+
 /// x = T(psi) z over a set of coordinates: blade coordinate i of blade k at azimuth psi_k = psi + 2 pi (k - 1) / B is
 ///
 ///     x_k = z_0 / sqrt B + sqrt(2/B) sum_n (z_cn cos n psi_k + z_sn sin n psi_k) + z_d (-1)^(k-1) / sqrt B (B even).
@@ -69,6 +73,7 @@ public:
         double factor;
     };
     const std::vector<TurningPair>& turning_pairs() const { return coordinates_.pairs; }
+    const std::vector<TurningPair>& state_turning_pairs() const { return states_.pairs; }
 
     /// M x'' + C x' + K x = 0 becomes M_z z'' + C_z z' + K_z z = 0 at constant rotor speed Omega; the transformed
     /// matrices are constant for an isotropic rotor of three or more blades without gravity. With dT/dpsi = T G, G

@@ -126,6 +126,20 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
     }
 }
 
+void append_states(SecondOrderSystem& system) {
+    const StateTerms& t = system.states;
+    const Eigen::Index n = system.M.rows(), m = t.size();
+    if (m == 0) return;
+    for (Matrix* A : {&system.M, &system.C, &system.K, &system.K_elastic})
+        A->conservativeResizeLike(Matrix::Zero(n + m, n + m));
+    system.C.bottomLeftCorner(m, n) = -t.f_qd;
+    system.C.bottomRightCorner(m, m).setIdentity();
+    system.K.topRightCorner(n, m) = -t.Q_s;
+    system.K.bottomLeftCorner(m, n) = -t.f_q;
+    system.K.bottomRightCorner(m, m) = -t.f_s;
+    system.states = {};
+}
+
 Matrix static_stiffness(const SecondOrderSystem& system) {
     const StateTerms& t = system.states;
     if (t.size() == 0) return system.K;

@@ -83,6 +83,14 @@ void for_each_matrix(System& system, const F& f) {
     f(system.states.Q_s), f(system.states.f_q), f(system.states.f_qd), f(system.states.f_s);
 }
 
+/// The states as further rows behind those of the coordinates, x = (q, s), so that the whole reads as a system of
+/// second order whose mass matrix is zero there:
+///
+///     M = [M 0; 0 0],  C = [C 0; -f_qd 1],  K = [K -Q_s; -f_q -f_s].
+///
+/// @param system  overwritten; unchanged if it has no states
+void append_states(SecondOrderSystem& system);
+
 /// Stiffness against a motion so slow that the states follow: K + Q_s f_s^-1 f_q.
 /// @throws NumericalError if there is a state that settles nowhere by itself, such as an integrator
 Matrix static_stiffness(const SecondOrderSystem& system);

@@ -20,6 +20,17 @@ PeriodicSteadyState periodic_state(const System& system, const RotorMap& rotor, 
     return state;
 }
 
+// Largest deviation of the states' matrices from their mean, each relative to its norm.
+double change_of_states(const StateTerms& at, const StateTerms& mean) {
+    if (mean.size() == 0) return 0;
+    const auto change = [](const Matrix& now, const Matrix& own) {
+        const double norm = own.norm();
+        return norm > 0 ? (now - own).norm() / norm : 0;
+    };
+    return std::max({change(at.Q_s, mean.Q_s), change(at.f_q, mean.f_q), change(at.f_qd, mean.f_qd),
+                     change(at.f_s, mean.f_s)});
+}
+
 OperatingPoint standstill(const System& system, int spin, double azimuth) {
     SteadyOptions options;
     options.azimuth = azimuth;
@@ -38,7 +49,7 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
         throw InputError(rotor.machine, "spacing of the blades", uneven_spacing(rotor),
                          "equal angles, for a mean over the azimuth");
     const std::vector<int> unknowns = system.model.coordinates().free_without(rotor.spin);
-    const ColemanTransform coleman(rotor, unknowns);
+    const ColemanTransform coleman(rotor, unknowns, system.forces.states());
     AzimuthAverage mean;
     mean.rows = coleman.rows();
     if (speed == 0) {
@@ -54,7 +65,8 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
     SecondOrderSystem at;
     for (int i = 0; i < options.azimuths; ++i) {
         periodic.at(periodic.period() * i / options.azimuths, at);
-        mean.remainder = std::max({mean.remainder, (at.K - m.K).norm() / m.K.norm(), (at.M - m.M).norm() / m.M.norm()});
+        mean.remainder = std::max({mean.remainder, (at.K - m.K).norm() / m.K.norm(), (at.M - m.M).norm() / m.M.norm(),
+                                   change_of_states(at.states, m.states)});
     }
     return mean;
 }

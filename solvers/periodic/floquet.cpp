@@ -5,6 +5,7 @@
 #include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
+#include "solvers/periodic/detail/state_units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,19 +27,13 @@ struct Normalised {
     Vector unit;  ///< states of `raw` over those of `system`
 };
 
-Vector units(const PeriodicSystem& raw) {
-    Vector unit = Vector::Ones(raw.states());
-    if (!raw.is_second_order()) return unit;
-    SecondOrderSystem at;
-    raw.at(0, at);
-    for (Index i = 0; i < raw.rows(); ++i) {
-        if (!(at.M(i, i) > 0))
-            throw InputError(in_floquet_theory, text("inertia of row ", i), at.M(i, i),
-                             "> 0 in a system of second order");
-        unit(i) = 1 / std::sqrt(at.M(i, i));
-    }
-    unit.tail(raw.rows()) = raw.frequency() * unit.head(raw.rows());
-    return unit;
+void scale_states(StateTerms& t, const Vector& d, const Vector& u, double omega) {
+    const Vector inverse = u.cwiseInverse();
+    const auto per_state = inverse.asDiagonal();
+    t.Q_s = (d.asDiagonal() * t.Q_s * u.asDiagonal() / (omega * omega)).eval();
+    t.f_q = (per_state * t.f_q * d.asDiagonal() / omega).eval();
+    t.f_qd = (per_state * t.f_qd * d.asDiagonal()).eval();
+    t.f_s = (per_state * t.f_s * u.asDiagonal() / omega).eval();
 }
 
 PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
@@ -48,17 +43,20 @@ PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
             raw.at(angle / omega, E, A);
             E *= omega;
         });
-    const Vector d = unit.head(raw.rows());
-    return PeriodicSystem::second_order(2 * pi, raw.rows(), [raw, omega, d](double angle, SecondOrderSystem& out) {
+    const Vector d = unit.head(raw.rows()), u = unit.tail(raw.states_beside());
+    const auto at = [raw, omega, d, u](double angle, SecondOrderSystem& out) {
         raw.at(angle / omega, out);
         const auto scale = d.asDiagonal();
         out.M = (scale * out.M * scale).eval();
         out.C = (scale * out.C * scale / omega).eval();
         out.K = (scale * out.K * scale / (omega * omega)).eval();
-    });
+        if (u.size() > 0) scale_states(out.states, d, u, omega);
+    };
+    return PeriodicSystem::second_order(2 * pi, raw.rows(), at, u.size());
 }
 
-Normalised::Normalised(const PeriodicSystem& raw) : system(normalised(raw, units(raw))), unit(units(raw)) {}
+Normalised::Normalised(const PeriodicSystem& raw)
+    : system(normalised(raw, units_of_states(raw, in_floquet_theory))), unit(units_of_states(raw, in_floquet_theory)) {}
 
 // Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each; 0: to be
 // doubled, from one step in two samples.
@@ -159,6 +157,7 @@ private:
     void integrate(std::span<Motion> motions) const;
     FloquetSolution solution(const Motion& motion) const;
     double change(const ProductEigen::Vectors& v) const;
+    double state_share(const ProductEigen::Vectors& v) const;
     double error(const FloquetMode& mode, double change) const;
     double step() const { return angle_ / grid_.samples / grid_.steps; }
     void transform(const ComplexMatrix& samples, FloquetSolution& out) const;
@@ -179,9 +178,7 @@ private:
 };
 
 void Analysis::set_permutation() {
-    const Index n = raw_.rows(), states = raw_.states();
-    raw_permutation_.setZero(states, states);
-    for (Index at = 0; at < states; at += n) raw_permutation_.block(at, at, n, n) = options_.symmetry.P;
+    raw_permutation_ = options_.symmetry.of_states(raw_);
     permutation_ = normalised_.unit.cwiseInverse().asDiagonal() * raw_permutation_ * normalised_.unit.asDiagonal();
 }
 
@@ -210,6 +207,23 @@ double Analysis::change(const ProductEigen::Vectors& v) const {
     for (Index k = 0; k < p; ++k)
         sum += (v.left.col((k + 1) % p).transpose() * (entry(difference_, k) * v.right.col(k))).value() / v.growth(k);
     return std::abs(sum) / angle_;
+}
+
+// Of the states beside the coordinates in the products of left and right vectors, which are 1; all over the period,
+// since they pass it on to the coordinates and back.
+double Analysis::state_share(const ProductEigen::Vectors& v) const {
+    const Index beside = raw_.states_beside(), rest = raw_.states() - beside;
+    if (beside == 0) return 0;
+    double states = 0, coordinates = 0;
+    for (Index k = 0; k < v.right.cols(); ++k) {
+        const auto part = [&](Index first, Index count) {
+            return std::abs(
+                (v.left.col(k).segment(first, count).transpose() * v.right.col(k).segment(first, count)).value());
+        };
+        states += part(rest, beside);
+        coordinates += part(0, rest);
+    }
+    return states / (states + coordinates);
 }
 
 // What is left of that change. Harmonics of the motion are motions of frequency |lambda_j| for the method, whose error
@@ -274,10 +288,11 @@ void Analysis::transform(const ComplexMatrix& samples, FloquetSolution& out) con
     out.harmonics = harmonics.topRows(n);
     out.resolved = true;
     if (!raw_.is_second_order()) return;
+    out.state_harmonics = harmonics.bottomRows(raw_.states_beside());
     double off = 0, all = 0;
     for (Index j = -J; j <= J; ++j) {
         const Complex lambda = out.exponent + Complex(0, raw_.frequency() * static_cast<double>(j));
-        const ComplexVector rate = harmonics.col(j + J).tail(n).cwiseQuotient(normalised_.unit.head(n));
+        const ComplexVector rate = harmonics.col(j + J).segment(n, n).cwiseQuotient(normalised_.unit.head(n));
         const ComplexVector own = lambda * harmonics.col(j + J).head(n).cwiseQuotient(normalised_.unit.head(n));
         off += (rate - own).squaredNorm();
         all += std::max(rate.squaredNorm(), own.squaredNorm());
@@ -295,6 +310,7 @@ FloquetSolution Analysis::solution(const Motion& motion) const {
     out.real_multiplier = motion.which.real;
     out.condition = motion.vectors.condition;
     out.error = change(motion.vectors);
+    out.state_share = state_share(motion.vectors);
     transform(motion.p, out);
     return out;
 }

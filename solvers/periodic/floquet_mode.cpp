@@ -39,6 +39,11 @@ Vector energies(const FloquetSolution& s, const EnergyWeights& w, double omega) 
     return e.cwiseMax(0);
 }
 
+// Of the states in units of their scales.
+Vector state_sizes(const FloquetSolution& s, const EnergyWeights& w) {
+    return (w.scales.cwiseInverse().asDiagonal() * s.state_harmonics).colwise().squaredNorm();
+}
+
 // Among the largest the one of the lowest frequency, the positive one of two.
 Index principal(const Vector& e, const FloquetSolution& s, double omega) {
     const Index J = e.size() / 2;
@@ -80,23 +85,37 @@ double distance_of_conjugates(Complex a, Complex b) {
     return std::abs(a.real() - b.real()) + std::abs(std::remainder(a.imag() + b.imag(), 2 * pi));
 }
 
-void turn_into_conjugate(FloquetMode& mode) {
-    mode.exponent = std::conj(mode.exponent);
-    mode.harmonics = mode.harmonics.conjugate().rowwise().reverse().eval();
-    mode.participation.reverseInPlace();
-    mode.first_harmonic = -(mode.first_harmonic + static_cast<int>(mode.harmonics.cols()) - 1);
-}
-
 // Energy 1 J, largest entry of the principal harmonic real.
 void normalise(FloquetMode& mode, double energy) {
     const auto column = mode.harmonics.col(-mode.first_harmonic);
     Index at = 0;
     const double size = column.cwiseAbs().maxCoeff(&at);
     const Complex phase = size > 0 ? std::abs(column(at)) / column(at) : Complex(1);
-    mode.harmonics *= phase * (energy > 0 ? std::sqrt(2 / energy) : 1.0);
+    const Complex factor = phase * (energy > 0 ? std::sqrt(2 / energy) : 1.0);
+    mode.harmonics *= factor;
+    mode.state_harmonics *= factor;
+}
+
+// The largest state of the principal harmonic is 1.
+void normalise_states(FloquetMode& mode, const Vector& scales) {
+    const ComplexVector column = mode.state_harmonics.col(-mode.first_harmonic).cwiseQuotient(scales);
+    Index at = 0;
+    if (!(column.cwiseAbs().maxCoeff(&at) > 0)) return;
+    const Complex factor = 1.0 / column(at);
+    mode.harmonics *= factor;
+    mode.state_harmonics *= factor;
 }
 
 }  // namespace
+
+void conjugate(FloquetMode& mode) {
+    mode.exponent = std::conj(mode.exponent);
+    const Eigen::Index count = mode.harmonics.cols();
+    for (ComplexMatrix* harmonics : {&mode.harmonics, &mode.state_harmonics})
+        *harmonics = harmonics->conjugate().rowwise().reverse().eval();
+    mode.participation.reverseInPlace();
+    mode.first_harmonic = -(mode.first_harmonic + static_cast<int>(count) - 1);
+}
 
 double hermitian_form(const Matrix& A, const ComplexVector& x) {
     return (x.adjoint() * (A * x)).value().real();
@@ -135,6 +154,7 @@ EnergyWeights::EnergyWeights(const PeriodicSystem& system, int samples, const Ma
         SecondOrderSystem mean = mean_over_period(system, samples);
         M = std::move(mean.M);
         K = std::move(mean.K_elastic);
+        scales = std::move(mean.states.scales);
         return;
     }
     const Index n = system.rows();
@@ -148,21 +168,27 @@ EnergyWeights::EnergyWeights(const PeriodicSystem& system, int samples, const Ma
 FloquetMode make_mode(const FloquetSolution& solution, const EnergyWeights& weights, double period) {
     const double omega = 2 * pi / period;
     const Index J = solution.harmonics.cols() / 2;
-    const Vector e = energies(solution, weights, omega);
-    const Index rigid = rigid_column(solution, weights, omega);
+    const bool of_states = solution.state_share >= 0.5;
+    const Vector e = of_states ? state_sizes(solution, weights) : energies(solution, weights, omega);
+    const Index rigid = of_states ? -1 : rigid_column(solution, weights, omega);
     const Index column = rigid >= 0 ? rigid : principal(e, solution, omega);
 
     FloquetMode mode;
     mode.period = period;
     mode.exponent = solution.exponent + Complex(0, omega * static_cast<double>(column - J));
     mode.harmonics = solution.harmonics;
+    mode.state_harmonics = solution.state_harmonics;
+    mode.state_share = solution.state_share;
     mode.first_harmonic = -static_cast<int>(column);
     mode.participation = e.sum() > 0 ? Vector(e / e.sum()) : Vector::Zero(e.size());
     mode.condition = solution.condition;
     mode.error = solution.error;
     mode.kind = rigid >= 0 ? FloquetKind::rigid : kind_of(solution.real_multiplier, mode.per_period());
-    normalise(mode, e.sum());
-    if (mode.exponent.imag() < 0) turn_into_conjugate(mode);
+    if (of_states)
+        normalise_states(mode, weights.scales);
+    else
+        normalise(mode, e.sum());
+    if (mode.exponent.imag() < 0) conjugate(mode);
     return mode;
 }
 

@@ -31,9 +31,16 @@ struct FloquetMode {
     /// Share of every column in sum_j |lambda_j|^2 c_j^H M c_j + c_j^H K_e c_j, lambda_j = exponent + i j 2 pi / T; M
     /// and K_e averaged over the period. Sums to one.
     Vector participation;
+    /// Those of the states beside the coordinates, likewise; empty: there are none.
+    ComplexMatrix state_harmonics = {};
+    /// Share of these states in the motion, 0 ... 1: as Mode::state_share, over the period. From 1/2 on it is their
+    /// motion and no vibration; then `participation` is that of the harmonics in the states, in units of their scales,
+    /// instead of the energy, and the largest state is 1.
+    double state_share = 0;
     double condition = 0;  ///< of the exponent: 1 well conditioned, above 1e6 nearly defective (0: not known)
     double error = 0;      ///< estimated, of the exponent, 1/s (NaN: not known)
 
+    bool is_state_motion() const { return state_share >= 0.5; }
     /// exp(lambda T)
     Complex multiplier() const { return std::exp(exponent * period); }
     double growth() const { return exponent.real(); }
@@ -51,6 +58,9 @@ struct FloquetMode {
 /// "oscillation", "locked at 1 per period", "locked at 1/2 per period", "rigid" ...
 std::string kind_name(const FloquetMode& mode);
 
+/// Turns it into the other member of a complex conjugate pair.
+void conjugate(FloquetMode& mode);
+
 /// x^H A x of a symmetric matrix, a real number.
 double hermitian_form(const Matrix& A, const ComplexVector& x);
 
@@ -59,6 +69,8 @@ struct FloquetSolution {
     Complex exponent;
     bool real_multiplier = false;     ///< over the integrated part of the period
     ComplexMatrix harmonics;          ///< c_j from j = -J to J
+    ComplexMatrix state_harmonics = {};  ///< of the states beside the coordinates
+    double state_share = 0;
     double condition = 0, error = 0;  ///< in the units of FloquetMode, which takes them over
     bool resolved = true;             ///< by the samples over the period
 };
@@ -66,6 +78,7 @@ struct FloquetSolution {
 /// Weights of the energies of harmonics.
 struct EnergyWeights {
     Matrix M, K;
+    Vector scales;  ///< of the states beside the coordinates
     /// Mean over the period of M and K_elastic from `samples` times; for first order K is `weight`.
     /// @throws InputError if the weight has the wrong size
     EnergyWeights(const PeriodicSystem& system, int samples, const Matrix& weight);

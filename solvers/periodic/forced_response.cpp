@@ -37,7 +37,8 @@ double remainder(const PeriodicSystem& system, const std::function<Vector(double
         const double time = (s + 0.5) / samples * system.period();
         system.at(time, at);
         const Vector f = load_at(load, time, system.rows());
-        const Vector rest = at.M * q.at(time, 2) + at.C * q.at(time, 1) + at.K * q.at(time) - f;
+        Vector rest = at.M * q.at(time, 2) + at.C * q.at(time, 1) + at.K * q.at(time) - f;
+        if (system.states_beside() > 0) rest -= at.states.Q_s * q.states_at(time);
         largest = std::max(largest, rest.cwiseAbs().maxCoeff());
         size = std::max(size, f.cwiseAbs().maxCoeff());
     }
@@ -51,21 +52,29 @@ Vector ForcedResponse::at(double time, int derivative) const {
     return coefficients * (std::pow(omega, derivative) * fourier_basis(omega * time, harmonics(), derivative));
 }
 
+Vector ForcedResponse::states_at(double time) const {
+    return state_coefficients * fourier_basis(2 * pi / period * time, harmonics());
+}
+
 ForcedResponse forced_response(const PeriodicSystem& system, const std::function<Vector(double)>& load, int harmonics,
                                int samples) {
     check(system, harmonics, samples);
     if (!load) throw InputError(text(in_forced_response, ": the function of the load is empty"));
     if (samples == 0) samples = 4 * (harmonics + 1);
-    const Index n = system.rows(), terms = Index{2} * harmonics + 1;
+    const Index own = system.rows(), n = own + system.states_beside(), terms = Index{2} * harmonics + 1;
     const double omega = system.frequency();
     // Block (j, k): what column k of the coefficients gives in the equation of column j.
     Matrix A = Matrix::Zero(n * terms, n * terms);
-    Vector b = Vector::Zero(n * terms), size = Vector::Zero(n);
+    Vector b = Vector::Zero(n * terms), size = Vector::Zero(n), scales;
     SecondOrderSystem at;
     for (int s = 0; s < samples; ++s) {
         const double psi = 2 * pi * s / samples, time = psi / omega;
         system.at(time, at);
-        const Vector f = load_at(load, time, n), weights = fourier_weights(psi, harmonics, samples);
+        if (s == 0) scales = at.states.scales;
+        append_states(at);
+        Vector f = Vector::Zero(n);
+        f.head(own) = load_at(load, time, own);
+        const Vector weights = fourier_weights(psi, harmonics, samples);
         const Vector q = fourier_basis(psi, harmonics), qd = omega * fourier_basis(psi, harmonics, 1),
                      qdd = omega * omega * fourier_basis(psi, harmonics, 2);
         for (Index k = 0; k < terms; ++k) {
@@ -74,16 +83,26 @@ ForcedResponse forced_response(const PeriodicSystem& system, const std::function
         }
         for (Index j = 0; j < terms; ++j) b.segment(j * n, n) += weights(j) * f;
         size += (at.K.diagonal().cwiseAbs() + omega * omega * at.M.diagonal().cwiseAbs()) / samples;
+        if (n > own) size.tail(n - own).array() += omega / samples;
     }
-    // Coordinates of different units: rows and columns to unit size.
-    const Vector scale = size.cwiseSqrt().cwiseInverse().replicate(terms, 1);
-    const Eigen::PartialPivLU<Matrix> lu(scale.asDiagonal() * A * scale.asDiagonal());
+    // Coordinates and states of different units: rows and columns to unit size.
+    Vector rows = size.cwiseSqrt().cwiseInverse(), columns = rows;
+    if (n > own) {
+        rows.tail(n - own).array() /= scales.array();
+        columns.tail(n - own).array() *= scales.array();
+    }
+    rows = rows.replicate(terms, 1).eval();
+    columns = columns.replicate(terms, 1).eval();
+    const Eigen::PartialPivLU<Matrix> lu(rows.asDiagonal() * A * columns.asDiagonal());
     if (!(lu.rcond() > 1e-15))
         throw NumericalError(text(in_forced_response, ": the equations are singular (reciprocal condition ", lu.rcond(),
                                   "): an undamped natural frequency coincides with a harmonic of ", 1 / system.period(),
                                   " Hz, or nothing holds a coordinate"));
-    const Vector x = scale.cwiseProduct(lu.solve(scale.cwiseProduct(b)));
-    ForcedResponse response{system.period(), x.reshaped(n, terms), 0};
+    const Vector x = columns.cwiseProduct(lu.solve(rows.cwiseProduct(b)));
+    const Matrix all = x.reshaped(n, terms);
+    ForcedResponse response{.period = system.period(),
+                            .coefficients = all.topRows(own),
+                            .state_coefficients = all.bottomRows(n - own)};
     response.remainder = remainder(system, load, response, samples);
     return response;
 }

@@ -10,6 +10,7 @@ namespace cardan::solvers {
 struct ForcedResponse {
     double period = 0;    ///< T, s
     Matrix coefficients;  ///< a row per coordinate, columns h0, hc_1, hs_1, hc_2 ...
+    Matrix state_coefficients = {};  ///< likewise of the states beside the coordinates
     /// Largest entry of the residual, at times between those that were balanced, relative to that of the load: what the
     /// neglected harmonics would have to balance.
     double remainder = 0;
@@ -17,9 +18,12 @@ struct ForcedResponse {
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
     /// Positions (derivative 0), rates (1) or accelerations (2) of all coordinates.
     Vector at(double time, int derivative = 0) const;
+    /// Of all states beside them.
+    Vector states_at(double time) const;
 };
 
-/// Makes the harmonics 0 ... `harmonics` of M(t) q'' + C(t) q' + K(t) q - f(t) vanish: Galerkin's method over the
+/// Makes the harmonics 0 ... `harmonics` of M(t) q'' + C(t) q' + K(t) q - Q_s(t) s - f(t) vanish, and those of the
+/// states' equations: Galerkin's method over the
 /// period, with the equations evaluated at `samples` equidistant times (0: 4 (harmonics + 1)). Exact apart from the
 /// neglected harmonics. If the system is stable, this is the response that remains when transients have decayed. Cost:
 /// one linear system of n (2 harmonics + 1) rows.

@@ -95,13 +95,12 @@ void Balance::hold() {
                              "a free coordinate besides the spin");
         held_.push_back(row);
     }
+    for (const Index row : equations_.growing()) held_.push_back(row);
 }
 
 // Harmonic j is measured by j^2 times the inertia where that is more than the stiffness.
 void Balance::set_scales() {
     scale_ = equations_.scale(x_);
-    const double stiffest = scale_.size() > 0 ? scale_.maxCoeff() : 1.0;
-    scale_ = scale_.cwiseMax(1e-12 * stiffest);
     unit_.resize(x_.size());
     for (Index l = 0; l < x_.cols(); ++l) {
         const Index harmonic = (l + 1) / 2;
@@ -131,7 +130,7 @@ Matrix Balance::jacobian() {
     for (int s = 0; s < samples(); ++s) {
         equations_.set_azimuth(entry(azimuths_, s));
         equations_.set(x_ * basis_[0].col(s), x_ * basis_[1].col(s), x_ * basis_[2].col(s));
-        equations_.linearise(at);
+        equations_.linearise_all(at);
         for (Index l = 0; l < columns; ++l) {
             block = basis_[2](l, s) * at.M + basis_[1](l, s) * at.C + basis_[0](l, s) * at.K;
             for (Index k = 0; k < columns; ++k) J.block(k * n, l * n, n, n) += weights_(k, s) * block;
@@ -148,7 +147,7 @@ Matrix Balance::half_jacobian() {
     for (int s = 0; s < samples() / parts; ++s) {
         equations_.set_azimuth(entry(azimuths_, s));
         equations_.set(x_ * basis_[0].col(s), x_ * basis_[1].col(s), x_ * basis_[2].col(s));
-        equations_.linearise(at);
+        equations_.linearise_all(at);
         half_->add(at, {basis_[0].col(s), basis_[1].col(s), basis_[2].col(s)}, parts * weights_.col(s), J);
     }
     return J;
@@ -306,12 +305,10 @@ PeriodicSteadyState Balance::solve() {
 
 void Balance::finish(PeriodicSteadyState& result, bool small) {
     result.converged = small;
-    result.rotor_speed = options_.rotor_speed;
-    result.spin = equations_.spin();
-    result.coefficients = equations_.all(x_);
+    equations_.finish(x_, result);
     result.residual = largest(R_);
     result.remainder = equations_.largest_residual(x_, samples(), scale_);
-    for (std::size_t i = 0; i < held_.size(); ++i) result.held.push_back({options_.held[i], R_(held_[i], 0)});
+    for (std::size_t i = 0; i < options_.held.size(); ++i) result.held.push_back({options_.held[i], R_(held_[i], 0)});
     for (const std::string& words : open_) result.note += (result.note.empty() ? "" : "; ") + words;
     if (small) return;
     result.message =

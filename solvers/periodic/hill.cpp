@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/azimuth_series.hpp"
 #include "solvers/algebra/real_eigen.hpp"
+#include "solvers/periodic/detail/state_units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ using Index = Eigen::Index;
 constexpr const char* in_hills_method = "Hill's method";
 
 // (A - sigma E)^-1 E projected on the harmonics 1, cos, sin, cos 2, ... of the time omega t; its eigenvalues are
-// 1 / (lambda - sigma). Large ones, slow motions, keep their accuracy beside stiff ones. States of second order in
-// units of inertia and of omega. Row and column l n + i: harmonic l of state i.
+// 1 / (lambda - sigma). Large ones, slow motions, keep their accuracy beside stiff ones. States in the units of
+// units_of_states(). Row and column l n + i: harmonic l of state i.
 Matrix inverted_pencil(const PeriodicSystem& system, int H, int samples, double sigma, const Vector& unit) {
     const Index n = system.states(), count = 2 * H + 1;
     const double omega = system.frequency();
@@ -44,30 +45,27 @@ Matrix inverted_pencil(const PeriodicSystem& system, int H, int samples, double 
     return left.partialPivLu().solve(right);
 }
 
-Vector state_units(const PeriodicSystem& system) {
-    Vector unit = Vector::Ones(system.states());
-    if (!system.is_second_order()) return unit;
-    SecondOrderSystem at;
-    system.at(0, at);
-    unit.head(system.rows()) = at.M.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    unit.tail(system.rows()) = system.frequency() * unit.head(system.rows());
-    return unit;
-}
-
 struct Candidate {
     FloquetSolution solution;
     double centre = 0;  // of the harmonics
 };
 
+// Energy, with omega^2 beside |lambda|^2: a rigid displacement counts as well.
+double size_of_harmonic(const FloquetSolution& s, const EnergyWeights& w, double omega, Index i) {
+    const Index H = s.harmonics.cols() / 2;
+    const ComplexVector c = s.harmonics.col(i);
+    const Complex lambda = s.exponent + Complex(0, omega * static_cast<double>(i - H));
+    return (c.adjoint() * (w.K * c)).value().real() +
+           (std::norm(lambda) + omega * omega) * (c.adjoint() * (w.M * c)).value().real();
+}
+
+// Of the states, in units of their scales, in what is their motion.
 double centre_of(const FloquetSolution& s, const EnergyWeights& w, double omega) {
     const Index H = s.harmonics.cols() / 2;
     double sum = 0, moment = 0;
     for (Index i = 0; i <= 2 * H; ++i) {
-        const ComplexVector c = s.harmonics.col(i);
-        const Complex lambda = s.exponent + Complex(0, omega * static_cast<double>(i - H));
-        // With omega^2 beside |lambda|^2: a rigid displacement counts as well.
-        const double e = (c.adjoint() * (w.K * c)).value().real() +
-                         (std::norm(lambda) + omega * omega) * (c.adjoint() * (w.M * c)).value().real();
+        const double e = s.state_share >= 0.5 ? s.state_harmonics.col(i).cwiseQuotient(w.scales).squaredNorm()
+                                              : size_of_harmonic(s, w, omega, i);
         sum += e;
         moment += static_cast<double>(i - H) * e;
     }
@@ -99,27 +97,64 @@ Candidate conjugate(const Candidate& one) {
     Candidate other = one;
     other.solution.exponent = std::conj(one.solution.exponent);
     other.solution.harmonics = one.solution.harmonics.conjugate().rowwise().reverse();
+    other.solution.state_harmonics = one.solution.state_harmonics.conjugate().rowwise().reverse();
     other.centre = -one.centre;
     return other;
 }
 
-// Positions of all harmonics first: of more no eigenvectors are wanted.
+// Positions of all harmonics first, then states beside them: without these no eigenvectors are wanted of more.
 std::vector<Index> positions_first(const PeriodicSystem& system, int H) {
-    const Index n = system.states(), r = system.rows(), count = 2 * H + 1;
+    const Index n = system.states(), r = system.rows(), rates = n - system.states_beside(), count = 2 * H + 1;
     std::vector<Index> order;
-    for (const auto& [from, to] : {std::pair(Index(0), r), std::pair(r, n)})
+    order.reserve(static_cast<std::size_t>(n * count));
+    for (const auto& [from, to] : {std::pair(Index(0), r), std::pair(rates, n), std::pair(r, rates)})
         for (Index l = 0; l < count; ++l)
             for (Index i = from; i < to; ++i) order.push_back(l * n + i);
     return order;
 }
 
+// Share of the states beside the coordinates in every mode, as Mode::state_share, by the rows of the inverse of all
+// eigenvectors, the left ones.
+class StateShares {
+public:
+    /// @param V  real and imaginary parts of all eigenvectors by column; none: no states beside the coordinates
+    /// @param first, count  rows of the states
+    StateShares(const Matrix& V, Index first, Index count) : V_(V), first_(first), count_(count) {
+        if (count > 0) left_ = V.partialPivLu().inverse();
+    }
+    double operator()(const RealEigen::Value& value) const {
+        if (count_ == 0) return 0;
+        const double states = part(value, first_, count_);
+        const double rest = part(value, 0, first_, first_ + count_, V_.rows() - first_ - count_);
+        return states / (states + rest);
+    }
+
+private:
+    double part(const RealEigen::Value& value, Index first, Index count, Index second = 0, Index more = 0) const {
+        const Index c = value.column;
+        const auto sum = [&](Index row, Index column) {
+            return left_.row(row).segment(first, count).dot(V_.col(column).segment(first, count)) +
+                   left_.row(row).segment(second, more).dot(V_.col(column).segment(second, more));
+        };
+        if (value.mu.imag() == 0) return std::abs(sum(c, c));
+        // (w_1 - i w_2) (v_1 + i v_2) / 2
+        return std::abs(Complex(sum(c, c) + sum(c + 1, c + 1), sum(c, c + 1) - sum(c + 1, c))) / 2;
+    }
+
+    const Matrix& V_;
+    Matrix left_;
+    Index first_, count_;
+};
+
 std::vector<Candidate> candidates(const PeriodicSystem& system, const Matrix& S, double sigma, int H,
                                   const Vector& unit, const EnergyWeights& weights) {
-    const Index r = system.rows(), count = 2 * H + 1;
+    const Index r = system.rows(), m = system.states_beside(), count = 2 * H + 1;
     const std::vector<Index> order = positions_first(system, H);
-    RealEigen eigen(S.rows(), r * count);
+    RealEigen eigen(S.rows(), m > 0 ? S.rows() : r * count);
     if (!eigen.compute(S(order, order)))
         throw NumericalError("Hill's method: the eigenvalue iteration did not converge");
+    const Matrix vectors = eigen.vectors();
+    const StateShares share(vectors, r * count, m * count);
     const double omega = system.frequency();
     double largest = 0;
     for (const RealEigen::Value& value : eigen.values()) largest = std::max(largest, std::abs(value.mu));
@@ -132,12 +167,16 @@ std::vector<Candidate> candidates(const PeriodicSystem& system, const Matrix& S,
     for (const RealEigen::Value& value : eigen.values()) {
         if (!(std::abs(value.mu) > 1e-13 * largest)) continue;  // infinite: algebraic states
         const bool pair = value.mu.imag() != 0;
-        ComplexVector x = eigen.vectors().col(value.column).cast<Complex>();
-        if (pair) x += Complex(0, 1) * eigen.vectors().col(value.column + 1);
+        ComplexVector x = vectors.col(value.column).cast<Complex>();
+        if (pair) x += Complex(0, 1) * vectors.col(value.column + 1);
         Candidate one;
         one.solution.exponent = omega * (sigma + 1.0 / value.mu);
         one.solution.error = std::numeric_limits<double>::quiet_NaN();
-        one.solution.harmonics = exponential_series(unit.head(r).asDiagonal() * x.reshaped(r, count));
+        one.solution.harmonics =
+            exponential_series(unit.head(r).asDiagonal() * x.head(r * count).reshaped(r, count));
+        one.solution.state_harmonics =
+            exponential_series(unit.tail(m).asDiagonal() * x.segment(r * count, m * count).reshaped(m, count));
+        one.solution.state_share = share(value);
         one.centre = centre_of(one.solution, weights, omega);
         if (std::abs(one.centre) > 0.5 + 1e-7) continue;
         if (pair) add(conjugate(one));
@@ -156,7 +195,7 @@ Floquet hill(const PeriodicSystem& system, const HillOptions& options) {
         throw InputError(in_hills_method, "number of samples", options.samples, text(">= ", 4 * H + 1, ", or 0"));
     constexpr double sigma = 0.3137;  // no one's exponent over omega
     const EnergyWeights weights(system, samples, options.weight);
-    const Vector unit = state_units(system);
+    const Vector unit = units_of_states(system, in_hills_method);
     const Matrix S = inverted_pencil(system, H, samples, sigma, unit);
     if (!S.allFinite()) throw NumericalError("Hill's method: the pencil is singular");
     const std::vector<Candidate> found = candidates(system, S, sigma, H, unit, weights);

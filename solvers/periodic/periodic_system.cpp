@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace cardan::solvers {
@@ -29,6 +30,7 @@ struct Coefficients {
             SecondOrderSystem own;
             system.at(time, own);
             matrices = {own.K, own.C, own.M};
+            states = std::move(own.states);
         } else {
             matrices.resize(2);
             system.at(time, matrices[1], matrices[0]);
@@ -45,7 +47,23 @@ struct Coefficients {
         return sum.cwiseMax(1e-12 * sum.maxCoeff());
     }
     std::vector<Matrix> matrices;
+    StateTerms states;
 };
+
+void check_states(double time, const SecondOrderSystem& system, Index rows, Index beside) {
+    const StateTerms& t = system.states;
+    if (beside == 0 && t.size() == 0) return;
+    const std::string where = text("periodic system at ", time, " s");
+    const auto check = [&](const char* name, const Matrix& A, Index r, Index c) {
+        require_size(where.c_str(), name, A, r, c);
+        if (!all_finite(A)) throw NumericalError(text(where, ": ", name, " is not finite"));
+    };
+    check("f_s", t.f_s, beside, beside);
+    check("Q_s", t.Q_s, rows, beside);
+    check("f_q", t.f_q, beside, rows);
+    check("f_qd", t.f_qd, beside, rows);
+    require_size(where.c_str(), "scales of states", t.scales, beside);
+}
 
 }  // namespace
 
@@ -54,9 +72,11 @@ PeriodicSystem::PeriodicSystem(double period, Index rows) : period_(period), row
     if (rows < 1) throw InputError("periodic system", "number of rows", rows, ">= 1");
 }
 
-PeriodicSystem PeriodicSystem::second_order(double period, Index coordinates, SecondOrder at) {
+PeriodicSystem PeriodicSystem::second_order(double period, Index coordinates, SecondOrder at, Index beside) {
     if (!at) throw InputError("periodic system: the function of M, C and K is empty");
+    if (beside < 0) throw InputError("periodic system", "number of states beside the coordinates", beside, ">= 0");
     PeriodicSystem system(period, coordinates);
+    system.beside_ = beside;
     system.second_ = std::move(at);
     return system;
 }
@@ -76,6 +96,7 @@ void PeriodicSystem::at(double time, SecondOrderSystem& out) const {
     check("K", time, out.K, rows_);
     if (out.K_elastic.size() == 0) out.K_elastic.setZero(rows_, rows_);
     check("K_elastic", time, out.K_elastic, rows_);
+    check_states(time, out, rows_, beside_);
 }
 
 void PeriodicSystem::at(double time, Matrix& E, Matrix& A) const {
@@ -87,23 +108,28 @@ void PeriodicSystem::at(double time, Matrix& E, Matrix& A) const {
     }
     SecondOrderSystem own;
     at(time, own);
-    const Index n = rows_;
-    E.setIdentity(2 * n, 2 * n);
-    E.bottomRightCorner(n, n) = own.M;
-    A.setZero(2 * n, 2 * n);
-    A.topRightCorner(n, n).setIdentity();
-    A.bottomLeftCorner(n, n) = -own.K;
-    A.bottomRightCorner(n, n) = -own.C;
+    const Index n = rows_, m = beside_;
+    E.setIdentity(states(), states());
+    E.block(n, n, n, n) = own.M;
+    A.setZero(states(), states());
+    A.block(0, n, n, n).setIdentity();
+    A.block(n, 0, n, n) = -own.K;
+    A.block(n, n, n, n) = -own.C;
+    if (m == 0) return;
+    A.block(n, 2 * n, n, m) = own.states.Q_s;
+    A.bottomRows(m) << own.states.f_q, own.states.f_qd, own.states.f_s;
 }
 
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns) {
     const char* here = "linearised system";
     const int size = system.model.size();
-    system.forces.require_no_states(here);
     if (!about.converged) throw InputError(here, "periodic steady state", "not converged", "converged");
     if (about.coefficients.rows() != size)
         throw InputError(here, "rows of the periodic steady state", about.coefficients.rows(),
                          text(size, ", one per coordinate"));
+    if (about.state_coefficients.rows() != system.forces.states().size())
+        throw InputError(here, "states of the periodic steady state", about.state_coefficients.rows(),
+                         text("those of the system, ", system.forces.states().size()));
     for (int i : unknowns)
         if (i < 0 || i >= size) throw InputError(here, "index of a coordinate", i, text("0 ... ", size - 1));
     struct Memory {
@@ -120,7 +146,8 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
             const PeriodicSteadyState& state = memory->about;
             memory->lineariser.linearise(state.at(state.rotor_speed * time), memory->lin);
             restrict_to(memory->lin, memory->unknowns, state.spin, out);
-        });
+        },
+        system.forces.states().size());
 }
 
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about) {
@@ -129,13 +156,14 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
 
 PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed) {
     const double period = system.period();
-    const Index rows = system.rows();
+    const Index rows = system.rows(), beside = system.states_beside();
     return PeriodicSystem::second_order(
         period, rows,
         [raw = std::move(system), T = std::move(transform), rotor_speed](double t, SecondOrderSystem& out) {
             raw.at(t, out);
             T.transform_in_place(out, rotor_speed * t, rotor_speed);
-        });
+        },
+        beside);
 }
 
 namespace {
@@ -148,18 +176,44 @@ Matrix renumbered(const Matrix& P, const Matrix& A) {
     return P * A * P.transpose();
 }
 
+// The matrices of the states, renumbered in place.
+void renumber(const Matrix& P, const Matrix& P_beside, StateTerms& t) {
+    t.Q_s = (P * t.Q_s * P_beside.transpose()).eval();
+    t.f_q = (P_beside * t.f_q * P.transpose()).eval();
+    t.f_qd = (P_beside * t.f_qd * P.transpose()).eval();
+    t.f_s = renumbered(P_beside, t.f_s);
+}
+
 }  // namespace
+
+Matrix BladeSymmetry::of_states(const PeriodicSystem& system) const {
+    if (!system.is_second_order()) return P;
+    const Index n = system.rows(), m = system.states_beside();
+    Matrix all = Matrix::Zero(system.states(), system.states());
+    all.block(0, 0, n, n) = all.block(n, n, n, n) = P;
+    if (m > 0) all.bottomRightCorner(m, m) = P_beside;
+    return all;
+}
 
 SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples, const BladeSymmetry& symmetry) {
     if (samples < 1) throw InputError("mean over a period", "number of samples", samples, ">= 1");
+    const Index beside = system.states_beside();
     const int Q = symmetry.parts, of_part = (samples + Q - 1) / Q;
     SecondOrderSystem mean, scratch;
     system.at(0, mean);
     const auto at = [&](int i, SecondOrderSystem& out) { system.at(system.period() * i / (Q * of_part), out); };
     average(of_part, at, mean, scratch);
-    if (Q == 1 || is_identity(symmetry.P)) return mean;
+    if (Q == 1 || (is_identity(symmetry.P) && (beside == 0 || is_identity(symmetry.P_beside)))) return mean;
     // One part later the matrices are P^T A P.
     const Matrix back = symmetry.P.transpose();
+    if (beside > 0) {
+        StateTerms part = mean.states;
+        for (int k = 1; k < Q; ++k) {
+            renumber(back, symmetry.P_beside.transpose(), part);
+            mean.states += part;
+        }
+        for (Matrix* m : {&mean.states.Q_s, &mean.states.f_q, &mean.states.f_qd, &mean.states.f_s}) *m /= Q;
+    }
     for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) {
         Matrix part = *m;
         for (int k = 1; k < Q; ++k) {
@@ -179,6 +233,8 @@ public:
     explicit Permutation(const std::vector<int>& coordinates)
         : P(Matrix::Identity(std::ssize(coordinates), std::ssize(coordinates))), coordinates_(coordinates) {}
 
+    /// @param rows  one of every blade
+    void renumber(const std::vector<Index>& rows, bool backward);
     void renumber(const std::vector<std::vector<int>>& blades, std::size_t coordinate, bool backward);
     void turn(const RotatingPair& pair, double angle);
     void reverse(int coordinate);
@@ -200,8 +256,16 @@ void Permutation::renumber(const std::vector<std::vector<int>>& blades, std::siz
     if (there < Q)
         throw InputError(in_blade_symmetry, text("blades whose coordinate number ", coordinate, " is an unknown"),
                          there, text("none or all ", Q));
+    std::vector<Index> rows;
+    rows.reserve(Q);
+    for (const auto& blade : blades) rows.push_back(row(blade[coordinate]));
+    renumber(rows, backward);
+}
+
+void Permutation::renumber(const std::vector<Index>& rows, bool backward) {
+    const std::size_t Q = rows.size();
     for (std::size_t k = 0; k < Q; ++k) {
-        const Index here = row(blades[k][coordinate]), next = row(blades[(k + 1) % Q][coordinate]);
+        const Index here = rows[k], next = rows[(k + 1) % Q];
         P(here, here) = 0;
         (backward ? P(here, next) : P(next, here)) = 1;
     }
@@ -223,10 +287,21 @@ void Permutation::reverse(int coordinate) {
     P.row(row(coordinate)) *= -1;
 }
 
+// Empty if there are none.
+Matrix permutation_of_states(const RotorMap& rotor, const StateTable& states, bool backward) {
+    if (states.empty()) return {};
+    std::vector<int> all(static_cast<std::size_t>(states.size()));
+    std::iota(all.begin(), all.end(), 0);
+    Permutation permutation(all);
+    for (const std::vector<int>& one : states_of_blades(rotor, states))
+        permutation.renumber(std::vector<Index>(one.begin(), one.end()), backward);
+    return permutation.P;
+}
+
 }  // namespace
 
 BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coordinates, double rotor_speed,
-                             const std::vector<int>& odd) {
+                             const std::vector<int>& odd, const StateTable& states) {
     const std::size_t Q = rotor.blades.size();
     if (Q < 2) throw InputError(in_blade_symmetry, "number of blades", Q, ">= 2");
     if (!rotor.evenly_spaced)
@@ -243,8 +318,41 @@ BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coor
     for (const RotatingPair& pair : rotor.rotating_pairs)
         permutation.turn(pair, (rotor_speed < 0 ? -2 : 2) * pi / static_cast<double>(Q));
     for (int coordinate : odd) permutation.reverse(coordinate);
-    return {static_cast<int>(Q), permutation.P};
+    return {static_cast<int>(Q), permutation.P, permutation_of_states(rotor, states, rotor_speed < 0)};
 }
+
+namespace {
+
+void require_cyclic(const Matrix& P, int parts) {
+    if (is_identity(P)) return;
+    Matrix all = P;
+    for (int i = 1; i < parts; ++i) all = all * P;
+    const double off = (all - Matrix::Identity(P.rows(), P.cols())).cwiseAbs().maxCoeff();
+    if (!(off < 1e-9))
+        throw InputError(in_blade_symmetry, text("difference of P^", parts, " and the unit matrix"), off,
+                         "below 1e-9");
+}
+
+// Coordinates in units of their diagonals, states in units of their scales.
+double asymmetry_of_states(const Coefficients& now, const Coefficients& later, const BladeSymmetry& symmetry,
+                           const Vector& size) {
+    StateTerms next = later.states;
+    renumber(symmetry.P, symmetry.P_beside, next);
+    const Vector unit = size.cwiseSqrt().cwiseInverse(), per_scale = now.states.scales.cwiseInverse();
+    const auto coordinates = unit.asDiagonal(), states = now.states.scales.asDiagonal(),
+               per_state = per_scale.asDiagonal();
+    const auto part = [](const Matrix& own, const Matrix& other) {
+        const double largest = own.cwiseAbs().maxCoeff();
+        return largest > 0 ? (other - own).cwiseAbs().maxCoeff() / largest : other.cwiseAbs().maxCoeff();
+    };
+    const StateTerms& own = now.states;
+    return std::max({part(coordinates * own.Q_s * states, coordinates * next.Q_s * states),
+                     part(per_state * own.f_q * coordinates, per_state * next.f_q * coordinates),
+                     part(per_state * own.f_qd * coordinates, per_state * next.f_qd * coordinates),
+                     part(per_state * own.f_s * states, per_state * next.f_s * states)});
+}
+
+}  // namespace
 
 double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
     if (symmetry.parts < 2) return 0;
@@ -253,12 +361,12 @@ double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
         throw InputError(in_blade_symmetry, "size of P", text(symmetry.P.rows(), " x ", symmetry.P.cols()),
                          text(n, " x ", n));
     const bool same_places = is_identity(symmetry.P);  // three and more blades in multi-blade rows
-    Matrix all = symmetry.P;
-    for (int i = 1; i < symmetry.parts && !same_places; ++i) all = all * symmetry.P;
-    const double off = (all - Matrix::Identity(n, n)).cwiseAbs().maxCoeff();
-    if (!(off < 1e-9))
-        throw InputError(in_blade_symmetry, text("difference of P^", symmetry.parts, " and the unit matrix"), off,
-                         "below 1e-9");
+    require_cyclic(symmetry.P, symmetry.parts);
+    const Index beside = system.states_beside();
+    if (beside > 0) {
+        require_size(in_blade_symmetry, "P of the states", symmetry.P_beside, beside, beside);
+        require_cyclic(symmetry.P_beside, symmetry.parts);
+    }
     const double part = system.period() / symmetry.parts, omega = system.frequency();
     double largest = 0;
     for (double fraction : {0.07, 0.38, 0.81}) {
@@ -272,6 +380,7 @@ double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
                 for (Index i = 0; i < n; ++i)
                     largest = std::max(largest, factor * std::abs(difference(i, j)) / std::sqrt(size(i) * size(j)));
         }
+        if (beside > 0) largest = std::max(largest, asymmetry_of_states(now, later, symmetry, size));
     }
     return largest;
 }

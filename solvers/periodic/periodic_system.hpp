@@ -9,17 +9,20 @@
 
 namespace cardan::solvers {
 
-/// M(t) q'' + C(t) q' + K(t) q = 0, or in general E(t) x' = A(t) x, with coefficients of period T that can be evaluated
-/// at any time. E may be singular if the system has index one (algebraic rows 0 = D x + E_y y, solvable for y); then
+/// M(t) q'' + C(t) q' + K(t) q = Q_s(t) s with states s of first order beside it (StateTerms), or in general E(t) x' =
+/// A(t) x, with coefficients of period T that can be evaluated at any time. E may be singular if the system has index one (algebraic rows 0 = D x + E_y y, solvable for y); then
 /// the multipliers of the algebraic states are zero.
 class PeriodicSystem {
 public:
-    /// Fills in M, C, K and the elastic part K_elastic of K, which weighs energies (empty or zero: none).
+    /// Fills in M, C, K, the elastic part K_elastic of K, which weighs energies (empty or zero: none), and the states.
     using SecondOrder = std::function<void(double time, SecondOrderSystem& out)>;
     using FirstOrder = std::function<void(double time, Matrix& E, Matrix& A)>;
 
-    /// @param period  s;  @throws InputError unless it is finite and positive, or without coordinates
-    static PeriodicSystem second_order(double period, Eigen::Index coordinates, SecondOrder at);
+    /// @param period  s
+    /// @param beside  number of states of first order beside the coordinates, SecondOrderSystem::states
+    /// @throws InputError unless the period is finite and positive, or without coordinates
+    static PeriodicSystem second_order(double period, Eigen::Index coordinates, SecondOrder at,
+                                       Eigen::Index beside = 0);
     static PeriodicSystem first_order(double period, Eigen::Index states, FirstOrder at);
 
     double period() const { return period_; }
@@ -28,24 +31,26 @@ public:
     bool is_second_order() const { return static_cast<bool>(second_); }
     /// Rows of the matrices: coordinates of a system of second order, states of one of first order.
     Eigen::Index rows() const { return rows_; }
-    /// 2 rows() or rows().
-    Eigen::Index states() const { return is_second_order() ? 2 * rows_ : rows_; }
+    /// States of first order beside the coordinates of a system of second order.
+    Eigen::Index states_beside() const { return beside_; }
+    /// Size of x: 2 rows() + states_beside(), or rows().
+    Eigen::Index states() const { return is_second_order() ? 2 * rows_ + beside_ : rows_; }
 
     /// Second-order systems only. @throws NumericalError if a matrix has the wrong size or is not finite
     void at(double time, SecondOrderSystem& out) const;
-    /// Both kinds; x = (q, q') for second-order systems.  @throws as above
+    /// Both kinds; x = (q, q', s) for second-order systems.  @throws as above
     void at(double time, Matrix& E, Matrix& A) const;
 
 private:
     PeriodicSystem(double period, Eigen::Index rows);
 
     double period_;
-    Eigen::Index rows_;
+    Eigen::Index rows_, beside_ = 0;
     SecondOrder second_;
     FirstOrder first_;
 };
 
-/// A system linearised about its periodic (or constant) steady state, over some of its coordinates.
+/// A system linearised about its periodic (or constant) steady state, over some of its coordinates and with all states.
 /// @param unknowns  coordinates, in the order of the rows; may include the spin: its drive then keeps the steady-state
 ///                  torque whatever the disturbance. The result keeps a reference to `system`, and copies share memory:
 ///                  use it in one thread.
@@ -77,7 +82,11 @@ void average(int samples, const At& at, SecondOrderSystem& mean, SecondOrderSyst
 /// one. P is orthogonal, P^Q = 1, and acts on positions and on rates (on states in a system of first order).
 struct BladeSymmetry {
     int parts = 1;
-    Matrix P = {};  ///< empty: none
+    Matrix P = {};         ///< empty: none
+    Matrix P_beside = {};  ///< likewise of the states beside the coordinates; empty: there are none
+
+    /// P of x = (q, q', s), or of the states of a system of first order.
+    Matrix of_states(const PeriodicSystem& system) const;
 };
 
 /// average() over the period of a system.
@@ -87,17 +96,19 @@ struct BladeSymmetry {
 SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples, const BladeSymmetry& symmetry = {});
 
 /// Blade k + 1 takes the place of blade k (the other way round if the rotor turns backward); rotating pairs turn by 2
-/// pi / Q; the `odd` coordinates change sign, as the teeter angle of a two-bladed rotor does.
+/// pi / Q; the `odd` coordinates change sign, as the teeter angle of a two-bladed rotor does. States that belong to
+/// blades change places like these, the others stay.
 /// @param coordinates  of the rows of the system
+/// @param states       beside them
 /// @throws InputError if there are fewer than two blades, if they are not evenly spaced or differ in their number of
-/// coordinates or have only some of them among `coordinates`, or if an odd coordinate does not exist or there are more
-/// than two blades
+/// coordinates or states or have only some of them among `coordinates`, or if an odd coordinate does not exist or there
+/// are more than two blades
 BladeSymmetry blade_symmetry(const RotorMap& rotor, const std::vector<int>& coordinates, double rotor_speed,
-                             const std::vector<int>& odd = {});
+                             const std::vector<int>& odd = {}, const StateTable& states = {});
 
 /// Largest difference between the matrices at t + T/Q, transformed by P, and those at t, over a few times t, relative
-/// to the diagonals: of order two at the frequency 2 pi / T, |K_ii| + omega |C_ii| + omega^2 |M_ii|. Zero up to
-/// rounding if the symmetry holds.
+/// to the diagonals: of order two at the frequency 2 pi / T, |K_ii| + omega |C_ii| + omega^2 |M_ii|; of the states'
+/// matrices, in the same units, relative to their largest entries. Zero up to rounding if the symmetry holds.
 /// @throws InputError for a P of the wrong size, or if P^Q is not the unit matrix
 double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry);
 

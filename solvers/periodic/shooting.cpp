@@ -34,17 +34,23 @@ private:
     RadauIIA method_;
     RadauStage algebra_;
     int steps_;
-    Vector start_, x_;      // (q, q'), at azimuth 0 and after the steps made
-    Matrix accelerations_;  // at the stages, by column
+    Vector start_, x_;      // (q, q', s), at azimuth 0 and after the steps made
+    Matrix accelerations_;  // at the stages, by column; below them the rates of the states
     Vector scale_;          // of residuals
     Matrix right_;          // residuals at the stages
     Matrix transition_;     // derivative of x_ by start_
     Matrix of_step_;        // of x_ after a step by x_ before
-    Matrix path_;           // positions at the beginnings of the steps
+    Matrix path_;           // positions, and states, at the beginnings of the steps
     SecondOrderSystem at_;
     std::string why_ = "the limit of iterations was reached";
     std::string note_;
 };
+
+void require_no_growth(const RotorEquations& equations) {
+    if (const auto rows = equations.growing(); !rows.empty())
+        throw InputError(in_shooting, text("kind of the state '", equations.name(rows[0]), "'"), "angle",
+                         "one that comes back after a revolution (harmonic balance leaves its mean out)");
+}
 
 int number_of_steps(const PeriodicOptions& options) {
     if (!options.held.empty())
@@ -61,33 +67,42 @@ Shooting::Shooting(const System& system, int spin, const PeriodicOptions& option
     : options_(options),
       equations_(system, spin, options, in_shooting),
       method_(options.stages),
-      algebra_(method_, equations_.size()),
+      algebra_(method_, equations_.size(), equations_.states().size()),
       steps_(number_of_steps(options)),
       path_(equations_.size(), steps_) {
-    const Index n = equations_.size();
-    const Matrix own = equations_.start(static_cast<int>(std::max<Index>(options.start.cols(), 1) / 2));
+    require_no_growth(equations_);
+    const Index n = equations_.states_from(), m = equations_.states().size();
+    const Index columns = std::max({options.start.cols(), options.state_start.cols(), Index{1}});
+    const Matrix own = equations_.start(static_cast<int>(columns / 2));
     const int harmonics = static_cast<int>(own.cols() / 2);
-    start_.resize(2 * n);
-    start_ << own * fourier_basis(0, harmonics), own * fourier_basis(0, harmonics, 1);
-    accelerations_.resize(n, method_.stages());
-    accelerations_.colwise() = Vector(own * fourier_basis(0, harmonics, 2));
+    const Vector rates = own * fourier_basis(0, harmonics, 1);
+    start_.resize(2 * n + m);
+    start_ << own.topRows(n) * fourier_basis(0, harmonics), rates.head(n),
+        own.bottomRows(m) * fourier_basis(0, harmonics);
+    Vector accelerations = own * fourier_basis(0, harmonics, 2);
+    accelerations.tail(m) = rates.tail(m);
+    accelerations_.resize(n + m, method_.stages());
+    accelerations_.colwise() = accelerations;
     scale_ = equations_.scale(own);
-    scale_ = scale_.cwiseMax(1e-12 * (n > 0 ? scale_.maxCoeff() : 1.0));
 }
 
 // Residual and derivatives at a stage, divided by the scale.
 void Shooting::evaluate(Index stage, double psi) {
-    const Index n = equations_.size();
+    const Index n = equations_.states_from(), m = equations_.states().size(), all = n + m;
     const double h = 2 * pi / steps_, Omega = equations_.rotor_speed();
-    const auto q = x_.head(n), v = x_.tail(n);
-    const Vector position = q + method_.c(stage) * h * v + h * h * (accelerations_ * method_.A2.row(stage).transpose());
-    const Vector rate = v + h * (accelerations_ * method_.A.row(stage).transpose());
+    const auto v = x_.segment(n, n);
+    const auto accelerations = accelerations_.topRows(n), state_rates = accelerations_.bottomRows(m);
+    Vector position(all), rate(all), acceleration = Vector::Zero(all);
+    position << x_.head(n) + method_.c(stage) * h * v + h * h * (accelerations * method_.A2.row(stage).transpose()),
+        x_.tail(m) + h * (state_rates * method_.A.row(stage).transpose());
+    rate << v + h * (accelerations * method_.A.row(stage).transpose()), state_rates.col(stage);
+    acceleration.head(n) = accelerations.col(stage);
     equations_.set_azimuth(psi + method_.c(stage) * h);
-    equations_.set(position, Omega * rate, Omega * Omega * accelerations_.col(stage));
-    Vector r(n);
+    equations_.set(position, Omega * rate, Omega * Omega * acceleration);
+    Vector r(all);
     equations_.residual(r);
-    right_.block(stage * n, 0, n, 1) = -r.cwiseQuotient(scale_);
-    equations_.linearise(at_);
+    right_.block(stage * all, 0, all, 1) = -r.cwiseQuotient(scale_);
+    equations_.linearise_all(at_);
     const auto unit = scale_.cwiseInverse().asDiagonal();
     algebra_.set(stage, h, Omega * Omega * (unit * at_.M), Omega * (unit * at_.C), unit * at_.K);
 }
@@ -115,7 +130,7 @@ bool Shooting::stages(double psi) {
 }
 
 bool Shooting::step(double psi) {
-    const Index n = equations_.size(), s = method_.stages();
+    const Index n = equations_.states_from(), m = equations_.states().size(), s = method_.stages();
     const double h = 2 * pi / steps_;
     if (!stages(psi)) {
         why_ = text("the integration fails at azimuth ", psi, " rad");
@@ -123,17 +138,19 @@ bool Shooting::step(double psi) {
     }
     algebra_.transition(h, of_step_);
     transition_ = (of_step_ * transition_).eval();
-    x_.head(n) += h * x_.tail(n) + h * h * (accelerations_ * method_.A2.row(s - 1).transpose());
-    x_.tail(n) += h * (accelerations_ * method_.A.row(s - 1).transpose());
+    const auto accelerations = accelerations_.topRows(n);
+    x_.head(n) += h * x_.segment(n, n) + h * h * (accelerations * method_.A2.row(s - 1).transpose());
+    x_.segment(n, n) += h * (accelerations * method_.A.row(s - 1).transpose());
+    x_.tail(m) += h * (accelerations_.bottomRows(m) * method_.A.row(s - 1).transpose());
     return true;
 }
 
 bool Shooting::revolve() {
-    const Index n = equations_.size();
+    const Index n = equations_.states_from(), m = equations_.states().size();
     x_ = start_;
-    transition_.setIdentity(2 * n, 2 * n);
+    transition_.setIdentity(x_.size(), x_.size());
     for (int i = 0; i < steps_; ++i) {
-        path_.col(i) = x_.head(n);
+        path_.col(i) << x_.head(n), x_.tail(m);
         if (!step(2 * pi * i / steps_)) return false;
     }
     return true;
@@ -190,9 +207,7 @@ PeriodicSteadyState Shooting::solve() {
 void Shooting::finish(PeriodicSteadyState& result, bool small) {
     const Matrix own = fourier_coefficients(path_, options_.harmonics);
     result.converged = small;
-    result.rotor_speed = options_.rotor_speed;
-    result.spin = equations_.spin();
-    result.coefficients = equations_.all(own);
+    equations_.finish(own, result);
     result.residual = miss();
     result.remainder = equations_.largest_residual(own, 4 * (options_.harmonics + 1), scale_);
     result.note = note_;

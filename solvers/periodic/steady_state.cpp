@@ -16,6 +16,8 @@ OperatingPoint PeriodicSteadyState::at(double psi) const {
     point.qdd = rotor_speed * rotor_speed * (coefficients * fourier_basis(psi, harmonics(), 2));
     point.q(spin) = psi;
     point.qd(spin) = rotor_speed;
+    if (state_coefficients.rows() > 0) point.s = state_coefficients * fourier_basis(psi, harmonics());
+    point.u = inputs;
     return point;
 }
 
@@ -44,7 +46,7 @@ std::vector<PeriodicSteadyState> periodic_sweep(const System& system, int spin, 
     for (double wanted : rotor_speed) {
         options.rotor_speed = wanted;
         PeriodicSteadyState state = harmonic_balance(system, spin, options);
-        const Matrix begin = options.start;
+        const Matrix begin = options.start, states_begin = options.state_start;
         // Part of the way from the last speed that converged; doubled after a success, halved after a failure.
         for (double done = 0, part = 0.5; any && !state.converged && part >= smallest_part;) {
             options.rotor_speed = reached + std::min(1.0, done + part) * (wanted - reached);
@@ -54,16 +56,19 @@ std::vector<PeriodicSteadyState> periodic_sweep(const System& system, int spin, 
                 continue;
             }
             options.start = between.coefficients;
+            options.state_start = between.state_coefficients;
             done += part;
             part *= 2;
             if (done >= 1) state = std::move(between);
         }
         if (state.converged) {
             options.start = state.coefficients;
+            options.state_start = state.state_coefficients;
             reached = wanted;
             any = true;
         } else {
             options.start = begin;
+            options.state_start = states_begin;
         }
         states.push_back(std::move(state));
     }

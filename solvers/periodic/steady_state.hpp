@@ -17,7 +17,9 @@ struct PeriodicOptions {
     /// Starting point, as PeriodicSteadyState::coefficients (with any number of harmonics; one column: constant);
     /// empty: zero. Rows of driven coordinates are their prescribed motion (constant pitch, cyclic pitch).
     Matrix start = {};
-    /// Residual / stiffness (rad, m), largest entry. If no step reduces it further, 1e-8 counts as converged.
+    /// Likewise of the states, as PeriodicSteadyState::state_coefficients; empty: as their table says.
+    Matrix state_start = {};
+    /// Residual / stiffness (rad, m; of states: over their scales), largest entry. If no step reduces it further, 1e-8 counts as converged.
     double tolerance = 1e-10;
     int iterations = 40;
     /// Harmonic balance: azimuths per revolution at which the equations are evaluated; 0: 4 (harmonics + 1).
@@ -45,6 +47,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     int spin = -1;
     /// A row per coordinate of the model (rad or m; that of the spin is zero), columns h0, hc_1, hs_1, hc_2, ...
     Matrix coefficients;
+    Matrix state_coefficients = {};  ///< likewise, a row per state
+    Vector inputs = {};              ///< held
     int iterations = 0;
     /// Largest residual / stiffness, rad or m: that of the balanced harmonics, or (shooting) the mismatch of positions
     /// and rates (divided by the rotor speed) after one revolution.
@@ -56,7 +60,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
-    /// All coordinates with rates and accelerations; time = psi / rotor_speed.
+    /// All coordinates with rates and accelerations, and states; time = psi / rotor_speed.
     OperatingPoint at(double psi) const;
     /// Largest amplitude sqrt(hc_j^2 + hs_j^2) of any coordinate in harmonic j (|h0| for j = 0), rad or m.
     double amplitude(int harmonic) const;
@@ -64,7 +68,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     double last_harmonics() const;
 };
 
-/// Harmonic balance: makes the retained harmonics of g qdd + Gamma qd qd - Q on the free coordinates vanish. Newton's
+/// Harmonic balance: makes the retained harmonics of g qdd + Gamma qd qd - Q on the free coordinates vanish, and those
+/// of s' - f of the states. (Of states of kind `angle`, which grow for ever, all but the mean.) Newton's
 /// method with line search; residual and exact Jacobian from the equations and their derivatives at equidistant
 /// azimuths (alternating frequency and time). If the Jacobian is singular (an unrestrained mean) the minimum-norm step
 /// is taken and `note` says so, unless the start already is a solution.
@@ -77,10 +82,10 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 /// @throws InputError for options out of range; user forces must have the period of a revolution and are not checked
 PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options);
 
-/// The periodic steady state by shooting: finds the free coordinates and rates at azimuth 0 that one revolution
+/// The periodic steady state by shooting: finds the free coordinates, rates and states at azimuth 0 that one revolution
 /// reproduces, by Newton's method with the exact derivative of the integration (Radau IIA, equal steps), the monodromy
 /// matrix. The harmonics are computed from the ends of the steps.
-/// @throws InputError also for `held` and if there are fewer than 2 harmonics + 1 steps
+/// @throws InputError also for `held`, for states of kind `angle` and if there are fewer than 2 harmonics + 1 steps
 PeriodicSteadyState shooting(const System& system, int spin, const PeriodicOptions& options);
 
 /// Steady states at one rotor speed after another by harmonic balance, each started from the previous one. A speed that

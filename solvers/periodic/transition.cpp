@@ -22,11 +22,14 @@ public:
 class RadauSecondOrder : public Step {
 public:
     RadauSecondOrder(const PeriodicSystem& system, int stages)
-        : system_(system), method_(stages), algebra_(method_, system.rows()) {}
+        : system_(system),
+          method_(stages),
+          algebra_(method_, system.rows() + system.states_beside(), system.states_beside()) {}
 
     void set(double t, double h, Matrix& Phi) override {
         for (Index i = 0; i < method_.stages(); ++i) {
             system_.at(t + method_.c(i) * h, at_);
+            append_states(at_);
             algebra_.set(i, h, at_.M, at_.C, at_.K);
         }
         algebra_.factorise();

@@ -18,8 +18,8 @@ struct TransitionOptions {
 };
 
 /// x(t1) = Phi x(t0) over `intervals` equal parts of [t0, t1], one matrix for each, with `steps` equal steps in each.
-/// States are (q, q') for a second-order system. Cost per step: an elimination of stages * n rows (second order),
-/// stages * states rows (first order), or states rows (midpoint).
+/// States are (q, q', s) for a second-order system. Cost per step: an elimination of stages * n rows (second order; n
+/// counts coordinates and states beside them), stages * states rows (first order), or states rows (midpoint).
 /// @throws InputError for numbers < 1; NumericalError if a coefficient is not finite or a step has no solution
 std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double t1, int intervals, int steps,
                                 const TransitionOptions& options = {});

@@ -8,13 +8,6 @@
 
 namespace cardan::solvers {
 
-void conjugate(FloquetMode& mode) {
-    mode.exponent = std::conj(mode.exponent);
-    mode.harmonics = mode.harmonics.conjugate().rowwise().reverse().eval();
-    mode.participation.reverseInPlace();
-    mode.first_harmonic = -(mode.first_harmonic + static_cast<int>(mode.harmonics.cols()) - 1);
-}
-
 namespace {
 
 // False if it is the principal one already.

@@ -6,9 +6,6 @@
 
 namespace cardan::solvers {
 
-/// The other member of a complex conjugate pair.
-void conjugate(FloquetMode& mode);
-
 /// A mode at standstill, in multi-blade rows, as it is if the blades carry their part of it along when the rotor begins
 /// to turn: T(psi)^T T(0) z, a sum of harmonics.
 /// @param rotor_speed  of the turning rotor, rad/s

@@ -59,7 +59,8 @@ std::vector<Mode> harmonics_of(const FloquetMode& mode) {
 
 // A rigid displacement has no other harmonics, and no energy: what is there is rounding.
 void keep_displacement(FloquetMode& mode) {
-    mode.harmonics = ComplexMatrix(mode.harmonics.col(-mode.first_harmonic));
+    for (ComplexMatrix* harmonics : {&mode.harmonics, &mode.state_harmonics})
+        *harmonics = ComplexMatrix(harmonics->col(-mode.first_harmonic));
     mode.participation = Vector::Ones(1);
     mode.first_harmonic = 0;
 }
@@ -128,7 +129,8 @@ void leave_out_ends(FloquetMode& mode) {
     const Index principal = -mode.first_harmonic;
     while (first < principal && mode.participation(first) < negligible_participation) ++first;
     while (last > principal && mode.participation(last) < negligible_participation) --last;
-    mode.harmonics = mode.harmonics.middleCols(first, last - first + 1).eval();
+    for (ComplexMatrix* harmonics : {&mode.harmonics, &mode.state_harmonics})
+        *harmonics = harmonics->middleCols(first, last - first + 1).eval();
     mode.participation = mode.participation.segment(first, last - first + 1).eval();
     mode.first_harmonic += static_cast<int>(first);
 }
@@ -181,6 +183,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     point.at = state_->at(0);
     point.periodic = state_;
     point.modes.clear();
+    point.state_motions.clear();
     if (options_.method == CampbellMethod::averaged) {
         warn_of_differing_blades();
         set_mean_modes(point);
@@ -199,6 +202,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     std::vector<double> speeds{rotor_speed};
     if (state_) {
         options.start = state_->coefficients;
+        options.state_start = state_->state_coefficients;
         speeds.insert(speeds.begin(), state_->rotor_speed);
     }
     PeriodicSteadyState found = periodic_sweep(system_, rotor_.spin, speeds, options).back();
@@ -206,6 +210,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     while (found.converged && found.remainder > small_remainder && options.harmonics < most) {
         options.harmonics = std::min(most, options.harmonics + (options.harmonics + 1) / 2);
         options.start = found.coefficients;
+        options.state_start = found.state_coefficients;
         const std::array same_speed{rotor_speed};
         found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
     }
@@ -235,9 +240,14 @@ BladeSymmetry PeriodicPointSolver::renumbering() const {
     if (!T || rotor_.blades.empty() || !rotor_.evenly_spaced) return {};
     std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd_coordinates : std::vector<int>();
     std::erase_if(odd, [&](int i) { return row_of(unknowns(), i) < 0; });
-    BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd);
-    found.P = (T->matrix(0).transpose() * found.P * T->matrix(2 * pi / found.parts)).eval();
-    found.P = found.P.unaryExpr([](double p) { return std::abs(p - std::round(p)) < 1e-12 ? std::round(p) : p; });
+    BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd, system_.forces.states());
+    const auto turned = [&](const Matrix& P, const Matrix& now, const Matrix& later) {
+        const Matrix own = now.transpose() * P * later;
+        return Matrix(own.unaryExpr([](double p) { return std::abs(p - std::round(p)) < 1e-12 ? std::round(p) : p; }));
+    };
+    const double part = 2 * pi / found.parts;
+    found.P = turned(found.P, T->matrix(0), T->matrix(part));
+    if (found.P_beside.size() > 0) found.P_beside = turned(found.P_beside, T->state_matrix(0), T->state_matrix(part));
     return found;
 }
 
@@ -281,6 +291,7 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
     const FloquetOptions options = floquet_options();
     Floquet result = floquet(periodic, options);
     if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
+    move_state_motions(result.modes, point);
     find_weak_spin(result.modes, mean_.M, std::abs(state_->rotor_speed), spin_row());
     for (FloquetMode& mode : result.modes) {
         find_displacement(mode, mean_.M, std::abs(state_->rotor_speed));
@@ -295,6 +306,25 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
         return a.mode.natural_hz() < b.mode.natural_hz();
     });
     if (options.symmetry.parts == 1 && rotor_.blades.size() > 1) set_blade_shares(point);
+}
+
+// Out of the modes, by the size of the exponent; each as its principal harmonic.
+void PeriodicPointSolver::move_state_motions(std::vector<FloquetMode>& modes, CampbellPoint& point) const {
+    for (const FloquetMode& mode : modes) {
+        if (!mode.is_state_motion()) continue;
+        const Index principal = -mode.first_harmonic;
+        point.state_motions.push_back(state_motion({.eigenvalue = mode.exponent,
+                                                    .shape = mode.harmonics.col(principal),
+                                                    .states = mode.state_harmonics.col(principal),
+                                                    .state_share = mode.state_share},
+                                                   mean_.states.scales));
+    }
+    std::erase_if(modes, [](const FloquetMode& mode) { return mode.is_state_motion(); });
+    std::stable_sort(point.state_motions.begin(), point.state_motions.end(),
+                     [](const StateMotion& a, const StateMotion& b) {
+                         if (a.mode.oscillates() != b.mode.oscillates()) return a.mode.oscillates();
+                         return std::abs(a.mode.eigenvalue) < std::abs(b.mode.eigenvalue);
+                     });
 }
 
 // Where blades differ, one may move alone. Multi-blade coordinates spread its motion over all patterns; back in the
@@ -335,8 +365,12 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     // A rigid displacement has no energy.
     const double energy = rigid ? hermitian_form(mean_.M, principal) : 2 * mode.share(0),
                  factor = energy > 0 ? std::sqrt(2 / energy) : 1.0;
-    if (rigid) mode.harmonics *= factor;
-    out.mode = {mode.exponent, factor * principal};
+    if (rigid) {
+        mode.harmonics *= factor;
+        mode.state_harmonics *= factor;
+    }
+    out.mode = {mode.exponent, factor * principal, factor * mode.state_harmonics.col(-mode.first_harmonic),
+                mode.state_share};
     const std::vector<Mode> harmonics = harmonics_of(mode);
     out.shares = energy_shares()->shares(harmonics, 2 * pi / mode.period);
     if (rigid)
@@ -358,6 +392,10 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
 
 void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
     for (Mode& mode : modes(mean_, standstill_.mode_range().largest(options_, state_->rotor_speed))) {
+        if (mode.is_state_motion()) {
+            point.state_motions.push_back(state_motion(std::move(mode), mean_.states.scales));
+            continue;
+        }
         if (std::abs(mode.eigenvalue) < rigid_per_radian * std::abs(state_->rotor_speed)) continue;
         CampbellMode& m = point.modes.emplace_back();
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))

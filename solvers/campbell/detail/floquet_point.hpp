@@ -21,6 +21,7 @@ public:
 
     const std::vector<int>& unknowns() const override { return standstill_.unknowns(); }
     std::vector<std::string> row_names() const override { return standstill_.row_names(); }
+    std::vector<std::string> state_names() const override { return standstill_.state_names(); }
     const SecondOrderSystem& system() const override { return mean_; }
     const EnergyShares* energy_shares() const override { return standstill_.energy_shares(); }
     Matrix rotating_coordinates() const override { return standstill_.rotating_coordinates(); }
@@ -36,6 +37,7 @@ private:
     void warn_of_differing_blades();
     FloquetOptions floquet_options() const;
     void set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point);
+    void move_state_motions(std::vector<FloquetMode>& modes, CampbellPoint& point) const;
     void set_mean_modes(CampbellPoint& point);
     void leave_out_free_spin(double scale, CampbellPoint& point) const;
     CampbellMode make(FloquetMode&& found) const;

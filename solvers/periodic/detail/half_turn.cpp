@@ -14,9 +14,13 @@ using Index = Eigen::Index;
 std::optional<HalfTurn> HalfTurn::make(const RotorMap& rotor, const RotorEquations& equations, int harmonics) {
     if (equations.size() == 0 || rotor.blades.size() != 2 || !rotor.evenly_spaced) return {};
     if (!ColemanTransform::exists(rotor, equations.unknowns())) return {};
-    const BladeSymmetry symmetry =
-        blade_symmetry(rotor, equations.unknowns(), equations.rotor_speed(), rotor.odd_coordinates);
-    return HalfTurn(symmetry.P, harmonics);
+    const BladeSymmetry symmetry = blade_symmetry(rotor, equations.unknowns(), equations.rotor_speed(),
+                                                  rotor.odd_coordinates, equations.states());
+    const Index n = equations.states_from(), m = equations.states().size();
+    Matrix P = Matrix::Zero(n + m, n + m);
+    P.topLeftCorner(n, n) = symmetry.P;
+    if (m > 0) P.bottomRightCorner(m, m) = symmetry.P_beside;
+    return HalfTurn(P, harmonics);
 }
 
 // P has 1 or -1 once in every row: on the diagonal for what stays or changes its sign, else for two blades.

@@ -20,8 +20,8 @@ constexpr double least_rcond = 1e-12;
 // T turns its columns by so many harmonics.
 int highest_harmonic(const ColemanTransform& transform) {
     double highest = 0;
-    for (const ColemanTransform::TurningPair& pair : transform.turning_pairs())
-        highest = std::max(highest, std::abs(pair.factor));
+    for (const auto* pairs : {&transform.turning_pairs(), &transform.state_turning_pairs()})
+        for (const ColemanTransform::TurningPair& pair : *pairs) highest = std::max(highest, std::abs(pair.factor));
     return static_cast<int>(std::lround(highest));
 }
 
@@ -36,7 +36,8 @@ int azimuths_of_mean(const ColemanTransform& transform) {
 std::optional<MeanJacobian> MeanJacobian::make(const RotorMap& rotor, const RotorEquations& equations, int harmonics) {
     if (equations.size() == 0 || rotor.blades.size() == 2) return {};
     if (!ColemanTransform::exists(rotor, equations.unknowns())) return {};
-    return MeanJacobian(ColemanTransform(rotor, equations.unknowns()), equations.rotor_speed(), harmonics);
+    return MeanJacobian(ColemanTransform(rotor, equations.unknowns(), equations.states()), equations.rotor_speed(),
+                        harmonics);
 }
 
 MeanJacobian::MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics)
@@ -44,7 +45,9 @@ MeanJacobian::MeanJacobian(const ColemanTransform& transform, double rotor_speed
       rotor_speed_(rotor_speed),
       harmonics_(harmonics),
       z_harmonics_(harmonics + highest_harmonic(transform)),
+      pairs_(transform.turning_pairs()),
       at_zero_(transform.matrix(0)) {
+    append_states();
     // A product of two series, one of x and one of z, is projected without error.
     const int count = 2 * z_harmonics_ + 1;
     basis_.resize(2 * harmonics_ + 1, count);
@@ -56,9 +59,24 @@ MeanJacobian::MeanJacobian(const ColemanTransform& transform, double rotor_speed
     }
 }
 
+// Rows of states come behind those of the coordinates.
+void MeanJacobian::append_states() {
+    const Index n = at_zero_.rows(), m = std::ssize(transform_.state_rows());
+    if (m == 0) return;
+    at_zero_.conservativeResizeLike(Matrix::Zero(n + m, n + m));
+    at_zero_.bottomRightCorner(m, m) = transform_.state_matrix(0);
+    for (ColemanTransform::TurningPair pair : transform_.state_turning_pairs()) {
+        pair.a += static_cast<int>(n);
+        pair.b += static_cast<int>(n);
+        pairs_.push_back(pair);
+    }
+}
+
 bool MeanJacobian::hold(Index row) {
-    if (entry(transform_.rows(), row).blade_coordinate >= 0) return false;
-    for (const ColemanTransform::TurningPair& pair : transform_.turning_pairs())
+    const Index n = std::ssize(transform_.rows());
+    const MultiBladeRow& own = row < n ? entry(transform_.rows(), row) : entry(transform_.state_rows(), row - n);
+    if (own.blade_coordinate >= 0) return false;
+    for (const ColemanTransform::TurningPair& pair : pairs_)
         if (row == pair.a || row == pair.b) return false;
     held_.push_back(row);
     return true;
@@ -74,13 +92,14 @@ void MeanJacobian::set(RotorEquations& equations, const Matrix& x) {
     };
     set_at(0, mean_);
     average(count, set_at, mean_, at_);
+    solvers::append_states(mean_);
     factors_.clear();
 }
 
 // T(psi) is T(0) with the columns of every turning pair rotated; the same pairs of rows of z, forth or back.
 void MeanJacobian::turn(Matrix& values, double sense) const {
     for (Index s = 0; s < values.cols(); ++s)
-        for (const ColemanTransform::TurningPair& pair : transform_.turning_pairs()) {
+        for (const ColemanTransform::TurningPair& pair : pairs_) {
             const double angle = sense * pair.factor * entry(azimuths_, s), c = std::cos(angle), d = std::sin(angle),
                          a = values(pair.a, s), b = values(pair.b, s);
             values(pair.a, s) = c * a - d * b;
@@ -100,11 +119,14 @@ Matrix MeanJacobian::from_multi_blade(const Matrix& z) const {
     return fourier_coefficients(at_zero_ * values, harmonics_);
 }
 
-// The larger of stiffness and inertia.
+// The larger of stiffness and inertia; of a state, of 1 / its time constant and the frequency.
 Vector MeanJacobian::scale(int harmonic) const {
     const double omega = std::max(1, harmonic) * rotor_speed_;
-    const Vector scale = mean_.K.diagonal().cwiseAbs().cwiseMax(omega * omega * mean_.M.diagonal());
-    return scale.cwiseMax(1e-12 * scale.maxCoeff());
+    const Index m = std::ssize(transform_.state_rows()), n = mean_.K.rows() - m;
+    Vector scale = mean_.K.diagonal().cwiseAbs().cwiseMax(omega * omega * mean_.M.diagonal());
+    if (n > 0) scale.head(n) = scale.head(n).cwiseMax(1e-12 * scale.head(n).maxCoeff());
+    scale.tail(m) = scale.tail(m).cwiseMax(std::abs(omega));
+    return scale;
 }
 
 // The complex matrix as a real one on (Re, -Im), the coefficients of cosine and sine:

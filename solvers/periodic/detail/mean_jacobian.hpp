@@ -14,7 +14,7 @@ namespace cardan::solvers {
 /// Newton's step for harmonic balance with M, C and K replaced by their means over the revolution in multi-blade
 /// coordinates z. Where three or more blades are alike, these matrices hardly depend on the azimuth, so the step is
 /// nearly the exact one, and the linear system of n (2 harmonics + 1) rows falls apart into one of n complex rows per
-/// harmonic:
+/// harmonic (states are further rows, see append_states()):
 ///
 ///     (K - (j Omega)^2 M + i j Omega C) dz_j = -(T^T r)_j,    dx = T dz.
 class MeanJacobian {
@@ -38,6 +38,7 @@ private:
     using Factors = Eigen::PartialPivLU<Matrix>;
 
     MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics);
+    void append_states();
     void turn(Matrix& values, double sense) const;
     Matrix to_multi_blade(const Matrix& R) const;
     Matrix from_multi_blade(const Matrix& z) const;
@@ -47,7 +48,8 @@ private:
     ColemanTransform transform_;
     double rotor_speed_;
     int harmonics_, z_harmonics_;  ///< multi-blade coordinates have more
-    Matrix at_zero_;               ///< T(0)
+    std::vector<ColemanTransform::TurningPair> pairs_;
+    Matrix at_zero_;  ///< T(0)
     std::vector<double> azimuths_;
     Matrix basis_, z_basis_;  ///< at the azimuths, by column
     std::vector<Eigen::Index> held_;

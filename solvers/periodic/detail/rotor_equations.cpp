@@ -31,18 +31,38 @@ void check(const System& system, int spin, const PeriodicOptions& options, std::
     if (!start.allFinite()) throw InputError(place, "coefficients of the start", "not finite", "finite numbers");
 }
 
+void check_states(const StateTable& table, const PeriodicOptions& options, std::string_view place) {
+    const Matrix& start = options.state_start;
+    if (start.size() == 0) return;
+    if (start.rows() != table.size() || start.cols() % 2 == 0)
+        throw InputError(place, "size of the start of the states", text(start.rows(), " x ", start.cols()),
+                         text(table.size(), " rows, one per state, and 1 + 2 x harmonics columns"));
+    if (!start.allFinite()) throw InputError(place, "start of the states", "not finite", "finite numbers");
+}
+
 }  // namespace
 
 RotorEquations::RotorEquations(const System& system, int spin, const PeriodicOptions& options, std::string_view place)
     : system_(system), spin_(spin), rotor_speed_(options.rotor_speed), workspace_(system.model), lineariser_(system) {
     check(system, spin, options, place);
+    check_states(states(), options, place);
     const int n = system.model.size();
     given_ = options.start.size() > 0 ? options.start : Matrix(Matrix::Zero(n, 1));
     given_.row(spin).setZero();
     unknowns_ = system.model.coordinates().free_without(spin);
-    at_ = {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
+    given_states_ = options.state_start.size() > 0 ? options.state_start : Matrix(states().initial());
+    at_ = {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0, states().initial(), system.forces.inputs().initial()};
     tau_.setZero(n);
     Q_.setZero(n);
+    f_.setZero(states().size());
+    s_rate_.setZero(states().size());
+}
+
+std::vector<Index> RotorEquations::growing() const {
+    std::vector<Index> rows;
+    for (int i = 0; i < states().size(); ++i)
+        if (states()[i].kind == StateKind::angle) rows.push_back(states_from() + i);
+    return rows;
 }
 
 Index RotorEquations::row_of(int coordinate) const {
@@ -50,6 +70,7 @@ Index RotorEquations::row_of(int coordinate) const {
 }
 
 const std::string& RotorEquations::name(Index row) const {
+    if (row >= states_from()) return states()[static_cast<int>(row - states_from())].name;
     return system_.model.coordinates()[entry(unknowns_, row)].name;
 }
 
@@ -64,11 +85,16 @@ void RotorEquations::set_azimuth(double psi) {
 }
 
 void RotorEquations::set(VectorIn q, VectorIn qd, VectorIn qdd) {
-    for (Index i = 0; i < size(); ++i) {
+    for (Index i = 0; i < states_from(); ++i) {
         const int at = entry(unknowns_, i);
         at_.q(at) = q(i);
         at_.qd(at) = qd(i);
         at_.qdd(at) = qdd(i);
+    }
+    for (int i = 0; i < states().size(); ++i) {
+        const double scale = states()[i].scale;
+        at_.s(i) = scale * q(states_from() + i);
+        s_rate_(i) = scale * qd(states_from() + i);
     }
 }
 
@@ -82,34 +108,59 @@ void RotorEquations::set_on(const Matrix& own, double psi) {
 void RotorEquations::residual(VectorOut r) {
     const Kinematics kin = kinematics(system_.model, at_.q, workspace_);
     inverse_dynamics<double>(kin, at_.qd, at_.qdd, tau_);
-    system_.forces.generalised_forces(kin, at_.time, at_.q, at_.qd, Q_);
-    for (Index i = 0; i < size(); ++i) {
+    if (system_.forces.has_states())
+        system_.forces.evaluate({at_.time, at_.q, at_.qd, kin, at_.s, at_.u}, Q_, f_);
+    else
+        system_.forces.generalised_forces(kin, at_.time, at_.q, at_.qd, Q_);
+    for (Index i = 0; i < states_from(); ++i) {
         const int at = entry(unknowns_, i);
         r(i) = tau_(at) - Q_(at);
     }
+    for (int i = 0; i < states().size(); ++i) r(states_from() + i) = (s_rate_(i) - f_(i)) / states()[i].scale;
 }
 
 void RotorEquations::linearise(SecondOrderSystem& out) {
     lineariser_.linearise(at_, lin_);
     restrict_to(lin_, unknowns_, -1, out);
+    StateTerms& t = out.states;
+    if (t.size() == 0) return;
+    const Vector per_scale = t.scales.cwiseInverse();
+    t.Q_s = (t.Q_s * t.scales.asDiagonal()).eval();
+    t.f_q = (per_scale.asDiagonal() * t.f_q).eval();
+    t.f_qd = (per_scale.asDiagonal() * t.f_qd).eval();
+    t.f_s = (per_scale.asDiagonal() * t.f_s * t.scales.asDiagonal()).eval();
+    t.scales.setOnes();
+}
+
+void RotorEquations::linearise_all(SecondOrderSystem& out) {
+    linearise(out);
+    append_states(out);
 }
 
 Matrix RotorEquations::start(int harmonics) const {
     Matrix own = Matrix::Zero(size(), 2 * harmonics + 1);
-    const Index columns = std::min(own.cols(), given_.cols());
-    for (Index i = 0; i < size(); ++i) own.row(i).head(columns) = given_.row(entry(unknowns_, i)).head(columns);
+    const Index columns = std::min(own.cols(), given_.cols()), of_states = std::min(own.cols(), given_states_.cols());
+    for (Index i = 0; i < states_from(); ++i) own.row(i).head(columns) = given_.row(entry(unknowns_, i)).head(columns);
+    for (int i = 0; i < states().size(); ++i)
+        own.row(states_from() + i).head(of_states) = given_states_.row(i).head(of_states) / states()[i].scale;
     return own;
 }
 
-Matrix RotorEquations::all(const Matrix& own) const {
-    Matrix coefficients = Matrix::Zero(given_.rows(), std::max(own.cols(), given_.cols()));
+void RotorEquations::finish(const Matrix& own, PeriodicSteadyState& result) const {
+    Matrix& coefficients = result.coefficients;
+    coefficients = Matrix::Zero(given_.rows(), std::max(own.cols(), given_.cols()));
     coefficients.leftCols(given_.cols()) = given_;
-    for (Index i = 0; i < size(); ++i) {
+    for (Index i = 0; i < states_from(); ++i) {
         auto row = coefficients.row(entry(unknowns_, i));
         row.setZero();
         row.head(own.cols()) = own.row(i);
     }
-    return coefficients;
+    result.state_coefficients = Matrix::Zero(states().size(), coefficients.cols());
+    for (int i = 0; i < states().size(); ++i)
+        result.state_coefficients.row(i).head(own.cols()) = states()[i].scale * own.row(states_from() + i);
+    result.inputs = at_.u;
+    result.spin = spin_;
+    result.rotor_speed = rotor_speed_;
 }
 
 Vector RotorEquations::scale(const Matrix& own) {
@@ -118,11 +169,15 @@ Vector RotorEquations::scale(const Matrix& own) {
     SecondOrderSystem system;
     for (int s = 0; s < azimuths; ++s) {
         set_on(own, 2 * pi * s / azimuths);
-        linearise(system);
+        linearise_all(system);
         stiffness += system.K.diagonal() / azimuths;
         inertia += system.M.diagonal() * (rotor_speed_ * rotor_speed_ / azimuths);
     }
-    return stiffness.cwiseAbs().cwiseMax(inertia);
+    inertia.tail(states().size()).setConstant(std::abs(rotor_speed_));
+    Vector scale = stiffness.cwiseAbs().cwiseMax(inertia);
+    auto coordinates = scale.head(states_from());
+    if (coordinates.size() > 0) coordinates = coordinates.cwiseMax(1e-12 * coordinates.maxCoeff());
+    return scale;
 }
 
 double RotorEquations::largest_residual(const Matrix& own, int count, const Vector& scale) {

@@ -8,14 +8,19 @@
 
 namespace cardan::solvers {
 
-/// Residual g qdd + Gamma qd qd - Q and its derivatives on the free coordinates without the spin, the unknowns.
+/// Residual g qdd + Gamma qd qd - Q and its derivatives on the free coordinates without the spin, the unknowns, and, in
+/// further rows, s' - f of the states, which are unknowns in units of their scales.
 class RotorEquations {
 public:
     /// @throws InputError for a wrong spin, rotor speed or start; `place` names the caller
     RotorEquations(const System& system, int spin, const PeriodicOptions& options, std::string_view place);
 
     const std::vector<int>& unknowns() const { return unknowns_; }
-    Eigen::Index size() const { return std::ssize(unknowns_); }
+    const StateTable& states() const { return system_.forces.states(); }
+    Eigen::Index states_from() const { return std::ssize(unknowns_); }  ///< first row of a state
+    Eigen::Index size() const { return states_from() + states().size(); }
+    /// Rows of states of kind `angle`: their means grow for ever.
+    std::vector<Eigen::Index> growing() const;
     const System& system() const { return system_; }
     int spin() const { return spin_; }
     double rotor_speed() const { return rotor_speed_; }
@@ -30,15 +35,19 @@ public:
     /// Sets all of this from a series of the unknowns.
     void set_on(const Matrix& own, double psi);
     void residual(VectorOut r);
-    /// M, C, K: derivatives of the residual by accelerations, rates and positions.
+    /// M, C, K: derivatives of the residual by accelerations, rates and positions, and those of states in
+    /// SecondOrderSystem::states.
     void linearise(SecondOrderSystem& out);
+    /// The same with the states as further rows of M, C and K (append_states()).
+    void linearise_all(SecondOrderSystem& out);
 
     /// Coefficients of the unknowns at the start, with the wanted number of harmonics; and, conversely, those of all
-    /// coordinates, prescribed rows included.
+    /// coordinates, prescribed rows included, and of all states.
     Matrix start(int harmonics) const;
-    Matrix all(const Matrix& own) const;
-    /// Scale of a residual: for each unknown the larger of its stiffness and its inertia at the rotor speed, averaged
-    /// over a revolution of the series.
+    void finish(const Matrix& own, PeriodicSteadyState& result) const;
+    /// Scale of a residual: for each unknown the larger of its stiffness and its inertia at the rotor speed (of a state
+    /// the larger of 1 / its time constant and the rotor speed), averaged over a revolution of the series; at least a
+    /// small part of the largest.
     Vector scale(const Matrix& own);
     /// Largest scaled residual of the series at `count` azimuths half way between equidistant ones; NaN if it cannot be
     /// evaluated.
@@ -48,13 +57,14 @@ private:
     const System& system_;
     int spin_;
     double rotor_speed_;
-    Matrix given_;  // coefficients of all coordinates as given
+    Matrix given_;         // coefficients of all coordinates as given
+    Matrix given_states_;  // likewise
     std::vector<int> unknowns_;
     OperatingPoint at_;
     Workspace workspace_;
     Lineariser lineariser_;
     Linearisation lin_;
-    Vector tau_, Q_;
+    Vector tau_, Q_, f_, s_rate_;
 };
 
 }  // namespace cardan::solvers

@@ -1,0 +1,47 @@
+#include "solvers/periodic/detail/state_units.hpp"
+
+#include "mbs/base/error.hpp"
+
+#include <cmath>
+
+namespace cardan::solvers {
+
+namespace {
+
+using Index = Eigen::Index;
+
+// Of two effects of the states' unit, one proportional to it and one to its inverse, neither large where one is
+// missing.
+double balance(double of_states, double on_states) {
+    if (of_states > 0 && on_states > 0) return std::sqrt(on_states / of_states);
+    if (of_states > 0) return 1 / of_states;
+    return on_states > 0 ? on_states : 1;
+}
+
+Vector units_beside(const StateTerms& t, const Vector& d, double omega) {
+    const Vector inverse = t.scales.cwiseInverse();
+    const auto unit = d.asDiagonal(), scale = t.scales.asDiagonal(), per_scale = inverse.asDiagonal();
+    const double of_states = (unit * t.Q_s * scale).norm() / (omega * omega);
+    const double on_states = (per_scale * t.f_q * unit).norm() / omega + (per_scale * t.f_qd * unit).norm();
+    return balance(of_states, on_states) * t.scales;
+}
+
+}  // namespace
+
+Vector units_of_states(const PeriodicSystem& system, const char* place) {
+    Vector unit = Vector::Ones(system.states());
+    if (!system.is_second_order()) return unit;
+    SecondOrderSystem at;
+    system.at(0, at);
+    const Index n = system.rows(), m = system.states_beside();
+    for (Index i = 0; i < n; ++i) {
+        if (!(at.M(i, i) > 0))
+            throw InputError(place, text("inertia of row ", i), at.M(i, i), "> 0 in a system of second order");
+        unit(i) = 1 / std::sqrt(at.M(i, i));
+    }
+    unit.segment(n, n) = system.frequency() * unit.head(n);
+    if (m > 0) unit.tail(m) = units_beside(at.states, unit.head(n), system.frequency());
+    return unit;
+}
+
+}  // namespace cardan::solvers
