@@ -27,8 +27,8 @@ double change_of_states(const StateTerms& at, const StateTerms& mean) {
         const double norm = own.norm();
         return norm > 0 ? (now - own).norm() / norm : 0;
     };
-    return std::max({change(at.Q_s, mean.Q_s), change(at.f_q, mean.f_q), change(at.f_qd, mean.f_qd),
-                     change(at.f_s, mean.f_s)});
+    return std::max(
+        {change(at.Q_s, mean.Q_s), change(at.f_q, mean.f_q), change(at.f_qd, mean.f_qd), change(at.f_s, mean.f_s)});
 }
 
 OperatingPoint standstill(const System& system, int spin, double azimuth) {

@@ -19,8 +19,8 @@ struct AzimuthAverageOptions {
 struct AzimuthAverage {
     SecondOrderSystem system;
     std::vector<MultiBladeRow> rows;
-    /// What averaging neglects: largest deviation of K, of M and of the states' matrices at an azimuth, each relative to
-    /// the norm of the mean.
+    /// What averaging neglects: largest deviation of K, of M and of the states' matrices at an azimuth, each relative
+    /// to the norm of the mean.
     double remainder = 0;
     double steady_remainder = 0;  ///< see PeriodicSteadyState::remainder
 };

@@ -67,8 +67,8 @@ double hermitian_form(const Matrix& A, const ComplexVector& x);
 /// Raw result of a method: a solution exp(lambda t) sum_j c_j exp(i j omega t), with lambda modulo i omega.
 struct FloquetSolution {
     Complex exponent;
-    bool real_multiplier = false;     ///< over the integrated part of the period
-    ComplexMatrix harmonics;          ///< c_j from j = -J to J
+    bool real_multiplier = false;        ///< over the integrated part of the period
+    ComplexMatrix harmonics;             ///< c_j from j = -J to J
     ComplexMatrix state_harmonics = {};  ///< of the states beside the coordinates
     double state_share = 0;
     double condition = 0, error = 0;  ///< in the units of FloquetMode, which takes them over

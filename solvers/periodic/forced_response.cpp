@@ -100,9 +100,8 @@ ForcedResponse forced_response(const PeriodicSystem& system, const std::function
                                   " Hz, or nothing holds a coordinate"));
     const Vector x = columns.cwiseProduct(lu.solve(rows.cwiseProduct(b)));
     const Matrix all = x.reshaped(n, terms);
-    ForcedResponse response{.period = system.period(),
-                            .coefficients = all.topRows(own),
-                            .state_coefficients = all.bottomRows(n - own)};
+    ForcedResponse response{
+        .period = system.period(), .coefficients = all.topRows(own), .state_coefficients = all.bottomRows(n - own)};
     response.remainder = remainder(system, load, response, samples);
     return response;
 }

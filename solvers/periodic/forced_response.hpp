@@ -8,8 +8,8 @@ namespace cardan::solvers {
 
 /// q(t) = h0 + sum_j hc_j cos j w t + hs_j sin j w t, w = 2 pi / T.
 struct ForcedResponse {
-    double period = 0;    ///< T, s
-    Matrix coefficients;  ///< a row per coordinate, columns h0, hc_1, hs_1, hc_2 ...
+    double period = 0;               ///< T, s
+    Matrix coefficients;             ///< a row per coordinate, columns h0, hc_1, hs_1, hc_2 ...
     Matrix state_coefficients = {};  ///< likewise of the states beside the coordinates
     /// Largest entry of the residual, at times between those that were balanced, relative to that of the load: what the
     /// neglected harmonics would have to balance.

@@ -172,8 +172,7 @@ std::vector<Candidate> candidates(const PeriodicSystem& system, const Matrix& S,
         Candidate one;
         one.solution.exponent = omega * (sigma + 1.0 / value.mu);
         one.solution.error = std::numeric_limits<double>::quiet_NaN();
-        one.solution.harmonics =
-            exponential_series(unit.head(r).asDiagonal() * x.head(r * count).reshaped(r, count));
+        one.solution.harmonics = exponential_series(unit.head(r).asDiagonal() * x.head(r * count).reshaped(r, count));
         one.solution.state_harmonics =
             exponential_series(unit.tail(m).asDiagonal() * x.segment(r * count, m * count).reshaped(m, count));
         one.solution.state_share = share(value);

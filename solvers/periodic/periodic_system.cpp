@@ -142,7 +142,8 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
     const auto memory =
         std::make_shared<Memory>(Memory{Lineariser(system), Linearisation{}, about, std::move(unknowns)});
     return PeriodicSystem::second_order(
-        2 * pi / std::abs(about.rotor_speed), n, [memory](double time, SecondOrderSystem& out) {
+        2 * pi / std::abs(about.rotor_speed), n,
+        [memory](double time, SecondOrderSystem& out) {
             const PeriodicSteadyState& state = memory->about;
             memory->lineariser.linearise(state.at(state.rotor_speed * time), memory->lin);
             restrict_to(memory->lin, memory->unknowns, state.spin, out);
@@ -329,8 +330,7 @@ void require_cyclic(const Matrix& P, int parts) {
     for (int i = 1; i < parts; ++i) all = all * P;
     const double off = (all - Matrix::Identity(P.rows(), P.cols())).cwiseAbs().maxCoeff();
     if (!(off < 1e-9))
-        throw InputError(in_blade_symmetry, text("difference of P^", parts, " and the unit matrix"), off,
-                         "below 1e-9");
+        throw InputError(in_blade_symmetry, text("difference of P^", parts, " and the unit matrix"), off, "below 1e-9");
 }
 
 // Coordinates in units of their diagonals, states in units of their scales.

@@ -10,8 +10,8 @@
 namespace cardan::solvers {
 
 /// M(t) q'' + C(t) q' + K(t) q = Q_s(t) s with states s of first order beside it (StateTerms), or in general E(t) x' =
-/// A(t) x, with coefficients of period T that can be evaluated at any time. E may be singular if the system has index one (algebraic rows 0 = D x + E_y y, solvable for y); then
-/// the multipliers of the algebraic states are zero.
+/// A(t) x, with coefficients of period T that can be evaluated at any time. E may be singular if the system has index
+/// one (algebraic rows 0 = D x + E_y y, solvable for y); then the multipliers of the algebraic states are zero.
 class PeriodicSystem {
 public:
     /// Fills in M, C, K, the elastic part K_elastic of K, which weighs energies (empty or zero: none), and the states.

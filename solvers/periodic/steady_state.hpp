@@ -19,7 +19,8 @@ struct PeriodicOptions {
     Matrix start = {};
     /// Likewise of the states, as PeriodicSteadyState::state_coefficients; empty: as their table says.
     Matrix state_start = {};
-    /// Residual / stiffness (rad, m; of states: over their scales), largest entry. If no step reduces it further, 1e-8 counts as converged.
+    /// Residual / stiffness (rad, m; of states: over their scales), largest entry. If no step reduces it further, 1e-8
+    /// counts as converged.
     double tolerance = 1e-10;
     int iterations = 40;
     /// Harmonic balance: azimuths per revolution at which the equations are evaluated; 0: 4 (harmonics + 1).

@@ -7,18 +7,21 @@
 namespace cardan::testing {
 
 // On every blade a lagging damper in flap with two states, and one state of the support beside them.
-inline SmallRotor rotor_with_lags(double coupling, int blades = 3) {
+// @param unit  that of all states is so many times larger: their values are so many times smaller
+inline SmallRotor rotor_with_lags(double coupling, int blades = 3, const Vec3& gravity = Vec3::Zero(),
+                                  double unit = 1) {
     SmallRotorSpec spec{.stiffness = std::vector<double>(static_cast<std::size_t>(blades), 2000.0),
                         .damping = 2,
                         .hinges = BladeHinges::flap_and_lag,
-                        .elastic_support = true};
-    spec.more = [coupling](ForceSet& forces, const std::vector<std::vector<BodyId>>& bodies) {
+                        .elastic_support = true,
+                        .gravity = gravity};
+    spec.more = [coupling, unit](ForceSet& forces, const std::vector<std::vector<BodyId>>& bodies) {
         StateElement support{.name = "support",
-                             .states = {{.name = "support lag", .unit = "N m", .scale = 100}},
+                             .states = {{.name = "support lag", .unit = "N m", .scale = 100 / unit}},
                              .coordinates = {BodyId{0}}};
-        support.rates = [coupling](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = -coupling * in.s(0);
-            f(0) = 800 * in.qd(0) - 3 * in.s(0);
+        support.rates = [coupling, unit](const StateInput& in, VectorOut Q, VectorOut f) {
+            Q(0) = -coupling * unit * in.s(0);
+            f(0) = 800 / unit * in.qd(0) - 3 * in.s(0);
         };
         forces.add_states(support);
         for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -26,20 +29,20 @@ inline SmallRotor rotor_with_lags(double coupling, int blades = 3) {
             StateElement lag{.name = text("blade ", blade, " lag"),
                              .states = {{.name = text("blade ", blade, " first"),
                                          .unit = "N m",
-                                         .scale = 50,
+                                         .scale = 50 / unit,
                                          .part = "blade",
                                          .blade = blade},
                                         {.name = text("blade ", blade, " second"),
                                          .unit = "N m",
-                                         .scale = 50,
+                                         .scale = 50 / unit,
                                          .part = "blade",
                                          .blade = blade}},
                              .coordinates = {bodies[k][0], bodies[k][1]}};
-            lag.rates = [coupling](const StateInput& in, VectorOut Q, VectorOut f) {
-                Q(0) = -coupling * in.s(0);
-                Q(1) = coupling * in.s(1);
-                f(0) = 900 * in.qd(0) - 4 * in.s(0);
-                f(1) = 300 * in.q(1) + 2 * in.s(0) - 7 * in.s(1);
+            lag.rates = [coupling, unit](const StateInput& in, VectorOut Q, VectorOut f) {
+                Q(0) = -coupling * unit * in.s(0);
+                Q(1) = coupling * unit * in.s(1);
+                f(0) = 900 / unit * in.qd(0) - 4 * in.s(0);
+                f(1) = 300 / unit * in.q(1) + 2 * in.s(0) - 7 * in.s(1);
             };
             forces.add_states(lag);
         }

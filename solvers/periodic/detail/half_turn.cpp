@@ -14,8 +14,8 @@ using Index = Eigen::Index;
 std::optional<HalfTurn> HalfTurn::make(const RotorMap& rotor, const RotorEquations& equations, int harmonics) {
     if (equations.size() == 0 || rotor.blades.size() != 2 || !rotor.evenly_spaced) return {};
     if (!ColemanTransform::exists(rotor, equations.unknowns())) return {};
-    const BladeSymmetry symmetry = blade_symmetry(rotor, equations.unknowns(), equations.rotor_speed(),
-                                                  rotor.odd_coordinates, equations.states());
+    const BladeSymmetry symmetry =
+        blade_symmetry(rotor, equations.unknowns(), equations.rotor_speed(), rotor.odd_coordinates, equations.states());
     const Index n = equations.states_from(), m = equations.states().size();
     Matrix P = Matrix::Zero(n + m, n + m);
     P.topLeftCorner(n, n) = symmetry.P;

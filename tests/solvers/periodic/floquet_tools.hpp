@@ -20,6 +20,7 @@ inline solvers::PeriodicSteadyState at_rest(const System& system, int spin, doub
     state.rotor_speed = Omega;
     state.spin = spin;
     state.coefficients = Matrix::Zero(system.model.size(), 1);
+    state.state_coefficients = system.forces.states().initial();
     return state;
 }
 
