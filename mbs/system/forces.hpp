@@ -163,6 +163,8 @@ public:
     bool has_states() const { return !states_.empty(); }
     const StateTable& states() const { return states_.states(); }
     const InputTable& inputs() const { return states_.inputs(); }
+    /// Groups of states that depend on one another.
+    const std::vector<StateGroup>& state_groups() const { return states_.groups(); }
     const std::vector<FrameLoad>& loads() const { return loads_; }
     /// A load as it acts at a time: force and moment at the frame's origin, base axes.
     Wrench at_frame(const FrameLoad& load, const Kinematics& kin, double time = 0) const;

@@ -2,7 +2,10 @@
 
 #include "mbs/base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -106,6 +109,39 @@ StateForces::StateForces(std::vector<StateElement> elements, std::vector<InputIn
     }
     states_ = StateTable(std::move(all));
     for (Bound& element : elements_) bind(element, model);
+    find_groups();
+}
+
+// Elements belong together that own or read the same states.
+void StateForces::find_groups() {
+    std::vector<int> leader(static_cast<std::size_t>(states_.size()));  // of every state: a state of its group
+    std::iota(leader.begin(), leader.end(), 0);
+    const auto find = [&](int state) {
+        while (entry(leader, state) != state) state = entry(leader, state);
+        return state;
+    };
+    const auto states_of = [](const Bound& element) {
+        std::vector<int> all = element.reads;
+        for (int i = 0; i < static_cast<int>(element.own.states.size()); ++i) all.push_back(element.first + i);
+        return all;
+    };
+    for (const Bound& element : elements_) {
+        const std::vector<int> all = states_of(element);
+        for (const int state : all) entry(leader, find(state)) = find(all.front());
+    }
+    std::map<int, StateGroup> groups;
+    for (int i = 0; i < states_.size(); ++i) groups[find(i)].states.push_back(i);
+    for (const Bound& element : elements_) {
+        const std::vector<int> all = states_of(element);
+        if (all.empty()) continue;
+        std::vector<int>& coordinates = groups[find(all.front())].coordinates;
+        coordinates.insert(coordinates.end(), element.at.begin(), element.at.end());
+    }
+    for (auto& [state, group] : groups) {
+        std::ranges::sort(group.coordinates);
+        group.coordinates.erase(std::ranges::unique(group.coordinates).begin(), group.coordinates.end());
+        groups_.push_back(std::move(group));
+    }
 }
 
 void StateForces::bind(Bound& element, const Model& model) {

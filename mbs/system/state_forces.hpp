@@ -10,6 +10,12 @@
 
 namespace cardan {
 
+/// States that depend on one another, and the coordinates that they see or act upon. What other groups do reaches them
+/// through these coordinates only: the pattern of the derivatives.
+struct StateGroup {
+    std::vector<int> states, coordinates;  ///< indices in the system, ascending
+};
+
 /// Allocates nothing after the first call in a thread, unless an element's own functions do.
 class StateForces {
 public:
@@ -21,6 +27,7 @@ public:
     bool empty() const { return elements_.empty(); }
     const StateTable& states() const { return states_; }
     const InputTable& inputs() const { return inputs_; }
+    const std::vector<StateGroup>& groups() const { return groups_; }
 
     /// @param q, qd, s, u  of the whole system
     struct At {
@@ -46,6 +53,7 @@ private:
     class Local;
 
     void bind(Bound& element, const Model& model);
+    void find_groups();
     void difference(const Bound& element, double time, Local& local) const;
     double step(const Bound& element, int column) const;
     void require_sizes(const At& at) const;
@@ -53,6 +61,7 @@ private:
     std::vector<Bound> elements_;
     StateTable states_;
     InputTable inputs_;
+    std::vector<StateGroup> groups_;
     int size_ = 0;
     double factor_ = 1;
 };

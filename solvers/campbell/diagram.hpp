@@ -52,6 +52,10 @@ inline constexpr double min_reliable_mac = 0.6;
 
 struct CampbellOptions {
     RotorSpin spin = RotorSpin::free;
+    /// The rotor turns as fast as torques and controllers make it (SteadyTrim): the given speeds are starts, and points
+    /// have the speed that is found. For the closed loop of a machine with its loads, one CampbellCase for each wind;
+    /// methods that end in constant equations only.
+    bool balanced = false;
     CampbellMethod method = CampbellMethod::automatic;
     double max_frequency_hz = 10;  ///< branches that stay above are left out
     /// Constant systems: all modes at every rotor speed take part in tracking, naming and stability margin. Otherwise

@@ -86,6 +86,7 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
 
 void PointSolver::find_steady_state(double rotor_speed) {
     steady_options_.rotor_speed = rotor_speed;
+    if (options_.balanced && rotor_speed != 0 && rotor_.spin >= 0) steady_options_.trim.emplace();
     steady_solver_.solve(steady_options_, steady_);
     require_result(steady_, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     steady_options_.initial = steady_.at.q;
@@ -133,6 +134,7 @@ void PointSolver::set_margin(CampbellPoint& point) const {
 
 void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     find_steady_state(rotor_speed);
+    if (steady_options_.trim) rotor_speed = steady_.at.qd(rotor_.spin);
     lineariser_.linearise(steady_.at, lin_);
     if (turned_.q.size() == 0) start();
     set_system(rotor_speed);
@@ -245,6 +247,7 @@ double PointSolver::remainder(double rotor_speed) {
 
 double PointSolver::periodic_remainder(double rotor_speed) {
     find_steady_state(rotor_speed);
+    if (steady_options_.trim) rotor_speed = steady_.at.qd(rotor_.spin);
     lineariser_.linearise(steady_.at, lin_);
     if (turned_.q.size() == 0) start();
     restrict_to(lin_, unknowns_, rotor_.spin, current_);

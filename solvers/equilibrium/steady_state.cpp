@@ -3,11 +3,10 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
-#include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/detail/sundials_memory.hpp"
+#include "solvers/equilibrium/detail/stiffness_solver.hpp"
 
 #include <kinsol/kinsol.h>
-#include <sundials/sundials_linearsolver.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
@@ -24,11 +23,13 @@ void free_kinsol(void* memory) {
     KINFree(&memory);
 }
 
-// Residual and Jacobian on the unknowns: free coordinates without the spin, then states that settle.
+// Residual and Jacobian on the unknowns: free coordinates without the spin, then states that settle, then what a trim
+// finds, with the torque on the spin as its equation.
 class Residual {
 public:
-    Residual(const System& system, int spin)
-        : unknowns(system.model.coordinates().free_without(spin)),
+    Residual(const System& system, int spin, bool with_trim)
+        : trimmed(with_trim),
+          unknowns(system.model.coordinates().free_without(spin)),
           system_(system),
           spin_(spin),
           workspace_(system.model) {
@@ -42,7 +43,7 @@ public:
         f_.setZero(table.size());
         at.u = system.forces.inputs().initial();
     }
-    std::size_t size() const { return unknowns.size() + states.size(); }
+    std::size_t size() const { return unknowns.size() + states.size() + (trimmed ? 1 : 0); }
 
     void start(const SteadyOptions& options) {
         if (options.initial.size() > 0)
@@ -54,15 +55,19 @@ public:
             at.qd(spin_) = options.rotor_speed;
         }
         at.s = options.states.size() > 0 ? options.states : system_.forces.states().initial();
+        at.u = options.inputs.size() > 0 ? options.inputs : system_.forces.inputs().initial();
+        input_ = !trimmed || options.trim->input.empty() ? -1 : system_.forces.inputs().index(options.trim->input);
         thrown = nullptr;
     }
     void set(const double* x) {
         for (const int i : unknowns) at.q(i) = *x++;
         for (const int i : states) at.s(i) = *x++;
+        if (trimmed) (input_ < 0 ? at.qd(spin_) : at.u(input_)) = *x;
     }
     void get(double* x) const {
         for (const int i : unknowns) *x++ = at.q(i);
         for (const int i : states) *x++ = at.s(i);
+        if (trimmed) *x = input_ < 0 ? at.qd(spin_) : at.u(input_);
     }
     void turn_to(double azimuth) { at.q(spin_) = azimuth; }
     void evaluate(double* r) {
@@ -74,6 +79,7 @@ public:
             system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
         for (const int i : unknowns) *r++ = tau_(i) - Q_(i);
         for (const int i : states) *r++ = -f_(i);
+        if (trimmed) *r = tau_(spin_) - Q_(spin_);
     }
     /// @param J  out, over the unknowns, column-major
     void jacobian(double* J) {
@@ -87,25 +93,43 @@ public:
         for (int b : unknowns) {
             for (int a : unknowns) *J++ = by_q_(a, b);
             for (int a : states) *J++ = -by_states_.f_q(a, b);
+            if (trimmed) *J++ = by_q_(spin_, b);
         }
         for (int b : states) {
             for (int a : unknowns) *J++ = -by_states_.Q_s(a, b);
             for (int a : states) *J++ = -by_states_.f_s(a, b);
+            if (trimmed) *J++ = -by_states_.Q_s(spin_, b);
         }
+        if (trimmed) by_trim(J);
     }
     // Stiffness of the springs alone, at the state of the last call of jacobian().
     double elastic_diagonal(Eigen::Index i) const { return forces_.elastic(entry(unknowns, i), entry(unknowns, i)); }
 
     const StateTable& table() const { return system_.forces.states(); }
-    double scale_of(std::size_t state) const { return system_.forces.states()[states[state]].scale; }
+    double scale_of(std::size_t state) const { return table()[states[state]].scale; }
+    // Of the quantity that a trim finds; 1 rad/s.
+    double scale_of_trim() const { return input_ < 0 ? 1 : system_.forces.inputs()[input_].scale; }
+    double speed() const { return spin_ < 0 ? 0 : at.qd(spin_); }
+    const InputTable& inputs() const { return system_.forces.inputs(); }
 
+    bool trimmed;
     std::vector<int> unknowns, states;
     OperatingPoint at;
     std::exception_ptr thrown;
 
 private:
+    // The last column.
+    void by_trim(double* J) const {
+        const auto of_force = [&](int a) {
+            return input_ < 0 ? by_qd_(a, spin_) + forces_.damping(a, spin_) : -by_states_.Q_u(a, input_);
+        };
+        for (int a : unknowns) *J++ = of_force(a);
+        for (int a : states) *J++ = input_ < 0 ? -by_states_.f_qd(a, spin_) : -by_states_.f_u(a, input_);
+        *J = of_force(spin_);
+    }
+
     const System& system_;
-    int spin_;
+    int spin_, input_ = -1;
     Workspace workspace_;
     Vector tau_, Q_, f_;
     Matrix by_q_, by_qd_;
@@ -140,48 +164,6 @@ int jacobian_callback(N_Vector x, N_Vector, SUNMatrix J, void* user, N_Vector, N
     });
 }
 
-// LuFactors as SUNDIALS' linear solver. Its own goes number by number.
-class StiffnessSolver {
-public:
-    StiffnessSolver(Eigen::Index n, SUNContext context) : factors_(n), b_(n), solver_(SUNLinSolNewEmpty(context)) {
-        if (!solver_) throw NumericalError("SUNDIALS: no memory for a linear solver");
-        solver_->content = this;
-        solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-        solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
-        solver_->ops->setup = setup;
-        solver_->ops->solve = solve;
-    }
-    StiffnessSolver(const StiffnessSolver&) = delete;  // the handle refers to this object
-    StiffnessSolver& operator=(const StiffnessSolver&) = delete;
-    ~StiffnessSolver() = default;
-
-    SUNLinearSolver handle() { return solver_.get(); }
-
-private:
-    static StiffnessSolver& self(SUNLinearSolver s) { return *static_cast<StiffnessSolver*>(s->content); }
-    static int setup(SUNLinearSolver s, SUNMatrix A) {
-        LuFactors& factors = self(s).factors_;
-        const Eigen::Index n = self(s).b_.size();
-        factors.matrix() = Eigen::Map<const Matrix>(SUNDenseMatrix_Data(A), n, n);
-        factors.factorise();
-        return factors.regular() ? 0 : 1;
-    }
-    static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
-        Vector& own = self(s).b_;
-        own = Eigen::Map<const Vector>(N_VGetArrayPointer(b), own.size());
-        self(s).factors_.solve(own);
-        Eigen::Map<Vector>(N_VGetArrayPointer(x), own.size()) = own;
-        return 0;
-    }
-
-    struct FreeSolver {
-        void operator()(SUNLinearSolver s) const { SUNLinSolFreeEmpty(s); }
-    };
-    LuFactors factors_;
-    Vector b_;
-    std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeSolver> solver_;
-};
-
 const char* reason(int flag) {
     switch (flag) {
         case KIN_LINESEARCH_NONCONV:
@@ -208,8 +190,9 @@ const char* reason(int flag) {
 
 class SteadySolver::Memory {
 public:
-    Memory(const System& system, int spin);
+    Memory(const System& system, int spin, bool trimmed);
     void solve(const SteadyOptions& options, SteadyState& result);
+    bool trimmed() const { return residual_.trimmed; }
 
 private:
     void check(const SteadyOptions& options) const;
@@ -228,8 +211,8 @@ private:
     std::unique_ptr<void, SundialsDeleter<free_kinsol>> kinsol_;
 };
 
-SteadySolver::Memory::Memory(const System& system, int spin)
-    : spin_(spin), coordinates_(system.model.size()), residual_(system, spin) {
+SteadySolver::Memory::Memory(const System& system, int spin, bool trimmed)
+    : spin_(spin), coordinates_(system.model.size()), residual_(system, spin, trimmed) {
     const auto n = static_cast<sunindextype>(residual_.size());
     if (n == 0) return;
     scale_.resize(n);
@@ -273,6 +256,10 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
         if (!std::isfinite(options.states(i)))
             throw InputError("steady state", text("state '", states[i].name, "' of the starting point"),
                              options.states(i), "finite");
+    if (options.inputs.size() != 0 && options.inputs.size() != residual_.inputs().size())
+        throw InputError("steady state", "number of inputs", options.inputs.size(),
+                         text(residual_.inputs().size(), ", or empty"));
+    if (options.trim && spin_ < 0) throw InputError("steady state", "trim", "given", "none for a system without rotor");
     require_positive("steady state", "tolerance", options.tolerance);
     if (options.iterations < 1) throw InputError("steady state", "limit of iterations", options.iterations, ">= 1");
 }
@@ -280,6 +267,7 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
 // Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the
 // springs at least, for at a critical load they and the loads cancel.
 void SteadySolver::Memory::set_scale() {
+    if (residual_.trimmed) N_VGetArrayPointer(x_scale_.get())[residual_.size() - 1] = 1 / residual_.scale_of_trim();
     residual_.jacobian(SUNDenseMatrix_Data(J_.get()));
     const Eigen::Index size = scale_.size(), n = std::ssize(residual_.unknowns);
     const auto stiffness = [&](Eigen::Index i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (size + 1)]); };
@@ -290,13 +278,12 @@ void SteadySolver::Memory::set_scale() {
         const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
     }
-    // Of states, by how much their rate changes with what counts as much of everything it depends on: 1 rad, 1 m and
-    // the scales of the states.
+    // Of states and a trim, by how much rate or torque changes with what counts as much of everything it depends on:
+    // 1 rad, 1 m, the scales of the states.
     const Eigen::Map<const Matrix> J(SUNDenseMatrix_Data(J_.get()), size, size);
+    const Eigen::Map<const Vector> units(N_VGetArrayPointer(x_scale_.get()), size);
     for (Eigen::Index i = n; i < size; ++i) {
-        double sensitivity = J.row(i).head(n).lpNorm<1>();
-        for (Eigen::Index j = n; j < size; ++j)
-            sensitivity += std::abs(J(i, j)) * residual_.scale_of(static_cast<std::size_t>(j - n));
+        const double sensitivity = J.row(i).cwiseAbs().dot(units.cwiseInverse());
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = 1 / std::max(sensitivity, 1e-280);
     }
 }
@@ -314,7 +301,7 @@ void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
         const double largest = largest_residual();
         if (!(largest < 1e-7))
             throw NumericalError(text(
-                "no constant steady state at ", options.rotor_speed, " rad/s: with the rotor turned by ", turn,
+                "no constant steady state at ", residual_.speed(), " rad/s: with the rotor turned by ", turn,
                 " rad the forces leave a residual of ", largest,
                 " (residual over stiffness, rad or m; allowed 1e-7). Gravity in rotation, an unbalanced or a "
                 "two-bladed rotor have a periodic steady state: see harmonic_balance(); or leave gravity out or stop "
@@ -355,20 +342,22 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
         result.message = text("steady state not found after ", iterations, " iterations (residual over stiffness ",
                               result.residual, ", wanted ", options.tolerance, "): ", reason(flag),
                               "; start from a neighbouring state or approach the load in steps");
-    if (converged && spin_ >= 0 && options.rotor_speed != 0) check_constant(options);
+    if (converged && residual_.speed() != 0) check_constant(options);
     result.converged = converged;
 }
 
-SteadySolver::SteadySolver(const System& system, int spin) {
+SteadySolver::SteadySolver(const System& system, int spin) : system_(system), spin_(spin) {
     if (spin < -1 || spin >= system.model.size())
         throw InputError("steady state", "index of the spin coordinate", spin,
                          text("-1 (none) ... ", system.model.size() - 1));
-    memory_ = std::make_unique<Memory>(system, spin);
+    memory_ = std::make_unique<Memory>(system, spin, false);
 }
 
 SteadySolver::~SteadySolver() = default;
 
 void SteadySolver::solve(const SteadyOptions& options, SteadyState& result) {
+    if (memory_->trimmed() != options.trim.has_value())
+        memory_ = std::make_unique<Memory>(system_, spin_, options.trim.has_value());
     memory_->solve(options, result);
 }
 

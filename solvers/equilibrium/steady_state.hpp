@@ -8,14 +8,25 @@
 #include "solvers/linear/operating_point.hpp"
 
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace cardan::solvers {
 
+/// The rotor turns by itself: the torque on the spin coordinate balances as well, and one quantity more is found. With
+/// the rotor speed, that is the speed at which controllers and loads leave the machine; with an input of the system,
+/// the demand of pitch or torque that a speed needs. The integral of a controller of the speed has a value then.
+struct SteadyTrim {
+    std::string input = {};  ///< the one that is found; empty: the rotor speed
+};
+
 struct SteadyOptions {
-    double rotor_speed = 0;    ///< rate of the spin coordinate, rad/s
-    double azimuth = 0;        ///< its position, rad
-    Vector initial = {};       ///< starting point of the iteration; empty: zero
-    Vector states = {};        ///< of the states; empty: as their table says. Those of kind `angle` stay there
+    double rotor_speed = 0;  ///< rate of the spin coordinate, rad/s; where it is trimmed, the start
+    double azimuth = 0;      ///< its position, rad
+    Vector initial = {};     ///< starting point of the iteration; empty: zero
+    Vector states = {};      ///< of the states; empty: as their table says. Those of kind `angle` stay there
+    Vector inputs = {};      ///< of the system; empty: as their table says
+    std::optional<SteadyTrim> trim = {};
     double tolerance = 1e-11;  ///< residual over stiffness (rad, m; of states: over their scale), largest entry
     int iterations = 60;
 };
@@ -28,8 +39,8 @@ struct [[nodiscard]] SteadyState : Outcome {
 };
 
 /// Constant free coordinates and states while only the spin coordinate moves: r(q) = Gamma_abc qd^b qd^c - Q_a = 0 on
-/// the free coordinates, the spin being prescribed, and f = 0 of the states. KINSOL's Newton iteration with line search
-/// and the exact Jacobian.
+/// the free coordinates, the spin being prescribed, and f = 0 of the states; with a trim, r = 0 on the spin too.
+/// KINSOL's Newton iteration with line search and the exact Jacobian.
 ///
 /// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady
 /// state periodic, there is no constant solution and a NumericalError says so.
@@ -52,7 +63,9 @@ public:
 
 private:
     class Memory;
-    std::unique_ptr<Memory> memory_;
+    const System& system_;
+    int spin_;
+    std::unique_ptr<Memory> memory_;  ///< of systems with, or without, a trim
 };
 
 /// A single solution with a temporary SteadySolver.

@@ -112,6 +112,7 @@ public:
     /// y = g v and y -= c S v; v and y by unknowns.
     void multiply_metric(const Vector& v, Vector& y);
     void subtract_stiffness(double c, const Vector& v, Vector& y);
+    const std::vector<StateGroup>& state_groups() const { return forces_->state_groups(); }
     /// Derivatives of the states' part at the last linearise...(), by all coordinates.
     const StateDerivatives& state_derivatives() const { return state_derivatives_; }
     /// From the unknowns to all coordinates, zero for the driven ones, and back.

@@ -154,6 +154,9 @@ int naming_row(const SecondOrderSystem& system, const Mode& mode) {
 PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
     : system_(system), rotor_(rotor), options_(options), standstill_(system, rotor, options) {
     if (rotor.spin < 0) throw InputError(rotor.machine, "rotor", "none", "one, for Floquet's theory");
+    if (options.balanced)
+        throw InputError(rotor.machine, "balanced rotor with a periodic steady state", "asked for",
+                         "one with constant equations (without gravity, three blades or more that are alike)");
     const CampbellFloquetOptions& o = options.floquet;
     if (!(o.per_period >= 0))
         throw InputError(rotor.machine, "frequency per revolution up to which modes are accurate", o.per_period,

@@ -12,12 +12,14 @@
 namespace cardan::solvers {
 
 /// K = c_qdd g + c_qd C + c_q S of the terms of EquationsOfMotion::linearise(): factors on the branches of the tree, or
-/// of the full matrix where forces couple branches or a row would have to be exchanged. With m states it has a border,
+/// of the full matrix where forces couple branches or a row would have to be exchanged. With states it has a border,
 ///
 ///     [        K                  -c_s Q_s      ]
-///     [ -c_qd f_qd - c_q f_q   c_sd I - c_s f_s ]
+///     [ -c_qd f_qd - c_q f_q   c_sd I - c_s f_s ].
 ///
-/// which is eliminated by m solutions with K: K keeps its sparsity whatever the states couple.
+/// Groups of states (StateGroup) whose coordinates lie on one path from the base, such as those of the air at a section
+/// of a blade, are eliminated first, each by itself: what they add to K has the pattern of the tree. The other m states
+/// are eliminated by m solutions with K, which keeps its sparsity whatever they couple.
 class TangentFactors {
 public:
     explicit TangentFactors(const EquationsOfMotion& equations);
@@ -26,12 +28,27 @@ public:
     struct Factors {
         double qdd, qd, q, s_rate, s;
     };
-    /// Of the terms as they are now.  Cost O(n d^2), or O(n^3) if it has to be full; with states, O(m n d) more.
+    /// Of the terms as they are now.  Cost O(n d^2), or O(n^3) if it has to be full; with states, O(m n d) more, and
+    /// O(k^3 + k d^2) for each group of k that is eliminated first.
     void form(const Factors& c);
     /// r := K^-1 r, by unknowns, then states.  Cost O(n d) or O(n^2)
     void solve(Vector& r);
 
 private:
+    // A group that is eliminated first: s = C^-1 (r - R x), and K -= column C^-1 R.
+    struct LocalGroup {
+        std::vector<int> states, coordinates;  // free ones
+        LuFactors C;
+        Matrix R;       // then C^-1 R
+        Matrix column;  // -c_s Q_s
+        Vector r;
+    };
+    bool is_local(const StateGroup& group) const;
+    void set_groups();
+    void form_local(const Factors& c);
+    /// @param add  adds a value at a pair of coordinates to K
+    template <class Add>
+    void subtract_local(const Add& add) const;
     void form_border(const Factors& c);
     void solve_coordinates(VectorOut r);
 
@@ -42,6 +59,9 @@ private:
     Vector all_;    ///< by coordinates
     Vector right_;  ///< by unknowns
     // With states:
+    std::vector<LocalGroup> local_;
+    std::vector<int> unknown_;         ///< place among the unknowns, by coordinate; -1: driven
+    std::vector<int> bordering_;       ///< the other states
     Matrix columns_, rows_;            ///< K^-1 times the border's columns; its rows
     std::optional<LuFactors> corner_;  ///< what is left of it
     Vector states_;

@@ -236,7 +236,8 @@ TEST_CASE("states in time: the unit of a state changes nothing but its values", 
 }
 
 TEST_CASE("states in time: the bordered factors solve what the full matrix does", "[solvers][integrate][property]") {
-    // States that couple hinges which are not on one branch, one of them driven.
+    // States that couple hinges which are not on one branch, one of them driven, and states on one branch, of two
+    // elements: these are eliminated first.
     Tree tree;
     ForceSet set;
     std::vector<BodyId> bodies;
@@ -261,12 +262,35 @@ TEST_CASE("states in time: the bordered factors solve what the full matrix does"
         f << -in.s(0) + 2 * in.qd(0) + std::sin(in.q(2)), in.s(0) * in.q(0) - 0.3 * in.s(1) + in.qd(2);
     };
     set.add_states(bridge);
+    StateElement branch{.name = "branch",
+                        .states = {{.name = "c", .unit = "1", .scale = 1}, {.name = "d", .unit = "1", .scale = 1}},
+                        .coordinates = {bodies[4], bodies[2]}};
+    branch.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
+        Q << 7 * in.s(0) * in.q(1), 4 * in.s(1);
+        f << 5 * in.qd(0) * in.s(1) - 2 * in.s(0), 3 * std::sin(in.q(1)) + in.s(0);
+    };
+    set.add_states(branch);
+    StateElement reader{.name = "reader",
+                        .states = {{.name = "e", .unit = "1", .scale = 1}},
+                        .coordinates = {bodies[3]},
+                        .reads = {"d"}};
+    reader.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
+        Q(0) = 6 * in.s(0) * in.others(0);
+        f(0) = in.others(0) - 4 * in.s(0) + 8 * in.q(0);
+    };
+    set.add_states(reader);
     const System system(tree, set);
+    const std::vector<StateGroup>& groups = system.forces.state_groups();
+    REQUIRE(groups.size() == 2);
+    CHECK(groups[0].states == std::vector{0, 1});
+    CHECK(groups[1].states == std::vector{2, 3, 4});
+    CHECK(groups[1].coordinates ==
+          std::vector{system.model.index("hinge 2"), system.model.index("hinge 3"), system.model.index("hinge 4")});
     EquationsOfMotion equations(system, {}, 0, Vector::Constant(5, 0.2), Vector::Constant(5, -0.3));
     const int n = equations.size(), m = equations.states();
     REQUIRE(n == 4);
     Vector x(equations.length());
-    x << 0.1, -0.2, 0.3, 0.4, 1, -0.7, 0.2, 0.5, 0.6, -0.8;
+    x << 0.1, -0.2, 0.3, 0.4, 1, -0.7, 0.2, 0.5, 0.6, -0.8, 0.3, -0.4, 0.9;
     REQUIRE(equations.linearise(0, x.data()));
     for (const bool on_branches : {true, false}) {
         const double c = 0.07;
