@@ -195,6 +195,7 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     diagram_.unknowns = solver.unknowns();
     diagram_.rows = solver.row_names();
     diagram_.states = solver.state_names();
+    diagram_.remark = held_inputs(system.forces);
     frames_ = recorded_frames(system, rotor, diagram_);
     if (options_.neighbour) neighbour_.emplace(*options_.neighbour).check(diagram_);
 }

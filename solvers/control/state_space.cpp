@@ -55,6 +55,9 @@ LinearModel Builder::empty(double rotor_speed) const {
     LinearModel model;
     model.machine = rotor_.machine;
     model.description = rotor_.description;
+    std::vector<std::string> free;
+    for (const Signal& input : layout_.input_signals) free.push_back(input.name);
+    if (const std::string held = held_inputs(system_.forces, free); !held.empty()) model.description += "\n" + held;
     model.rotor_speed = rotor_speed;
     model.blades = static_cast<int>(rotor_.blades.size());
     model.states = layout_.state_signals;

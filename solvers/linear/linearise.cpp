@@ -140,6 +140,14 @@ void append_states(SecondOrderSystem& system) {
     system.states = {};
 }
 
+std::string held_inputs(const Forces& forces, const std::vector<std::string>& free) {
+    std::string names;
+    for (const InputInfo& input : forces.inputs())
+        if (std::ranges::find(free, input.name) == free.end())
+            names += text(names.empty() ? "'" : ", '", input.name, "'");
+    return names.empty() ? names : text("inputs held (open loop): ", names);
+}
+
 Matrix static_stiffness(const SecondOrderSystem& system) {
     const StateTerms& t = system.states;
     if (t.size() == 0) return system.K;

@@ -6,6 +6,8 @@
 #include "mbs/system/system.hpp"
 #include "solvers/linear/operating_point.hpp"
 
+#include <string>
+
 namespace cardan::solvers {
 
 /// M dq'' + (damping + gyroscopic) dq' + (elastic + gravity + loads + inertial) dq = 0 over all coordinates.
@@ -90,6 +92,11 @@ void for_each_matrix(System& system, const F& f) {
 ///
 /// @param system  overwritten; unchanged if it has no states
 void append_states(SecondOrderSystem& system);
+
+/// "inputs held (open loop): 'pitch demand', 'torque demand'": what a linearisation does with the inputs of a system.
+/// Empty: there are none.
+/// @param free  names of those that it does not hold
+std::string held_inputs(const Forces& forces, const std::vector<std::string>& free = {});
 
 /// Stiffness against a motion so slow that the states follow: K + Q_s f_s^-1 f_q.
 /// @throws NumericalError if there is a state that settles nowhere by itself, such as an integrator

@@ -43,7 +43,8 @@ solvers::RotorSpin rotor_spin(const MachineFile& machine) {
 
 void tell_origin(solvers::Campbell& diagram, const MachineFile& machine, const ReadyMachine& ready,
                  const std::string& run) {
-    diagram.remark = foundation_in_words(machine);
+    const std::string foundation = foundation_in_words(machine);
+    diagram.remark += text(diagram.remark.empty() || foundation.empty() ? "" : "; ", foundation);
     diagram.accuracy = in_words(ready.mesh);
     diagram.source = run + diagram.source;
 }
