@@ -5,7 +5,7 @@
 #include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
-#include "solvers/periodic/detail/state_units.hpp"
+#include "solvers/periodic/detail/normalised_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,44 +19,6 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr const char* in_floquet_theory = "Floquet theory";
-
-// The system in coordinates of unit inertia at t = 0 and in the time omega t: states alike in size.
-struct Normalised {
-    explicit Normalised(const PeriodicSystem& raw);
-    PeriodicSystem system;
-    Vector unit;  ///< states of `raw` over those of `system`
-};
-
-void scale_states(StateTerms& t, const Vector& d, const Vector& u, double omega) {
-    const Vector inverse = u.cwiseInverse();
-    const auto per_state = inverse.asDiagonal();
-    t.Q_s = (d.asDiagonal() * t.Q_s * u.asDiagonal() / (omega * omega)).eval();
-    t.f_q = (per_state * t.f_q * d.asDiagonal() / omega).eval();
-    t.f_qd = (per_state * t.f_qd * d.asDiagonal()).eval();
-    t.f_s = (per_state * t.f_s * u.asDiagonal() / omega).eval();
-}
-
-PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
-    const double omega = raw.frequency();
-    if (!raw.is_second_order())
-        return PeriodicSystem::first_order(2 * pi, raw.rows(), [raw, omega](double angle, Matrix& E, Matrix& A) {
-            raw.at(angle / omega, E, A);
-            E *= omega;
-        });
-    const Vector d = unit.head(raw.rows()), u = unit.tail(raw.states_beside());
-    const auto at = [raw, omega, d, u](double angle, SecondOrderSystem& out) {
-        raw.at(angle / omega, out);
-        const auto scale = d.asDiagonal();
-        out.M = (scale * out.M * scale).eval();
-        out.C = (scale * out.C * scale / omega).eval();
-        out.K = (scale * out.K * scale / (omega * omega)).eval();
-        if (u.size() > 0) scale_states(out.states, d, u, omega);
-    };
-    return PeriodicSystem::second_order(2 * pi, raw.rows(), at, u.size());
-}
-
-Normalised::Normalised(const PeriodicSystem& raw)
-    : system(normalised(raw, units_of_states(raw, in_floquet_theory))), unit(units_of_states(raw, in_floquet_theory)) {}
 
 // Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each; 0: to be
 // doubled, from one step in two samples.
@@ -136,7 +98,7 @@ double step_error(double z, int stages) {
 class Analysis {
 public:
     Analysis(const PeriodicSystem& system, const FloquetOptions& options)
-        : raw_(system), options_(options), normalised_(system), grid_(make_grid(options)) {
+        : raw_(system), options_(options), normalised_(system, in_floquet_theory), grid_(make_grid(options)) {
         const int Q = options.symmetry.parts;
         angle_ = 2 * pi / Q;
         if (Q > 1) set_permutation();
@@ -169,7 +131,7 @@ private:
 
     const PeriodicSystem& raw_;
     const FloquetOptions& options_;
-    Normalised normalised_;
+    NormalisedSystem normalised_;
     Grid grid_;
     double angle_;                          // omega T / Q
     Matrix permutation_, raw_permutation_;  // of the normalised and of the raw states

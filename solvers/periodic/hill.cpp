@@ -4,7 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/azimuth_series.hpp"
 #include "solvers/algebra/real_eigen.hpp"
-#include "solvers/periodic/detail/state_units.hpp"
+#include "solvers/periodic/detail/normalised_system.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -20,11 +20,6 @@ double resolution(double time) {
     return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
 }
 
-// Less than this on average over a thousand steps is not progress.
-double shortest_step(double time) {
-    return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
-}
-
 int sign(double value) {
     return (value > 0) - (value < 0);
 }
@@ -93,51 +88,6 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
 }
 
 Integrator::~Integrator() = default;
-
-void Integrator::check_options(double time) const {
-    const Tolerances& tolerances = options_.tolerances;
-    require_positive(in_integration, "relative tolerance", tolerances.relative);
-    for (double value :
-         {tolerances.angle, tolerances.length, tolerances.angular_rate, tolerances.speed, tolerances.state})
-        require_positive(in_integration, "absolute tolerance", value);
-    const std::array steps{std::pair{"largest step [s]", options_.max_step},
-                           std::pair{"first step [s]", options_.first_step},
-                           std::pair{"fixed step [s]", options_.fixed_step}};
-    for (const auto& [name, step] : steps) require_not_negative(in_integration, name, step);
-    for (const auto& [name, step] : steps)
-        if (step > 0 && step < shortest_step(time))
-            throw InputError(in_integration, name, step,
-                             text("0, or >= ", shortest_step(time), ", which the clock can tell"));
-    if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
-        throw InputError(in_integration, "fixed step [s]", options_.fixed_step,
-                         text("at most the largest step, ", options_.max_step));
-    const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
-    if (options_.max_order < 0 || options_.max_order > highest)
-        throw InputError(in_integration, "highest order", options_.max_order,
-                         text("0 ... ", highest, " with this method"));
-    if (!(options_.spectral_radius >= 0 && options_.spectral_radius <= 1))
-        throw InputError(in_integration, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
-    for (double jump : options_.breaks)
-        if (!std::isfinite(jump)) throw InputError(in_integration, "time of a break [s]", jump, "finite");
-    for (const Event& event : options_.events) {
-        if (!event.function) throw InputError(in_integration, "event", event.name, "one with a function");
-        if (event.direction < -1 || event.direction > 1)
-            throw InputError(text(in_integration, ": event '", event.name, "'"), "direction", event.direction,
-                             "-1, 0 or 1");
-    }
-}
-
-Vector Integrator::states_at_start() const {
-    const StateTable& table = equations_.state_table();
-    if (options_.states.size() == 0) return table.initial();
-    if (options_.states.size() != table.size())
-        throw InputError(in_integration, "number of states at the start", options_.states.size(), text(table.size()));
-    for (int i = 0; i < table.size(); ++i)
-        if (!std::isfinite(options_.states(i)))
-            throw InputError(text(in_integration, ": state '", table[i].name, "'"), "value at the start",
-                             options_.states(i), "finite");
-    return options_.states;
-}
 
 void Integrator::find_breaks() {
     breaks_ = equations_.breaks();

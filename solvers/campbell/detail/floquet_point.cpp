@@ -5,6 +5,7 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/detail/blade_frame.hpp"
+#include "solvers/campbell/detail/displacements.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
@@ -21,14 +22,6 @@ using Index = Eigen::Index;
 // Share of the energy that a vibration named after its springs has in them: half where no other stiffness acts, less
 // where the centrifugal force holds the blades.
 constexpr double elastic_limit = 0.05;
-// Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state move
-// a double zero by their square root.
-constexpr double rigid_per_radian = 1e-4;
-// That limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
-constexpr double free_spin_limit = 0.05;
-// Times its energy: a motion that would have so much more if its mean displacement vibrated once per revolution is that
-// displacement.
-constexpr double mostly_displacement = 1e3;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
 // Asymmetry of the blades relative to the diagonals; more is not rounding.
@@ -55,73 +48,6 @@ std::vector<Mode> harmonics_of(const FloquetMode& mode) {
         all.push_back({mode.exponent + Complex(0, 2 * pi * j / mode.period), mode.harmonics.col(i)});
     }
     return all;
-}
-
-// A rigid displacement has no other harmonics, and no energy: what is there is rounding.
-void keep_displacement(FloquetMode& mode) {
-    for (ComplexMatrix* harmonics : {&mode.harmonics, &mode.state_harmonics})
-        *harmonics = ComplexMatrix(harmonics->col(-mode.first_harmonic));
-    mode.participation = Vector::Ones(1);
-    mode.first_harmonic = 0;
-}
-
-// A free displacement (yaw) is a double zero, which errors of the steady state split. What little else moves then may
-// have its energy in another harmonic, near a resonance, and that one was taken for the principal one.
-void find_displacement(FloquetMode& mode, const Matrix& M, double speed) {
-    const double shift = std::round(mode.exponent.imag() / speed);
-    const Complex reduced = mode.exponent - Complex(0, shift * speed);
-    const Index at = -mode.first_harmonic - static_cast<Index>(shift);
-    if (shift == 0 || std::abs(reduced) > rigid_per_radian * speed || at < 0 || at >= mode.harmonics.cols()) return;
-    const double energy = 2, displaced = speed * speed * mode.harmonics.col(at).cwiseAbs2().dot(M.diagonal());
-    if (displaced < mostly_displacement * energy) return;
-    mode.exponent = reduced;
-    mode.first_harmonic = -static_cast<int>(at);
-}
-
-// Energy that the spin would have if its slow displacement, a multiple of the rotor speed from the principal harmonic,
-// vibrated once per revolution.
-double slow_spin(const FloquetMode& mode, const Matrix& M, double speed, Index spin) {
-    const double shift = std::round(mode.exponent.imag() / speed);
-    const Index at = -mode.first_harmonic - static_cast<Index>(shift);
-    const bool slow = std::abs(mode.exponent - Complex(0, shift * speed)) < free_spin_limit * speed;
-    if (!slow || at < 0 || at >= mode.harmonics.cols()) return 0;
-    return speed * speed * M(spin, spin) * std::norm(mode.harmonics(spin, at));
-}
-
-// Unbalance or gravity hold a free spin weakly, and then what it takes along once per revolution has more energy than
-// the spin itself. One motion is that of the spin, or two that do not oscillate: the slowest displacement of all.
-void find_weak_spin(std::vector<FloquetMode>& modes, const Matrix& M, double speed, Index spin) {
-    if (spin < 0) return;
-    constexpr double mostly = 10, alike = 0.5, energy = 2;
-    double most = mostly * energy;
-    for (const FloquetMode& mode : modes) most = std::max(most, slow_spin(mode, M, speed, spin));
-    for (FloquetMode& mode : modes) {
-        const double own = slow_spin(mode, M, speed, spin), shift = std::round(mode.exponent.imag() / speed);
-        const bool real = mode.kind != FloquetKind::oscillation;
-        if (shift == 0 || own < (real ? alike : 1) * most || own < mostly * energy) continue;
-        mode.exponent -= Complex(0, shift * speed);
-        mode.first_harmonic += static_cast<int>(shift);
-        if (mode.kind == FloquetKind::synchronous) mode.kind = FloquetKind::aperiodic;
-        if (mode.exponent.imag() < 0) conjugate(mode);
-    }
-}
-
-// A free spin that is held weakly has little energy of its own, and what it takes along has springs. Beside the slowest
-// vibration, which is much faster, it is a displacement.
-void name_weak_spin(std::vector<CampbellMode>& modes, const Matrix& M, Index spin) {
-    if (spin < 0) return;
-    for (CampbellMode& m : modes) {
-        if (m.row >= 0 || m.kind() == FloquetKind::rigid) continue;
-        const double own = std::abs(m.mode.eigenvalue), energy = 2;
-        double slowest = std::numeric_limits<double>::infinity();
-        for (const CampbellMode& other : modes) {
-            const double size = std::abs(other.mode.eigenvalue);
-            if (other.row < 0 && other.mode.oscillates() && size > own / free_spin_limit)
-                slowest = std::min(slowest, size);
-        }
-        const double displaced = slowest * slowest * M(spin, spin) * std::norm(m.mode.shape(spin));
-        if (std::isfinite(slowest) && displaced >= mostly_displacement * energy) m.row = static_cast<int>(spin);
-    }
 }
 
 void leave_out_ends(FloquetMode& mode) {

@@ -4,11 +4,19 @@
 
 #include "solvers/time/integrate.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace cardan::solvers {
+
+/// Less than this on average over a thousand steps is not progress, s.
+inline double shortest_step(double time) {
+    return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
+}
 
 /// Weights of the error norm, one per entry of x = (q_f, qd_f, s).
 class ErrorWeights {

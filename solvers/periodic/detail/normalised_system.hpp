@@ -1,5 +1,5 @@
 /// @file
-/// Units in which the states of a linear periodic system are alike in size.
+/// A linear periodic system in units in which its states are alike in size.
 #pragma once
 
 #include "solvers/periodic/periodic_system.hpp"
@@ -12,5 +12,13 @@ namespace cardan::solvers {
 /// @param place  names the caller
 /// @throws InputError for a row without inertia
 Vector units_of_states(const PeriodicSystem& system, const char* place);
+
+/// A system in these units and in the time omega t.
+struct NormalisedSystem {
+    /// @throws as units_of_states()
+    NormalisedSystem(const PeriodicSystem& raw, const char* place);
+    PeriodicSystem system;
+    Vector unit;  ///< states of `raw` over those of `system`
+};
 
 }  // namespace cardan::solvers

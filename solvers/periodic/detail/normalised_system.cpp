@@ -1,4 +1,4 @@
-#include "solvers/periodic/detail/state_units.hpp"
+#include "solvers/periodic/detail/normalised_system.hpp"
 
 #include "mbs/base/error.hpp"
 
@@ -26,6 +26,34 @@ Vector units_beside(const StateTerms& t, const Vector& d, double omega) {
     return balance(of_states, on_states) * t.scales;
 }
 
+void scale_states(StateTerms& t, const Vector& d, const Vector& u, double omega) {
+    const Vector inverse = u.cwiseInverse();
+    const auto per_state = inverse.asDiagonal();
+    t.Q_s = (d.asDiagonal() * t.Q_s * u.asDiagonal() / (omega * omega)).eval();
+    t.f_q = (per_state * t.f_q * d.asDiagonal() / omega).eval();
+    t.f_qd = (per_state * t.f_qd * d.asDiagonal()).eval();
+    t.f_s = (per_state * t.f_s * u.asDiagonal() / omega).eval();
+}
+
+PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
+    const double omega = raw.frequency();
+    if (!raw.is_second_order())
+        return PeriodicSystem::first_order(2 * pi, raw.rows(), [raw, omega](double angle, Matrix& E, Matrix& A) {
+            raw.at(angle / omega, E, A);
+            E *= omega;
+        });
+    const Vector d = unit.head(raw.rows()), u = unit.tail(raw.states_beside());
+    const auto at = [raw, omega, d, u](double angle, SecondOrderSystem& out) {
+        raw.at(angle / omega, out);
+        const auto scale = d.asDiagonal();
+        out.M = (scale * out.M * scale).eval();
+        out.C = (scale * out.C * scale / omega).eval();
+        out.K = (scale * out.K * scale / (omega * omega)).eval();
+        if (u.size() > 0) scale_states(out.states, d, u, omega);
+    };
+    return PeriodicSystem::second_order(2 * pi, raw.rows(), at, u.size());
+}
+
 }  // namespace
 
 Vector units_of_states(const PeriodicSystem& system, const char* place) {
@@ -43,5 +71,8 @@ Vector units_of_states(const PeriodicSystem& system, const char* place) {
     if (m > 0) unit.tail(m) = units_beside(at.states, unit.head(n), system.frequency());
     return unit;
 }
+
+NormalisedSystem::NormalisedSystem(const PeriodicSystem& raw, const char* place)
+    : system(normalised(raw, units_of_states(raw, place))), unit(units_of_states(raw, place)) {}
 
 }  // namespace cardan::solvers
