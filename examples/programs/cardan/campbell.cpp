@@ -89,6 +89,7 @@ std::vector<turbines::PitchAt> schedule_of(const CampbellArguments& a, const tur
 std::vector<double> pitch_angles(CampbellArguments& a, const MachineFile& machine, const std::vector<double>& speeds) {
     const std::vector<turbines::PitchAt> schedule = schedule_of(a, machine.file);
     std::vector<double> angles;
+    angles.reserve(speeds.size());
     for (const double speed : speeds)
         angles.push_back(schedule.empty() ? 0 : turbines::pitch_at(schedule, speed) * units::to_degrees);
     const auto [least, most] = std::ranges::minmax(angles);

@@ -47,6 +47,7 @@ int run(RepeatArguments& a, const CommandLine& /*command*/) {
     int (*const command)(int, char**) = command_of(record.command.c_str());
     if (command == nullptr) throw InputError(a.file, "command", record.command, "one of this version");
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     return command(static_cast<int>(words.size()), argv.data());

@@ -217,6 +217,7 @@ void print_result(const Subject& subject, const SimulateArguments& a, solvers::I
                 integrator.time());
     const std::vector<std::string> names = main_channels(subject.turbine.layout(), history.channels);
     std::vector<const char*> shown;
+    shown.reserve(names.size());
     for (const std::string& name : names) shown.push_back(name.c_str());
     print_largest(history, shown);
 }
