@@ -177,7 +177,8 @@ def check_dataset(what, data, contents, group, wrong):
 
 
 def check_copy(what, data, engine, wrong):
-    """A dataset can be stored again."""
+    """A dataset can be stored again; of many variables some, since h5netcdf asks all for the length of a growing axis."""
+    data = data[list(data.data_vars)[:20]]
     with tempfile.TemporaryDirectory() as folder:
         try:
             data.to_netcdf(folder + "/copy.nc", engine=engine)
