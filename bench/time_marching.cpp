@@ -98,6 +98,56 @@ void time_marching_nrel5mw(benchmark::State& state, solvers::Method method) {
     march(state, nrel5mw(static_cast<int>(state.range(0))), 12.1, method);
 }
 
+// On the coordinates of every beam element of the blades as many states that lag behind their rates and hardly push
+// back, as those of the air at a section would.
+turbines::Turbine with_states(const turbines::Turbine& turbine, int states) {
+    const Model& model = turbine.system().model;
+    std::vector<BodyId> bodies(static_cast<std::size_t>(model.size()));
+    for (int i = 0; i < model.size(); ++i) bodies[static_cast<std::size_t>(model.index(BodyId{i}))] = BodyId{i};
+    ForceSet forces = turbine.forces();
+    constexpr std::size_t of_element = 6;
+    int number = 0;
+    for (const std::vector<int>& blade : turbine.rotor().blades)
+        for (std::size_t first = 0; first + of_element <= blade.size(); first += of_element) {
+            StateElement lags{.name = text("lags ", ++number)};
+            for (std::size_t i = 0; i < of_element; ++i)
+                lags.coordinates.push_back(bodies[static_cast<std::size_t>(blade[first + i])]);
+            for (int i = 0; i < states; ++i)
+                lags.states.push_back({.name = text("lag ", number, " ", i), .unit = "rad/s", .scale = 1});
+            lags.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
+                for (Eigen::Index i = 0; i < f.size(); ++i) f(i) = 20 * (in.qd(i % Q.size()) - in.s(i));
+                Q = -10 * in.s.head(Q.size());
+            };
+            lags.jacobian = [](const StateInput& in, StateJacobian& d) {
+                for (Eigen::Index i = 0; i < in.s.size(); ++i) {
+                    d.f_qd(i, i % in.qd.size()) = 20;
+                    d.f_s(i, i) = -20;
+                }
+                d.Q_s.leftCols(in.qd.size()).diagonal().setConstant(-10);
+            };
+            forces.add_states(lags);
+        }
+    return turbine.with_forces(forces, "lags on the blades");
+}
+
+// Beside the same machine without.
+void time_marching_states(benchmark::State& state) {
+    const turbines::Turbine machine = nrel5mw(8), lagging = with_states(machine, static_cast<int>(state.range(0)));
+    Run with(lagging, 12.1, solvers::Method::dirk), without(machine, 12.1, solvers::Method::dirk);
+    const auto second_of = [](Run& run) {
+        return bench::cpu_time_of(
+            [&] { benchmark::DoNotOptimize(run.integrator->advance(run.integrator->time() + 1)); });
+    };
+    bench::Pairs times;
+    for (auto _ : state) {
+        const double marching = second_of(with);
+        times.add(marching, second_of(without));
+        state.SetIterationTime(marching);
+    }
+    state.counters["states"] = lagging.system().forces.states().size();
+    state.counters["over without states"] = times.ratio();
+}
+
 void few_and_many(benchmark::internal::Benchmark* b) {
     b->Arg(3)->Arg(12)->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
 }
@@ -111,5 +161,11 @@ void eight(benchmark::internal::Benchmark* b) {
 BENCHMARK_CAPTURE(time_marching_nrel5mw, dirk, solvers::Method::dirk)->Apply(eight);
 BENCHMARK_CAPTURE(time_marching_nrel5mw, bdf, solvers::Method::bdf)->Apply(eight);
 BENCHMARK_CAPTURE(time_marching_nrel5mw, generalised_alpha, solvers::Method::generalised_alpha)->Apply(eight);
+BENCHMARK(time_marching_states)
+    ->Arg(6)
+    ->Arg(15)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
+#include "solvers/algebra/azimuth_series.hpp"
 #include "solvers/control/detail/state_space.hpp"
 #include "solvers/linear/problem_size.hpp"
 
@@ -32,12 +33,13 @@ public:
           workspace_(system.model) {}
 
     LinearModel empty(double rotor_speed) const;
-    void add(const OperatingPoint& at, double psi, LinearModel& model);
+    /// @param state_rates  of the steady state; empty: its states stand still
+    void add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model);
     void finish(LinearModel& model) const;
 
 private:
     void solve(const Matrix& right);
-    void find_forces(const OperatingPoint& at, LinearModel& model);
+    void find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model);
 
     const System& system_;
     const RotorMap& rotor_;
@@ -85,7 +87,7 @@ void Builder::solve(const Matrix& right) {
 }
 
 // What the drives, that of the spin among them, carry at the operating point, and what no drive carries.
-void Builder::find_forces(const OperatingPoint& at, LinearModel& model) {
+void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model) {
     const Index n = system_.model.size();
     const Kinematics kin = kinematics(system_.model, at.q, workspace_);
     Vector tau(n), Q(n);
@@ -107,15 +109,16 @@ void Builder::find_forces(const OperatingPoint& at, LinearModel& model) {
     const Matrix M = lin_.mass(layout_.unknowns, layout_.unknowns);
     const Vector off = M.llt().solve(on_unknowns);
     if (off.size() > 0) model.imbalance = std::max(model.imbalance, off.cwiseAbs().maxCoeff());
-    // States that do not stand still, by their scales, in a second.
+    // States that do not move as they should, by their scales, in a second.
     for (int i = 0; const StateInfo& state : system_.forces.states()) {
-        const double rate = state.kind == StateKind::angle ? 0 : std::abs(state_rates_(i)) / state.scale;
+        const double moves = rates.size() > 0 ? rates(i) : 0.0;
+        const double rate = state.kind == StateKind::angle ? 0 : std::abs(state_rates_(i) - moves) / state.scale;
         model.imbalance = std::max(model.imbalance, rate);
         ++i;
     }
 }
 
-void Builder::add(const OperatingPoint& at, double psi, LinearModel& model) {
+void Builder::add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model) {
     lineariser_.linearise(at, lin_);
     layout_.begin(kinematics(system_.model, at.q, workspace_), directions_);
     // Prescribed accelerations stand in qdd already; the others are zero and follow.
@@ -128,7 +131,7 @@ void Builder::add(const OperatingPoint& at, double psi, LinearModel& model) {
             d.f_q * directions_.q + d.f_qd * directions_.qd + d.f_s * directions_.s + d.f_u * directions_.u;
     }
     solve(right);
-    find_forces(at, model);
+    find_forces(at, state_rates, model);
 
     const Index states = layout_.states(), half = std::ssize(layout_.coordinates), first = layout_.first_order(),
                 inputs = layout_.columns() - states;
@@ -160,16 +163,22 @@ void Builder::finish(LinearModel& model) const {
         if (size_(i) > 0) model.output_error(i) = error_(i) / size_(i);
 }
 
+// The steady state at an azimuth, with the rates of its states (empty: they stand still).
+struct Steady {
+    OperatingPoint at;
+    Vector state_rates = {};
+};
+
 LinearModel build(const System& system, const RotorMap& rotor, double rotor_speed, int azimuths,
-                  const std::function<OperatingPoint(double psi)>& at, double first,
-                  const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
-                  const StateSpaceOptions& options) {
+                  const std::function<Steady(double psi)>& steady, double first, const std::vector<LinearInput>& inputs,
+                  const std::vector<ChannelGroup>& outputs, const StateSpaceOptions& options) {
     check_number_of_unknowns(rotor.machine, system.model.coordinates().free().size());
     Builder builder(system, rotor, inputs, outputs, options);
     LinearModel model = builder.empty(rotor_speed);
     for (int s = 0; s < azimuths; ++s) {
         const double psi = azimuths == 1 ? first : 2 * pi * s / azimuths;
-        builder.add(at(psi), psi, model);
+        const Steady now = steady(psi);
+        builder.add(now.at, now.state_rates, psi, model);
     }
     builder.finish(model);
     return model;
@@ -185,10 +194,20 @@ LinearModel state_space(const System& system, const RotorMap& rotor, const Perio
         throw InputError(in_linear_model, "coordinates and spin of the periodic steady state",
                          text(about.coefficients.rows(), ", ", about.spin),
                          text(system.model.size(), ", ", rotor.spin));
+    if (about.state_coefficients.rows() != system.forces.states().size())
+        throw InputError(in_linear_model, "states of the periodic steady state", about.state_coefficients.rows(),
+                         text("those of the system, ", system.forces.states().size()));
     if (options.azimuths < 3) throw InputError(in_linear_model, "number of azimuths", options.azimuths, ">= 3");
     return build(
-        system, rotor, about.rotor_speed, options.azimuths, [&](double psi) { return about.at(psi); }, 0, inputs,
-        outputs, options);
+        system, rotor, about.rotor_speed, options.azimuths,
+        [&](double psi) {
+            Steady now{about.at(psi)};
+            if (about.state_coefficients.rows() > 0)
+                now.state_rates =
+                    about.rotor_speed * (about.state_coefficients * fourier_basis(psi, about.harmonics(), 1));
+            return now;
+        },
+        0, inputs, outputs, options);
 }
 
 LinearModel state_space(const System& system, const RotorMap& rotor, const OperatingPoint& about,
@@ -205,10 +224,10 @@ LinearModel state_space(const System& system, const RotorMap& rotor, const Opera
     const int azimuths = speed == 0 ? 1 : options.azimuths;
     if (speed != 0 && azimuths < 3) throw InputError(in_linear_model, "number of azimuths", azimuths, ">= 3");
     const auto at = [&](double psi) {
-        OperatingPoint turned = about;
+        Steady turned{about};
         if (speed == 0) return turned;
-        turned.q(rotor.spin) = psi;
-        turned.time = psi / speed;
+        turned.at.q(rotor.spin) = psi;
+        turned.at.time = psi / speed;
         return turned;
     };
     return build(system, rotor, speed, azimuths, at, first, inputs, outputs, options);

@@ -2,6 +2,7 @@
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/linear/coleman.hpp"
+#include "solvers/periodic/periodic_system.hpp"
 #include "tests/solvers/rotor_with_lags.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -104,6 +105,27 @@ TEST_CASE("linear model with states: in multi-blade coordinates it has the rotor
     for (const Signal& state : fixed.states) names.push_back(state.name);
     CHECK(std::ranges::count(names, "blade first (cosine 1)") == 1);
     CHECK(std::ranges::count(names, "support lag") == 1);
+}
+
+TEST_CASE("linear model with states: about a periodic steady state it is that of the periodic system", "[crosscheck]") {
+    const double Omega = 1.7;
+    const SmallRotor rotor = rotor_with_lags(0.8, 2, Vec3(0, -9.8, -1));
+    PeriodicOptions options;
+    options.rotor_speed = Omega;
+    options.harmonics = 12;
+    const PeriodicSteadyState state = harmonic_balance(rotor.system, rotor.map.spin, options);
+    REQUIRE(state.converged);
+    const LinearModel model =
+        state_space(rotor.system, rotor.map, state, {}, {}, {.spin = RotorSpin::prescribed, .azimuths = 5});
+    const PeriodicSystem periodic = linearised(rotor.system, state, model.coordinates);
+    for (std::size_t i = 0; i < model.samples.size(); ++i) {
+        Matrix E, A;
+        periodic.at(periodic.period() * static_cast<double>(i) / 5, E, A);
+        const Matrix expected = E.partialPivLu().solve(A);
+        CHECK((model.samples[i].A - expected).cwiseAbs().maxCoeff() < 1e-10 * expected.cwiseAbs().maxCoeff());
+    }
+    // Its states move as they should.
+    CHECK(model.imbalance < 1e-4);
 }
 
 }  // namespace cardan::testing::linear_model_states
