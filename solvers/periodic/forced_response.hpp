@@ -8,12 +8,12 @@ namespace cardan::solvers {
 
 /// q(t) = h0 + sum_j hc_j cos j w t + hs_j sin j w t, w = 2 pi / T.
 struct ForcedResponse {
-    double period = 0;               ///< T, s
-    Matrix coefficients;             ///< a row per coordinate, columns h0, hc_1, hs_1, hc_2 ...
-    Matrix state_coefficients = {};  ///< likewise of the states beside the coordinates
+    double period = 0;    ///< T, s
+    Matrix coefficients;  ///< a row per coordinate, columns h0, hc_1, hs_1, hc_2 ...
     /// Largest entry of the residual, at times between those that were balanced, relative to that of the load: what the
     /// neglected harmonics would have to balance.
     double remainder = 0;
+    Matrix state_coefficients = {};  ///< as `coefficients`, of the states beside the coordinates
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
     /// Positions (derivative 0), rates (1) or accelerations (2) of all coordinates.
