@@ -34,6 +34,13 @@ struct SpeedLoop {
                 Q(0) = own.T0 - own.slope * error - own.by_pitch * (own.proportional * error + in.s(0)) - in.u(0);
                 f(0) = own.integrates ? own.integral * error : own.integral * error - 3 * in.s(0);
             };
+            loop.jacobian = [own](const StateInput&, StateJacobian& d) {
+                d.Q_qd(0, 0) = -own.slope - own.by_pitch * own.proportional;
+                d.Q_s(0, 0) = -own.by_pitch;
+                d.Q_u(0, 0) = -1;
+                d.f_qd(0, 0) = own.integral;
+                d.f_s(0, 0) = own.integrates ? 0 : -3;
+            };
             forces.add_states(loop);
         };
         return small_rotor(spec);

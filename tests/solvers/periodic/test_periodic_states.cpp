@@ -36,6 +36,11 @@ struct MaxwellOscillator {
             f(0) = own.K * in.qd(0) / own.unit - own.K / own.eta * in.s(0);
             Q(0) = -own.unit * in.s(0);
         };
+        maxwell.jacobian = [own = *this](const StateInput&, StateJacobian& d) {
+            d.f_qd(0, 0) = own.K / own.unit;
+            d.f_s(0, 0) = -own.K / own.eta;
+            d.Q_s(0, 0) = -own.unit;
+        };
         forces.add_states(maxwell);
         return System(tree, forces);
     }
@@ -54,6 +59,7 @@ PeriodicOptions at_speed(double Omega, int harmonics = 6) {
     PeriodicOptions options;
     options.rotor_speed = Omega;
     options.harmonics = harmonics;
+    options.tolerance = 1e-13;
     return options;
 }
 
@@ -111,18 +117,18 @@ TEST_CASE(
     "[crosscheck]") {
     for (const int blades : {3, 2}) {
         const SmallRotor rotor = rotor_with_lags(0.8, blades, gravity);
-        PeriodicOptions options = at_speed(1.7, 10);
+        PeriodicOptions options = at_speed(1.7, blades == 2 ? 20 : 10);
         const PeriodicSteadyState plain = harmonic_balance(rotor.system, rotor.map.spin, options);
         options.rotor = &rotor.map;
         const PeriodicSteadyState by_blades = harmonic_balance(rotor.system, rotor.map.spin, options);
         options.rotor = nullptr;
-        options.steps = 96;
+        options.steps = 128;
         const PeriodicSteadyState shot = shooting(rotor.system, rotor.map.spin, options);
         CAPTURE(blades, plain.message, by_blades.message, shot.message);
         REQUIRE((plain.converged && by_blades.converged && shot.converged));
         const double size = plain.coefficients.cwiseAbs().maxCoeff(),
                      states = plain.state_coefficients.cwiseAbs().maxCoeff();
-        CHECK(states > 1);
+        CHECK(states > 0.1);
         CHECK((by_blades.coefficients - plain.coefficients).cwiseAbs().maxCoeff() < 1e-9 * size);
         CHECK((by_blades.state_coefficients - plain.state_coefficients).cwiseAbs().maxCoeff() < 1e-8 * states);
         CHECK((shot.coefficients - plain.coefficients).cwiseAbs().maxCoeff() < 1e-7 * size);
@@ -140,7 +146,7 @@ TEST_CASE("periodic state: integration in time from it comes back after a revolu
     REQUIRE(state.converged);
     const OperatingPoint begin = state.at(0), end = state.at(2 * pi);
     IntegrationOptions integration;
-    integration.tolerances.relative = 1e-9;
+    integration.tolerances = {1e-9, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
     integration.states = begin.s;
     Integrator integrator(rotor.system, {{rotor.map.spin, Motion::constant_rate(0, Omega)}}, 0, begin.q, begin.qd,
                           integration);
