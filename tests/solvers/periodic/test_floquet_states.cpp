@@ -47,15 +47,18 @@ PeriodicSystem heavy_system(const SmallRotor& rotor, double Omega) {
 
 // Exponents by the classical Runge-Kutta method on x' = E^-1 A x.
 std::vector<Complex> by_runge_kutta(const PeriodicSystem& system, int steps) {
-    Matrix E, A, Phi(system.states(), system.states());
-    for (Eigen::Index j = 0; j < Phi.cols(); ++j)
-        Phi.col(j) = runge_kutta(
-            Vector::Unit(Phi.rows(), j),
-            [&](double t, const Vector& x) {
-                system.at(t, E, A);
-                return Vector(E.partialPivLu().solve(A * x));
-            },
-            0, system.period(), steps);
+    const Eigen::Index n = system.states();
+    Matrix E, A;
+    const Vector identity = Matrix::Identity(n, n).reshaped();
+    const Vector end = runge_kutta(
+        identity,
+        [&](double t, const Vector& x) {
+            system.at(t, E, A);
+            const Matrix rates = E.partialPivLu().solve(A * x.reshaped(n, n));
+            return Vector(rates.reshaped());
+        },
+        0, system.period(), steps);
+    const Matrix Phi = end.reshaped(n, n);
     std::vector<Complex> all;
     const Eigen::VectorXcd multipliers = Eigen::EigenSolver<Matrix>(Phi, false).eigenvalues();
     for (const Complex mu : multipliers) all.push_back(std::log(mu) / system.period());
@@ -139,7 +142,7 @@ TEST_CASE("Floquet with states: two blades under gravity against Runge-Kutta's m
     const BladeSymmetry blades =
         blade_symmetry(rotor.map, rotor.unknowns(), Omega, rotor.map.odd_coordinates, rotor.system.forces.states());
     CHECK(asymmetry(system, blades) < 1e-8);
-    const std::vector<Complex> brute_force = by_runge_kutta(system, 4000);
+    const std::vector<Complex> brute_force = by_runge_kutta(system, 8000);
     const Floquet whole = floquet(system), half = floquet(system, {.symmetry = blades}),
                   balanced = hill(system, {.harmonics = 14});
     CHECK(one_way(lasting(exponents(whole)), brute_force, Omega) < 1e-7);
