@@ -139,7 +139,8 @@ void StateForces::find_groups() {
     }
     for (auto& [state, group] : groups) {
         std::ranges::sort(group.coordinates);
-        group.coordinates.erase(std::ranges::unique(group.coordinates).begin(), group.coordinates.end());
+        group.coordinates.erase(std::unique(group.coordinates.begin(), group.coordinates.end()),
+                                group.coordinates.end());
         groups_.push_back(std::move(group));
     }
 }
