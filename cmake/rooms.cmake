@@ -35,10 +35,11 @@ room(turbines/model SEES elements/cardan_beam) # description of a turbine, assem
 room(turbines/readers SEES turbines/model) # OpenFAST's files, tables
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
 room(turbines/machines SEES turbines/readers elements/control) # 600 kW, teetered, NREL 5 MW
+room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 
-room(examples SEES turbines/studies turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples SEES turbines/studies turbines/control turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
 room(examples/shared SEES examples USES cli11) # what programs and studies have in common
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods

@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace cardan {
@@ -115,6 +116,21 @@ ControlBlock low_pass(const LowPass& block) {
     return {std::move(element), signal::state(block.name.name)};
 }
 
+ControlBlock integral(const Integral& block) {
+    StateElement element{.name = block.name.name, .states = {state_of(block.name, StateKind::integrator)}};
+    const ControlWire input(block.input, element);
+    element.rates = [input](const StateInput& in, const VectorOut&, VectorOut f) {
+        Gradient gradient;
+        f(0) = input.value(in, gradient);
+    };
+    element.jacobian = [input](const StateInput& in, StateJacobian& d) {
+        Gradient gradient;
+        (void)input.value(in, gradient);
+        input.add_to_f(d, 0, 1, gradient);
+    };
+    return {std::move(element), signal::state(block.name.name)};
+}
+
 ControlBlock second_order_filter(const SecondOrderFilter& block) {
     const std::string here = where("filter", block.name);
     require_positive(here, "frequency [rad/s]", block.frequency);
@@ -144,22 +160,11 @@ ControlBlock pi_controller(const PiController& block) {
     const std::string here = where("PI controller", block.name);
     require_positive(here, "time of unwinding [s]", block.unwinding);
     block.limits.check(here, "output");
-    StateElement element{.name = block.name.name, .states = {state_of(block.name, StateKind::integrator)}};
     const ControlSignal wanted = block.gain * (block.proportional * block.error) + signal::state(block.name.name),
                         output = wanted.through(block.limits);
     const double back = 1 / block.unwinding;
     const ControlSignal change = block.gain * (block.integral * block.error) + back * (output - wanted);
-    const ControlWire rate(change, element);
-    element.rates = [rate](const StateInput& in, const VectorOut&, VectorOut f) {
-        Gradient gradient;
-        f(0) = rate.value(in, gradient);
-    };
-    element.jacobian = [rate](const StateInput& in, StateJacobian& d) {
-        Gradient gradient;
-        (void)rate.value(in, gradient);
-        rate.add_to_f(d, 0, 1, gradient);
-    };
-    return {std::move(element), output};
+    return {integral({block.name, change}).element, output};
 }
 
 ControlBlock actuator(const Actuator& block) {
@@ -172,11 +177,12 @@ ControlBlock actuator(const Actuator& block) {
 }
 
 ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double stiffness, double drive_damping,
-                               double sense) {
+                               double sense, double zero) {
     const std::string here = where("actuator", block.name);
     require_positive(here, "stiffness of the drive", stiffness);
     require_not_negative(here, "damping of the drive", drive_damping);
     if (sense != 1 && sense != -1) throw InputError(here, "sense", sense, "1 or -1");
+    if (!std::isfinite(zero)) throw InputError(here, "position at the coordinate's zero", zero, "finite");
     StateElement element = states_of(block);
     element.coordinates = {coordinate};
     const ControlWire demand(block.demand, element);
@@ -184,7 +190,7 @@ ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double 
     const double k = stiffness, c = drive_damping;
     element.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
         follower.rates(in, f);
-        Q(0) = -k * (in.q(0) - sense * in.s(0)) - c * (in.qd(0) - sense * f(0));
+        Q(0) = -k * (in.q(0) - sense * (in.s(0) - zero)) - c * (in.qd(0) - sense * f(0));
     };
     element.jacobian = [=](const StateInput& in, StateJacobian& d) {
         follower.jacobian(in, d);
@@ -199,7 +205,7 @@ ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double 
     // What the spring holds, what the motor puts in behind it, what the damper takes.
     element.power = [=](const StateInput& in) {
         Gradient gradient;
-        const double stretch = in.q(0) - sense * in.s(0),
+        const double stretch = in.q(0) - sense * (in.s(0) - zero),
                      rate = sense * follower.rate(in, demand.value(in, gradient)).value, slip = in.qd(0) - rate,
                      force = -k * stretch - c * slip;
         return StatePower{k * stretch * stretch / 2, force * rate, c * slip * slip};
@@ -220,6 +226,21 @@ ControlBlock force_actuator(const Actuator& block, BodyId coordinate, double fac
         d.Q_s(0, 0) += factor;
     };
     return {std::move(element), signal::state(block.name.name)};
+}
+
+StateElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor) {
+    StateElement element{.name = std::move(name), .coordinates = {coordinate}};
+    const ControlWire wire(signal, element);
+    element.rates = [wire, factor](const StateInput& in, VectorOut Q, const VectorOut&) {
+        Gradient gradient;
+        Q(0) = factor * wire.value(in, gradient);
+    };
+    element.jacobian = [wire, factor](const StateInput& in, StateJacobian& d) {
+        Gradient gradient;
+        (void)wire.value(in, gradient);
+        wire.add_to_Q(d, 0, factor, gradient);
+    };
+    return element;
 }
 
 }  // namespace cardan

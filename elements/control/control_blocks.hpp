@@ -38,6 +38,13 @@ struct LowPass {
 };
 ControlBlock low_pass(const LowPass& block);
 
+/// y' = x: what adds up. The state is of kind `integrator`.
+struct Integral {
+    BlockName name;
+    ControlSignal input;
+};
+ControlBlock integral(const Integral& block);
+
 /// y'' + 2 damping w y' + w^2 y = w^2 x: a filter of second order, or with `band_pass` its derivative scaled to a gain
 /// of 1 at w, 2 damping w y'. States "<name>" and "<name> rate".
 /// @throws InputError unless w and the damping are positive
@@ -78,11 +85,14 @@ struct Actuator {
 /// The actuator alone: its output is p.
 /// @throws InputError unless either the time constant or the frequency is positive
 ControlBlock actuator(const Actuator& block);
-/// With a spring and a damper to a coordinate: Q = -stiffness (q - sense p) - drive_damping (qd - sense p').
+/// With a spring and a damper to a coordinate: Q = -stiffness (q - sense (p - zero)) - drive_damping (qd - sense p').
 /// @param sense  -1: p is positive against the coordinate, as for pitch (positive toward feather)
+/// @param zero   p where q is zero: the pitch that a blade is mounted with, say
 ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double stiffness, double drive_damping,
-                               double sense = 1);
+                               double sense = 1, double zero = 0);
 /// That acts on a coordinate with the force p itself: Q = factor p. A generator's torque: factor = -gear ratio.
 ControlBlock force_actuator(const Actuator& block, BodyId coordinate, double factor = 1);
+/// A signal that acts on a coordinate at once, without a state: Q = factor x.
+StateElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor = 1);
 
 }  // namespace cardan

@@ -79,8 +79,9 @@ VariableSpeedController::Demand VariableSpeedController::step(const Measured& no
     const double wanted =
         std::clamp(own_gain * (p.proportional * error + p.integral * sum), p.least_pitch, p.largest_pitch);
     const double step = p.largest_pitch_rate * p.period;
-    memory_[pitch_before] = std::clamp(wanted, now.pitch - step, now.pitch + step);
-    return {wanted_torque, memory_[pitch_before]};
+    double& pitch = memory_[pitch_before];
+    pitch = std::clamp(wanted, pitch - step, pitch + step);
+    return {wanted_torque, pitch};
 }
 
 void VariableSpeedController::restore(std::span<const double> from) {

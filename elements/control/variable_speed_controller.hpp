@@ -61,7 +61,8 @@ public:
     /// @throws InputError as VariableSpeedParameters::check()
     explicit VariableSpeedController(VariableSpeedParameters parameters);
 
-    /// The next sample; the first one starts filter and integral from what is measured.
+    /// The next sample; the first one starts filter and integral from what is measured. Rates are limited from one
+    /// demand to the next, however far behind the actuators are.
     Demand step(const Measured& now);
 
     /// Torque at a filtered speed and pitch, without limits of rate, N m.

@@ -74,11 +74,13 @@ void RotorCurve::check(std::string_view where) const {
 
 RotorCurve::Value RotorLoad::value(const ForceInput& in) const {
     const Model& model = in.kinematics.model();
+    const double psi = angle(azimuth, model, in.q), speed = angle(azimuth, model, in.qd),
+                 feather = pitch_setting + angle(pitch, model, in.q);
+    if (law) return law(in.time, psi, speed, feather);
     const double V = wind(in.time);
     if (!(V >= 0) || std::isinf(V))
         throw InputError(text(name, " at ", in.time, " s"), "wind speed [m/s]", V, "finite and >= 0");
-    return curve.at(V, angle(azimuth, model, in.q), angle(azimuth, model, in.qd),
-                    pitch_setting + angle(pitch, model, in.q));
+    return curve.at(V, psi, speed, feather);
 }
 
 Wrench RotorLoad::wrench(const ForceInput& in) const {
@@ -136,8 +138,8 @@ void add_jacobian(const RotorLoad& load, const ForceInput& in, MatrixOut& dQ_dq,
 }  // namespace
 
 UserForce rotor_load_force(const RotorLoad& load) {
-    load.curve.check(load.name);
-    if (!load.wind) throw InputError(load.name, "wind", "none", "a function of time");
+    if (!load.law) load.curve.check(load.name);
+    if (!load.law && !load.wind) throw InputError(load.name, "wind", "none", "a function of time");
     if (load.azimuth.empty()) throw InputError(load.name, "coordinates of the azimuth", "none", "at least one");
     if (!std::isfinite(load.pitch_setting))
         throw InputError(load.name, "pitch setting [rad]", load.pitch_setting, "finite");
@@ -161,15 +163,17 @@ ChannelGroup rotor_load_channels(const RotorLoad& load) {
                        .units = "N",
                        .long_name = "prescribed thrust on the hub, downwind",
                        .frame = "rotor axis"},
-                      {.name = load.name + " power", .units = "W", .long_name = "prescribed torque times rotor speed"},
-                      {.name = "wind speed", .units = "m s-1", .long_name = "wind speed of the prescribed rotor load"}};
+                      {.name = load.name + " power", .units = "W", .long_name = "prescribed torque times rotor speed"}};
+    if (load.wind)
+        group.channels.push_back(
+            {.name = "wind speed", .units = "m s-1", .long_name = "wind speed of the prescribed rotor load"});
     group.sample = [load](const ChannelInput& in, double* values) {
         const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
         const RotorCurve::Value v = load.value(at);
         values[0] = v.torque;
         values[1] = v.thrust;
         values[2] = v.torque * angle(load.azimuth, in.kinematics.model(), in.qd);
-        values[3] = load.wind(in.time);
+        if (load.wind) values[3] = load.wind(in.time);
     };
     return group;
 }

@@ -57,6 +57,8 @@ struct RotorLoad {
     double pitch_setting = 0;    ///< added to it, rad
     RotorCurve curve = {};
     std::function<double(double time)> wind = {};  ///< m/s, >= 0; its jumps are breaks of the integration
+    /// In the place of curve and wind: any torque and thrust with their derivatives.
+    std::function<RotorCurve::Value(double time, double azimuth, double speed, double pitch)> law = {};
 
     RotorCurve::Value value(const ForceInput& in) const;
     /// Force and moment at the hub frame's origin, base axes.
@@ -64,10 +66,10 @@ struct RotorLoad {
 };
 
 /// The load as a follower wrench on the hub. Exact Jacobian with respect to all coordinates that move the hub.
-/// @throws InputError for bad numbers, no wind, no azimuth
+/// @throws InputError for bad numbers, neither wind nor law, no azimuth
 UserForce rotor_load_force(const RotorLoad& load);
 
-/// "<name> torque", "<name> thrust", "<name> power" (torque times rotor speed), "wind speed".
+/// "<name> torque", "<name> thrust", "<name> power" (torque times rotor speed) and, if there is a wind, "wind speed".
 ChannelGroup rotor_load_channels(const RotorLoad& load);
 
 }  // namespace cardan

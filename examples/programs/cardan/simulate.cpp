@@ -3,8 +3,9 @@
 // Problem: a machine (built in, or a file of OpenFAST, windIO or our own) starts at a rotor speed in its steady state
 // under gravity, periodic where it is: two blades, unequal blades, gravity itself. From there its equations of motion
 // are integrated with the rotor free, against a constant torque of the generator or one that rises with its speed, or
-// driven at constant speed. Coordinates may start elsewhere, to see their motion decay. There is no wind.
-// Checks: the energy balance, by the integration and by the recorded power of the generator.
+// driven at constant speed; or under a controller, which sets pitch and torque of the generator. Coordinates may start
+// elsewhere, to see their motion decay. There is no wind, but a torque may drive the rotor.
+// Checks: the energy balance, by the integration and by the recorded powers of generator and rotor torque.
 #include "elements/machine/coordinate_force.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
@@ -14,7 +15,9 @@
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
 #include "examples/shared/channel_choice.hpp"
+#include "examples/shared/controller.hpp"
 #include "examples/shared/named_values.hpp"
+#include "examples/shared/rotor_torque.hpp"
 #include "examples/shared/simulation_run.hpp"
 #include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
@@ -27,8 +30,9 @@ struct SimulateArguments {
     MachineOptions machine;
     RunArguments run;
     StationOptions stations;
+    ControllerOptions controller;
     std::optional<double> rpm;
-    std::string start = "steady";
+    std::string start = "steady", rotor_torque;
     double azimuth = 0, torque = 0, slope = 0;
     bool no_gravity = false, list = false;
     std::vector<std::string> plot, q, qd;
@@ -45,10 +49,14 @@ void declare(CommandLine& app, SimulateArguments& a) {
         .one_of({"steady", "undeformed"});
     app.add_option("--q", a.q, "COORDINATE=NUMBER: where it starts instead, rad or m; may be repeated").one_word();
     app.add_option("--qd", a.qd, "COORDINATE=NUMBER: its rate, rad/s or m/s; may be repeated").one_word();
-    app.add_option("--generator-torque", a.torque,
-                   "of the generator on its own shaft, N m, constant; positive brakes positive rotation");
+    app.add_option(
+        "--generator-torque", a.torque,
+        "of the generator on its own shaft, N m, constant, or with a controller at the start; positive brakes "
+        "positive rotation");
     app.add_option("--generator-slope", a.slope,
                    "rise of this torque with the generator's speed above that at the start, as of slip, N m s/rad");
+    add_rotor_torque(app, a.rotor_torque);
+    add_controller_options(app, a.controller);
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
     add_machine_options(app, a.machine);
     app.add_option("--plot", a.plot,
@@ -135,10 +143,25 @@ Start start_of(const SimulateArguments& a, const turbines::Turbine& turbine, dou
     return {named_values("--q", a.q, table, start->q, false), named_values("--qd", a.qd, table, start->qd, false)};
 }
 
+// What the controller sets beside what comes of it, then the usual ones.
+std::vector<solvers::HistoryPanel> controlled_panels(const turbines::MachineLayout& layout,
+                                                     const std::vector<Channel>& channels) {
+    std::vector<solvers::HistoryPanel> all = usual_panels(layout, channels);
+    std::erase_if(all, [](const solvers::HistoryPanel& panel) { return panel.channels.front() == "GenTq"; });
+    const std::string blade = text("blade ", layout.blade_numbers.front()), own = blade + " pitch demand";
+    const std::vector<solvers::HistoryPanel> first{
+        {{has(channels, own) ? own : "pitch demand", blade + " pitch angle"}},
+        {{"torque demand", "generator torque"}},
+        {{"generator power"}}};
+    all.insert(all.begin() + (all.empty() ? 0 : 1), first.begin(), first.end());
+    return all;
+}
+
 // What was asked for, or what there is of the usual ones.
 std::vector<solvers::HistoryPanel> panels(const SimulateArguments& a, const turbines::MachineLayout& layout,
                                           const std::vector<Channel>& channels) {
-    if (a.plot.empty()) return usual_panels(layout, channels);
+    if (a.plot.empty())
+        return a.controller.acts() ? controlled_panels(layout, channels) : usual_panels(layout, channels);
     std::vector<solvers::HistoryPanel> all;
     const solvers::History names{"--plot", channels, {}, {}};
     for (const std::string& joined : a.plot) {
@@ -153,10 +176,12 @@ void print(const std::vector<Channel>& channels) {
         std::printf("%-44s %-10s %-8s %s\n", c.name.c_str(), c.alias.c_str(), c.units.c_str(), c.long_name.c_str());
 }
 
-std::string options_of(const SimulateArguments& a, double speed) {
+std::string options_of(const SimulateArguments& a, double speed, const RotorTorque& rotor) {
     std::string changed;
     for (const std::string& word : a.q) changed += ", q " + word;
     for (const std::string& word : a.qd) changed += ", qd " + word;
+    if (a.controller.acts()) changed += ", " + in_words(a.controller);
+    if (rotor.acts()) changed += ", " + rotor.in_words();
     return text("start ", a.start, " at ", speed, " rad/s, azimuth ", a.azimuth, " deg", changed, ", ",
                 options_text(a.run));
 }
@@ -167,8 +192,15 @@ std::vector<solvers::Drive> drives(bool driven, int spin, const Start& start) {
     return {{spin, solvers::Motion::constant_rate(start.q(spin), start.qd(spin))}};
 }
 
-bool check_balance(solvers::Integrator& integrator, const solvers::History& history, const SimulateArguments& a,
-                   bool generator) {
+// Of the loads that are recorded, J; positive: put into the machine.
+double recorded_work(const solvers::History& history) {
+    double sum = 0;
+    if (has(history.channels, "generator power")) sum -= integral(history, "generator power");
+    if (has(history.channels, "rotor torque power")) sum += integral(history, "rotor torque power");
+    return sum;
+}
+
+bool check_balance(solvers::Integrator& integrator, const solvers::History& history, const SimulateArguments& a) {
     const solvers::EnergyBalance end = integrator.energy();
     const double kinetic = largest(history, "kinetic energy").value;
     const double exchanged = exchanged_energy(history);
@@ -176,39 +208,81 @@ bool check_balance(solvers::Integrator& integrator, const solvers::History& hist
     const double scale = parked ? exchanged : kinetic;
     std::printf("\n");
     bool good = check_energy(end, scale, 10 * a.run.tolerance, parked);
-    if (generator && history.time.size() > 1)
-        good = check("recorded power of the generator against its work, likewise",
-                     (integral(history, "generator power") + end.loads) / scale, a.run.step / 4) &&
+    const bool generator = has(history.channels, "generator power"),
+               rotor = has(history.channels, "rotor torque power");
+    if ((generator || rotor) && history.time.size() > 1) {
+        // What pitch drives do counts as a load as well.
+        const double pitching = end.state_supply - end.state_dissipation;
+        good = check(rotor ? "recorded powers of rotor and generator against their work, likewise"
+                           : "recorded power of the generator against its work, likewise",
+                     (end.loads - pitching - recorded_work(history)) / scale, a.run.step / 4) &&
                good;
+    }
     return good;
 }
 
 // The machine as it runs here.
 struct Subject {
     turbines::Turbine turbine;
-    ConstantGenerator generator;
-    double speed;  // rad/s, at the start
+    turbines::Turbine at_start;  // the same without anything that changes: springs in the place of actuators
+    std::vector<solvers::SampledController> controllers;
+    std::vector<ChannelGroup> channels;  // beside those of any machine
+    double speed;                        // rad/s, at the start
     bool driven;
     std::string title, about;  // for the file: without the command, which differs if a run goes on
 };
 
+// With a generator as the options say.
+Subject uncontrolled(const SimulateArguments& a, const turbines::Turbine& machine, double speed) {
+    const double ratio = machine.layout().gear_ratio;
+    const ConstantGenerator generator{a.torque, a.slope, ratio * speed, ratio, *machine.layout().generator};
+    const turbines::Turbine turbine = with_generator(machine, generator);
+    Subject subject{turbine, turbine, {}, {}, speed, false, {}, {}};
+    if (generator.acts()) subject.channels.push_back(generator_channels(generator));
+    return subject;
+}
+
+Subject controlled(const SimulateArguments& a, const turbines::Turbine& machine, double speed,
+                   const RotorTorque& rotor) {
+    const double ratio = machine.layout().gear_ratio, pitch = machine.layout().pitch_settings.front(),
+                 own = start_torque(a.controller, ratio, speed, pitch, rotor.acts() ? rotor.first() : 0);
+    ControlledMachine under = controlled_machine(a.controller, machine, a.torque != 0 ? a.torque : own, a.run.out);
+    return {under.turbine, machine, {std::move(under.controller)}, {std::move(under.channels)}, speed, false, {}, {}};
+}
+
+void add_rotor_torque(const RotorTorque& rotor, Subject& subject) {
+    if (!rotor.acts()) return;
+    const FrameId hub = subject.turbine.layout().hub;
+    const auto with = [&](const turbines::Turbine& turbine, FrameLoad load) {
+        ForceSet forces = turbine.forces();
+        forces.add_wrench(std::move(load));
+        return turbine.with_forces(forces, rotor.in_words());
+    };
+    subject.turbine = with(subject.turbine, rotor.load(hub));
+    subject.at_start = with(subject.at_start, rotor.first_load(hub));
+    subject.channels.push_back(rotor_torque_channels(rotor, hub));
+}
+
 Subject subject_of(SimulateArguments& a) {
-    const MachineFile machine = prepared_machine(a.machine);
+    MachineFile machine = prepared_machine(a.machine);
+    check_controller(a.controller, machine);
+    const RotorTorque rotor = rotor_torque(a.rotor_torque);
+    if (a.controller.acts()) turbines::give_pitch_springs(machine.file.description);
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;
     set_pitch(machine, a.machine, speed);
     const ReadyMachine ready = ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
     std::cout << in_words(ready.mesh) << "\n";
-    const double ratio = ready.turbine.layout().gear_ratio;
-    const ConstantGenerator generator{a.torque, a.slope, ratio * speed, ratio, *ready.turbine.layout().generator};
-    const turbines::Turbine turbine = with_generator(ready.turbine, generator);
+    Subject subject =
+        a.controller.acts() ? controlled(a, ready.turbine, speed, rotor) : uncontrolled(a, ready.turbine, speed);
+    add_rotor_torque(rotor, subject);
+    subject.driven = !machine.file.dofs.generator;
     const std::string foundation = foundation_in_words(machine);
-    const std::string title = text(machine.file.description.name, foundation.empty() ? "" : ", ", foundation,
-                                   a.machine.gravity ? "" : ", no gravity");
-    return {turbine, generator,
-            speed,   !machine.file.dofs.generator,
-            title,   text(options_of(a, speed), "\n", turbine.rotor().description)};
+    subject.title = text(machine.file.description.name, foundation.empty() ? "" : ", ", foundation,
+                         a.machine.gravity ? "" : ", no gravity");
+    subject.about = text(options_of(a, speed, rotor), "\n", subject.turbine.rotor().description);
+    return subject;
 }
 
 void print_result(const Subject& subject, const SimulateArguments& a, solvers::Integrator& integrator,
@@ -231,6 +305,11 @@ std::vector<solvers::HistoryPanel> spectra_of(const turbines::MachineLayout& lay
 
 int run(SimulateArguments& a, const CommandLine& command) {
     check_run_options(a.run);
+    if (a.controller.acts() && a.slope != 0)
+        throw InputError("--generator-slope", "value", a.slope, "none beside --controller, which sets the torque");
+    if (a.run.resume && a.controller.acts() && !a.controller.is_baseline())
+        throw InputError("--resume", "controller", a.controller.what,
+                         "baseline: a library keeps its memory to itself, so that its run cannot go on");
     a.machine.gravity = !a.no_gravity;
     const Subject subject = subject_of(a);
     const turbines::Turbine& turbine = subject.turbine;
@@ -238,13 +317,14 @@ int run(SimulateArguments& a, const CommandLine& command) {
     const int spin = turbine.rotor().spin;
     if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs);
     const std::optional<solvers::Checkpoint> broken_off = start_of(a.run, subject.about);
-    const Start start = start_of(a, turbine, subject.speed);
-    const solvers::IntegrationOptions options = integration_options(a.run);
+    const Start start = start_of(a, subject.at_start, subject.speed);
+    solvers::IntegrationOptions options = integration_options(a.run);
+    options.controllers = subject.controllers;
     const std::vector<solvers::Drive> drive = drives(subject.driven, spin, start);
     solvers::Integrator integrator = broken_off ? solvers::Integrator(system, drive, *broken_off, options)
                                                 : solvers::Integrator(system, drive, 0, start.q, start.qd, options);
     std::vector<ChannelGroup> channels = channels_of(turbine, a.stations);
-    if (subject.generator.acts()) channels.push_back(generator_channels(subject.generator));
+    channels.insert(channels.end(), subject.channels.begin(), subject.channels.end());
     solvers::Recorder recorder(integrator, channels);
     if (a.list) return print(recorder.channels()), 0;
     const std::vector<solvers::HistoryPanel> pictures = panels(a, turbine.layout(), recorder.channels());
@@ -258,7 +338,7 @@ int run(SimulateArguments& a, const CommandLine& command) {
     progress("\r                              \r");
 
     print_result(subject, a, integrator, rows.history);
-    const bool good = check_balance(integrator, rows.history, a, subject.generator.acts());
+    const bool good = check_balance(integrator, rows.history, a);
     print_effort(integrator, system, elapsed);
     write_outputs(rows, a.run.out, end.reached(), pictures, spectra_of(turbine.layout()),
                   {.from = integrator.time() / 2,
@@ -273,7 +353,8 @@ int run(SimulateArguments& a, const CommandLine& command) {
 int simulate_command(int argc, char** argv) {
     return run_command<SimulateArguments>(
         "cardan simulate",
-        "Motion of any machine in time, without wind: gravity, a rotor that is free or driven, a generator.\n"
+        "Motion of any machine in time, without wind: gravity, a rotor that is free or driven, a generator, a "
+        "controller.\n"
         "Prints the largest loads and the balance of energy; writes PREFIX.h5, .svg, .png, _energy.png and "
         "_spectrum.png (second half).",
         argc, argv, declare, run);

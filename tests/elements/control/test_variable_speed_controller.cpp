@@ -61,6 +61,22 @@ TEST_CASE("variable-speed controller: limits of rate and range, and no wind-up b
     (void)p;
 }
 
+TEST_CASE("variable-speed controller: its demand moves at the largest rate, however far behind the blades are",
+          "[analytic]") {
+    VariableSpeedController controller(turbines::nrel5mw_controller());
+    const VariableSpeedParameters& p = controller.parameters();
+    double demand = controller.step({p.reference_speed, 0}).pitch;
+    int limited = 0;
+    for (int i = 0; i < 400; ++i) {
+        const double next = controller.step({1.5 * p.reference_speed, 0}).pitch, step = p.largest_pitch_rate * p.period;
+        CHECK(next - demand <= step * (1 + 1e-12));
+        if (next - demand > step * (1 - 1e-12)) ++limited;
+        demand = next;
+    }
+    CHECK(limited > 200);
+    CHECK(demand > 25 * units::degree);
+}
+
 TEST_CASE("variable-speed controller: continues from its memory bit for bit; bad parameters are refused",
           "[property]") {
     VariableSpeedController a(turbines::nrel5mw_controller()), b(turbines::nrel5mw_controller());

@@ -134,6 +134,26 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
     }
 }
 
+TEST_CASE("rotor load: a law takes the place of curve and wind", "[property]") {
+    RotorLoad load;
+    ForcedTree with_curve(3, [&](ForcedTree& at, ForceSet& set) {
+        load = load_on(at.add_tip());
+        set.add_user(rotor_load_force(load));
+    });
+    ForcedTree with_law(3, [&](ForcedTree& at, ForceSet& set) {
+        RotorLoad own = load_on(at.add_tip());
+        own.curve = {};
+        own.wind = {};
+        own.law = [same = load](double time, double azimuth, double speed, double pitch) {
+            return same.curve.at(same.wind(time), azimuth, speed, pitch);
+        };
+        set.add_user(rotor_load_force(own));
+        CHECK(rotor_load_channels(own).channels.size() == 3);  // no wind
+    });
+    CHECK(with_curve.Q().norm() > 1e-2);
+    CHECK(scaled(with_curve.Q() - with_law.Q(), with_curve.Q()) < 1e-14);
+}
+
 TEST_CASE("rotor load: bad numbers are refused", "[property]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto change = [](auto member, auto value) {

@@ -1,0 +1,196 @@
+#include "examples/shared/controller.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/machines/nrel5mw_controller.hpp"
+#include "turbines/model/channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace cardan::program {
+
+namespace {
+
+VariableSpeedParameters baseline(const ControllerOptions& options) {
+    VariableSpeedParameters parameters = turbines::nrel5mw_controller();
+    parameters.period = options.period;
+    return parameters;
+}
+
+double mean_pitch(const turbines::MachineLayout& layout, const Model& model, const Vector& q) {
+    double sum = 0;
+    for (std::size_t k = 0; k < layout.pitch.size(); ++k)
+        sum += layout.pitch_settings[k] - q(model.index(layout.pitch[k]));
+    return sum / static_cast<double>(layout.pitch.size());
+}
+
+// Channels of a machine at a sample, by their names in OpenFAST.
+class Sensors {
+public:
+    explicit Sensors(const turbines::Turbine& turbine) : turbine_(turbine), groups_(turbines::channels(turbine)) {
+        std::size_t count = 0;
+        for (const ChannelGroup& group : groups_)
+            for (const Channel& channel : group.channels) {
+                if (!channel.alias.empty()) places_[channel.alias] = count;
+                ++count;
+            }
+        values_.resize(count);
+    }
+    void measure(const solvers::SampleInput& in) {
+        const solvers::DynamicState& s = in.state;
+        const JointLoads loads = joint_loads(in.kinematics, in.forces, s.qd, s.qdd, s.time);
+        const ChannelInput at{s.time,    s.q,   s.qd, s.qdd,    s.actuator, in.kinematics,
+                              in.forces, loads, s.s,  s.s_rate, s.u};
+        double* values = values_.data();
+        for (const ChannelGroup& group : groups_) {
+            group.sample(at, values);
+            values += group.channels.size();
+        }
+        const FrameId top = turbine_.layout().tower_top;
+        const int body = in.kinematics.model().frame(top).body;
+        nodding_ = body < 0 ? 0
+                            : pose(in.kinematics, top)
+                                  .R.col(1)
+                                  .dot(loads.motion[static_cast<std::size_t>(body)].angular_acceleration);
+    }
+    /// Zero, of what the machine does not have.
+    double at(const std::string& alias) const {
+        const auto place = places_.find(alias);
+        return place == places_.end() ? 0 : values_[place->second];
+    }
+    double nodding() const { return nodding_; }
+
+private:
+    turbines::Turbine turbine_;
+    std::vector<ChannelGroup> groups_;
+    std::map<std::string, std::size_t> places_;
+    std::vector<double> values_;
+    double nodding_ = 0;
+};
+
+BladedController::Measured measured(const Sensors& sensors, const turbines::MachineLayout& layout) {
+    BladedController::Measured now;
+    now.generator_speed = sensors.at("GenSpeed");
+    now.rotor_speed = sensors.at("RotSpeed");
+    now.azimuth = sensors.at("Azimuth");
+    now.yaw = sensors.at("NacYaw");
+    now.tower_acceleration = sensors.at("YawBrTAxp");
+    now.nacelle_nodding = sensors.nodding();
+    for (std::size_t k = 0; k < layout.blade_numbers.size() && k < 3; ++k) {
+        const int number = layout.blade_numbers[k];
+        now.pitch.at(k) = sensors.at(text("BldPitch", number));
+        now.out_of_plane.at(k) = sensors.at(text("RootMyc", number));
+        now.in_plane.at(k) = sensors.at(text("RootMxc", number));
+    }
+    return now;
+}
+
+solvers::SampledController baseline_controller(const ControllerOptions& options, const turbines::Turbine& turbine) {
+    const auto program = std::make_shared<VariableSpeedController>(baseline(options));
+    solvers::SampledController controller{.name = "baseline", .inputs = {}, .period = options.period};
+    controller.update = [program, layout = turbine.layout()](const solvers::SampleInput& in, VectorOut u) {
+        const Model& model = in.kinematics.model();
+        const double speed = layout.gear_ratio * in.state.qd(model.index(*layout.generator));
+        const auto [torque, pitch] = program->step({speed, mean_pitch(layout, model, in.state.q)});
+        u(0) = pitch;
+        u(1) = torque;
+    };
+    controller.save = [program] { return program->save(); };
+    controller.restore = [program](std::span<const double> memory) { program->restore(memory); };
+    return controller;
+}
+
+solvers::SampledController library_controller(const ControllerOptions& options, const turbines::Turbine& turbine,
+                                              const std::string& prefix) {
+    const turbines::MachineLayout& layout = turbine.layout();
+    const auto blades = static_cast<int>(layout.pitch.size());
+    const auto library = std::make_shared<BladedController>(
+        options.what, BladedController::Options{
+                          .input = options.input, .output = prefix, .blades = blades, .period = options.period});
+    const auto sensors = std::make_shared<Sensors>(turbine);
+    const int state = turbine.system().forces.states().index(turbines::torque_state);
+    solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = options.period};
+    controller.update = [=, efficiency = options.efficiency, layout = layout](const solvers::SampleInput& in,
+                                                                              VectorOut u) {
+        sensors->measure(in);
+        BladedController::Measured now = measured(*sensors, layout);
+        now.time = in.state.time;
+        now.generator_torque = in.state.s(state);
+        now.power = efficiency * now.generator_torque * now.generator_speed;
+        const BladedController::Demand demand = library->step(now);
+        for (int k = 0; k < blades; ++k) u(k) = demand.pitch.at(static_cast<std::size_t>(k));
+        u(blades) = demand.torque;
+    };
+    controller.keeps_to_itself = true;
+    return controller;
+}
+
+}  // namespace
+
+void add_controller_options(CommandLine& app, ControllerOptions& options) {
+    app.add_option("--controller", options.what,
+                   "sets pitch and generator torque: baseline, that of the report of the NREL 5 MW machine, or the "
+                   "path of a shared library with Bladed's function DISCON")
+        .type_name("baseline|LIBRARY");
+    app.add_option("--controller-input", options.input, "file that the library reads").type_name("FILE");
+    app.add_option("--controller-period", options.period, "time between its calls, s");
+    app.add_option("--generator-efficiency", options.efficiency,
+                   "electrical over mechanical power, for the power that is recorded and that the controller measures");
+}
+
+void check_controller(const ControllerOptions& options, const MachineFile& machine) {
+    require_positive("--controller-period", "value [s]", options.period);
+    if (!(options.efficiency > 0 && options.efficiency <= 1))
+        throw InputError("--generator-efficiency", "value", options.efficiency, "0 ... 1, not 0");
+    if (!options.input.empty() && (options.what.empty() || options.is_baseline()))
+        throw InputError("--controller-input", "file", options.input,
+                         "only with a library as --controller, which reads it");
+    if (!options.input.empty() && !std::filesystem::exists(options.input))
+        throw FileError(options.input, "cannot be read: there is no such file");
+    if (!options.acts()) return;
+    if (!machine.file.dofs.generator)
+        throw InputError("--controller", "rotor", "driven, at constant speed", "free: --generator free");
+    const turbines::TurbineDescription& d = machine.file.description;
+    if (!options.is_baseline()) {
+        if (d.blades < 1 || d.blades > 3)
+            throw InputError("--controller", "number of blades", d.blades, "1 ... 3, as DISCON has them");
+        return;
+    }
+    const VariableSpeedParameters own = turbines::nrel5mw_controller();
+    const double rated = machine.file.rotor_speed * d.drive_train.gear_ratio;
+    if (std::abs(rated / own.reference_speed - 1) > 0.02)
+        throw InputError("--controller baseline", "rated speed of the machine's generator [rpm]", rated * units::to_rpm,
+                         text("about ", own.reference_speed * units::to_rpm,
+                              ": its numbers are those of the NREL 5 MW machine; another one needs a controller of its "
+                              "own, in a library"));
+}
+
+double start_torque(const ControllerOptions& options, double ratio, double speed, double pitch, double rotor_torque) {
+    if (!options.is_baseline()) return rotor_torque / ratio;
+    return VariableSpeedController(baseline(options)).torque(ratio * speed, pitch);
+}
+
+ControlledMachine controlled_machine(const ControllerOptions& options, const turbines::Turbine& machine, double torque,
+                                     const std::string& prefix, const ControlSignal& more) {
+    const turbines::ActuatedForces actuated(machine);
+    const bool individual = !options.is_baseline();
+    const turbines::Turbine turbine = machine.with_forces(actuated.with_inputs(torque, individual, more),
+                                                          text(in_words(options), ", torque ", torque, " N m"));
+    solvers::SampledController controller =
+        options.is_baseline() ? baseline_controller(options, turbine) : library_controller(options, turbine, prefix);
+    controller.inputs = actuated.inputs(individual);
+    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency)};
+}
+
+std::string in_words(const ControllerOptions& options) {
+    if (!options.acts()) return "";
+    return text("controller ", options.what, options.input.empty() ? "" : " with ", options.input, ", every ",
+                options.period, " s, efficiency of the generator ", options.efficiency);
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,55 @@
+/// @file
+/// A controller on a machine in time: the options, what it measures, when it is called.
+#pragma once
+
+#include "elements/control/bladed_controller.hpp"
+#include "solvers/time/sampled.hpp"
+#include "turbines/control/actuators.hpp"
+
+#include "examples/shared/machine_file.hpp"
+#include <string>
+#include <vector>
+
+namespace cardan::program {
+
+struct ControllerOptions {
+    std::string what;        ///< "baseline", or the path of a shared library; empty: none
+    std::string input;       ///< file for the library
+    double period = 0.0125;  ///< s
+    double efficiency = 1;   ///< of the generator
+
+    bool acts() const { return !what.empty(); }
+    bool is_baseline() const { return what == "baseline"; }
+};
+
+/// --controller, --controller-input, --controller-period, --generator-efficiency.
+void add_controller_options(CommandLine& app, ControllerOptions& options);
+
+/// @throws InputError for a period or an efficiency out of range, an input without a controller that reads it, a rotor
+/// that is driven, and the baseline controller on a machine that is another one than the NREL 5 MW machine
+void check_controller(const ControllerOptions& options, const MachineFile& machine);
+
+/// Torque of the generator at which the controller begins, N m: of the baseline controller its own at that speed and
+/// pitch, else that which balances the rotor's.
+/// @param speed         of the rotor, rad/s;  @param pitch  rad
+/// @param rotor_torque  at the start, N m
+double start_torque(const ControllerOptions& options, double ratio, double speed, double pitch, double rotor_torque);
+
+/// A machine under a controller.
+struct ControlledMachine {
+    turbines::Turbine turbine;  ///< with actuators, whose demands are inputs: of each blade alone by a library
+    solvers::SampledController controller;
+    ChannelGroup channels;  ///< of ActuatedForces
+};
+/// @param machine  whose pitch bearings have springs: turbines::give_pitch_springs()
+/// @param torque   of the generator at the start, N m
+/// @param prefix   of files that a library writes
+/// @param more     added to the demanded torque, N m
+/// @throws FileError for a library that cannot be loaded or has no function DISCON
+ControlledMachine controlled_machine(const ControllerOptions& options, const turbines::Turbine& machine, double torque,
+                                     const std::string& prefix, const ControlSignal& more = signal::constant(0));
+
+/// For the file of a run.
+std::string in_words(const ControllerOptions& options);
+
+}  // namespace cardan::program

@@ -1,0 +1,67 @@
+# Machines under a controller: cardan simulate --controller, --rotor-torque.
+set(small nrel5mw-fast --blade-elements 1 --tower-elements 1 --tolerance 1e-5 --step 0.05 --no-gravity)
+set(driven --rotor-torque 4.18e6)
+add_example_test(example_controller_baseline cardan 0
+    "rotor free, 3 s.*energy lost.*ok.*recorded powers of rotor and generator against their work.*ok.*example_controller_baseline.h5 .61 samples"
+    simulate ${small} ${driven} --controller baseline --generator-efficiency 0.944 --duration 3 --pitch 5 --out example_controller_baseline)
+set_tests_properties(example_controller_baseline PROPERTIES FIXTURES_SETUP controlled_run)
+add_example_test(example_controller_channels cardan 0
+    "pitch demand .*torque demand .*generator torque +GenTq.*generator power.*electrical power +GenPwr.*rotor torque " simulate
+    ${small} ${driven} --controller baseline --list)
+add_example_test(example_controller_repeat cardan 0 "--controller=baseline.*energy lost.*ok" repeat
+    example_controller_baseline.h5 --out example_controller_repeated)
+set_tests_properties(example_controller_repeat PROPERTIES FIXTURES_REQUIRED controlled_run)
+# Further, from the end of a run: the same as a run in one piece.
+set(resumed ${small} ${driven} --controller baseline --out example_controller_resume)
+add_example_test(example_controller_begin cardan 0 "41 samples" simulate ${resumed} --duration 2)
+add_example_test(example_controller_resume cardan 0 "energy lost.*ok.*61 samples" simulate ${resumed} --duration 3 --resume)
+add_example_test(example_controller_resume_other cardan 1 "--resume: options that .*controller baseline, every 0.0125 s" simulate
+    ${small} --rotor-torque 4e6 --controller baseline --out example_controller_resume --duration 4 --resume)
+set_tests_properties(example_controller_begin PROPERTIES FIXTURES_SETUP begun_controlled_run)
+set_tests_properties(example_controller_resume PROPERTIES FIXTURES_REQUIRED begun_controlled_run FIXTURES_SETUP resumed_controlled_run)
+set_tests_properties(example_controller_resume_other PROPERTIES FIXTURES_REQUIRED "begun_controlled_run;resumed_controlled_run")
+# A controller in a library; what it reads, and its failures.
+set(library --controller $<TARGET_FILE:test_controller>)
+foreach(word IN ITEMS follow individual nan fail)
+    file(WRITE ${test_output_dir}/${word} "")
+endforeach()
+add_example_test(example_controller_library cardan 0 "energy lost.*ok.*files: example_controller_library.h5" simulate ${small} ${driven}
+    ${library} --controller-input follow --duration 1 --out example_controller_library)
+add_example_test(example_controller_individual cardan 0 "energy lost.*ok" simulate ${small} ${driven} ${library}
+    --controller-input individual --duration 0.2 --out example_controller_individual)
+add_example_test(example_controller_nan cardan 1 "controller .*: at 0.5 s it demands a generator torque of nan" simulate ${small} ${library}
+    --controller-input nan --duration 1 --out example_controller_nan)
+add_example_test(example_controller_fail cardan 1 "at 0.5 s it reports a failure .-1.: the pitch sensor is dead after 41 calls" simulate
+    ${small} ${library} --controller-input fail --duration 1 --out example_controller_fail)
+add_example_test(example_controller_library_resume cardan 1 "--resume: controller = .*allowed: baseline: a library keeps its memory" simulate
+    ${small} ${library} --resume --out example_controller_library)
+# Torque over time.
+file(WRITE ${test_output_dir}/rotor_torque.csv "time[s],torque[N m]\n0,3e6\n1,3e6\n1.2,4e6\n")
+file(WRITE ${test_output_dir}/rotor_torque_back.csv "time[s],torque[N m]\n0,3e6\n0,4e6\n")
+add_example_test(example_controller_rotor_torque cardan 0
+    "energy lost.*ok.*recorded powers of rotor and generator against their work.*ok" simulate ${small} --rotor-torque rotor_torque.csv
+    --generator-torque 3e4 --duration 2 --out example_controller_rotor_torque)
+# Bad usage.
+add_example_test(example_controller_other_machine cardan 1
+    "--controller baseline: rated speed of the machine's generator .rpm. = [0-9.]+; allowed: about 1173.7" simulate wt600 --controller baseline)
+add_example_test(example_controller_no_library cardan 1 "no/such.so: no controller: " simulate ${small} --controller no/such.so --out
+    example_controller_no_library)
+add_example_test(example_controller_no_such_library cardan 1 "no controller: .*ELF" simulate ${small} --controller
+    ${CMAKE_CURRENT_LIST_FILE} --out example_controller_no_library)
+add_example_test(example_controller_no_input cardan 1 "no_such_input: cannot be read" simulate ${small} ${library} --controller-input
+    no_such_input)
+add_example_test(example_controller_baseline_input cardan 1 "--controller-input: file = follow; allowed: only with a library" simulate
+    ${small} --controller baseline --controller-input follow)
+add_example_test(example_controller_period cardan 1 "--controller-period: value .s. = 0" simulate ${small} --controller baseline
+    --controller-period 0)
+add_example_test(example_controller_efficiency cardan 1 "--generator-efficiency: value = 94.4" simulate ${small} --controller
+    baseline --generator-efficiency 94.4)
+add_example_test(example_controller_locked cardan 1 "--controller: rotor = driven.*--generator free" simulate ${small} --controller
+    baseline --generator locked)
+add_example_test(example_controller_slope cardan 1 "--generator-slope: value = 20; allowed: none beside --controller" simulate ${small}
+    --controller baseline --generator-slope 20)
+add_example_test(example_controller_torque_nan cardan 1 "--rotor-torque: value .N m. = nan; allowed: finite" simulate ${small}
+    --rotor-torque nan)
+add_example_test(example_controller_torque_file cardan 1 "no_such.csv: cannot be read" simulate ${small} --rotor-torque no_such.csv)
+add_example_test(example_controller_torque_back cardan 1 "load 'rotor torque', row 2: time .s. = 0; allowed: > 0" simulate ${small}
+    --rotor-torque rotor_torque_back.csv)

@@ -1,0 +1,188 @@
+// Actuators on a whole machine: consistent starts, what they replace, a controller that goes on from a checkpoint.
+#include "elements/control/variable_speed_controller.hpp"
+#include "mbs/base/outcome.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/time/recorder.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/refusal.hpp"
+#include "turbines/control/actuators.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/nrel5mw_controller.hpp"
+
+#include <cmath>
+#include <memory>
+
+namespace cardan::testing::actuators {
+
+namespace {
+
+using turbines::ActuatedForces;
+using turbines::Turbine;
+
+constexpr double speed = 12.1 * units::rpm, pitch = 8 * units::degree;
+
+turbines::TurbineDescription description() {
+    return turbines::nrel5mw_description(turbines::nrel5mw_options(turbines::Nrel5mwVariant::fast));
+}
+
+// NREL 5 MW with few elements, its blades at a pitch; no gravity.
+Turbine machine() {
+    turbines::TurbineDescription d = description();
+    turbines::give_pitch_springs(d);
+    turbines::AssemblyOptions options;
+    options.blade_elements = options.tower_elements = 1;
+    options.pitch = pitch;
+    return assemble(d, options);
+}
+
+// Torque of the wind at the hub, and the machine turning steadily under it.
+constexpr double torque = 4e6;
+
+Turbine loaded(const Turbine& turbine, ForceSet forces) {
+    forces.add_wrench({.name = "wind",
+                       .frame = turbine.layout().hub,
+                       .wrench = {Vec3::Zero(), Vec3(0, 0, torque)},
+                       .axes = WrenchAxes::frame});
+    return turbine.with_forces(forces);
+}
+
+solvers::OperatingPoint steady(const Turbine& turbine) {
+    const Turbine with_wind = loaded(turbine, turbine.forces());
+    const solvers::SteadyState state =
+        solvers::steady_state(with_wind.system(), turbine.rotor().spin, {.rotor_speed = speed});
+    require_result(state);
+    return state.at;
+}
+
+solvers::SampledController baseline(const Turbine& turbine, const std::vector<std::string>& inputs) {
+    VariableSpeedParameters parameters = turbines::nrel5mw_controller();
+    const auto program = std::make_shared<VariableSpeedController>(parameters);
+    solvers::SampledController controller{.name = "baseline", .inputs = inputs, .period = parameters.period};
+    controller.update = [program, layout = turbine.layout()](const solvers::SampleInput& in, VectorOut u) {
+        const Model& model = in.kinematics.model();
+        const auto [torque_demand, pitch_demand] =
+            program->step({layout.gear_ratio * in.state.qd(model.index(*layout.generator)),
+                           layout.pitch_settings[0] - in.state.q(model.index(layout.pitch[0]))});
+        u(0) = pitch_demand;
+        u(1) = torque_demand;
+    };
+    controller.save = [program] { return program->save(); };
+    controller.restore = [program](std::span<const double> memory) { program->restore(memory); };
+    return controller;
+}
+
+}  // namespace
+
+TEST_CASE("actuators: pitch bearings get springs of the frequency asked for, others keep theirs", "[analytic]") {
+    turbines::TurbineDescription d = description();
+    turbines::give_pitch_springs(d, 2 * pi * 20, 0.3);
+    const turbines::Bearing& drive = d.blade.pitch;
+    CHECK(drive.hold == turbines::Bearing::Hold::spring);
+    const double J = drive.stiffness / std::pow(2 * pi * 20, 2);
+    CHECK(drive.damping == Approx(2 * 0.3 * std::sqrt(drive.stiffness * J)).epsilon(1e-12));
+    // The report gives the actuator's spring for 30 Hz: 971.35 MN m/rad, an inertia of 27338 kg m^2.
+    CHECK(J > 5000);
+    CHECK(J < 30000);
+    turbines::TurbineDescription own = description();
+    own.blade.pitch = {9.7135e8, 2.06e5};
+    turbines::give_pitch_springs(own);
+    CHECK(own.blade.pitch.stiffness == 9.7135e8);
+    CHECK(own.blade.pitch.damping == 2.06e5);
+}
+
+TEST_CASE("actuators: a machine that turns steadily on its springs goes on so on its actuators, without a jump",
+          "[property]") {
+    const Turbine turbine = machine();
+    const solvers::OperatingPoint start = steady(turbine);
+    const ActuatedForces actuated(turbine);
+    const double balance = torque / turbine.layout().gear_ratio;
+    for (const bool individual : {false, true}) {
+        const Turbine under = loaded(turbine, actuated.with_inputs(balance, individual));
+        const StateTable& states = under.system().forces.states();
+        CHECK(states[states.index("blade 2 pitch actuator")].initial == Approx(pitch));
+        solvers::IntegrationOptions options;
+        options.tolerances.relative = 1e-9;
+        solvers::Integrator run(under.system(), {}, 0, start.q, start.qd, options);
+        REQUIRE(run.advance(1).reached());
+        const int spin = turbine.rotor().spin;
+        Vector moved = run.state().q - start.q;
+        moved(spin) -= speed;
+        CHECK(moved.cwiseAbs().maxCoeff() < 1e-7);
+        CHECK((run.state().qd - start.qd).cwiseAbs().maxCoeff() < 1e-6);
+        CHECK((run.state().s - states.initial()).cwiseAbs().maxCoeff() < 1e-9);
+    }
+}
+
+TEST_CASE("actuators: channels and signals are the demands, the torque and its power, speed and mean pitch",
+          "[property]") {
+    const Turbine turbine = machine();
+    const ActuatedForces actuated(turbine);
+    const Turbine under = turbine.with_forces(actuated.with_inputs(4e4));
+    const solvers::OperatingPoint start = steady(turbine);
+    solvers::Integrator run(under.system(), {}, 0, start.q, start.qd);
+    solvers::Recorder recorder(run, {actuated.channels(under.system(), false, 0.9)});
+    solvers::History history;
+    require_result(solvers::record(run, recorder, {0, 0.1}, history));
+    CHECK(history["pitch demand"][0] == Approx(pitch).epsilon(1e-12));
+    CHECK(history["torque demand"][0] == 4e4);
+    CHECK(history["GenTq"][0] == 4e4);
+    CHECK(history["generator power"][0] == Approx(4e4 * 97 * speed).epsilon(1e-12));
+    CHECK(history["GenPwr"][0] == Approx(0.9 * 4e4 * 97 * speed).epsilon(1e-12));
+    CHECK(actuated.inputs(true) == std::vector<std::string>{"blade 1 pitch demand", "blade 2 pitch demand",
+                                                            "blade 3 pitch demand", "torque demand"});
+    const turbines::MachineLayout& layout = turbine.layout();
+    const ControlSignal mean = turbines::mean_pitch(layout), generator = turbines::generator_speed(layout);
+    const auto at = [&](const ControlSignal& signal, const Vector& x) {
+        std::vector<double> sources, gradient(signal.sources().size());
+        for (const ControlSource& source : signal.sources())
+            sources.push_back(x(turbine.system().model.index(source.coordinate)));
+        return signal.value(sources.data(), gradient.data());
+    };
+    CHECK(at(generator, start.qd) == Approx(97 * speed).epsilon(1e-12));
+    CHECK(at(mean, start.q) == Approx(pitch).margin(2e-3));  // the springs give way a little
+}
+
+TEST_CASE("actuators: a run under the baseline controller goes on from a checkpoint bit for bit", "[property]") {
+    const Turbine turbine = machine();
+    const solvers::OperatingPoint start = steady(turbine);
+    const ActuatedForces actuated(turbine);
+    const Turbine under = loaded(turbine, actuated.with_inputs(4.2e4));
+    const auto options = [&] {
+        solvers::IntegrationOptions own;
+        own.controllers = {baseline(under, actuated.inputs())};
+        return own;
+    };
+    solvers::Integrator whole(under.system(), {}, 0, start.q, start.qd, options());
+    REQUIRE(whole.advance(0.43).reached());
+    const solvers::Checkpoint middle = whole.checkpoint();
+    REQUIRE(whole.advance(1).reached());
+    solvers::Integrator second(under.system(), {}, middle, options());
+    REQUIRE(second.advance(1).reached());
+    CHECK(second.state().q == whole.state().q);
+    CHECK(second.state().qd == whole.state().qd);
+    CHECK(second.state().s == whole.state().s);
+    CHECK(second.state().u == whole.state().u);
+    CHECK(whole.state().u(0) != Approx(pitch).epsilon(1e-9));  // it does something
+}
+
+TEST_CASE("actuators: what they cannot be put on is refused", "[property]") {
+    turbines::AssemblyOptions options;
+    options.blade_elements = options.tower_elements = 1;
+    const Turbine rigid = assemble(description(), options);
+    check_refused([&] { ActuatedForces{rigid}; }, {"NREL 5 MW", "blades with pitch joints = 0"});
+    turbines::TurbineDescription loose = description();
+    loose.blade.pitch = turbines::free_joint;
+    check_refused([&] { ActuatedForces{assemble(loose, options)}; }, {"pitch bearing of blade 1 = without a spring"});
+    const Turbine turbine = machine();
+    check_refused(
+        [&] {
+            (void)ActuatedForces(turbine).with_demands(
+                {{signal::constant(0), signal::constant(0)}, signal::constant(0)}, 0);
+        },
+        {"number of pitch demands = 2", "1 or 3"});
+    turbines::TurbineDescription d = description();
+    check_refused([&] { turbines::give_pitch_springs(d, 0); }, {"frequency of the pitch drives [rad/s] = 0"});
+}
+
+}  // namespace cardan::testing::actuators
