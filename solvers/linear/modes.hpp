@@ -78,6 +78,7 @@ private:
     void shift_states(const StateTerms& states, double scale);
     void find_shares(const SecondOrderSystem& system);
     void solve_all(const SecondOrderSystem& system, double scale);
+    void balance();
     bool solve_few(double scale, double largest);
     void add(Complex mu, double scale);
     void normalise(const SecondOrderSystem& system);
@@ -88,6 +89,7 @@ private:
     LuFactors K_s_;                       // shifted stiffness
     Matrix mass_;                         // scratch of the check
     Matrix right_, S_;                    // right sides, inverse of the shifted state matrix
+    Vector balance_;                      // with states: vectors of S over those of the balanced matrix
     Matrix shapes_, elastic_, inertial_;  // of all modes side by side; K_e x, M x
     Eigen::Index columns_ = 0;            // of these that are in use
     std::vector<Found> found_;
