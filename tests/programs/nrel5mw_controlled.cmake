@@ -1,8 +1,8 @@
 # The NREL 5 MW machine under its controller.
 set(small_controlled --blade-elements 1 --tower-elements 1)
 add_example_test(example_controlled_steps nrel5mw_controlled 0
-    "time, s +wind.*40.0 +13.0 +12.10.*80.0 +15.0 +12.*energy lost.*ok.*files: example_controlled.h5" steps ${small_controlled} --winds 13,15
-    --every 40 --out example_controlled)
+    "time, s +wind.*30.0 +13.0 +12.10.*60.0 +13.5 +12.[01].*energy lost.*ok.*files: example_controlled.h5" steps ${small_controlled} --winds 13,13.5
+    --every 30 --out example_controlled)
 add_example_test(example_controlled_not_settled nrel5mw_controlled 3 "9.0 .*not settled" steps ${small_controlled} --winds 8,9 --every 5
     --out example_controlled_short)
 add_example_test(example_controlled_loop nrel5mw_controlled 0 "gains alone.*15.0 +10.45 +0.58.*eigenvalue.*15.0 +10.45 .*files: example_controlled_loop.svg" loop ${small_controlled}

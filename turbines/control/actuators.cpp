@@ -22,16 +22,14 @@ void for_each_blade(TurbineDescription& machine, const std::function<void(BladeD
         if (blade) change(*blade);
 }
 
-// Largest inertia of the blades about their pitch axes, undeformed, kg m^2. Nothing but the blades matters, nor what
-// they can do: sections may be rigid in torsion.
+// Largest inertia of the blades about their pitch axes, undeformed, kg m^2.
 double pitch_inertia(TurbineDescription machine) {
     for_each_blade(machine, [](BladeDescription& blade) { blade.pitch = free_joint; });
     machine.tower.rigid = true;
     machine.platform.reset();
     AssemblyOptions options;
     options.structural_damping = false;
-    options.blade_beam.emplace();
-    options.blade_beam->elements = 8;
+    options.blade_beam = CardanBeamOptions{};  // how it bends does not matter
     options.blade_beam->torsion = options.blade_beam->extension = false;
     const Turbine turbine = assemble(machine, options);
     const Model& model = turbine.system().model;

@@ -32,14 +32,26 @@ Complex elastic_loop(const LinearLoop& loop, Complex rigid) {
     return nearest->eigenvalue;
 }
 
-// From the rotor speed after the step, when filter and actuators have settled.
+// Means over a time: parts of a motion keep their eigenvalues and fast ones become small.
+std::vector<double> means(const std::vector<double>& samples, std::size_t width) {
+    std::vector<double> smooth;
+    for (std::size_t i = 0; i + width <= samples.size(); ++i) {
+        double sum = 0;
+        for (std::size_t k = i; k < i + width; ++k) sum += samples[k];
+        smooth.push_back(sum / static_cast<double>(width));
+    }
+    return smooth;
+}
+
+// From the rotor speed after the step, without the vibrations of tower (0.3 Hz) and drive train.
 Complex measured_loop(const solvers::History& speed, double from) {
-    constexpr int every = 4;   // samples, 0.4 s: the loop is slow
-    constexpr int order = 12;  // the loop, filter and drives, tower, blades and drive train: with 8 it is 1 % off
-    std::vector<double> samples;
-    for (std::size_t i = 0; i < speed.time.size(); i += every)
+    constexpr std::size_t every = 5;  // samples, 0.5 s: the loop is slow
+    std::vector<double> samples, few;
+    for (std::size_t i = 0; i < speed.time.size(); ++i)
         if (speed.time[i] >= from) samples.push_back(speed.values[0][i]);
-    return largest_oscillation(prony(samples, every * (speed.time[1] - speed.time[0]), order)).eigenvalue;
+    for (const std::size_t width : {31, 20, 10}) samples = means(samples, width);
+    for (std::size_t i = 0; i < samples.size(); i += every) few.push_back(samples[i]);
+    return largest_oscillation(prony(few, every * (speed.time[1] - speed.time[0]), 5)).eigenvalue;
 }
 
 struct Loop {
@@ -63,9 +75,8 @@ Loop loop_at(const MachineOptions& machine, double wind, const LoopOptions& opti
     const Plant here = plant(machine, wind);
     Loop loop{wind, here.point.pitch, rigid_loops(here.point, rotor_inertia(here)), {}, {}, {}};
     loop.elastic = elastic_loop(linear_loop(here, {}), loop.rigid.back());
-    // To this wind: the response oscillates about the trim that the eigenvalue belongs to.
     const double before = wind - options.change;
-    const WindSteps change{{before, wind}, at};
+    const WindSteps change{{before, wind}, at};  // it settles where the eigenvalue holds
     loop.speed = response(plant(machine, before), change, {}, options.duration, step, "RotSpeed",
                           text("wind of ", wind, " m/s"));
     if (!program::interrupted()) loop.measured = measured_loop(loop.speed, at + 1);
@@ -123,7 +134,7 @@ void check(const std::vector<double>& all, const LoopOptions& options) {
                              text("> ", rated_wind, ", where the pitch is controlled"));
     if (!(std::abs(options.change) > 0 && std::abs(options.change) <= 1))
         throw InputError("--change", "of the wind [m/s]", options.change, "up to 1, not 0");
-    if (!(options.duration >= 20)) throw InputError("--duration", "value [s]", options.duration, ">= 20");
+    if (!(options.duration >= 30)) throw InputError("--duration", "value [s]", options.duration, ">= 30");
 }
 
 }  // namespace

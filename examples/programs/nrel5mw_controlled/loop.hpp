@@ -9,8 +9,8 @@ namespace cardan::controlled {
 
 struct LoopOptions {
     std::string winds = "12,13,15,18,21,24";  ///< m/s, above rated
-    double change = 0.1;                      ///< of the wind, m/s
-    double duration = 40;                     ///< s
+    double change = 0.02;                     ///< of the wind, to those above, m/s
+    double duration = 60;                     ///< s
 };
 
 /// Prints frequency and damping of the speed loop of a rigid machine, from the gains alone to all that lags, of the
