@@ -1,15 +1,19 @@
 // Actuators on a whole machine: consistent starts, what they replace, a controller that goes on from a checkpoint.
-#include "elements/control/variable_speed_controller.hpp"
+#include "elements/control/variable_speed_equivalent.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/linear/coleman.hpp"
+#include "solvers/linear/modes.hpp"
 #include "solvers/time/recorder.hpp"
+#include "tests/solvers/rotor_with_lags.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "turbines/control/actuators.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/nrel5mw_controller.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -164,6 +168,42 @@ TEST_CASE("actuators: a run under the baseline controller goes on from a checkpo
     CHECK(second.state().s == whole.state().s);
     CHECK(second.state().u == whole.state().u);
     CHECK(whole.state().u(0) != Approx(pitch).epsilon(1e-9));  // it does something
+}
+
+TEST_CASE("actuators: the modes of the closed loop are the eigenvalues of its dense system, and no others",
+          "[crosscheck]") {
+    // Demands act through springs of 30 Hz: rounding in them once came out as motions that grow.
+    const Turbine turbine = machine();
+    const turbines::MachineLayout& layout = turbine.layout();
+    const VariableSpeedEquivalent loop = variable_speed_equivalent(
+        turbines::nrel5mw_controller(), {turbines::generator_speed(layout), turbines::mean_pitch(layout)},
+        {layout.gear_ratio * speed, pitch});
+    ForceSet forces = ActuatedForces(turbine).with_demands({{loop.pitch}, loop.torque}, torque / layout.gear_ratio);
+    for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
+    const Turbine closed = loaded(turbine, forces);
+    solvers::OperatingPoint at = steady(turbine);
+    at.s = closed.system().forces.states().initial();
+    at.u = {};
+    const int spin = turbine.rotor().spin;
+    const std::vector<int> all = closed.system().model.coordinates().free();
+    const solvers::ColemanTransform coleman(turbine.rotor(), all, closed.system().forces.states());
+    const solvers::SecondOrderSystem z = coleman.transform(
+        solvers::restrict_to(solvers::linearise(closed.system(), at), all, spin), at.q(spin), at.qd(spin));
+    Eigen::EigenSolver<Matrix> dense;
+    dense.compute(first_order(z).A, false);
+    constexpr double slow = 40;  // rad/s
+    std::vector<Complex> expected(dense.eigenvalues().begin(), dense.eigenvalues().end());
+    std::erase_if(expected, [](Complex one) {
+        return one.imag() < 0 || std::abs(one) > slow || std::abs(one) < 1e-4;  // of the spin: zero
+    });
+    std::vector<solvers::Mode> found = solvers::modes(z);
+    std::erase_if(found, [](const solvers::Mode& mode) { return std::abs(mode.eigenvalue) > slow; });
+    CHECK(found.size() == expected.size());
+    for (const solvers::Mode& mode : found) {
+        const auto distance = [&](Complex other) { return std::abs(other - mode.eigenvalue); };
+        CAPTURE(mode.eigenvalue, mode.state_share);
+        CHECK(distance(*std::ranges::min_element(expected, {}, distance)) < 1e-5 * std::abs(mode.eigenvalue));
+    }
 }
 
 TEST_CASE("actuators: what they cannot be put on is refused", "[property]") {
