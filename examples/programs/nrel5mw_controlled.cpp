@@ -10,6 +10,7 @@
 // balance; steady operation after each step; the response against the eigenvalue, 1 % of the frequency and 0.01 of the
 // damping ratio.
 #include "examples/programs/nrel5mw_controlled/damper.hpp"
+#include "examples/programs/nrel5mw_controlled/diagram.hpp"
 #include "examples/programs/nrel5mw_controlled/loop.hpp"
 #include "examples/programs/nrel5mw_controlled/steps.hpp"
 #include "examples/shared/program.hpp"
@@ -23,6 +24,7 @@ struct Arguments {
     controlled::StepsOptions steps;
     controlled::LoopOptions loop;
     controlled::DamperStudy damper;
+    controlled::DiagramOptions diagram;
     std::string out = "nrel5mw_controlled", study;
 };
 
@@ -77,6 +79,17 @@ void add_damper(program::CommandLine& app, Arguments& a) {
     study.add_option("--duration", o.duration, "of the response, s");
 }
 
+void add_diagram(program::CommandLine& app, Arguments& a) {
+    controlled::DiagramOptions& o = a.diagram;
+    program::CommandLine study =
+        app.add_subcommand("campbell",
+                           "Frequencies and damping over the wind, with pitch and torque held and under the controller "
+                           "in continuous time.\nWrites PREFIX_open.svg, PREFIX_closed.svg and .png.");
+    study.fallthrough();
+    study.add_option("--winds", o.winds, "m/s, separated by commas, above rated");
+    study.add_option("--max", o.max_frequency, "largest frequency, Hz");
+}
+
 int parse(int argc, char** argv, Arguments& a) {
     program::CommandLine app(
         "The NREL 5 MW machine under its baseline controller. No aerodynamics: the torque of the rotor depends on wind "
@@ -92,6 +105,7 @@ int parse(int argc, char** argv, Arguments& a) {
     add_steps(app, a);
     add_loop(app, a);
     add_damper(app, a);
+    add_diagram(app, a);
     if (const int code = app.parse(argc, argv); code >= 0) return code;
     a.study = app.subcommand();
     return -1;
@@ -100,6 +114,7 @@ int parse(int argc, char** argv, Arguments& a) {
 int run(const Arguments& a) {
     if (a.study == "steps") return controlled::steps(a.machine, a.steps, a.out);
     if (a.study == "loop") return controlled::loop(a.machine, a.loop, a.out);
+    if (a.study == "campbell") return controlled::diagram(a.machine, a.diagram, a.out);
     return controlled::damper(a.machine, a.damper, a.out);
 }
 

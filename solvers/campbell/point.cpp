@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/campbell/detail/floquet_point.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 #include "solvers/linear/problem_size.hpp"
 #include "solvers/periodic/periodic_system.hpp"
@@ -164,7 +165,8 @@ void PointSolver::set_modes(std::size_t count, CampbellPoint& point) {
         mode_solver_.copy(i, m.mode);
         mode_solver_.energy_by_row(i, m.row_shares);
         energy_shares_->shares(m.mode, m.shares);
-        m.row = -1;
+        // In a closed loop the rotor oscillates with hardly any spring.
+        m.row = current_.states.size() > 0 ? naming_row(current_, m.mode) : -1;
         m.floquet.reset();
         m.blade_shares.resize(0);
     }

@@ -9,6 +9,9 @@ add_example_test(example_controlled_loop nrel5mw_controlled 0 "gains alone.*15.0
     --winds 15 --out example_controlled_loop)
 add_example_test(example_controlled_damper nrel5mw_controlled 0 "without damper.*with damper.*files: example_controlled_damper.svg" damper
     ${small_controlled} --duration 3 --out example_controlled_damper)
+add_example_test(example_controlled_campbell nrel5mw_controlled 0
+    "pitch and torque held.*1st tower fore-aft.*under its controller.*generator azimuth.*motions of states.*files: example_controlled_campbell_open.svg" campbell
+    ${small_controlled} --winds 13,15,18 --out example_controlled_campbell)
 # Bad usage.
 add_example_test(example_controlled_help nrel5mw_controlled 0 "steps.*loop.*damper" --help)
 add_example_test(example_controlled_no_study nrel5mw_controlled 2 "subcommand is required" --variant fast)

@@ -77,6 +77,10 @@ Plant plant(const MachineOptions& options, double wind) {
     return {turbine, point, rotor, state.at};
 }
 
+turbines::Turbine open_loop(const Plant& plant) {
+    return plant.turbine.with_forces(with_load(plant.turbine.forces(), plant.rotor));
+}
+
 RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double)>& wind) {
     return rotor_of(plant.turbine, wind);
 }

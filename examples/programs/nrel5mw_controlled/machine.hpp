@@ -35,6 +35,9 @@ struct Plant {
 };
 Plant plant(const MachineOptions& options, double wind);
 
+/// With the load, pitch and torque of the generator held.
+turbines::Turbine open_loop(const Plant& plant);
+
 /// Under the program, with the torque of a wind that changes.
 program::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
                                            const DamperOptions& damper);
