@@ -29,7 +29,7 @@ struct DamperOptions {
 /// The machine at the trim of a wind, without gravity, so that its equations are constant.
 struct Plant {
     turbines::Turbine turbine;  ///< pitch on springs; no load
-    SteadyPoint point;
+    SteadyPoint point = {};
     RotorLoad rotor;                ///< in that wind
     solvers::OperatingPoint start;  ///< turning steadily under it
 };

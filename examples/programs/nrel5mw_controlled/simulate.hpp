@@ -16,6 +16,7 @@ public:
     Simulation(const Plant& plant, const WindSteps& wind, const DamperOptions& damper, double tolerance);
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
+    ~Simulation() = default;
 
     solvers::Integrator& integrator() { return *integrator_; }
     solvers::Recorder& recorder() { return *recorder_; }
