@@ -11,7 +11,7 @@ add_example_test(example_controlled_damper nrel5mw_controlled 0 "without damper.
     ${small_controlled} --duration 3 --out example_controlled_damper)
 add_example_test(example_controlled_campbell nrel5mw_controlled 0
     "pitch and torque held.*1st tower fore-aft.*under its controller.*generator azimuth.*motions of states.*files: example_controlled_campbell_open.svg" campbell
-    ${small_controlled} --winds 13,15,18 --out example_controlled_campbell)
+    --blade-elements 4 --tower-elements 2 --winds 13,15,18 --out example_controlled_campbell)
 # Bad usage.
 add_example_test(example_controlled_help nrel5mw_controlled 0 "steps.*loop.*damper" --help)
 add_example_test(example_controlled_no_study nrel5mw_controlled 2 "subcommand is required" --variant fast)
