@@ -105,6 +105,7 @@ def main():
     parser.add_argument("--cardan", default=str(ROOT / "build/release/examples/cardan"))
     parser.add_argument("--timeout", type=float, default=300)
     options = parser.parse_args()
+    options.cardan = str(pathlib.Path(options.cardan).resolve())  # it runs in another folder
     folder = os.environ.get("CARDAN_MODELS")
     if not folder or not pathlib.Path(folder).is_dir():
         sys.exit("CARDAN_MODELS is not the name of a folder with models")
