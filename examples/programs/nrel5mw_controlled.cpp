@@ -2,10 +2,10 @@
 //
 // Problem: the elastic machine, its pitch bearings turned by actuators, the torque of its generator set. The library
 // has no aerodynamics: the rotor is driven by a torque that depends on wind and pitch as table 7-1 of the report of the
-// machine says. Three studies: steps of the wind through all regions of the controller; frequency and damping of the
+// machine says. Four studies: steps of the wind through all regions of the controller; frequency and damping of the
 // speed loop, by the design in the report, by eigenvalues of the closed loop in continuous time, and as the response to
 // a step shows them under the program that is called every 12.5 ms; a damper of the drive train by the generator's
-// torque.
+// torque; frequencies and damping over the wind, with the loop open and closed.
 // Reference: J. Jonkman, S. Butterfield, W. Musial, G. Scott, NREL/TP-500-38060, 2009, section 7. Checked: the energy
 // balance; steady operation after each step; the response against the eigenvalue, 1 % of the frequency and 0.01 of the
 // damping ratio.
@@ -99,8 +99,9 @@ int parse(int argc, char** argv, Arguments& a) {
     app.footer(
         "Exit code: 0; 1 error, or the energy balance does not close; 2 wrong usage; 3 the machine has not settled, "
         "the "
-        "response shows\nanother frequency or damping than the eigenvalue, or the damper does not damp; 130 "
-        "interrupted.");
+        "response\nshows another frequency or damping than the eigenvalue, the damper does not damp, or the closed "
+        "loop "
+        "is not stable at\nrated speed; 130 interrupted.");
     add_machine_options(app, a);
     add_steps(app, a);
     add_loop(app, a);

@@ -126,6 +126,13 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
     }
 }
 
+void rescale(StateTerms& terms, const Vector& rows, const Vector& states) {
+    const Vector inverse = states.cwiseInverse();
+    terms.Q_s = (rows.asDiagonal() * terms.Q_s * states.asDiagonal()).eval();
+    for (Matrix* f : {&terms.f_q, &terms.f_qd}) *f = (inverse.asDiagonal() * *f * rows.asDiagonal()).eval();
+    terms.f_s = (inverse.asDiagonal() * terms.f_s * states.asDiagonal()).eval();
+}
+
 void append_states(SecondOrderSystem& system) {
     const StateTerms& t = system.states;
     const Eigen::Index n = system.M.rows(), m = t.size();

@@ -69,6 +69,9 @@ struct StateTerms {
     }
 };
 
+/// In other units: equations multiplied by `rows`, x = rows x', s = states s'. The scales of the states stay.
+void rescale(StateTerms& terms, const Vector& rows, const Vector& states);
+
 /// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
 struct SecondOrderSystem {
     Matrix M, C, K, K_elastic;

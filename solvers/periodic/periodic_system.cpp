@@ -336,20 +336,16 @@ void require_cyclic(const Matrix& P, int parts) {
 // Coordinates in units of their diagonals, states in units of their scales.
 double asymmetry_of_states(const Coefficients& now, const Coefficients& later, const BladeSymmetry& symmetry,
                            const Vector& size) {
-    StateTerms next = later.states;
+    StateTerms own = now.states, next = later.states;
     renumber(symmetry.P, symmetry.P_beside, next);
-    const Vector unit = size.cwiseSqrt().cwiseInverse(), per_scale = now.states.scales.cwiseInverse();
-    const auto coordinates = unit.asDiagonal(), states = now.states.scales.asDiagonal(),
-               per_state = per_scale.asDiagonal();
-    const auto part = [](const Matrix& own, const Matrix& other) {
-        const double largest = own.cwiseAbs().maxCoeff();
-        return largest > 0 ? (other - own).cwiseAbs().maxCoeff() / largest : other.cwiseAbs().maxCoeff();
+    const Vector unit = size.cwiseSqrt().cwiseInverse();
+    for (StateTerms* terms : {&own, &next}) rescale(*terms, unit, now.states.scales);
+    const auto part = [](const Matrix& a, const Matrix& b) {
+        const double largest = a.cwiseAbs().maxCoeff();
+        return largest > 0 ? (b - a).cwiseAbs().maxCoeff() / largest : b.cwiseAbs().maxCoeff();
     };
-    const StateTerms& own = now.states;
-    return std::max({part(coordinates * own.Q_s * states, coordinates * next.Q_s * states),
-                     part(per_state * own.f_q * coordinates, per_state * next.f_q * coordinates),
-                     part(per_state * own.f_qd * coordinates, per_state * next.f_qd * coordinates),
-                     part(per_state * own.f_s * states, per_state * next.f_s * states)});
+    return std::max(
+        {part(own.Q_s, next.Q_s), part(own.f_q, next.f_q), part(own.f_qd, next.f_qd), part(own.f_s, next.f_s)});
 }
 
 }  // namespace

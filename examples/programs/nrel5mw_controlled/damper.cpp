@@ -7,7 +7,6 @@
 #include "examples/programs/nrel5mw_controlled/loop.hpp"
 #include "examples/programs/nrel5mw_controlled/simulate.hpp"
 #include "examples/shared/program.hpp"
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -20,10 +19,8 @@ void print(const char* what, const LinearLoop& loop, const Plant& plant) {
     const solvers::Mode shaft = drive_train_mode(loop);
     std::printf("%-16s %10.4f Hz %9.3f %%", what, shaft.natural_hz(), 100 * shaft.damping_ratio());
     if (plant.point.wind > rated_wind) {
-        const Complex rigid = rigid_loop(plant.point, rotor_inertia(plant));
-        const auto speed = std::ranges::min_element(
-            loop.modes, {}, [&](const solvers::Mode& mode) { return std::abs(mode.eigenvalue - rigid); });
-        std::printf(" %14.4f rad/s %9.4f", std::abs(speed->eigenvalue), speed->damping_ratio());
+        const solvers::Mode& speed = elastic_loop(loop, rigid_loop(plant.point, rotor_inertia(plant)));
+        std::printf(" %14.4f rad/s %9.4f", std::abs(speed.eigenvalue), speed.damping_ratio());
     }
     std::printf("\n");
 }

@@ -1,6 +1,5 @@
 #include "examples/programs/nrel5mw_controlled/diagram.hpp"
 
-#include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/pictures/campbell.hpp"
 
@@ -63,11 +62,7 @@ bool keeps_speed(const solvers::Campbell& closed) {
 }  // namespace
 
 int diagram(const MachineOptions& machine, const DiagramOptions& options, const std::string& out) {
-    const std::vector<double> all = winds("--winds", options.winds);
-    for (const double wind : all)
-        if (wind <= rated_wind)
-            throw InputError("--winds", "wind speed [m/s]", wind,
-                             text("> ", rated_wind, ", where the pitch is controlled"));
+    const std::vector<double> all = winds_above_rated("--winds", options.winds);
     program::check_outputs(out, {"_open.svg", "_open.png", "_closed.svg", "_closed.png"});
     const Machines machines = machines_at(machine, all);
     const solvers::Campbell open = over_wind(machines, machines.open, false, options.max_frequency),

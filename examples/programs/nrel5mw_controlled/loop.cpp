@@ -17,19 +17,10 @@ namespace cardan::controlled {
 
 namespace {
 
-constexpr double ratio = 97;
 constexpr double frequency_allowed = 0.01, damping_allowed = 0.01;  // part; of the ratio
 
 double damping(Complex eigenvalue) {
     return -eigenvalue.real() / std::abs(eigenvalue);
-}
-
-// Of the elastic machine the oscillation nearest to that of the rigid one.
-Complex elastic_loop(const LinearLoop& loop, Complex rigid) {
-    const auto nearest = std::ranges::min_element(
-        loop.modes, {}, [&](const solvers::Mode& mode) { return std::abs(mode.eigenvalue - rigid); });
-    if (nearest == loop.modes.end()) throw NumericalError("the closed loop has no modes");
-    return nearest->eigenvalue;
 }
 
 // Means over a time: parts of a motion keep their eigenvalues and fast ones become small.
@@ -74,7 +65,7 @@ Loop loop_at(const MachineOptions& machine, double wind, const LoopOptions& opti
     constexpr double step = 0.1, at = 1;  // s; the wind changes at `at`
     const Plant here = plant(machine, wind);
     Loop loop{wind, here.point.pitch, rigid_loops(here.point, rotor_inertia(here)), {}, {}, {}};
-    loop.elastic = elastic_loop(linear_loop(here, {}), loop.rigid.back());
+    loop.elastic = elastic_loop(linear_loop(here, {}), loop.rigid.back()).eigenvalue;
     const double before = wind - options.change;
     const WindSteps change{{before, wind}, at};  // it settles where the eigenvalue holds
     loop.speed = response(plant(machine, before), change, {}, options.duration, step, "RotSpeed",
@@ -128,16 +119,19 @@ solvers::History joined(const std::vector<Loop>& loops) {
 void check(const std::vector<double>& all, const LoopOptions& options) {
     if (all.size() > 7)
         throw InputError("--winds", "number of winds", all.size(), "at most 7, the colours of a picture");
-    for (const double wind : all)
-        if (wind <= rated_wind)
-            throw InputError("--winds", "wind speed [m/s]", wind,
-                             text("> ", rated_wind, ", where the pitch is controlled"));
     if (!(std::abs(options.change) > 0 && std::abs(options.change) <= 1))
         throw InputError("--change", "of the wind [m/s]", options.change, "up to 1, not 0");
     if (!(options.duration >= 30)) throw InputError("--duration", "value [s]", options.duration, ">= 30");
 }
 
 }  // namespace
+
+const solvers::Mode& elastic_loop(const LinearLoop& loop, Complex rigid) {
+    const auto nearest = std::ranges::min_element(
+        loop.modes, {}, [&](const solvers::Mode& mode) { return std::abs(mode.eigenvalue - rigid); });
+    if (nearest == loop.modes.end()) throw NumericalError("the closed loop has no modes");
+    return *nearest;
+}
 
 Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& parts) {
     constexpr double fast = 1e5;  // rad/s
@@ -147,12 +141,12 @@ Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& p
     const double S = trim_point(point.wind).sensitivity / rated_speed, g = controller.gain(point.pitch),
                  h = parts.schedule ? g * point.pitch / p.doubling_pitch : 0,
                  w = parts.drives ? a.pitch_frequency : fast, t = parts.drives ? a.torque_time_constant : 1 / fast,
-                 c = parts.filter ? p.corner_frequency : fast, speed = ratio * point.rotor_speed,
+                 c = parts.filter ? p.corner_frequency : fast, speed = gear_ratio * point.rotor_speed,
                  slope = parts.power ? -p.rated_power / (speed * speed) : 0;
     enum State : std::uint8_t { W, f, z, pitch, rate, torque, count };
     Matrix A = Matrix::Zero(count, count);
-    A(W, pitch) = S / inertia, A(W, torque) = -ratio / inertia;
-    A(f, W) = c * ratio, A(f, f) = -c;
+    A(W, pitch) = S / inertia, A(W, torque) = -gear_ratio / inertia;
+    A(f, W) = c * gear_ratio, A(f, f) = -c;
     A(z, f) = p.integral;
     A(pitch, rate) = 1;
     A(rate, f) = w * w * g * p.proportional, A(rate, z) = w * w * g, A(rate, pitch) = -w * w * (1 + h),
@@ -166,7 +160,7 @@ Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& p
 }
 
 int loop(const MachineOptions& machine, const LoopOptions& options, const std::string& out) {
-    const std::vector<double> all = winds("--winds", options.winds);
+    const std::vector<double> all = winds_above_rated("--winds", options.winds);
     check(all, options);
     program::check_outputs(out, {".svg", ".png"});
     std::vector<Loop> loops;

@@ -35,5 +35,7 @@ struct RigidParts {
 /// the pair of roots that oscillates and is lowest in frequency.
 /// @param inertia  J, kg m^2
 Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& parts = {});
+/// Of the elastic machine the mode nearest to that of the rigid one.  @throws NumericalError if there is none
+const solvers::Mode& elastic_loop(const LinearLoop& loop, Complex rigid);
 
 }  // namespace cardan::controlled

@@ -47,6 +47,11 @@ ForceSet with_load(ForceSet forces, const RotorLoad& load) {
     return forces;
 }
 
+// Pitch and torque of the generator held.
+turbines::Turbine loaded(const turbines::Turbine& turbine, const RotorLoad& load) {
+    return turbine.with_forces(with_load(turbine.forces(), load));
+}
+
 // The torque that it adds; its element is put into the forces.
 ControlSignal add_damper(const DamperOptions& damper, const Plant& plant, ForceSet& forces) {
     if (damper.gain == 0) return signal::constant(0);
@@ -70,15 +75,15 @@ Plant plant(const MachineOptions& options, double wind) {
     const SteadyPoint point = steady_point(wind);
     const turbines::Turbine turbine = machine(options, point.pitch);
     const RotorLoad rotor = rotor_of(turbine, [wind](double) { return wind; });
-    const turbines::Turbine loaded = turbine.with_forces(with_load(turbine.forces(), rotor));
+    const turbines::Turbine held = loaded(turbine, rotor);
     const solvers::SteadyState state =
-        solvers::steady_state(loaded.system(), turbine.rotor().spin, {.rotor_speed = point.rotor_speed});
+        solvers::steady_state(held.system(), turbine.rotor().spin, {.rotor_speed = point.rotor_speed});
     require_result(state, "steady state");
     return {turbine, point, rotor, state.at};
 }
 
 turbines::Turbine open_loop(const Plant& plant) {
-    return plant.turbine.with_forces(with_load(plant.turbine.forces(), plant.rotor));
+    return loaded(plant.turbine, plant.rotor);
 }
 
 RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double)>& wind) {

@@ -14,7 +14,7 @@ namespace cardan::controlled {
 
 namespace {
 
-constexpr double gear_ratio = 97, radius = 63, best_tip_speed_ratio = 7.55;
+constexpr double radius = 63, best_tip_speed_ratio = 7.55;
 
 struct Row {
     double wind, degrees, megawatts;  // m/s, deg, MW/rad
@@ -93,6 +93,15 @@ std::vector<double> winds(const char* option, const std::string& given) {
         if (!(all.back() >= 7 && all.back() <= 25))
             throw InputError(option, "wind speed [m/s]", all.back(), "7 ... 25");
     }
+    return all;
+}
+
+std::vector<double> winds_above_rated(const char* option, const std::string& given) {
+    std::vector<double> all = winds(option, given);
+    for (const double wind : all)
+        if (wind <= rated_wind)
+            throw InputError(option, "wind speed [m/s]", wind,
+                             text("> ", rated_wind, ", where the pitch is controlled"));
     return all;
 }
 

@@ -24,8 +24,9 @@ struct TrimPoint {
 TrimPoint trim_point(double wind);
 
 inline constexpr double rated_wind = 11.4, rated_power = 5.296610e6;  ///< m/s; mechanical, W
-/// At rated power, rad/s: 1173.7 rpm of the generator behind a gearbox of 97.
-inline constexpr double rated_speed = 1173.7 * units::rpm / 97;
+inline constexpr double gear_ratio = 97;
+/// At rated power, rad/s: 1173.7 rpm of the generator behind its gearbox.
+inline constexpr double rated_speed = 1173.7 * units::rpm / gear_ratio;
 
 /// T(wind, pitch) = T_0 + (dP/dpitch) / rated_speed (pitch - trim), positive: drives the rotor. From rated wind on T_0
 /// is rated power over rated speed; below it is the torque at the best tip speed ratio, 7.55, at which the controller's
@@ -54,5 +55,7 @@ struct WindSteps {
 };
 /// "8,10,13"  @throws InputError naming the option
 std::vector<double> winds(const char* option, const std::string& given);
+/// Likewise where the pitch is controlled.  @throws InputError also at and below rated wind
+std::vector<double> winds_above_rated(const char* option, const std::string& given);
 
 }  // namespace cardan::controlled

@@ -26,13 +26,12 @@ Vector units_beside(const StateTerms& t, const Vector& d, double omega) {
     return balance(of_states, on_states) * t.scales;
 }
 
-void scale_states(StateTerms& t, const Vector& d, const Vector& u, double omega) {
-    const Vector inverse = u.cwiseInverse();
-    const auto per_state = inverse.asDiagonal();
-    t.Q_s = (d.asDiagonal() * t.Q_s * u.asDiagonal() / (omega * omega)).eval();
-    t.f_q = (per_state * t.f_q * d.asDiagonal() / omega).eval();
-    t.f_qd = (per_state * t.f_qd * d.asDiagonal()).eval();
-    t.f_s = (per_state * t.f_s * u.asDiagonal() / omega).eval();
+// Also in the time omega t.
+void normalise(StateTerms& t, const Vector& d, const Vector& u, double omega) {
+    rescale(t, d, u);
+    t.Q_s /= omega * omega;
+    t.f_q /= omega;
+    t.f_s /= omega;
 }
 
 PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
@@ -49,7 +48,7 @@ PeriodicSystem normalised(const PeriodicSystem& raw, const Vector& unit) {
         out.M = (scale * out.M * scale).eval();
         out.C = (scale * out.C * scale / omega).eval();
         out.K = (scale * out.K * scale / (omega * omega)).eval();
-        if (u.size() > 0) scale_states(out.states, d, u, omega);
+        if (u.size() > 0) normalise(out.states, d, u, omega);
     };
     return PeriodicSystem::second_order(2 * pi, raw.rows(), at, u.size());
 }

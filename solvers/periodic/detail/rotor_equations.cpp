@@ -124,11 +124,7 @@ void RotorEquations::linearise(SecondOrderSystem& out) {
     restrict_to(lin_, unknowns_, -1, out);
     StateTerms& t = out.states;
     if (t.size() == 0) return;
-    const Vector per_scale = t.scales.cwiseInverse();
-    t.Q_s = (t.Q_s * t.scales.asDiagonal()).eval();
-    t.f_q = (per_scale.asDiagonal() * t.f_q).eval();
-    t.f_qd = (per_scale.asDiagonal() * t.f_qd).eval();
-    t.f_s = (per_scale.asDiagonal() * t.f_s * t.scales.asDiagonal()).eval();
+    rescale(t, Vector::Ones(t.Q_s.rows()), t.scales);
     t.scales.setOnes();
 }
 
