@@ -7,7 +7,7 @@ usage() {
 usage: ./test.sh [--full] [--keep-going] [--help]
 
   (nothing)  format check, GCC release build, installed-package consumer, all tests but the slow ones and those of the
-             studies (other beams to compare with, studies of papers), which are not built
+             studies (other beams to compare with, papers, the teetered machine), which are not built
   --full     the same with the studies, then each header by itself, the reference, clang-tidy, clang's build and all tests under its
              address and undefined-behaviour sanitizers, two sweeps at once under the thread sanitizer, one minute of
              fuzzing for each reader, and the slow tests

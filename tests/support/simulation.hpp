@@ -9,20 +9,11 @@
 
 namespace cardan::testing {
 
+/// dy/dt at time t.
+using Rate = std::function<Vector(double t, const Vector& y)>;
+
 /// y(t1) of dy/dt = rate(t, y) by `steps` equal steps of the classical method of fourth order.
-template <class Rate>
-Vector runge_kutta(Vector y, Rate&& rate, double t0, double t1, int steps) {
-    const double h = (t1 - t0) / steps;
-    for (int i = 0; i < steps; ++i) {
-        const double t = t0 + i * h;
-        const Vector k1 = rate(t, y);
-        const Vector k2 = rate(t + h / 2, Vector(y + h / 2 * k1));
-        const Vector k3 = rate(t + h / 2, Vector(y + h / 2 * k2));
-        const Vector k4 = rate(t + h, Vector(y + h * k3));
-        y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-    return y;
-}
+Vector runge_kutta(Vector y, const Rate& rate, double t0, double t1, int steps);
 
 /// Coordinates with role driven follow `drive`; the others follow from forward dynamics.
 class Simulation {

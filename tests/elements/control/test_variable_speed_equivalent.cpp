@@ -137,12 +137,12 @@ TEST_CASE("variable-speed equivalent: eigenvalues of the closed loop are those o
     for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_states(block->element);
     const System system = rotor.system();
     const double g = 1 / (1 + rotor.trim / parameters.doubling_pitch), h = g * rotor.trim / parameters.doubling_pitch;
-    Eigen::Matrix4d A;
+    Matrix A(4, 4);
     A << 0, rotor.ratio * P / (w0 * w0 * rotor.J), 0, -rotor.sensitivity / rotor.J,  //
         c * rotor.ratio, -c, 0, 0,                                                   //
         0, parameters.integral, 0, 0,                                                //
         0, g * parameters.proportional / rotor.lag, g / rotor.lag, -(1 + h) / rotor.lag;
-    const Eigen::Vector4cd exact = Eigen::EigenSolver<Eigen::Matrix4d>(A).eigenvalues();
+    const ComplexVector exact = Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
     int found = 0;
     for (const solvers::Mode& mode : modes_at(system, rotor.speed, system.forces.states().initial())) {
         CAPTURE(mode.eigenvalue);

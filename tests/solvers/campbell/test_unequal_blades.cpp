@@ -1,5 +1,6 @@
 // Rotors whose blades differ, are not evenly spaced or have other coordinates: which method is taken and why, what it
 // is compared with, and how modes are named.
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/csv.hpp"

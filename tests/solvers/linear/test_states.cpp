@@ -99,9 +99,9 @@ TEST_CASE("states, linear: a mass on a spring and a Maxwell element has the root
 
 TEST_CASE("states, linear: shares are those of left and right eigenvectors of the first-order system", "[analytic]") {
     const Maxwell e;
-    const Mat3 A{{0, 1, 0}, {-e.k0 / e.m, 0, -1 / e.m}, {0, e.k, -e.k / e.c}};
-    const Eigen::EigenSolver<Mat3> eigen(A);
-    const Eigen::Matrix3cd right = eigen.eigenvectors(), left = right.inverse();
+    const Matrix A{{0, 1, 0}, {-e.k0 / e.m, 0, -1 / e.m}, {0, e.k, -e.k / e.c}};
+    const Eigen::EigenSolver<Matrix> eigen(A);
+    const ComplexMatrix right = eigen.eigenvectors(), left = right.inverse();
     for (const Mode& mode : modes_at_rest(e.system()))
         for (int i = 0; i < 3; ++i) {
             if (std::abs(eigen.eigenvalues()(i) - mode.eigenvalue) > 1e-8) continue;

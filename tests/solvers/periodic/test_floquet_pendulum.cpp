@@ -5,6 +5,7 @@
 #include "tests/oracles/mathieu.hpp"
 #include "tests/solvers/periodic/floquet_tools.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/simulation.hpp"
 #include "tests/support/tree_tools.hpp"
 
 namespace cardan::testing::driven_pendulum {

@@ -8,6 +8,7 @@
 #include "tests/solvers/rotor_with_lags.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/simulation.hpp"
 
 #include <algorithm>
 

@@ -54,10 +54,10 @@ struct CreepingOscillator {
     }
     // From 0.3 at rest without force: the matrix exponential by its eigenvalues.
     Vec3 exact(double t) const {
-        const Mat3 A{{0, 1, 0}, {-k0 / m, 0, -1 / m}, {0, k, -k / c}};
-        const Eigen::EigenSolver<Mat3> eigen(A);
-        const Eigen::Matrix3cd V = eigen.eigenvectors();
-        const Eigen::Vector3cd start = V.partialPivLu().solve(Eigen::Vector3cd(0.3, 0, 0));
+        const Matrix A{{0, 1, 0}, {-k0 / m, 0, -1 / m}, {0, k, -k / c}};
+        const Eigen::EigenSolver<Matrix> eigen(A);
+        const ComplexMatrix V = eigen.eigenvectors();
+        const ComplexVector start = V.partialPivLu().solve(ComplexVector{{0.3, 0, 0}});
         return (V * (eigen.eigenvalues() * t).array().exp().matrix().cwiseProduct(start)).real();
     }
 };

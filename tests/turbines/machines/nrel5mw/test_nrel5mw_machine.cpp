@@ -1,6 +1,7 @@
 // The whole NREL 5 MW machine: masses and places, what is in it and what is not, hand computations.
 #include "tests/turbines/machines/nrel5mw/test_nrel5mw_machine.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
@@ -71,7 +72,7 @@ struct ElastodynBlade {
     Eigen::Matrix3d M = Eigen::Matrix3d::Zero(), K = M;
 
     Vec3 hz() const {
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> found(K, M, Eigen::EigenvaluesOnly);
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> found(Matrix(K), Matrix(M), Eigen::EigenvaluesOnly);
         return found.eigenvalues().cwiseSqrt() / (2 * pi);
     }
 };
