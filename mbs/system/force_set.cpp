@@ -176,6 +176,7 @@ std::string Forces::stiffest_law(int coordinate) const {
 std::vector<double> Forces::breaks() const {
     std::vector<double> all;
     for (const FrameLoad& load : loads_) all.insert(all.end(), load.breaks.begin(), load.breaks.end());
+    states_.append_breaks(all);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;

@@ -168,7 +168,7 @@ public:
     const std::vector<FrameLoad>& loads() const { return loads_; }
     /// A load as it acts at a time: force and moment at the frame's origin, base axes.
     Wrench at_frame(const FrameLoad& load, const Kinematics& kin, double time = 0) const;
-    /// Times, s, ascending, across which a load is not smooth: those of all loads.
+    /// Times, s, ascending, across which a load or an element with states is not smooth.
     std::vector<double> breaks() const;
     const Vec3& gravity() const { return gravity_; }
     /// Model::serial() of the model that it is bound to.

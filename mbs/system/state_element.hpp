@@ -61,6 +61,8 @@ struct StateElement {
     std::function<void(const StateInput&, StateJacobian&)> jacobian = {};
     /// Empty: the element does not take part in the balance of energy beyond the work of Q.
     std::function<StatePower(const StateInput&)> power = {};
+    /// Times, s, across which rates or forces are not smooth: integration restarts there.
+    std::vector<double> breaks = {};
 };
 
 /// Derivatives of the states' part of a system, by all coordinates and states; those of Q by q and qd are with the

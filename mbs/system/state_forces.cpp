@@ -267,6 +267,11 @@ StateEnergy StateForces::energy(const At& at) const {
     return sum;
 }
 
+void StateForces::append_breaks(std::vector<double>& times) const {
+    for (const Bound& element : elements_)
+        times.insert(times.end(), element.own.breaks.begin(), element.own.breaks.end());
+}
+
 void StateForces::scale(double factor) {
     factor_ *= factor;
 }

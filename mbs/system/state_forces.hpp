@@ -40,6 +40,8 @@ public:
     void derivatives(const At& at, Matrix& K, Matrix& D, StateDerivatives& out) const;
     /// Sum over the elements that tell their energy.
     StateEnergy energy(const At& at) const;
+    /// Appends the times across which the elements are not smooth.
+    void append_breaks(std::vector<double>& times) const;
     /// Multiplies the forces Q, not the rates.
     void scale(double factor);
 

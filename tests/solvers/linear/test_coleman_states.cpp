@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace cardan::testing::multi_blade_states {
+namespace cardan::testing::multi_blade_states_tests {
 
 using namespace solvers;
 
@@ -126,4 +126,4 @@ TEST_CASE("coleman with states: blades that differ in their states are refused",
                   {"small rotor", "states of blade 3 = 1", "as many as of blade 1, 2"});
 }
 
-}  // namespace cardan::testing::multi_blade_states
+}  // namespace cardan::testing::multi_blade_states_tests

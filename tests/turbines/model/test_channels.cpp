@@ -8,7 +8,7 @@
 
 #include <set>
 
-namespace cardan::testing::machine_channels {
+namespace cardan::testing::machine_channels_tests {
 
 using namespace turbines;
 
@@ -374,4 +374,4 @@ TEST_CASE("channels: each says along or about which axes it is, unless it has no
     CHECK(recorder.channels().front().frame == "axis of " + model.coordinates()[0].name);
 }
 
-}  // namespace cardan::testing::machine_channels
+}  // namespace cardan::testing::machine_channels_tests

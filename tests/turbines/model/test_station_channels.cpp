@@ -11,7 +11,7 @@
 
 #include <set>
 
-namespace cardan::testing::station_channels {
+namespace cardan::testing::station_channels_tests {
 
 using namespace turbines;
 
@@ -352,4 +352,4 @@ TEST_CASE("stations: those that a machine does not have are refused", "[property
         {"external wrench", "function"});
 }
 
-}  // namespace cardan::testing::station_channels
+}  // namespace cardan::testing::station_channels_tests

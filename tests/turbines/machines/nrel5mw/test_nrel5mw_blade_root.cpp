@@ -6,7 +6,7 @@
 #include "tests/support/random_tree.hpp"
 #include "turbines/studies/nrel5mw_assumed_modes.hpp"
 
-namespace cardan::testing::blade_root {
+namespace cardan::testing::blade_root_tests {
 
 using namespace turbines;
 using oracles::Jet;
@@ -57,4 +57,4 @@ TEST_CASE("NREL 5 MW assumed modes: A, B and their derivatives are those of the 
     }
 }
 
-}  // namespace cardan::testing::blade_root
+}  // namespace cardan::testing::blade_root_tests

@@ -1,0 +1,101 @@
+// A slider, a rotor and a locked joint for circuits to act upon.
+#pragma once
+
+#include "mbs/system/channel.hpp"
+#include "mbs/system/system.hpp"
+#include "solvers/time/integrate.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/tree_tools.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace cardan::testing {
+
+/// Tolerances of circuits: states are as accurate as coordinates.
+inline solvers::IntegrationOptions accurate(double tolerance = 1e-10) {
+    solvers::IntegrationOptions options;
+    options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance, tolerance};
+    return options;
+}
+
+/// One body on one joint along or about z.
+struct OneBody {
+    Tree tree;
+    ForceSet forces;
+    BodyId body;
+
+    OneBody(JointKind kind, double inertia, CoordinateRole role = CoordinateRole::free) {
+        const bool slides = kind == JointKind::prismatic;
+        body = add_joint(tree, {.name = slides ? "slider" : "shaft",
+                                .kind = kind,
+                                .inertia = {slides ? inertia : 1, Vec3::Zero(),
+                                            Vec3::Constant(slides ? 0 : inertia).asDiagonal()},
+                                .role = role})
+                   .body;
+    }
+    System system() const { return {tree, forces}; }
+};
+
+/// Without any free coordinate: circuits alone.
+inline OneBody locked() {
+    return {JointKind::revolute, 1, CoordinateRole::driven};
+}
+
+struct Evaluated {
+    Vector Q, f;
+    ForceDerivatives forces;
+    StateDerivatives states;
+};
+inline Evaluated evaluated(const System& system, const Vector& q, const Vector& qd, const Vector& s, const Vector& u,
+                           double time = 0) {
+    Workspace workspace(system.model);
+    const Kinematics kin = kinematics(system.model, q, workspace);
+    const ForceInput at{time, q, qd, kin, s, u};
+    Evaluated out{Vector(q.size()), Vector(s.size()), {}, {}};
+    system.forces.evaluate(at, out.Q, out.f);
+    system.forces.derivatives(at, out.forces, out.states);
+    return out;
+}
+
+/// Values of a group's channels at a state.
+inline std::vector<double> sampled(const ChannelGroup& group, const System& system, const solvers::Integrator& run) {
+    Workspace workspace(system.model);
+    const solvers::DynamicState& at = run.state();
+    const Kinematics kin = kinematics(system.model, at.q, workspace);
+    const JointLoads loads;
+    std::vector<double> values(group.channels.size());
+    group.sample({at.time, at.q, at.qd, at.qdd, at.actuator, kin, system.forces, loads, at.s, at.s_rate, at.u},
+                 values.data());
+    return values;
+}
+
+/// The element's own derivatives against central differences of its functions.
+inline void check_derivatives(const Tree& tree, const ForceSet& forces, const Vector& q, const Vector& qd,
+                              const Vector& s, const Vector& u = {}, double time = 0) {
+    ForceSet differenced;
+    for (const InputInfo& input : forces.inputs()) differenced.add_input(input);
+    for (StateElement element : forces.state_elements()) {
+        element.jacobian = {};
+        differenced.add_states(element);
+    }
+    ForceSet own;
+    for (const InputInfo& input : forces.inputs()) own.add_input(input);
+    for (const StateElement& element : forces.state_elements()) own.add_states(element);
+    const Evaluated exact = evaluated({tree, own}, q, qd, s, u, time),
+                    other = evaluated({tree, differenced}, q, qd, s, u, time);
+    const auto check = [](const Matrix& a, const Matrix& b) {
+        for (Eigen::Index k = 0; k < a.size(); ++k)
+            CHECK(a.reshaped()(k) == Approx(b.reshaped()(k)).epsilon(2e-6).margin(1e-7 * b.norm() + 1e-8));
+    };
+    check(exact.forces.loads, other.forces.loads);
+    check(exact.forces.damping, other.forces.damping);
+    check(exact.states.Q_s, other.states.Q_s);
+    check(exact.states.f_q, other.states.f_q);
+    check(exact.states.f_qd, other.states.f_qd);
+    check(exact.states.f_s, other.states.f_s);
+    check(exact.states.Q_u, other.states.Q_u);
+    check(exact.states.f_u, other.states.f_u);
+}
+
+}  // namespace cardan::testing
