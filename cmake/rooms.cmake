@@ -35,7 +35,7 @@ room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
 room(turbines/readers SEES turbines/model) # OpenFAST's files, tables
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
-room(turbines/machines SEES turbines/readers elements/control) # 600 kW, teetered, NREL 5 MW
+room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teetered, NREL 5 MW
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with

@@ -54,6 +54,35 @@ InductionMachine EquivalentCircuit::without_stator_resistance(double peak) const
             .breakdown_slip = rotor_resistance / reactance};
 }
 
+EquivalentCircuit equivalent_circuit(const InductionMachine& machine, double line_voltage, double frequency,
+                                     const CircuitAssumptions& assumed) {
+    constexpr const char* here = "equivalent circuit";
+    machine.check(here);
+    require_positive(here, "voltage between lines [V]", line_voltage);
+    require_positive(here, "frequency [Hz]", frequency);
+    require_positive(here, "magnetising reactance over leakage", assumed.magnetising);
+    require_positive(here, "leakage of rotor over stator", assumed.rotor_leakage);
+    require_not_negative(here, "resistance of stator over rotor", assumed.stator_resistance);
+    const double pairs = 2 * pi * frequency / machine.synchronous_speed;
+    if (std::abs(pairs - std::round(pairs)) > 1e-6 * pairs)
+        throw InputError(here,
+                         text("number of pole pairs: ", frequency, " Hz over the synchronous speed of ",
+                              machine.synchronous_speed, " rad/s"),
+                         pairs, "a whole number");
+    // T_b = 3/4 (V share)^2 / (w_s X), s_b = R_r / X with X = X_ls share + X_lr behind the voltage V share.
+    const double share = assumed.magnetising / (1 + assumed.magnetising),
+                 voltage = line_voltage * std::sqrt(2.0 / 3) * share,
+                 X = 0.75 * voltage * voltage / (machine.synchronous_speed * machine.breakdown_torque),
+                 leakage = X / (share + assumed.rotor_leakage), resistance = machine.breakdown_slip * X;
+    return {.stator_resistance = assumed.stator_resistance * resistance,
+            .stator_leakage = leakage,
+            .magnetising = assumed.magnetising * leakage,
+            .rotor_leakage = assumed.rotor_leakage * leakage,
+            .rotor_resistance = resistance,
+            .frequency = frequency,
+            .pole_pairs = static_cast<int>(std::lround(pairs))};
+}
+
 void EquivalentCircuit::check(const std::string& where) const {
     require_not_negative(where, "stator resistance [ohm]", stator_resistance);
     require_positive(where, "rotor resistance [ohm]", rotor_resistance);

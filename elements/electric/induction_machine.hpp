@@ -51,6 +51,19 @@ struct EquivalentCircuit {
     void check(const std::string& where) const;
 };
 
+/// What Kloss' formula leaves open, where nothing better is known.
+struct CircuitAssumptions {
+    double magnetising = 40;         ///< magnetising reactance over the leakage of the stator
+    double rotor_leakage = 1;        ///< over that of the stator
+    double stator_resistance = 0.8;  ///< over that of the rotor
+};
+/// An equivalent circuit with the breakdown torque and slip of a machine: without its stator resistance its steady
+/// curve is Kloss' formula. The number of pole pairs follows from frequency and synchronous speed.
+/// @param line_voltage  root mean square between lines, V
+/// @throws InputError also for a synchronous speed that is not the frequency over a whole number of pole pairs
+EquivalentCircuit equivalent_circuit(const InductionMachine& machine, double line_voltage, double frequency,
+                                     const CircuitAssumptions& assumed = {});
+
 /// How much of the machine's electric dynamics is kept.
 enum class MachineOrder : std::uint8_t {
     fifth,  ///< fluxes of stator and rotor: four states, currents of a direct start, sags

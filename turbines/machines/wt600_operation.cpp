@@ -121,11 +121,12 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
     machine.rotor = rotor_load_of(options, layout);
 
     ForceSet forces = bare.forces();
-    forces.add_user(generator_force(machine.generator));
+    const bool generator = options.generator != Wt600Generator::none;
+    if (generator) forces.add_user(generator_force(machine.generator));
     forces.add_user(brake_force(machine.brake));
     forces.add_user(rotor_load_force(machine.rotor));
-    std::vector<ChannelGroup> more{generator_channels(machine.generator), brake_channels(machine.brake),
-                                   rotor_load_channels(machine.rotor)};
+    std::vector<ChannelGroup> more{brake_channels(machine.brake), rotor_load_channels(machine.rotor)};
+    if (generator) more.insert(more.begin(), generator_channels(machine.generator));
     for (std::size_t k = 0; k < layout.pitch.size(); ++k) {
         ElasticDrive drive{
             text("blade ", k + 1, " pitch drive"), layout.pitch[k], mechanism.stiffness, 0, machine.pitch, -1};

@@ -16,7 +16,8 @@ namespace cardan::turbines {
 
 enum class Wt600Generator : std::uint8_t {
     induction,  ///< grid-connected: 1500 rpm, Kloss' law; about 30.4 rpm of the rotor at 600 kW
-    converter   ///< torque-speed curve: best tip speed ratio from 20 rpm up to 600 kW at 32.92 rpm
+    converter,  ///< torque-speed curve: best tip speed ratio from 20 rpm up to 600 kW at 32.92 rpm
+    none        ///< no torque, no channels: for another machine to be put there, see electric_wt600.hpp
 };
 
 /// "generator_sync_speed" ... of the data set.  @throws FileError, ParseError
@@ -49,7 +50,7 @@ struct Wt600Operation {
     Turbine turbine;
     std::shared_ptr<Switch> grid, brake_valve;
     std::shared_ptr<DriveCommand> pitch;  ///< of all blades, positive toward feather; 8 deg/s, 15 deg/s^2 (assumed)
-    Generator generator;
+    Generator generator;                  ///< not in use with Wt600Generator::none
     Brake brake;  ///< on the generator's shaft: 6 kN m within 0.5 s, regularised at 1 rad/s (assumed)
     RotorLoad rotor;
     std::vector<ChannelGroup> channels;  ///< of the turbine and all of the above

@@ -144,6 +144,17 @@ TEST_CASE("induction machine: without stator resistance the steady curve is Klos
               Approx(kloss.torque(circuit.synchronous_speed() * (1 - slip))).epsilon(1e-10));
 }
 
+TEST_CASE("induction machine: a circuit made of Kloss' numbers has them", "[property]") {
+    const InductionMachine kloss{.synchronous_speed = 2 * pi * 25, .breakdown_torque = 9000, .breakdown_slip = 0.06};
+    const EquivalentCircuit circuit = equivalent_circuit(kloss, 690, 50);
+    CHECK(circuit.pole_pairs == 2);
+    const InductionMachine back = circuit.without_stator_resistance(690 * std::sqrt(2.0 / 3));
+    CHECK(back.synchronous_speed == Approx(kloss.synchronous_speed));
+    CHECK(back.breakdown_torque == Approx(9000));
+    CHECK(back.breakdown_slip == Approx(0.06));
+    check_refused([&] { equivalent_circuit({150, 9000, 0.06}, 690, 50); }, {"pole pairs", "whole number"});
+}
+
 TEST_CASE("induction machine: all orders settle at the steady curve, and slowly they are alike", "[property]") {
     const OneBody bench(JointKind::revolute, 1);
     for (const Machine* machine : {&small, &large}) {
