@@ -2,16 +2,17 @@
 //
 // Problem: the elastic machine, its pitch bearings turned by actuators, the torque of its generator set. The library
 // has no aerodynamics: the rotor is driven by a torque that depends on wind and pitch as table 7-1 of the report of the
-// machine says. Four studies: steps of the wind through all regions of the controller; frequency and damping of the
+// machine says. Five studies: steps of the wind through all regions of the controller; frequency and damping of the
 // speed loop, by the design in the report, by eigenvalues of the closed loop in continuous time, and as the response to
 // a step shows them under the program that is called every 12.5 ms; a damper of the drive train by the generator's
-// torque; frequencies and damping over the wind, with the loop open and closed.
-// Reference: J. Jonkman, S. Butterfield, W. Musial, G. Scott, NREL/TP-500-38060, 2009, section 7. Checked: the energy
-// balance; steady operation after each step; the response against the eigenvalue, 1 % of the frequency and 0.01 of the
-// damping ratio.
+// torque; frequencies and damping over the wind, with the loop open and closed; a doubly-fed generator as a circuit in
+// a sag of the voltage. Reference: J. Jonkman, S. Butterfield, W. Musial, G. Scott, NREL/TP-500-38060, 2009, section 7.
+// Checked: the energy balance; steady operation after each step; the response against the eigenvalue, 1 % of the
+// frequency and 0.01 of the damping ratio.
 #include "examples/programs/nrel5mw_controlled/damper.hpp"
 #include "examples/programs/nrel5mw_controlled/diagram.hpp"
 #include "examples/programs/nrel5mw_controlled/loop.hpp"
+#include "examples/programs/nrel5mw_controlled/sag.hpp"
 #include "examples/programs/nrel5mw_controlled/steps.hpp"
 #include "examples/shared/program.hpp"
 
@@ -25,6 +26,7 @@ struct Arguments {
     controlled::LoopOptions loop;
     controlled::DamperStudy damper;
     controlled::DiagramOptions diagram;
+    controlled::SagOptions sag;
     std::string out = "nrel5mw_controlled", study;
 };
 
@@ -90,6 +92,22 @@ void add_diagram(program::CommandLine& app, Arguments& a) {
     study.add_option("--max", o.max_frequency, "largest frequency, Hz");
 }
 
+void add_sag(program::CommandLine& app, Arguments& a) {
+    controlled::SagOptions& o = a.sag;
+    program::CommandLine study = app.add_subcommand(
+        "sag",
+        "The machine with a doubly-fed generator as a circuit, its converter under the controller, in a "
+        "sag of the grid's voltage.\nWrites PREFIX.h5, .svg, .png and _energy.png.");
+    study.fallthrough();
+    study.add_option("--wind", o.wind, "m/s");
+    study.add_option("--depth", o.depth, "part of the voltage that is lost");
+    study.add_option("--at", o.at, "time of the sag, s");
+    study.add_option("--for", o.lasts, "how long it lasts, s");
+    study.add_option("--duration", o.duration, "simulated time, s");
+    study.add_option("--step", o.step, "time between outputs, s");
+    study.add_option("--tolerance", o.tolerance, "relative tolerance of a step");
+}
+
 int parse(int argc, char** argv, Arguments& a) {
     program::CommandLine app(
         "The NREL 5 MW machine under its baseline controller. No aerodynamics: the torque of the rotor depends on wind "
@@ -107,6 +125,7 @@ int parse(int argc, char** argv, Arguments& a) {
     add_loop(app, a);
     add_damper(app, a);
     add_diagram(app, a);
+    add_sag(app, a);
     if (const int code = app.parse(argc, argv); code >= 0) return code;
     a.study = app.subcommand();
     return -1;
@@ -115,6 +134,7 @@ int parse(int argc, char** argv, Arguments& a) {
 int run(const Arguments& a) {
     if (a.study == "steps") return controlled::steps(a.machine, a.steps, a.out);
     if (a.study == "loop") return controlled::loop(a.machine, a.loop, a.out);
+    if (a.study == "sag") return controlled::sag(a.machine, a.sag, a.out);
     if (a.study == "campbell") return controlled::diagram(a.machine, a.diagram, a.out);
     return controlled::damper(a.machine, a.damper, a.out);
 }

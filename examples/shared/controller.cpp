@@ -176,8 +176,9 @@ double start_torque(const ControllerOptions& options, double ratio, double speed
 }
 
 ControlledMachine controlled_machine(const ControllerOptions& options, const turbines::Turbine& machine, double torque,
-                                     const std::string& prefix, const ControlSignal& more) {
-    const turbines::ActuatedForces actuated(machine);
+                                     const std::string& prefix, const ControlSignal& more,
+                                     const turbines::ActuatorOptions& actuators) {
+    const turbines::ActuatedForces actuated(machine, actuators);
     const bool individual = !options.is_baseline();
     const turbines::Turbine turbine = machine.with_forces(actuated.with_inputs(torque, individual, more),
                                                           text(in_words(options), ", torque ", torque, " N m"));

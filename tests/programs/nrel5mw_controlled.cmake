@@ -22,3 +22,6 @@ add_example_test(example_controlled_change nrel5mw_controlled 1 "--change: of th
 add_example_test(example_controlled_gain nrel5mw_controlled 1 "--gain: value .N m s/rad. = 0" damper --gain 0)
 add_example_test(example_controlled_unwritable nrel5mw_controlled 1 "the folder 'no/such' does not exist" loop ${small_controlled} --out
     no/such/x)
+add_example_test(example_controlled_sag nrel5mw_controlled 0 "doubly-fed generator power.*energy lost by the fields.*ok.*start in equilibrium.*ok.*files: example_controlled_sag.h5" sag
+    ${small_controlled} --duration 1.6 --out example_controlled_sag)
+add_example_test(example_controlled_sag_depth nrel5mw_controlled 1 "depth of a sag = -1; allowed: 0 to 1" sag --depth -1)

@@ -153,7 +153,9 @@ ForceSet ActuatedForces::with_demands(const ActuatorDemands& demands, double tor
         .time_constant = options_.torque_time_constant};
     if (options_.largest_torque_rate > 0)
         generator.rates = {-options_.largest_torque_rate, options_.largest_torque_rate};
-    forces.add_states(force_actuator(generator, *layout_.generator, -layout_.gear_ratio).element);
+    forces.add_states(options_.torque_on_shaft
+                          ? force_actuator(generator, *layout_.generator, -layout_.gear_ratio).element
+                          : actuator(generator).element);
     return forces;
 }
 
@@ -171,6 +173,12 @@ ChannelGroup ActuatedForces::channels(const System& system, bool individual, dou
                                  : text("pitch as the controller demands it, towards feather",
                                         individual ? text(", ", name.substr(0, name.find(" p"))) : ""),
              .frame = torque ? axis : "pitch axis"});
+    }
+    if (!options_.torque_on_shaft) {
+        group.sample = [places](const ChannelInput& in, double* values) {
+            for (const int place : places) *values++ = in.u(place);
+        };
+        return group;
     }
     group.channels.push_back({.name = "generator torque",
                               .units = "N m",

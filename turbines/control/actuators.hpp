@@ -34,6 +34,10 @@ struct ActuatorOptions {
     double largest_pitch_rate = 8 * units::degree;  ///< rad/s
     double torque_time_constant = 0.02;             ///< of the generator's torque, s
     double largest_torque_rate = 0;                 ///< N m/s; 0: no limit
+    /// false: the torque actuator acts on nothing; another element has its state as demand,
+    /// signal::state(torque_state), and acts on the shaft itself: a machine with its converter. Its channels are those
+    /// of the torque then.
+    bool torque_on_shaft = true;
 };
 
 /// Demands, for the generator positive where it brakes, for the pitch positive towards feather.
@@ -62,8 +66,8 @@ public:
 
     /// Names of these inputs: of the pitch, then that of the torque.
     std::vector<std::string> inputs(bool individual = false) const;
-    /// What is recorded of them: the inputs, "generator torque" (GenTq), "generator power" (mechanical) and "electrical
-    /// power" (GenPwr).
+    /// What is recorded of them: the inputs and, if the actuator acts on the shaft, "generator torque" (GenTq),
+    /// "generator power" (mechanical) and "electrical power" (GenPwr).
     /// @param efficiency  of the generator: electrical over mechanical power
     ChannelGroup channels(const System& system, bool individual, double efficiency = 1) const;
 

@@ -91,13 +91,14 @@ RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double)>&
 }
 
 program::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double)>& wind,
-                                           const DamperOptions& damper) {
+                                           const DamperOptions& damper, const turbines::ActuatorOptions& actuators) {
     ForceSet forces = with_load(plant.turbine.forces(), rotor_in_wind(plant, wind));
     const ControlSignal more = add_damper(damper, plant, forces);
     program::ControllerOptions options;
     options.what = "baseline";
     options.efficiency = 0.944;
-    return program::controlled_machine(options, plant.turbine.with_forces(forces), plant.point.torque, "", more);
+    return program::controlled_machine(options, plant.turbine.with_forces(forces), plant.point.torque, "", more,
+                                       actuators);
 }
 
 LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {

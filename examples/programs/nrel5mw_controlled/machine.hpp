@@ -40,7 +40,8 @@ turbines::Turbine open_loop(const Plant& plant);
 
 /// Under the program, with the torque of a wind that changes.
 program::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
-                                           const DamperOptions& damper);
+                                           const DamperOptions& damper,
+                                           const turbines::ActuatorOptions& actuators = {});
 /// That load: for channels and loads by equilibrium.
 RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double time)>& wind);
 

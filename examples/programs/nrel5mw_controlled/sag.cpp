@@ -1,0 +1,106 @@
+#include "examples/programs/nrel5mw_controlled/sag.hpp"
+
+#include "mbs/base/error.hpp"
+#include "turbines/machines/nrel5mw_generator.hpp"
+#include "turbines/model/channels.hpp"
+
+#include "examples/shared/simulation_run.hpp"
+#include <cmath>
+#include <cstdio>
+
+namespace cardan::controlled {
+
+namespace {
+
+struct Machine {
+    program::ControlledMachine controlled;
+    DoublyFedGenerator generator;
+};
+
+// The torque actuator is what the controller's demand goes through; the converter follows it.
+Machine machine_in_sag(const Plant& plant, const SagOptions& options) {
+    turbines::ActuatorOptions actuators;
+    actuators.torque_on_shaft = false;
+    program::ControlledMachine machine = sampled_machine(
+        plant, [wind = options.wind](double) { return wind; }, {}, actuators);
+    const turbines::MachineLayout& layout = machine.turbine.layout();
+    DoublyFedGenerator generator = turbines::nrel5mw_doubly_fed(layout);
+    generator.grid = generator.grid.with_sag(options.depth, options.at, options.lasts);
+    generator.torque = signal::state(turbines::torque_state);
+    generator.running_speed = layout.gear_ratio * plant.point.rotor_speed;
+    generator.running_torque = plant.point.torque;
+    ForceSet forces = machine.turbine.forces();
+    forces.add_states(doubly_fed_generator(generator));
+    machine.turbine = machine.turbine.with_forces(forces);
+    return {std::move(machine), std::move(generator)};
+}
+
+double drift(const solvers::History& history, double until) {
+    double most = 0;
+    const std::vector<double>& speed = history["RotSpeed"];
+    for (std::size_t i = 0; i < speed.size() && history.time[i] < until; ++i)
+        most = std::max(most, std::abs(speed[i] / speed.front() - 1));
+    return most;
+}
+
+}  // namespace
+
+int sag(const MachineOptions& options, const SagOptions& o, const std::string& out) {
+    require_not_negative("--at", "value [s]", o.at);
+    require_positive("--for", "value [s]", o.lasts);
+    winds("--wind", text(o.wind));
+    program::RunArguments run;
+    run.duration = o.duration;
+    run.step = o.step;
+    run.tolerance = o.tolerance;
+    run.out = out;
+    program::check_run_options(run);
+    program::check_outputs(out, program::run_outputs);
+    const Plant start = plant(options, o.wind);
+    const Machine machine = machine_in_sag(start, o);
+    const turbines::Turbine& turbine = machine.controlled.turbine;
+    solvers::IntegrationOptions integration = program::integration_options(run);
+    integration.controllers = {machine.controlled.controller};
+    solvers::Integrator integrator(turbine.system(), {}, 0, start.start.q, start.start.qd, integration);
+    const RotorLoad rotor = rotor_in_wind(start, [wind = o.wind](double) { return wind; });
+    std::vector<ChannelGroup> channels =
+        turbines::channels(turbine, {{rotor.hub, [rotor](const ForceInput& in) { return rotor.wrench(in); }}});
+    channels.push_back(machine.controlled.channels);
+    channels.push_back(doubly_fed_generator_channels(machine.generator));
+    solvers::Recorder recorder(integrator, std::move(channels));
+    program::Rows rows(
+        "NREL 5 MW machine with a doubly-fed generator under the baseline controller, sag of the voltage",
+        text("wind ", o.wind, " m/s, sag ", o.depth, " at ", o.at, " s for ", o.lasts, " s, ",
+             program::options_text(run), "\n", turbine.rotor().description),
+        run, integrator, recorder);
+    const program::Stopwatch watch;
+    const solvers::Advance end = program::record(integrator, recorder, 0, run.duration, run.step, rows);
+    const program::Elapsed elapsed = watch.elapsed();
+    program::progress("\r                              \r");
+    program::print_largest(rows.history, {"RotSpeed", "GenTq", "RotTorq", "doubly-fed generator power",
+                                          "doubly-fed generator current", "doubly-fed generator rotor voltage"});
+    std::printf("\n");
+    const solvers::EnergyBalance energy = integrator.energy();
+    const double scale = program::largest(rows.history, "kinetic energy").value;
+    bool good = program::check_energy(energy, scale, 10 * o.tolerance);
+    good = program::check("energy lost by the fields, of the largest kinetic energy", energy.state_error / scale,
+                          10 * o.tolerance) &&
+           good;
+    if (end.reached())
+        good = program::check("start in equilibrium: change of rotor speed before the sag", drift(rows.history, o.at),
+                              1e-3) &&
+               good;
+    program::print_effort(integrator, turbine.system(), elapsed);
+    program::write_outputs(rows, out, end.reached(),
+                           {{{"RotSpeed"}},
+                            {{"torque demand", "GenTq"}},
+                            {{"doubly-fed generator power", "doubly-fed generator reactive power"}},
+                            {{"doubly-fed generator current"}},
+                            {{"doubly-fed generator rotor voltage"}},
+                            {{"RotTorq"}}},
+                           {}, {});
+    if (!end.reached()) return 130;
+    return good ? 0 : 1;
+}
+
+}  // namespace cardan::controlled
