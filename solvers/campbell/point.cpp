@@ -243,8 +243,10 @@ void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSyst
 double PointSolver::remainder(double rotor_speed) {
     const SecondOrderSystem& z = current_;
     set_at_azimuth(1.0, rotor_speed, other_);
+    // Derivatives of elements with states may be differences, good to some nine digits.
+    const double states = relative_change(other_.states, z.states, std::abs(rotor_speed));
     return (other_.K - z.K).norm() / std::max(z.K.norm(), std::numeric_limits<double>::min()) +
-           (other_.M - z.M).norm() / z.M.norm();
+           (other_.M - z.M).norm() / z.M.norm() + (states > 1e-7 ? states : 0);
 }
 
 double PointSolver::periodic_remainder(double rotor_speed) {

@@ -133,6 +133,21 @@ void rescale(StateTerms& terms, const Vector& rows, const Vector& states) {
     terms.f_s = (inverse.asDiagonal() * terms.f_s * states.asDiagonal()).eval();
 }
 
+double relative_change(const StateTerms& now, const StateTerms& reference, double rate) {
+    if (reference.size() == 0) return 0;
+    const auto scales = reference.scales.asDiagonal();
+    const auto inverse = reference.scales.cwiseInverse().asDiagonal();
+    const auto ratio = [](double change, double size) { return size > 0 ? change / size : change; };
+    // Norms of the rows of f, 1/s: a block that is nothing but rounding must not count by itself.
+    const double change = (inverse * (now.f_q - reference.f_q)).norm() +
+                          rate * (inverse * (now.f_qd - reference.f_qd)).norm() +
+                          (inverse * (now.f_s - reference.f_s) * scales).norm(),
+                 size = (inverse * reference.f_q).norm() + rate * (inverse * reference.f_qd).norm() +
+                        (inverse * reference.f_s * scales).norm();
+    return std::max(ratio(((now.Q_s - reference.Q_s) * scales).norm(), (reference.Q_s * scales).norm()),
+                    ratio(change, size));
+}
+
 void append_states(SecondOrderSystem& system) {
     const StateTerms& t = system.states;
     const Eigen::Index n = system.M.rows(), m = t.size();

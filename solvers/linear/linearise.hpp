@@ -72,6 +72,10 @@ struct StateTerms {
 /// In other units: equations multiplied by `rows`, x = rows x', s = states s'. The scales of the states stay.
 void rescale(StateTerms& terms, const Vector& rows, const Vector& states);
 
+/// How far terms are from others, relative to these, states over their scales; 0 without states.
+/// @param rate  1/s, > 0, that makes rates and positions alike: the rotor speed
+double relative_change(const StateTerms& now, const StateTerms& reference, double rate);
+
 /// Mass, velocity, stiffness and elastic stiffness over a subset of the coordinates, possibly transformed.
 struct SecondOrderSystem {
     Matrix M, C, K, K_elastic;

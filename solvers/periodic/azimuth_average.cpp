@@ -5,6 +5,7 @@
 #include "solvers/periodic/periodic_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cardan::solvers {
 
@@ -18,17 +19,6 @@ PeriodicSteadyState periodic_state(const System& system, const RotorMap& rotor, 
     PeriodicSteadyState state = harmonic_balance(system, rotor.spin, periodic);
     require_result(state);
     return state;
-}
-
-// Largest deviation of the states' matrices from their mean, each relative to its norm.
-double change_of_states(const StateTerms& at, const StateTerms& mean) {
-    if (mean.size() == 0) return 0;
-    const auto change = [](const Matrix& now, const Matrix& own) {
-        const double norm = own.norm();
-        return norm > 0 ? (now - own).norm() / norm : 0;
-    };
-    return std::max(
-        {change(at.Q_s, mean.Q_s), change(at.f_q, mean.f_q), change(at.f_qd, mean.f_qd), change(at.f_s, mean.f_s)});
 }
 
 OperatingPoint standstill(const System& system, int spin, double azimuth) {
@@ -66,7 +56,7 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
     for (int i = 0; i < options.azimuths; ++i) {
         periodic.at(periodic.period() * i / options.azimuths, at);
         mean.remainder = std::max({mean.remainder, (at.K - m.K).norm() / m.K.norm(), (at.M - m.M).norm() / m.M.norm(),
-                                   change_of_states(at.states, m.states)});
+                                   relative_change(at.states, m.states, std::max(std::abs(speed), 1.0))});
     }
     return mean;
 }

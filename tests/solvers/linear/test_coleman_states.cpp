@@ -118,6 +118,28 @@ TEST_CASE("coleman with states: modes of the coupled rotor are the decays of its
     CHECK(found.size() == expected);
 }
 
+TEST_CASE("coleman with states: a state whose rate changes with the azimuth is told of", "[property]") {
+    const auto warning = [](bool periodic) {
+        SmallRotorSpec spec{.damping = 2, .hinges = BladeHinges::flap_and_lag, .elastic_support = true};
+        spec.more = [periodic](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
+            StateElement sensor{.name = "sensor",
+                                .states = {{.name = "sensor", .unit = "rad/s", .scale = 1}},
+                                .coordinates = {BodyId{0}, BodyId{2}}};  // tilt and spin
+            sensor.rates = [periodic](const StateInput& in, VectorOut, VectorOut f) {
+                f(0) = (periodic ? std::cos(in.q(1)) : 1.0) * in.qd(0) - 2 * in.s(0);
+            };
+            forces.add_states(sensor);
+        };
+        const SmallRotor rotor = small_rotor(spec);
+        CHECK(rotor.map.spin == 2);
+        CampbellOptions options;
+        options.method = CampbellMethod::coleman;
+        return campbell(rotor.system, rotor.map, {1.7}, options).warning;
+    };
+    CHECK_THAT(warning(true), Catch::Contains("not isotropic"));
+    CHECK(warning(false).empty());
+}
+
 TEST_CASE("coleman with states: blades that differ in their states are refused", "[property]") {
     const SmallRotor rotor = rotor_with_lags(0.8);
     std::vector<StateInfo> states(rotor.system.forces.states().begin(), rotor.system.forces.states().end());
