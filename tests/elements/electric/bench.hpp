@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace cardan::testing {
+namespace cardan::testing::electric_bench {
 
 /// Tolerances of circuits: states are as accurate as coordinates.
 inline solvers::IntegrationOptions accurate(double tolerance = 1e-10) {
@@ -98,4 +98,4 @@ inline void check_derivatives(const Tree& tree, const ForceSet& forces, const Ve
     check(exact.states.f_u, other.states.f_u);
 }
 
-}  // namespace cardan::testing
+}  // namespace cardan::testing::electric_bench

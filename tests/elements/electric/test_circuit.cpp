@@ -13,6 +13,7 @@
 namespace cardan::testing::circuits {
 
 using namespace solvers;
+using namespace electric_bench;
 
 namespace {
 

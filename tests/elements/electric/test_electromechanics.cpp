@@ -13,6 +13,7 @@
 namespace cardan::testing::electromechanics {
 
 using namespace solvers;
+using namespace electric_bench;
 
 namespace {
 

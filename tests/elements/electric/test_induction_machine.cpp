@@ -10,6 +10,7 @@
 namespace cardan::testing::induction_machines {
 
 using namespace solvers;
+using namespace electric_bench;
 
 namespace {
 

@@ -10,6 +10,7 @@
 namespace cardan::testing::synchronous_generators {
 
 using namespace solvers;
+using namespace electric_bench;
 
 namespace {
 
