@@ -12,7 +12,7 @@ namespace cardan::controlled {
 
 namespace {
 
-constexpr double speed_allowed = 1e-6;  // part of the rated speed
+constexpr double balance_allowed = 1e-6;  // part of the rated speed
 
 // Machines at one wind after another.
 struct Machines {
@@ -51,7 +51,7 @@ bool keeps_speed(const solvers::Campbell& closed) {
     bool good = true;
     for (std::size_t i = 0; i < closed.points.size(); ++i) {
         const solvers::CampbellPoint& point = closed.points[i];
-        if (std::abs(point.rotor_speed / rated_speed - 1) < speed_allowed && point.stability_margin > 0) continue;
+        if (std::abs(point.rotor_speed / rated_speed - 1) < balance_allowed && point.stability_margin > 0) continue;
         std::printf("at %g m/s: rotor speed %.6f rad/s, stability margin %.4f 1/s\n", closed.parameters[i],
                     point.rotor_speed, point.stability_margin);
         good = false;
