@@ -86,7 +86,7 @@ const char* title(const std::string& study) {
 std::vector<solvers::HistoryPanel> panels(int order) {
     std::vector<solvers::HistoryPanel> all{{{"RotSpeed"}}, {{"GenTq"}}, {{"generator power"}}};
     if (order > 1) {
-        all.back().channels.emplace_back("generator reactive power");
+        all.push_back({{"generator reactive power"}});
         all.push_back({{"generator current"}});
         all.push_back({{"generator voltage"}});
     }
