@@ -64,7 +64,7 @@ ShownUnits shown_units(const Channel& channel, AngleUnits angles) {
 }
 
 ShownUnits with_prefix(std::string_view units, double largest) {
-    constexpr std::array<std::string_view, 5> scaled{"N", "N m", "W", "J", "Pa"};
+    constexpr std::array<std::string_view, 8> scaled{"N", "N m", "W", "J", "Pa", "var", "A", "V"};
     const bool downwards_only = units == "m" || units == "s";
     ShownUnits plain{1, std::string(units)};
     if (!downwards_only && std::find(scaled.begin(), scaled.end(), units) == scaled.end()) return plain;
