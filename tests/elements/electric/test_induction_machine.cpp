@@ -230,7 +230,7 @@ TEST_CASE("induction machine: cut off, it loses its current at once; back again,
     bench.forces.add_states(induction_generator(own));
     const System system = bench.system();
     const ChannelGroup channels = induction_generator_channels(own);
-    Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, 190), accurate(1e-8));
+    Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, 190), accurate(1e-10));
     REQUIRE(run.advance(0.19).reached());
     const double before = sampled(channels, system, run)[3];
     REQUIRE(run.advance(0.21).reached());
