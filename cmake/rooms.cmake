@@ -14,6 +14,7 @@ room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files
 room(elements/sections SEES mbs/model USES boost) # cross sections, reference lines
 room(elements/machine SEES mbs/system) # joints, drives, brakes, generators, stops, loads
 room(elements/control SEES mbs/system) # signals, filters, actuators, controllers
+room(elements/aerodynamics SEES mbs/model USES boost) # polars, wind, blade-element momentum
 room(elements/electric SEES elements/machine elements/control) # circuits, electric machines, the grid
 room(elements/cardan_beam SEES elements/sections elements/machine) # the cardanic joint beam element
 room(elements/reference SEES elements/sections) # other beams to compare with: mixed element, assumed modes

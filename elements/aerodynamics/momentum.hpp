@@ -1,0 +1,54 @@
+/// @file
+/// Blade-element momentum: induction of an annulus.
+#pragma once
+
+#include "elements/aerodynamics/polar.hpp"
+
+namespace cardan {
+
+/// What the balance of momentum takes into account.
+struct MomentumOptions {
+    bool tip_loss = true, hub_loss = true;  ///< Prandtl
+    bool drag = true;                       ///< drag in the balance, both directions
+    bool rotation = true;                   ///< a' of the wake
+};
+
+/// A ring of the rotor and the sections of the blades in it. Axes of a section: x normal to the coned surface,
+/// downwind; z along the blade to its tip; y against the motion.
+struct Annulus {
+    double blades = 3;
+    double radius = 0;  ///< from the shaft's axis, m
+    double chord = 0;   ///< m
+    double angle = 0;   ///< twist and pitch, rad, positive towards feather
+    /// Exponents of Prandtl's losses times |sin phi|: (B/2) (R - z) / z and (B/2) (z - z_h) / z_h, z along the blade, R
+    /// its tip, z_h its root.
+    double tip = 1e300, hub = 1e300;
+    const Polar* polar = nullptr;
+};
+
+/// Of a section, with V_x and V_y the velocity of the air relative to it without induction:
+/// u_x = V_x (1 - a), u_y = V_y (1 + a'), phi = atan2(u_x, u_y), angle of attack phi - angle.
+struct Induction {
+    double axial = 0, tangential = 0;  ///< a, a'
+    double phi = 0;                    ///< rad
+    bool solved = false;               ///< false: no solution, or nothing to solve; see solve_induction()
+};
+
+/// The residual in the single unknown phi [Ning 2014], with Buhl's relation [2005] at high thrust and the branch of a
+/// propeller that brakes: solutions are bracketed, so that there is none that is not found.
+///
+/// Where F = 0 (root and tip with losses) a = 1, a' = 0. Where the air has no speed in one direction, or no bracket has
+/// a sign change, a = a' = 0.
+Induction solve_induction(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
+
+/// The same by plain bisection.
+Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
+
+/// Forces per length, N/m, along x and against y (driving), and the moment about z, N.
+struct SectionForce {
+    double normal = 0, driving = 0, moment = 0;
+    double attack = 0;  ///< rad
+};
+SectionForce section_force(const Annulus& annulus, double V_x, double V_y, const Induction& induction, double density);
+
+}  // namespace cardan

@@ -1,0 +1,156 @@
+#include "elements/aerodynamics/rigid_rotor.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/model/spatial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cardan {
+
+namespace {
+
+Mat3 about_x(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return Mat3{{1, 0, 0}, {0, c, -s}, {0, s, c}};
+}
+Mat3 about_y(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return Mat3{{c, 0, s}, {0, 1, 0}, {-s, 0, c}};
+}
+Mat3 about_z(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return Mat3{{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+}
+
+// Where a blade is and what it feels.
+struct PlacedBlade {
+    Mat3 axes;  // ground, of the coned blade
+    std::vector<SectionAir> sections;
+    std::vector<Annulus> annuli;
+};
+
+class Evaluation {
+public:
+    Evaluation(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed, double azimuth,
+               double pitch, const RotorAirOptions& options)
+        : blade_(blade), pose_(pose), wind_(wind), options_(options), shaft_(about_z(pose.yaw) * about_y(pose.tilt)) {
+        for (int k = 0; k < pose.blades; ++k) place(azimuth + 2 * pi * k / pose.blades, speed, pitch);
+    }
+
+    RotorAir result() {
+        RotorAir out;
+        const Vec3 wind = mean_wind_ / static_cast<double>(blades_.size() * blade_.sections());
+        const double normal = wind.dot(shaft_.col(0));
+        out.skew = wind.norm() > 0 ? std::acos(std::clamp(normal / wind.norm(), -1.0, 1.0)) : 0;
+        for (PlacedBlade& own : blades_) {
+            find_inductions(own, out.skew, wind - normal * shaft_.col(0));
+            add_loads(own, out);
+            out.sections.push_back(own.sections);
+        }
+        return out;
+    }
+
+private:
+    void place(double azimuth, double speed, double pitch) {
+        PlacedBlade own{shaft_ * about_x(azimuth) * about_y(pose_.cone), {}, {}};
+        const double root = blade_.position.front(), tip = blade_.position.back(), B = pose_.blades;
+        for (std::size_t i = 0; i < blade_.sections(); ++i) {
+            const double z = blade_.position[i];
+            const Vec3 arm = z * own.axes.col(2), air = wind_.at(pose_.hub + arm),
+                       relative = air - speed * cross<double>(shaft_.col(0), arm);
+            mean_wind_ += air;
+            SectionAir& section = own.sections.emplace_back();
+            section.V_x = relative.dot(own.axes.col(0));
+            section.V_y = relative.dot(own.axes.col(1));
+            own.annuli.push_back({.blades = B,
+                                  .radius = z * std::cos(pose_.cone),
+                                  .chord = blade_.chord[i],
+                                  .angle = blade_.twist[i] + pitch,
+                                  .tip = B / 2 * (tip - z) / z,
+                                  .hub = B / 2 * (z - root) / root,
+                                  .polar = &blade_.polars[blade_.profile[i]]});
+        }
+        blades_.push_back(std::move(own));
+    }
+
+    // @param side  the mean wind in the plane of the rotor
+    void find_inductions(PlacedBlade& own, double skew, const Vec3& side) const {
+        const Vec3 span = own.axes.col(2) - own.axes.col(2).dot(shaft_.col(0)) * shaft_.col(0);
+        const double sine = side.norm() > 0 ? span.dot(side) / (span.norm() * side.norm()) : 0,
+                     largest = own.annuli.back().radius;
+        for (std::size_t i = 0; i < own.sections.size(); ++i) {
+            SectionAir& section = own.sections[i];
+            Induction& found = section.induction;
+            found.phi = std::atan2(section.V_x, section.V_y);
+            if (options_.induction) found = solve_induction(own.annuli[i], section.V_x, section.V_y, options_.momentum);
+            if (options_.skew == Skew::pitt_peters && found.solved) {
+                const double chi = (0.6 * found.axial + 1) * skew;
+                found.axial *= 1 + 15 * pi / 32 * std::tan(chi / 2) * own.annuli[i].radius / largest * sine;
+                found.phi = std::atan2(section.V_x * (1 - found.axial), section.V_y * (1 + found.tangential));
+            }
+            section.force = section_force(own.annuli[i], section.V_x, section.V_y, found, wind_.density);
+        }
+    }
+
+    // Forces per length are linear between sections, and so are places: Simpson's rule is exact.
+    void add_loads(const PlacedBlade& own, RotorAir& out) const {
+        Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // about the hub's centre, axes of the blade
+        const auto at = [&](std::size_t i) {
+            const SectionForce& f = own.sections[i].force;
+            return Vec3(f.normal, -f.driving, 0);
+        };
+        for (std::size_t i = 0; i + 1 < own.sections.size(); ++i) {
+            const double z0 = blade_.position[i], z1 = blade_.position[i + 1], h = z1 - z0;
+            const Vec3 f0 = at(i), f1 = at(i + 1), middle = (f0 + f1) / 2, up = Vec3::UnitZ();
+            force += h * middle;
+            moment += h / 6 * cross<double>(up, z0 * f0 + 2 * (z0 + z1) * middle + z1 * f1);
+            moment.z() += h / 2 * (own.sections[i].force.moment + own.sections[i + 1].force.moment);
+        }
+        const Vec3 to_root = blade_.position.front() * Vec3::UnitZ();
+        out.roots.push_back({force, moment - cross<double>(to_root, force)});
+        const Mat3 to_shaft = shaft_.transpose() * own.axes;
+        out.force += to_shaft * force;
+        out.moment += to_shaft * moment;
+    }
+
+    const AeroBlade& blade_;
+    const RotorPose& pose_;
+    const SteadyWind& wind_;
+    const RotorAirOptions& options_;
+    Mat3 shaft_;
+    std::vector<PlacedBlade> blades_;
+    Vec3 mean_wind_ = Vec3::Zero();
+};
+
+}  // namespace
+
+void AeroBlade::check() const {
+    constexpr const char* here = "aerodynamic blade";
+    const std::size_t n = sections();
+    if (n < 2) throw InputError(here, "number of sections", n, "at least 2");
+    if (chord.size() != n || twist.size() != n || profile.size() != n)
+        throw InputError(here, "lengths of the columns",
+                         text(n, ", ", chord.size(), ", ", twist.size(), ", ", profile.size()), "equal");
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::string section = text(here, ", section ", i + 1);
+        require_positive(section, "place from the hub's centre [m]", position[i]);
+        require_positive(section, "chord [m]", chord[i]);
+        if (!std::isfinite(twist[i])) throw InputError(section, "twist [rad]", twist[i], "finite");
+        if (i > 0 && !(position[i] > position[i - 1]))
+            throw InputError(section, "place from the hub's centre [m]", position[i],
+                             text("> ", position[i - 1], ", that of the section before"));
+        if (profile[i] >= polars.size())
+            throw InputError(section, "profile", profile[i], text("0 ... ", static_cast<long>(polars.size()) - 1));
+    }
+}
+
+RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed,
+                         double azimuth, double pitch, const RotorAirOptions& options) {
+    blade.check();
+    wind.check();
+    if (pose.blades < 1) throw InputError("rotor", "number of blades", pose.blades, ">= 1");
+    return Evaluation(blade, pose, wind, speed, azimuth, pitch, options).result();
+}
+
+}  // namespace cardan
