@@ -34,7 +34,7 @@ int main() try {
     solvers::Recorder recorder(run, {coil.channels()});
     solvers::History history;
     history.title = "A plunger is drawn into a coil";
-    require_result(solvers::record(run, recorder, solvers::sample_times(0, 0.2, 2e-4), history));
+    require_result(solvers::record(run, recorder, solvers::sample_times(0, 0.5, 5e-4), history));
     solvers::plot(history, {{{"position"}}, {{"coil current"}}}, "plunger.svg");
 
     const double x = run.state().q(0), i = history["coil current"].back(), force = i * i * inductance(x).slope / 2;
