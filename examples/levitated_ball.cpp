@@ -53,7 +53,7 @@ int main() {
     solvers::Recorder recorder(run, {magnet.channels()});
     solvers::History history;
     history.title = "A ball under a magnet, dropped 2 mm too low";
-    require_result(solvers::record(run, recorder, solvers::sample_times(0, 0.3, 1e-3), history));
+    require_result(solvers::record(run, recorder, solvers::sample_times(0, 1, 2e-3), history));
     solvers::plot(history, {{{"gap"}}, {{"coil current"}}}, "levitated_ball.svg");
     std::printf("gap at the end %.6f mm too large; error of the balance of the field %.0e J\n", 1e3 * run.state().q(0),
                 run.energy().state_error);

@@ -13,7 +13,7 @@
 using namespace cardan;
 
 int main() try {
-    constexpr double m = 0.05, k = 2e4, d = 12, L0 = 0.05, a = 0.02, R = 6, V = 24;  // kg, N/m, N s/m, H, m, ohm, V
+    constexpr double m = 0.05, k = 2e4, d = 40, L0 = 0.05, a = 0.02, R = 6, V = 24;  // kg, N/m, N s/m, H, m, ohm, V
     const CurveOf inductance = [](double x) {
         const double y = 1 + x / a;
         return Curve{L0 / (y * y), -2 * L0 / (a * y * y * y), 6 * L0 / (a * a * y * y * y * y)};
@@ -34,7 +34,7 @@ int main() try {
     solvers::Recorder recorder(run, {coil.channels()});
     solvers::History history;
     history.title = "A plunger is drawn into a coil";
-    require_result(solvers::record(run, recorder, solvers::sample_times(0, 0.06, 1e-4), history));
+    require_result(solvers::record(run, recorder, solvers::sample_times(0, 0.5, 5e-4), history));
     solvers::plot(history, {{{"position"}}, {{"coil current"}}}, "plunger.svg");
 
     const double x = run.state().q(0), i = history["coil current"].back(), force = i * i * inductance(x).slope / 2;

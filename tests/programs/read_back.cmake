@@ -25,6 +25,7 @@ if(CARDAN_PEER_PYTHON)
     add_read_back(read_back_floquet read_back_floquet read_back_floquet.h5 --campbell read_back_floquet.csv)
     add_read_back(read_back_model read_back_model read_back_model.h5)
     add_read_back(read_back_run "read_back_run;read_back_table" read_back_run.h5 --history read_back_run.csv)
+    set_tests_properties(read_back_run PROPERTIES LABELS slow) # half a minute
 
     foreach(document IN ITEMS file_formats linear_models)
         add_test(NAME python_snippets_${document}

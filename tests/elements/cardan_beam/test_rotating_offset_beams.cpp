@@ -135,7 +135,7 @@ constexpr double cardanic_error = 3e-6, mixed_error = 5e-5;
 
 TEST_CASE(
     "spinning beam: mass and tension centre off the line, coned, twisted, it converges with order 2 to the exact rod",
-    "[analytic]") {
+    "[analytic][slow]") {
     for (const SpinningRod& setting : {aft(), fore()}) {
         const Spun limit = exact(setting);
         check_order_2(setting, limit, cardanic, cardanic_error);
@@ -209,7 +209,7 @@ TEST_CASE(
 }
 
 TEST_CASE("spinning beam: with the shear centre off the line too, it converges with order 2 to the exact rod",
-          "[analytic]") {
+          "[analytic][slow]") {
     // Torsion about a shear centre beside the line shears the line by gamma = e kappa_x; hinges on the line would tilt
     // the bodies between them by gamma / (1 - 2 delta), with any number of elements. They lie on the shear centres.
     SpinningRod setting = fore();
@@ -226,7 +226,7 @@ TEST_CASE("spinning beam: with the shear centre off the line too, it converges w
 
 TEST_CASE(
     "spinning beam: flexible in shear it converges with order 2 to the exact rod, tapered and with all partitions",
-    "[analytic]") {
+    "[analytic][slow]") {
     // EA / 10 in shear; the axial force is up to 6 % of that.
     SpinningRod setting = fore();
     setting.cone = 0, setting.speed = 6;
@@ -255,7 +255,7 @@ TEST_CASE(
 }
 
 TEST_CASE("spinning beam: flexible in shear with masses off the line it converges to the exact rod, at rest too",
-          "[analytic]") {
+          "[analytic][slow]") {
     // Shear turns the bodies between the hinges and not the sections: with the masses left on them the limit is off by
     // several per cent in the third to fifth frequency. The second offset asks of the end bodies more rotary inertia
     // than the sections have, so that a part stays.

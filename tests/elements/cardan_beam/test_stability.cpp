@@ -179,7 +179,7 @@ TEST_CASE("lateral buckling of a deep cantilever under a tip force: Prandtl's 4.
 TEST_CASE(
     "lateral buckling along the load path: the deflection before buckling raises the load as the bent Kirchhoff "
     "rod does",
-    "[analytic]") {
+    "[analytic][slow]") {
     const auto on_path = [](int elements, double EI_y) {
         const Narrow narrow(elements, sixth, EI_y);
         LoadPathOptions options;

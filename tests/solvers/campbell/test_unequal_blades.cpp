@@ -222,7 +222,7 @@ TEST_CASE("unequal blades: what needs multi-blade coordinates is refused with th
 }
 
 TEST_CASE("unequal blades: automatic diagrams have the exponents of a brute-force integration in blade coordinates",
-          "[crosscheck]") {
+          "[crosscheck][slow]") {
     Random random(11);
     int floquet = 0;
     for (int i = 0; i < 12; ++i) {

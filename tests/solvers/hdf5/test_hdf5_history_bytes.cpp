@@ -124,7 +124,7 @@ void check(const Survival& outcome, std::size_t changes) {
 
 }  // namespace
 
-TEST_CASE("history: one changed byte is noticed or does not matter", "[property]") {
+TEST_CASE("history: one changed byte is noticed or does not matter", "[property][slow]") {
     const Folder folder;
     write_small(folder / "a.h5", 40, 16);
     Campaign campaign(folder / "a.h5", 40);

@@ -145,7 +145,7 @@ TEST_CASE("read back: histories", "[peers]") {
     CHECK_THAT(said_of(folder, folder / "a.h5", expected), StartsWith("ok: "));
 }
 
-TEST_CASE("read back: Campbell diagrams", "[peers]") {
+TEST_CASE("read back: Campbell diagrams", "[peers][slow]") {
     if (!ReadBack::possible()) return;
     const Folder folder;
     const SmallRotor rotor = small_rotor({.damping = 4, .elastic_support = true});
@@ -187,7 +187,7 @@ TEST_CASE("read back: Campbell diagrams by Floquet theory and over a parameter",
     CHECK_THAT(said_of(folder, folder / "p.h5"), StartsWith("ok: "));
 }
 
-TEST_CASE("read back: linear models, with constant ones of other sizes beside the periodic one", "[peers]") {
+TEST_CASE("read back: linear models, with constant ones of other sizes beside the periodic one", "[peers][slow]") {
     if (!ReadBack::possible()) return;
     const Folder folder;
     const SmallRotor rotor = small_rotor({.damping = 4, .elastic_support = true});

@@ -247,7 +247,7 @@ TEST_CASE("NREL 5 MW assumed modes: in rotation the modes of the geometrically e
 }
 
 TEST_CASE("NREL 5 MW assumed modes: in rotation the exact frequencies, with steady stretch and deflection added",
-          "[analytic]") {
+          "[analytic][slow]") {
     const std::array<Vector, 2> exact{(Vector(6) << 0.6904, 1.0875, 1.9663, 4.0015, 4.5287, 5.4719).finished(),
                                       (Vector(6) << 0.7288, 1.0936, 2.0105, 4.0173, 4.5676, 5.4753).finished()};
     const BeamLine line = nrel5mw_blade().line;
