@@ -3,6 +3,7 @@
 /// <!-- given: turbine, integrator -->
 #pragma once
 
+#include "elements/aerodynamics/polar.hpp"
 #include "elements/machine/joints.hpp"
 #include "solvers/time/recorder.hpp"
 #include "turbines/machines/wt600.hpp"
@@ -13,6 +14,7 @@ extern const cardan::Tree tree;
 extern const cardan::JointedFrame slide;
 extern const cardan::BodyId shaft;
 extern cardan::ForceSet forces;
+extern const cardan::Polar polar;
 extern std::vector<cardan::solvers::Drive> drives;
 extern cardan::solvers::IntegrationOptions options;
 extern cardan::solvers::Integrator integrator;
