@@ -52,7 +52,7 @@ struct SynchronousLaw {
     template <class S>
     struct Point {
         Phasor<S> current, voltage;
-        S torque, machine_power, grid_power, chopper_power, wanted, delivered;
+        S torque{}, machine_power{}, grid_power{}, chopper_power{}, wanted{}, delivered{};
     };
     template <class S>
     S chopper_power(const S& u) const {
