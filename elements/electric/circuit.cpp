@@ -151,6 +151,7 @@ std::vector<BodyId> Circuit::coordinates() const {
 
 detail::CircuitLoops Circuit::loops() const {
     std::vector<detail::CircuitEdge> edges;
+    edges.reserve(branches_.size());
     for (const Branch& branch : branches_)
         edges.push_back({branch.name, branch.from, branch.to, static_cast<int>(branch.kind)});
     detail::CircuitLoops loops = detail::circuit_loops(edges, static_cast<int>(nodes_.size()));
@@ -165,6 +166,7 @@ detail::CircuitLoops Circuit::loops() const {
 
 std::vector<std::string> Circuit::states() const {
     std::vector<std::string> names;
+    names.reserve(branches_.size());
     for (const std::size_t link : loops().links)
         if (branches_[link].kind == Kind::winding) names.push_back(branches_[link].name + " flux");
     for (const Capacitor& capacitor : capacitors_) names.push_back(capacitor.name + " voltage");

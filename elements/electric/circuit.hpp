@@ -81,7 +81,7 @@ public:
     void add_inductance(const Inductance& inductance);
     /// Flux linkage curve(q), V s, of a winding with permanent magnets that move. Of a motor with a commutator:
     /// constant slope, N m/A.
-    void add_magnet(std::string_view winding, BodyId coordinate, CurveOf curve);
+    void add_magnet(std::string_view winding_name, BodyId coordinate, CurveOf curve);
 
     /// The equations, to be added to a ForceSet.
     /// @throws InputError naming the place: loops of sources alone or with capacitors, an inductance matrix of the

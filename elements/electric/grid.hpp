@@ -41,7 +41,7 @@ struct Grid {
     /// The grid with a disturbance more; they multiply and add up.
     /// Voltage lower by `depth` (0.5: half is left) from `start` for `duration`.
     Grid with_sag(double depth, double start, double duration) const;
-    Grid with_phase_jump(double angle, double time) const;
+    Grid with_phase_jump(double jump, double at) const;
     /// Frequency other by `hertz` from `start` on, for `duration`.
     Grid with_frequency_change(double hertz, double start, double duration) const;
     Grid with_interruption(double start, double duration) const;

@@ -52,7 +52,7 @@ struct SynchronousLaw {
     template <class S>
     struct Point {
         Phasor<S> current, voltage;
-        S torque, machine_power, grid_power, chopper_power, wanted, delivered;
+        S torque{}, machine_power{}, grid_power{}, chopper_power{}, wanted{}, delivered{};
     };
     template <class S>
     S chopper_power(const S& u) const {
@@ -103,65 +103,71 @@ struct SynchronousLaw {
     }
 };
 
-void check(const SynchronousGenerator& own) {
-    const std::string& name = own.name;
+void check(const SynchronousGenerator& generator) {
+    const std::string& name = generator.name;
     if (name.empty()) throw InputError("electric machine: the name is missing");
-    if (!std::isfinite(own.gear_ratio) || own.gear_ratio == 0)
-        throw InputError(name, "gear ratio", own.gear_ratio, "finite and not zero");
-    if (own.machine.pole_pairs < 1) throw InputError(name, "number of pole pairs", own.machine.pole_pairs, ">= 1");
-    require_not_negative(name, "resistance [ohm]", own.machine.resistance);
-    require_positive(name, "inductance of axis d [H]", own.machine.inductance_d);
-    require_positive(name, "inductance of axis q [H]", own.machine.inductance_q);
-    require_positive(name, "flux of the magnets [V s]", own.machine.magnet_flux);
-    require_positive(name, "voltage of the DC link [V]", own.link.voltage);
-    require_positive(name, "capacitance of the DC link [F]", own.link.capacitance);
-    require_positive(name, "bandwidth of the DC link [rad/s]", own.link.bandwidth);
-    require_not_negative(name, "resistance of the chopper [ohm]", own.link.chopper);
-    if (!(own.link.chopper_voltage > 1))
-        throw InputError(name, "voltage at which the chopper begins, over that of the link", own.link.chopper_voltage,
-                         "> 1");
-    require_positive(name, "bandwidth of the currents [rad/s]", own.bandwidth);
-    require_positive(name, "limit of the current on the grid's side [A]", own.current_limit);
-    require_positive(name, "lag of the current on the grid's side [s]", own.current_lag);
-    own.grid.check(name);
+    if (!std::isfinite(generator.gear_ratio) || generator.gear_ratio == 0)
+        throw InputError(name, "gear ratio", generator.gear_ratio, "finite and not zero");
+    if (generator.machine.pole_pairs < 1)
+        throw InputError(name, "number of pole pairs", generator.machine.pole_pairs, ">= 1");
+    require_not_negative(name, "resistance [ohm]", generator.machine.resistance);
+    require_positive(name, "inductance of axis d [H]", generator.machine.inductance_d);
+    require_positive(name, "inductance of axis q [H]", generator.machine.inductance_q);
+    require_positive(name, "flux of the magnets [V s]", generator.machine.magnet_flux);
+    require_positive(name, "voltage of the DC link [V]", generator.link.voltage);
+    require_positive(name, "capacitance of the DC link [F]", generator.link.capacitance);
+    require_positive(name, "bandwidth of the DC link [rad/s]", generator.link.bandwidth);
+    require_not_negative(name, "resistance of the chopper [ohm]", generator.link.chopper);
+    if (!(generator.link.chopper_voltage > 1))
+        throw InputError(name, "voltage at which the chopper begins, over that of the link",
+                         generator.link.chopper_voltage, "> 1");
+    require_positive(name, "bandwidth of the currents [rad/s]", generator.bandwidth);
+    require_positive(name, "limit of the current on the grid's side [A]", generator.current_limit);
+    require_positive(name, "lag of the current on the grid's side [s]", generator.current_lag);
+    generator.grid.check(name);
 }
 
-SynchronousLaw law_of(const SynchronousGenerator& own) {
-    return {own.machine,
-            own.link,
-            own.grid,
-            own.gear_ratio,
-            own.bandwidth,
-            own.current_lag,
-            {.lower = -own.current_limit, .upper = own.current_limit}};
+SynchronousLaw law_of(const SynchronousGenerator& generator) {
+    return {generator.machine,
+            generator.link,
+            generator.grid,
+            generator.gear_ratio,
+            generator.bandwidth,
+            generator.current_lag,
+            {.lower = -generator.current_limit, .upper = generator.current_limit}};
 }
 
 }  // namespace
 
-StateElement synchronous_generator(const SynchronousGenerator& own) {
-    check(own);
-    const PermanentMagnetMachine& m = own.machine;
-    const double peak = own.grid.peak(), current = -own.running_torque / (1.5 * m.pole_pairs * m.magnet_flux),
+StateElement synchronous_generator(const SynchronousGenerator& generator) {
+    check(generator);
+    const PermanentMagnetMachine& m = generator.machine;
+    const double peak = generator.grid.peak(),
+                 current = -generator.running_torque / (1.5 * m.pole_pairs * m.magnet_flux),
                  delivered =
-                     (own.running_torque * own.running_speed - 1.5 * m.resistance * current * current) / (1.5 * peak);
-    if (std::abs(delivered) > own.current_limit)
-        throw InputError(own.name, "current on the grid's side at the start [A]", delivered,
-                         text("at most the limit, ", own.current_limit));
-    StateElement element{.name = own.name, .coordinates = {own.shaft}};
+                     (generator.running_torque * generator.running_speed - 1.5 * m.resistance * current * current) /
+                     (1.5 * peak);
+    if (std::abs(delivered) > generator.current_limit)
+        throw InputError(generator.name, "current on the grid's side at the start [A]", delivered,
+                         text("at most the limit, ", generator.current_limit));
+    StateElement element{.name = generator.name, .coordinates = {generator.shaft}};
     const auto state = [&](const char* what, const char* unit, double scale, double initial) {
-        element.states.push_back(
-            {.name = text(own.name, " ", what), .unit = unit, .scale = scale, .initial = initial, .part = "generator"});
+        element.states.push_back({.name = text(generator.name, " ", what),
+                                  .unit = unit,
+                                  .scale = scale,
+                                  .initial = initial,
+                                  .part = "generator"});
     };
-    const double drop = own.link.voltage / 20;
+    const double drop = generator.link.voltage / 20;
     state("flux d", "V s", m.magnet_flux, 0);
     state("flux q", "V s", m.magnet_flux, m.inductance_q * current);
     state("converter d", "V", drop, 0);
     state("converter q", "V", drop, m.resistance * current);
-    state("link voltage", "V", own.link.voltage, own.link.voltage);
-    state("link control", "A", own.current_limit, delivered);
-    state("grid current", "A", own.current_limit, delivered);
-    element.breaks = own.grid.all_breaks();
-    const auto functions = detail::set_law(element, law_of(own), {own.torque});
+    state("link voltage", "V", generator.link.voltage, generator.link.voltage);
+    state("link control", "A", generator.current_limit, delivered);
+    state("grid current", "A", generator.current_limit, delivered);
+    element.breaks = generator.grid.all_breaks();
+    const auto functions = detail::set_law(element, law_of(generator), {generator.torque});
     element.power = [functions](const StateInput& in) {
         const auto x = functions->values<double>(in);
         return functions->law().power(functions->at(in.time, x));
@@ -169,21 +175,25 @@ StateElement synchronous_generator(const SynchronousGenerator& own) {
     return element;
 }
 
-ChannelGroup synchronous_generator_channels(const SynchronousGenerator& own) {
+ChannelGroup synchronous_generator_channels(const SynchronousGenerator& generator) {
     ChannelGroup group;
     const auto channel = [&](const char* what, const char* units, const char* long_name, std::string alias = {}) {
-        group.channels.push_back(
-            {.name = text(own.name, " ", what), .units = units, .long_name = long_name, .alias = std::move(alias)});
+        group.channels.push_back({.name = text(generator.name, " ", what),
+                                  .units = units,
+                                  .long_name = long_name,
+                                  .alias = std::move(alias)});
     };
-    channel("torque", "N m", "electromagnetic torque of the generator on its own shaft, positive: braking", own.alias);
+    channel("torque", "N m", "electromagnetic torque of the generator on its generator shaft, positive: braking",
+            generator.alias);
     channel("power", "W", "electric power into the grid");
     channel("machine power", "W", "electric power of the machine into the DC link");
     channel("chopper power", "W", "power that the resistor at the DC link burns");
     channel("current", "A", "current of a phase of the machine, root mean square");
     channel("voltage", "V", "voltage of the grid between lines, root mean square");
-    StateElement seen{.name = own.name, .states = synchronous_generator(own).states, .coordinates = {own.shaft}};
-    const auto functions =
-        std::make_shared<const detail::LawFunctions<SynchronousLaw>>(law_of(own), std::vector{own.torque}, seen);
+    StateElement seen{
+        .name = generator.name, .states = synchronous_generator(generator).states, .coordinates = {generator.shaft}};
+    const auto functions = std::make_shared<const detail::LawFunctions<SynchronousLaw>>(
+        law_of(generator), std::vector{generator.torque}, seen);
     group.sample = [functions, seen = std::move(seen)](const ChannelInput& in, double* values) {
         const detail::ElementValues own_values(seen, in);
         const StateInput input = own_values.input();

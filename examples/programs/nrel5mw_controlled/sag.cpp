@@ -45,32 +45,32 @@ double drift(const solvers::History& history, double until) {
 
 }  // namespace
 
-int sag(const MachineOptions& options, const SagOptions& o, const std::string& out) {
-    require_not_negative("--at", "value [s]", o.at);
-    require_positive("--for", "value [s]", o.lasts);
-    winds("--wind", text(o.wind));
+int sag(const MachineOptions& machine, const SagOptions& options, const std::string& out) {
+    require_not_negative("--at", "value [s]", options.at);
+    require_positive("--for", "value [s]", options.lasts);
+    winds("--wind", text(options.wind));
     program::RunArguments run;
-    run.duration = o.duration;
-    run.step = o.step;
-    run.tolerance = o.tolerance;
+    run.duration = options.duration;
+    run.step = options.step;
+    run.tolerance = options.tolerance;
     run.out = out;
     program::check_run_options(run);
     program::check_outputs(out, program::run_outputs);
-    const Plant start = plant(options, o.wind);
-    const Machine machine = machine_in_sag(start, o);
-    const turbines::Turbine& turbine = machine.controlled.turbine;
+    const Plant start = plant(machine, options.wind);
+    const Machine own = machine_in_sag(start, options);
+    const turbines::Turbine& turbine = own.controlled.turbine;
     solvers::IntegrationOptions integration = program::integration_options(run);
-    integration.controllers = {machine.controlled.controller};
+    integration.controllers = {own.controlled.controller};
     solvers::Integrator integrator(turbine.system(), {}, 0, start.start.q, start.start.qd, integration);
-    const RotorLoad rotor = rotor_in_wind(start, [wind = o.wind](double) { return wind; });
+    const RotorLoad rotor = rotor_in_wind(start, [wind = options.wind](double) { return wind; });
     std::vector<ChannelGroup> channels =
         turbines::channels(turbine, {{rotor.hub, [rotor](const ForceInput& in) { return rotor.wrench(in); }}});
-    channels.push_back(machine.controlled.channels);
-    channels.push_back(doubly_fed_generator_channels(machine.generator));
+    channels.push_back(own.controlled.channels);
+    channels.push_back(doubly_fed_generator_channels(own.generator));
     solvers::Recorder recorder(integrator, std::move(channels));
     program::Rows rows(
         "NREL 5 MW machine with a doubly-fed generator under the baseline controller, sag of the voltage",
-        text("wind ", o.wind, " m/s, sag ", o.depth, " at ", o.at, " s for ", o.lasts, " s, ",
+        text("wind ", options.wind, " m/s, sag ", options.depth, " at ", options.at, " s for ", options.lasts, " s, ",
              program::options_text(run), "\n", turbine.rotor().description),
         run, integrator, recorder);
     const program::Stopwatch watch;
@@ -82,13 +82,13 @@ int sag(const MachineOptions& options, const SagOptions& o, const std::string& o
     std::printf("\n");
     const solvers::EnergyBalance energy = integrator.energy();
     const double scale = program::largest(rows.history, "kinetic energy").value;
-    bool good = program::check_energy(energy, scale, 10 * o.tolerance);
+    bool good = program::check_energy(energy, scale, 10 * options.tolerance);
     good = program::check("energy lost by the fields, of the largest kinetic energy", energy.state_error / scale,
-                          10 * o.tolerance) &&
+                          10 * options.tolerance) &&
            good;
     if (end.reached())
-        good = program::check("start in equilibrium: change of rotor speed before the sag", drift(rows.history, o.at),
-                              1e-3) &&
+        good = program::check("start in equilibrium: change of rotor speed before the sag",
+                              drift(rows.history, options.at), 1e-3) &&
                good;
     program::print_effort(integrator, turbine.system(), elapsed);
     program::write_outputs(rows, out, end.reached(),

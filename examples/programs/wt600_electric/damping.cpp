@@ -12,6 +12,7 @@
 #include "examples/shared/words.hpp"
 #include <cstdio>
 #include <iostream>
+#include <numeric>
 #include <optional>
 
 namespace cardan::electric {
@@ -68,8 +69,8 @@ solvers::Mode torsion_at(const turbines::Turbine& turbine, double speed) {
     const int spin = turbine.rotor().spin;
     const solvers::SteadyState steady = solvers::steady_state(system, spin, {.rotor_speed = speed});
     require_result(steady, "steady state");
-    std::vector<int> all;
-    for (int i = 0; i < system.model.size(); ++i) all.push_back(i);
+    std::vector<int> all(static_cast<std::size_t>(system.model.size()));
+    std::iota(all.begin(), all.end(), 0);
     const solvers::Linearisation lin = solvers::linearise(system, steady.at);
     const solvers::ColemanTransform coleman(turbine.rotor(), all, lin.states);
     const solvers::SecondOrderSystem fixed =
@@ -98,6 +99,7 @@ int damping(const MotionOptions& machine, const DampingOptions& options) {
         std::printf("\n");
     }
     std::vector<solvers::CampbellCase> cases;
+    cases.reserve(speeds.size());
     for (std::size_t i = 0; i < speeds.size(); ++i)
         cases.push_back({&fifth[i].system(), &fifth[i].rotor(), speeds[i] * units::rpm, speeds[i]});
     solvers::CampbellOptions campbell;

@@ -15,6 +15,6 @@ struct MotionOptions {
 
 /// @param study  "start", "loss" or "sag"
 /// @return exit code
-int motion(const std::string& study, const MotionOptions& options);
+int motion(const std::string& study, const MotionOptions& given);
 
 }  // namespace cardan::electric
