@@ -56,7 +56,7 @@ double VariableSpeedController::torque(double speed, double pitch) const {
 
 VariableSpeedController::Demand VariableSpeedController::step(const Measured& now) {
     const VariableSpeedParameters& p = own_;
-    double &speed = memory_[filtered_speed], &sum = memory_[integral];
+    double &speed = memory_[filtered_speed], &sum = memory_[pitch_integral];
     if (memory_[started] == 0) {
         memory_[started] = 1;
         speed = now.generator_speed;

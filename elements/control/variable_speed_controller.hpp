@@ -78,7 +78,7 @@ public:
     const VariableSpeedParameters& parameters() const { return own_; }
 
 private:
-    enum Memory : std::size_t { started, filtered_speed, integral, torque_before, pitch_before, count };
+    enum Memory : std::size_t { started, filtered_speed, pitch_integral, torque_before, pitch_before, count };
 
     VariableSpeedParameters own_;
     std::array<double, count> memory_{};

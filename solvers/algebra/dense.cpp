@@ -65,6 +65,7 @@ void factor(Matrix& A, Exchanged&& exchanged) {
 // B := L^-1 B and U^-1 B, block by block of the factors.
 void solve_lower_factor(const Matrix& A, double* B, Index columns) {
     const Index n = A.rows();
+    if (columns == 0) return;  // B may have no memory then
     for (Index k = 0; k < n; k += product_depth) {
         const Index block = std::min(product_depth, n - k), end = k + block;
         solve_unit_lower(block, A.data() + k * (n + 1), n, columns, B + k, n);
@@ -73,6 +74,7 @@ void solve_lower_factor(const Matrix& A, double* B, Index columns) {
 }
 void solve_upper_factor(const Matrix& A, double* B, Index columns) {
     const Index n = A.rows();
+    if (columns == 0) return;
     for (Index end = n; end > 0;) {
         const Index k = (end - 1) / product_depth * product_depth, block = end - k;
         solve_upper(block, A.data() + k * (n + 1), n, columns, B + k, n);
