@@ -136,7 +136,8 @@ TEST_CASE("blade-element momentum: a solution by bisection is the same, for any 
                         .polar = &blade.polars[static_cast<std::size_t>(number(0, 8))]};
         const double V_x = number(-5, 25), V_y = number(-2, 90);
         const Induction fast = solve_induction(annulus, V_x, V_y), plain = solve_induction_plainly(annulus, V_x, V_y);
-        CAPTURE(V_x, V_y, annulus.angle, annulus.chord, annulus.radius, annulus.tip, annulus.hub, annulus.polar->name(), fast.phi, plain.phi);
+        CAPTURE(V_x, V_y, annulus.angle, annulus.chord, annulus.radius, annulus.tip, annulus.hub, annulus.polar->name(),
+                fast.phi, plain.phi);
         CHECK(fast.solved == plain.solved);
         solved += fast.solved;
         CHECK(std::isfinite(fast.phi));
