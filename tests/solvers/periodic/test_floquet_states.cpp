@@ -66,9 +66,11 @@ std::vector<Complex> by_runge_kutta(const PeriodicSystem& system, int steps) {
     return all;
 }
 
-// Those of motions that do not fall below rounding in a period.
+// Those of motions that are far above rounding after a period of 3.7 s, exp(-2.5 t): three lags decay faster, and
+// rounding alone moves their exponents by 1e-7 1/s in the product of thousands of steps.
 std::vector<Complex> lasting(std::vector<Complex> exponents) {
-    std::erase_if(exponents, [](Complex one) { return one.real() < -3.5; });
+    std::erase_if(exponents, [](Complex one) { return one.real() < -2.5; });
+    CHECK(exponents.size() >= 12);
     return exponents;
 }
 
@@ -146,8 +148,8 @@ TEST_CASE("Floquet with states: two blades under gravity against Runge-Kutta's m
     const std::vector<Complex> brute_force = by_runge_kutta(system, 8000);
     const Floquet whole = floquet(system), half = floquet(system, {.symmetry = blades}),
                   balanced = hill(system, {.harmonics = 14});
-    CHECK(one_way(lasting(exponents(whole)), brute_force, Omega) < 1e-7);
-    CHECK(one_way(lasting(brute_force), exponents(whole), Omega) < 1e-7);
+    CHECK(one_way(lasting(exponents(whole)), brute_force, Omega) < 1e-8);
+    CHECK(one_way(lasting(brute_force), exponents(whole), Omega) < 1e-8);
     CHECK(distance(exponents(half), exponents(whole), Omega) < 1e-8);
     CHECK(distance(exponents(balanced), exponents(whole), Omega) < 1e-7);
     // The mean over a period, by parts and as a whole.
