@@ -112,7 +112,7 @@ private:
 template <class Law>
 std::shared_ptr<const LawFunctions<Law>> set_law(StateElement& element, Law law,
                                                  const std::vector<ControlSignal>& demands = {}) {
-    const auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, element);
+    auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, element);
     element.rates = [functions](const StateInput& in, VectorOut Q, VectorOut f) { functions->rates(in, Q, f); };
     element.jacobian = [functions](const StateInput& in, StateJacobian& d) { functions->jacobian(in, d); };
     return functions;
