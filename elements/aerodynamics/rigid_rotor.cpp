@@ -10,19 +10,6 @@ namespace cardan {
 
 namespace {
 
-Mat3 about_x(double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return Mat3{{1, 0, 0}, {0, c, -s}, {0, s, c}};
-}
-Mat3 about_y(double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return Mat3{{c, 0, s}, {0, 1, 0}, {-s, 0, c}};
-}
-Mat3 about_z(double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return Mat3{{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
-}
-
 // Where a blade is and what it feels.
 struct PlacedBlade {
     Mat3 axes;  // ground, of the coned blade
@@ -34,7 +21,7 @@ class Evaluation {
 public:
     Evaluation(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed, double azimuth,
                double pitch, const RotorAirOptions& options)
-        : blade_(blade), pose_(pose), wind_(wind), options_(options), shaft_(about_z(pose.yaw) * about_y(pose.tilt)) {
+        : blade_(blade), pose_(pose), wind_(wind), options_(options), shaft_(rot_z(pose.yaw) * rot_y(pose.tilt)) {
         for (int k = 0; k < pose.blades; ++k) place(azimuth + 2 * pi * k / pose.blades, speed, pitch);
     }
 
@@ -53,7 +40,7 @@ public:
 
 private:
     void place(double azimuth, double speed, double pitch) {
-        PlacedBlade own{shaft_ * about_x(azimuth) * about_y(pose_.cone), {}, {}};
+        PlacedBlade own{shaft_ * rot_x(azimuth) * rot_y(pose_.cone), {}, {}};
         const double root = blade_.position.front(), tip = blade_.position.back(), B = pose_.blades;
         for (std::size_t i = 0; i < blade_.sections(); ++i) {
             const double z = blade_.position[i];

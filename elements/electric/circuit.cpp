@@ -230,31 +230,35 @@ detail::CircuitEquations Circuit::equations(StateElement& element) const {
     return out;
 }
 
-StateElement Circuit::element() const {
-    StateElement element{.name = options_.name, .coordinates = coordinates()};
-    const detail::CircuitLoops found = loops();
-    const auto state = [&](const std::string& name, const char* unit, double scale, double initial) {
-        element.states.push_back({.name = name,
-                                  .unit = unit,
-                                  .scale = scale,
-                                  .initial = initial,
+Circuit::Built Circuit::build() const {
+    Built built{.element = {.name = options_.name, .coordinates = coordinates()}, .equations = {}};
+    StateElement& element = built.element;
+    built.equations = std::make_shared<const detail::CircuitEquations>(equations(element));
+    built.equations->check(detail::CircuitEquations::Column::Zero(built.equations->coordinates));
+    const Vector inductances = built.equations->inductance_at_zero();
+    const std::vector<std::string> names = states();
+    for (Eigen::Index k = 0; k < std::ssize(names); ++k) {
+        const bool flux = k < inductances.size();
+        element.states.push_back({.name = entry(names, k),
+                                  .unit = flux ? "V s" : "V",
+                                  .scale = flux ? options_.current * inductances(k) : options_.voltage,
+                                  .initial = flux ? 0 : entry(capacitors_, k - inductances.size()).initial_voltage,
                                   .part = options_.part,
                                   .blade = options_.blade});
-    };
-    const auto equations = std::make_shared<const detail::CircuitEquations>(this->equations(element));
-    equations->check(detail::CircuitEquations::Column::Zero(equations->coordinates));
-    const Vector inductances = equations->inductance_at_zero();
-    Eigen::Index loop = 0;
-    for (const std::size_t link : found.links)
-        if (branches_[link].kind == Kind::winding)
-            state(branches_[link].name + " flux", "V s", options_.current * inductances(loop++), 0);
-    for (const Capacitor& own : capacitors_) state(own.name + " voltage", "V", options_.voltage, own.initial_voltage);
-    element.rates = [equations](const StateInput& in, VectorOut Q, VectorOut f) { equations->rates(in, Q, f); };
-    element.jacobian = [equations](const StateInput& in, StateJacobian& d) { equations->jacobian(in, d); };
-    element.power = [equations](const StateInput& in) { return equations->power(in); };
+    }
+    return built;
+}
+
+StateElement Circuit::element() const {
+    Built built = build();
+    StateElement& element = built.element;
+    const auto& equations = built.equations;
+    element.rates = [own = equations](const StateInput& in, VectorOut Q, VectorOut f) { own->rates(in, Q, f); };
+    element.jacobian = [own = equations](const StateInput& in, StateJacobian& d) { own->jacobian(in, d); };
+    element.power = [own = equations](const StateInput& in) { return own->power(in); };
     for (const VoltageSource& source : sources_)
         element.breaks.insert(element.breaks.end(), source.breaks.begin(), source.breaks.end());
-    return element;
+    return std::move(element);
 }
 
 ChannelGroup Circuit::channels() const {
@@ -270,13 +274,10 @@ ChannelGroup Circuit::channels() const {
                                   .units = "1",
                                   .long_name = text("generalised force of circuit '", options_.name,
                                                     "' on its coordinate ", k, ", N m or N")});
-    StateElement element = this->element();
-    StateElement wired{.name = options_.name, .coordinates = coordinates()};
-    const auto equations = std::make_shared<const detail::CircuitEquations>(this->equations(wired));
-    group.sample = [equations, element = std::move(element)](const ChannelInput& in, double* values) {
-        const detail::ElementValues at(element, in);
-        const Vector currents = equations->branch_currents(at.input());
-        const detail::CircuitEquations::Column forces = equations->forces(at.input());
+    group.sample = [own = build()](const ChannelInput& in, double* values) {
+        const detail::ElementValues at(own.element, in);
+        const Vector currents = own.equations->branch_currents(at.input());
+        const detail::CircuitEquations::Column forces = own.equations->forces(at.input());
         values = std::copy(currents.begin(), currents.end(), values);
         std::copy(forces.begin(), forces.end(), values);
     };

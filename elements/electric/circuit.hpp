@@ -13,6 +13,7 @@
 #include "elements/electric/inductance.hpp"
 #include "mbs/system/channel.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -117,6 +118,12 @@ private:
     /// The coordinates of inductances and magnets, in the order in which they came.
     std::vector<BodyId> coordinates() const;
     detail::CircuitLoops loops() const;
+    /// The element without its functions, and what these call.
+    struct Built {
+        StateElement element;
+        std::shared_ptr<const detail::CircuitEquations> equations;
+    };
+    Built build() const;
     /// @param element  gets what the sources' signals need
     detail::CircuitEquations equations(StateElement& element) const;
 

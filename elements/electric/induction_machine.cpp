@@ -2,6 +2,7 @@
 
 #include "elements/electric/detail/induction_laws.hpp"
 #include "elements/electric/detail/machine_channels.hpp"
+#include "elements/machine/gear_ratio.hpp"
 #include "mbs/base/error.hpp"
 
 #include <cmath>
@@ -97,8 +98,7 @@ namespace {
 
 void check(const std::string& name, double gear_ratio, const EquivalentCircuit& circuit, const Grid& grid) {
     if (name.empty()) throw InputError("electric machine: the name is missing");
-    if (!std::isfinite(gear_ratio) || gear_ratio == 0)
-        throw InputError(name, "gear ratio", gear_ratio, "finite and not zero");
+    require_gear_ratio(name, gear_ratio);
     circuit.check(name);
     grid.check(name);
 }
@@ -155,17 +155,9 @@ StateElement induction_generator(const InductionGenerator& machine) {
     const EquivalentCircuit circuit = machine.circuit.at_frequency(machine.grid.frequency);
     StateElement element = fluxes_of(machine, circuit);
     const detail::MachineConstants constants(circuit, machine.grid, machine.gear_ratio, machine.breaker);
-    if (machine.order == MachineOrder::fifth) {
-        const auto functions = detail::set_law(element, detail::FifthOrder{constants});
-        element.power = [functions](const StateInput& in) {
-            const auto x = functions->values<double>(in);
-            return functions->law().power(functions->at(in.time, x));
-        };
-    } else if (machine.order == MachineOrder::third) {
-        detail::set_law(element, detail::ThirdOrder{constants});
-    } else {
-        detail::set_law(element, detail::FirstOrder{constants});
-    }
+    if (machine.order == MachineOrder::fifth) detail::set_law(element, detail::FifthOrder{constants});
+    if (machine.order == MachineOrder::third) detail::set_law(element, detail::ThirdOrder{constants});
+    if (machine.order == MachineOrder::first) detail::set_law(element, detail::FirstOrder{constants});
     return element;
 }
 
@@ -174,9 +166,11 @@ ChannelGroup induction_generator_channels(const InductionGenerator& machine) {
     const detail::MachineConstants constants(circuit, machine.grid, machine.gear_ratio, machine.breaker);
     const StateElement element = induction_generator(machine);
     if (machine.order == MachineOrder::fifth)
-        return detail::machine_channels(machine.name, machine.alias, element, detail::FifthOrder{constants}, {}, false);
+        return detail::machine_channels(machine.name, machine.alias, element, detail::FifthOrder{constants}, {},
+                                        constants.omega, false);
     if (machine.order == MachineOrder::third)
-        return detail::machine_channels(machine.name, machine.alias, element, detail::ThirdOrder{constants}, {}, false);
+        return detail::machine_channels(machine.name, machine.alias, element, detail::ThirdOrder{constants}, {},
+                                        constants.omega, false);
     return detail::torque_channels(machine.name, machine.alias, element, constants);
 }
 
@@ -187,7 +181,7 @@ struct DoublyFedStart {
     Complex stator_flux, rotor_flux, rotor_current;
 };
 DoublyFedStart start_of(const DoublyFedGenerator& machine, const detail::DoublyFed& law) {
-    const detail::MachineConstants& c = law.machine;
+    const detail::MachineConstants& c = law.induction.machine;
     const double w = machine.grid.omega();
     Complex flux = machine.grid.peak() / Complex(0, w), factor;
     for (int i = 0; i < 100; ++i) {
@@ -202,7 +196,7 @@ DoublyFedStart start_of(const DoublyFedGenerator& machine, const detail::DoublyF
 
 detail::DoublyFed law_of(const DoublyFedGenerator& machine) {
     const EquivalentCircuit circuit = machine.circuit.at_frequency(machine.grid.frequency);
-    return {detail::MachineConstants(circuit, machine.grid, machine.gear_ratio, 100), machine.bandwidth};
+    return {{detail::MachineConstants(circuit, machine.grid, machine.gear_ratio, 100)}, machine.bandwidth};
 }
 
 }  // namespace
@@ -223,17 +217,13 @@ StateElement doubly_fed_generator(const DoublyFedGenerator& machine) {
     add_states(element, machine.name + " converter", "V", machine.grid.peak() / 10,
                machine.circuit.rotor_resistance * start.rotor_current);
     element.breaks = machine.grid.all_breaks();
-    const auto functions = detail::set_law(element, law, {machine.torque, machine.reactive});
-    element.power = [functions](const StateInput& in) {
-        const auto x = functions->values<double>(in);
-        return functions->law().power(functions->at(in.time, x));
-    };
+    detail::set_law(element, law, {machine.torque, machine.reactive});
     return element;
 }
 
 ChannelGroup doubly_fed_generator_channels(const DoublyFedGenerator& machine) {
     return detail::machine_channels(machine.name, machine.alias, doubly_fed_generator(machine), law_of(machine),
-                                    {machine.torque, machine.reactive}, true);
+                                    {machine.torque, machine.reactive}, machine.grid.omega(), true);
 }
 
 }  // namespace cardan

@@ -72,7 +72,7 @@ enum class MachineOrder : std::uint8_t {
 };
 
 /// Squirrel-cage machine on a shaft. States: "<name> stator flux d", "... q", "<name> rotor flux d", "... q", V s
-/// (fifth), the latter two (third), "<name> torque", N m (first).
+/// (fifth), the latter two (third), "<name> torque state", N m (first).
 struct InductionGenerator {
     std::string name = "generator";
     BodyId shaft = {};

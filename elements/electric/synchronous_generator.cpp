@@ -3,6 +3,7 @@
 #include "elements/electric/detail/element_values.hpp"
 #include "elements/electric/detail/law.hpp"
 #include "elements/electric/detail/phasor.hpp"
+#include "elements/machine/gear_ratio.hpp"
 #include "mbs/base/error.hpp"
 
 #include <cmath>
@@ -52,6 +53,7 @@ struct SynchronousLaw {
     template <class S>
     struct Point {
         Phasor<S> current, voltage;
+        S speed{}, demand{};  // electrical, rad/s; of the current across the magnets, A
         S torque{}, machine_power{}, grid_power{}, chopper_power{}, wanted{}, delivered{};
     };
     template <class S>
@@ -66,10 +68,12 @@ struct SynchronousLaw {
         const PermanentMagnetMachine& m = machine;
         Point<S> out;
         out.current = {in.s[flux_d] / m.inductance_d, in.s[flux_q] / m.inductance_q};
-        const S speed = m.pole_pairs * gear_ratio * in.qd[0], along = in.s[flux_d] + m.magnet_flux,
-                demand = -in.demands[0] / (1.5 * m.pole_pairs * m.magnet_flux);
-        out.voltage = {bandwidth * m.inductance_d * -out.current.d + in.s[converter_d] - speed * in.s[flux_q],
-                       bandwidth * m.inductance_q * (demand - out.current.q) + in.s[converter_q] + speed * along};
+        out.speed = m.pole_pairs * gear_ratio * in.qd[0];
+        out.demand = -in.demands[0] / (1.5 * m.pole_pairs * m.magnet_flux);
+        const S along = in.s[flux_d] + m.magnet_flux;
+        out.voltage = {
+            bandwidth * m.inductance_d * -out.current.d + in.s[converter_d] - out.speed * in.s[flux_q],
+            bandwidth * m.inductance_q * (out.demand - out.current.q) + in.s[converter_q] + out.speed * along};
         out.torque = -1.5 * m.pole_pairs * (along * out.current.q - in.s[flux_q] * out.current.d);
         out.machine_power = -1.5 * dot(out.voltage, out.current);
         out.grid_power = 1.5 * grid_voltage(in.time) * in.s[grid_current];
@@ -82,13 +86,11 @@ struct SynchronousLaw {
     void operator()(const LawInput<S>& in, S* Q, S* f) const {
         const PermanentMagnetMachine& m = machine;
         const Point<S> now = at(in);
-        const S speed = m.pole_pairs * gear_ratio * in.qd[0],
-                demand = -in.demands[0] / (1.5 * m.pole_pairs * m.magnet_flux);
         Q[0] = -gear_ratio * now.torque;
-        f[flux_d] = now.voltage.d - m.resistance * now.current.d + speed * in.s[flux_q];
-        f[flux_q] = now.voltage.q - m.resistance * now.current.q - speed * (in.s[flux_d] + m.magnet_flux);
+        f[flux_d] = now.voltage.d - m.resistance * now.current.d + now.speed * in.s[flux_q];
+        f[flux_q] = now.voltage.q - m.resistance * now.current.q - now.speed * (in.s[flux_d] + m.magnet_flux);
         f[converter_d] = bandwidth * m.resistance * -now.current.d;
-        f[converter_q] = bandwidth * m.resistance * (demand - now.current.q);
+        f[converter_q] = bandwidth * m.resistance * (now.demand - now.current.q);
         f[voltage] = (now.machine_power - now.grid_power - now.chopper_power) / (link.capacitance * in.s[voltage]);
         f[control] = integral() * (in.s[voltage] - link.voltage) + link.bandwidth * (now.delivered - now.wanted);
         f[grid_current] = (now.delivered - in.s[grid_current]) / lag;
@@ -106,8 +108,7 @@ struct SynchronousLaw {
 void check(const SynchronousGenerator& generator) {
     const std::string& name = generator.name;
     if (name.empty()) throw InputError("electric machine: the name is missing");
-    if (!std::isfinite(generator.gear_ratio) || generator.gear_ratio == 0)
-        throw InputError(name, "gear ratio", generator.gear_ratio, "finite and not zero");
+    require_gear_ratio(name, generator.gear_ratio);
     if (generator.machine.pole_pairs < 1)
         throw InputError(name, "number of pole pairs", generator.machine.pole_pairs, ">= 1");
     require_not_negative(name, "resistance [ohm]", generator.machine.resistance);
@@ -167,11 +168,7 @@ StateElement synchronous_generator(const SynchronousGenerator& generator) {
     state("link control", "A", generator.current_limit, delivered);
     state("grid current", "A", generator.current_limit, delivered);
     element.breaks = generator.grid.all_breaks();
-    const auto functions = detail::set_law(element, law_of(generator), {generator.torque});
-    element.power = [functions](const StateInput& in) {
-        const auto x = functions->values<double>(in);
-        return functions->law().power(functions->at(in.time, x));
-    };
+    detail::set_law(element, law_of(generator), {generator.torque});
     return element;
 }
 

@@ -1,6 +1,7 @@
 #include "elements/machine/brake.hpp"
 
 #include "elements/machine/coordinate_force.hpp"
+#include "elements/machine/gear_ratio.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -21,8 +22,7 @@ double Brake::slope(double speed) const {
 }
 
 UserForce brake_force(const Brake& brake) {
-    if (!std::isfinite(brake.gear_ratio) || brake.gear_ratio == 0)
-        throw InputError(brake.name, "gear ratio", brake.gear_ratio, "finite and not zero");
+    require_gear_ratio(brake.name, brake.gear_ratio);
     require_not_negative(brake.name, "maximum torque [N m]", brake.maximum_torque);
     require_not_negative(brake.name, "ramp [s]", brake.ramp);
     require_positive(brake.name, "regularisation speed [rad/s]", brake.regularisation);

@@ -1,6 +1,7 @@
 #include "elements/machine/generator.hpp"
 
 #include "elements/machine/coordinate_force.hpp"
+#include "elements/machine/gear_ratio.hpp"
 #include "mbs/base/error.hpp"
 
 #include <cmath>
@@ -29,8 +30,7 @@ double Generator::torque(double rate) const {
 }
 
 UserForce generator_force(const Generator& generator) {
-    if (!std::isfinite(generator.gear_ratio) || generator.gear_ratio == 0)
-        throw InputError(generator.name, "gear ratio", generator.gear_ratio, "finite and not zero");
+    require_gear_ratio(generator.name, generator.gear_ratio);
     if (const auto* machine = std::get_if<InductionMachine>(&generator.law)) machine->check(generator.name);
     const auto law = [generator](double, double, double rate) -> CoordinateLaw {
         if (generator.grid && !generator.grid->is_on()) return {};

@@ -49,7 +49,10 @@ CircuitEquations::Column CircuitEquations::source_voltages(const StateInput& in)
 }
 
 CircuitEquations::Column CircuitEquations::forces(const StateInput& in) const {
-    const Column j = link_currents(in);
+    return forces(in, link_currents(in));
+}
+
+CircuitEquations::Column CircuitEquations::forces(const StateInput& in, const Column& j) const {
     Column Q = Column::Zero(coordinates);
     for (const Term& term : terms)
         Q(term.coordinate) += term.factor(in.q(term.coordinate)).slope / 2 * j.dot(term.shape.lazyProduct(j));
@@ -60,7 +63,7 @@ CircuitEquations::Column CircuitEquations::forces(const StateInput& in) const {
 
 void CircuitEquations::rates(const StateInput& in, VectorOut& Q, VectorOut& f) const {
     const Column j = link_currents(in), v = source_voltages(in), u = in.s.tail(capacitance.size());
-    Q.head(coordinates) += forces(in);
+    Q.head(coordinates) += forces(in, j);
     auto flux = f.head(links());
     flux += F_j.lazyProduct(j) + F_s.lazyProduct(v) - F_c.lazyProduct(u);
     for (const Magnet& magnet : magnets)

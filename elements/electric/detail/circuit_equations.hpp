@@ -66,6 +66,7 @@ private:
     Eigen::LLT<Square> factorised(const Column& q) const;
     Column source_voltages(const StateInput& in) const;
     Column link_currents(const StateInput& in) const;
+    Column forces(const StateInput& in, const Column& j) const;
     void refuse(const Column& q) const;
 };
 

@@ -51,7 +51,8 @@ struct MachineConstants {
 template <class S>
 struct MachineState {
     Phasor<S> voltage, stator_current, rotor_current, rotor_voltage;
-    S torque{};  ///< braking positive
+    S torque{};           ///< braking positive
+    Phasor<S> missing{};  ///< of controlled rotor currents: demanded less present
 };
 
 template <class S>
@@ -159,7 +160,7 @@ struct FirstOrder {
 
 /// The rotor fed by a converter that controls its currents.
 struct DoublyFed {
-    MachineConstants machine;
+    FifthOrder induction;
     double bandwidth;  ///< rad/s
 
     /// Currents of the rotor that give torque and reactive power at a flux of the stator. Without flux (a tenth of the
@@ -167,7 +168,7 @@ struct DoublyFed {
     template <class S>
     Phasor<S> demanded(const Phasor<S>& flux, const S& torque, const S& reactive) const {
         using std::sqrt;
-        const MachineConstants& c = machine;
+        const MachineConstants& c = induction.machine;
         const double least = std::pow(0.1 * c.grid.peak() / c.omega, 4);
         const S square = dot(flux, flux), floored = sqrt(square * square + least);
         const S along = (1.0 + reactive * c.L_s / (1.5 * c.omega * floored)) / c.L_m,
@@ -176,23 +177,21 @@ struct DoublyFed {
     }
     template <class S>
     MachineState<S> state(const LawInput<S>& in) const {
-        const MachineConstants& c = machine;
-        MachineState<S> out = FifthOrder{c}.state(in);
-        const Phasor<S> error = demanded(pair(in.s), in.demands[0], in.demands[1]) - out.rotor_current;
+        const MachineConstants& c = induction.machine;
+        MachineState<S> out = induction.state(in);
+        out.missing = demanded(pair(in.s), in.demands[0], in.demands[1]) - out.rotor_current;
         out.rotor_voltage =
-            (bandwidth * c.D / c.L_s) * error + pair(in.s + 4) + c.slip_speed(in.qd[0]) * turned(pair(in.s + 2));
+            (bandwidth * c.D / c.L_s) * out.missing + pair(in.s + 4) + c.slip_speed(in.qd[0]) * turned(pair(in.s + 2));
         return out;
     }
     template <class S>
     void operator()(const LawInput<S>& in, S* Q, S* f) const {
-        const MachineConstants& c = machine;
         const MachineState<S> at = state(in);
-        FifthOrder{c}.flux_rates(in, at, Q, f);
-        const Phasor<S> error = demanded(pair(in.s), in.demands[0], in.demands[1]) - at.rotor_current;
-        f[4] = bandwidth * c.R_r * error.d;
-        f[5] = bandwidth * c.R_r * error.q;
+        induction.flux_rates(in, at, Q, f);
+        f[4] = bandwidth * induction.machine.R_r * at.missing.d;
+        f[5] = bandwidth * induction.machine.R_r * at.missing.q;
     }
-    StatePower power(const LawInput<double>& in) const { return FifthOrder{machine}.power(in, state(in)); }
+    StatePower power(const LawInput<double>& in) const { return induction.power(in, state(in)); }
 };
 
 }  // namespace cardan::detail

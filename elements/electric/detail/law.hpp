@@ -108,14 +108,18 @@ private:
     std::vector<ControlWire> demands_;
 };
 
-/// Gives the element the functions of a law.
+/// Gives the element the functions of a law; its power too, if it tells it by StatePower power(const
+/// LawInput<double>&).
 template <class Law>
-std::shared_ptr<const LawFunctions<Law>> set_law(StateElement& element, Law law,
-                                                 const std::vector<ControlSignal>& demands = {}) {
-    auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, element);
+void set_law(StateElement& element, Law law, const std::vector<ControlSignal>& demands = {}) {
+    const auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, element);
     element.rates = [functions](const StateInput& in, VectorOut Q, VectorOut f) { functions->rates(in, Q, f); };
     element.jacobian = [functions](const StateInput& in, StateJacobian& d) { functions->jacobian(in, d); };
-    return functions;
+    if constexpr (requires(const LawInput<double>& at) { functions->law().power(at); })
+        element.power = [functions](const StateInput& in) {
+            const auto x = functions->template values<double>(in);
+            return functions->law().power(functions->at(in.time, x));
+        };
 }
 
 }  // namespace cardan::detail

@@ -15,19 +15,19 @@ std::vector<Channel> machine_channel_names(const std::string& name, const std::s
 /// Their values.
 void machine_channel_values(const MachineState<double>& at, double omega, double time, bool fed_rotor, double* values);
 
+/// @param omega  of the axes in which the currents are given, rad/s
 template <class Law>
 ChannelGroup machine_channels(const std::string& name, const std::string& alias, const StateElement& element, Law law,
-                              const std::vector<ControlSignal>& demands, bool fed_rotor) {
+                              const std::vector<ControlSignal>& demands, double omega, bool fed_rotor) {
     ChannelGroup group;
     group.channels = machine_channel_names(name, alias, fed_rotor);
     StateElement seen{.name = element.name, .states = element.states, .coordinates = {element.coordinates.front()}};
     const auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, seen);
-    group.sample = [functions, seen = std::move(seen), fed_rotor](const ChannelInput& in, double* values) {
+    group.sample = [functions, seen = std::move(seen), omega, fed_rotor](const ChannelInput& in, double* values) {
         const ElementValues own(seen, in);
         const StateInput input = own.input();
         const auto x = functions->template values<double>(input);
-        machine_channel_values(functions->law().state(functions->at(in.time, x)), functions->law().machine.omega,
-                               in.time, fed_rotor, values);
+        machine_channel_values(functions->law().state(functions->at(in.time, x)), omega, in.time, fed_rotor, values);
     };
     return group;
 }

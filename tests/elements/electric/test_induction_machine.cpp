@@ -5,6 +5,7 @@
 #include "mbs/base/entry.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/electric/bench.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/refusal.hpp"
 
 namespace cardan::testing::induction_machines {
@@ -335,6 +336,41 @@ TEST_CASE("induction machine, doubly fed: torque and reactive power follow their
 
     own.grid = own.grid.with_interruption(1, 1);
     check_refused([&] { static_cast<void>(doubly_fed_generator(own)); }, {"generator", "not cut off"});
+}
+
+TEST_CASE("induction machine: nothing is allocated in an evaluation, the doubly fed one included", "[property]") {
+    const auto check = [](const OneBody& bench, const StateElement& element) {
+        ForceSet forces;
+        forces.add_states(element);
+        const System system(bench.tree, forces);
+        const Vector q = Vector::Zero(1), qd = Vector::Constant(1, 180), s = system.forces.states().initial(), u;
+        Workspace workspace(system.model);
+        const Kinematics kin = kinematics(system.model, q, workspace);
+        const ForceInput at{0, q, qd, kin, s, u};
+        Vector Q(1), f(s.size());
+        ForceDerivatives derivatives;
+        StateDerivatives states;
+        const auto evaluate = [&] {
+            system.forces.evaluate(at, Q, f);
+            system.forces.derivatives(at, derivatives, states);
+        };
+        evaluate();
+        CHECK(allocations(evaluate) == 0);
+    };
+    const OneBody bench(JointKind::revolute, 1);
+    InductionGenerator own = generator(small, bench.body);
+    own.running = 190;
+    own.grid = own.grid.with_sag(0.5, 1, 1).with_interruption(3, 1);
+    for (const MachineOrder order : {MachineOrder::fifth, MachineOrder::third, MachineOrder::first}) {
+        own.order = order;
+        check(bench, induction_generator(own));
+    }
+    check(bench, doubly_fed_generator({.shaft = bench.body,
+                                       .circuit = small.circuit,
+                                       .grid = generator(small, bench.body).grid.with_sag(0.5, 1, 1),
+                                       .torque = signal::constant(3),
+                                       .running_speed = 190,
+                                       .running_torque = 3}));
 }
 
 TEST_CASE("induction machine: bad data are refused with their place", "[property]") {
