@@ -147,15 +147,6 @@ bool in_order(const std::vector<Happened>& list) {
     return true;
 }
 
-// Largest departure of the rotor speed from that of the start while the machine is at the grid, of that speed.
-double drift(const solvers::History& history, double loss) {
-    const std::vector<double>& speed = history["RotSpeed"];
-    double most = 0;
-    for (std::size_t i = 0; i < speed.size() && history.time[i] <= loss; ++i)
-        most = std::max(most, std::abs(speed[i] / speed.front() - 1));
-    return most;
-}
-
 int run(const Arguments& given) {
     program::check_outputs(given.simulation.out, program::run_outputs);
     Arguments a = given;
@@ -199,7 +190,7 @@ int run(const Arguments& given) {
     }
     if (balanced)
         good = program::check("start in equilibrium: change of rotor speed before grid loss",
-                              drift(rows.history, a.loss), 1e-3) &&
+                              program::speed_drift(rows.history, a.loss), 1e-3) &&
                good;
     good = program::check("events in order, rotor stands (0: yes)", stands && in_order(supervisor.list) ? 0 : 1, 0) &&
            good;

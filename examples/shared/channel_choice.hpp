@@ -28,11 +28,7 @@ inline void add_station_options(CommandLine& app, StationOptions& options) {
 
 /// "5,10.5"; empty: none.  @throws InputError naming the option
 inline std::vector<double> places(const char* option, const std::string& given) {
-    std::vector<double> all;
-    if (given.empty()) return all;
-    for (const std::string& word : split(given, ','))
-        all.push_back(number(option, given, word, "numbers separated by commas, m"));
-    return all;
+    return given.empty() ? std::vector<double>() : numbers(option, given, "numbers separated by commas, m");
 }
 
 /// Those at the stations that were asked for.

@@ -166,6 +166,22 @@ inline bool check_energy(const solvers::EnergyBalance& end, double scale, double
                  end.error / scale, allowed);
 }
 
+/// The same of elements with states, the fields of electric machines.
+inline bool check_field_energy(const solvers::EnergyBalance& end, double scale, double allowed) {
+    std::printf("fields, kJ: stored %.3f, from the grid %.3f, lost in resistances %.3f, error %.2e\n", end.stored / 1e3,
+                end.state_supply / 1e3, end.state_dissipation / 1e3, end.state_error / 1e3);
+    return check("energy lost by the fields, of the largest kinetic energy", end.state_error / scale, allowed);
+}
+
+/// Largest departure of the rotor speed from that of the start up to a time, of that speed.
+inline double speed_drift(const solvers::History& history, double until) {
+    const std::vector<double>& speed = history["RotSpeed"];
+    double most = 0;
+    for (std::size_t i = 0; i < speed.size() && history.time[i] <= until; ++i)
+        most = std::max(most, std::abs(speed[i] / speed.front() - 1));
+    return most;
+}
+
 /// Steps, evaluations and the speed of the computation.
 inline void print_effort(const solvers::Integrator& integrator, const System& system, const Elapsed& elapsed) {
     const solvers::IntegrationStatistics s = integrator.statistics();

@@ -32,4 +32,11 @@ inline std::vector<std::string> split(const std::string& joined, char separator)
     return words;
 }
 
+/// Finite numbers separated by commas, at least one.  @throws InputError naming the option
+inline std::vector<double> numbers(const char* option, const std::string& given, const char* allowed) {
+    std::vector<double> all;
+    for (const std::string& word : split(given, ',')) all.push_back(number(option, given, word, allowed));
+    return all;
+}
+
 }  // namespace cardan::program

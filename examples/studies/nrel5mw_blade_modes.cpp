@@ -16,8 +16,8 @@
 #include "turbines/machines/nrel5mw_blade.hpp"
 
 #include "examples/shared/program.hpp"
+#include "examples/shared/words.hpp"
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -56,24 +56,9 @@ Partition partition_of(const Arguments& a) {
     return Partition::segment_masses;
 }
 
-std::vector<double> numbers(const char* option, const std::string& given, const char* allowed) {
-    std::vector<double> values;
-    const char* at = given.data();
-    const char* const end = at + given.size();
-    while (true) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ','))
-            throw InputError(option, "value", given, allowed);
-        values.push_back(value);
-        if (next == end) return values;
-        at = next + 1;
-    }
-}
-
 std::vector<double> rotor_speeds(const std::string& given) {
     constexpr auto allowed = "numbers >= 0, increasing, separated by commas, rev/min";
-    std::vector<double> speeds = numbers("--rpm", given, allowed);
+    std::vector<double> speeds = program::numbers("--rpm", given, allowed);
     for (std::size_t i = 0; i < speeds.size(); ++i)
         if (speeds[i] < 0 || (i > 0 && speeds[i] <= speeds[i - 1])) throw InputError("--rpm", "value", given, allowed);
     for (double& speed : speeds) speed /= units::to_rpm;
@@ -131,7 +116,7 @@ CardanBeamOptions beam_options(const Arguments& a, int elements, Partition parti
         a.refined ? turbines::nrel5mw_blade_refined() : turbines::nrel5mw_blade_elements(elements, partition);
     options.partition = partition;
     if (!a.boundaries.empty())
-        options.boundaries = numbers("--boundaries", a.boundaries, "numbers separated by commas");
+        options.boundaries = program::numbers("--boundaries", a.boundaries, "numbers separated by commas");
     if (a.delta != 0) options.delta = a.delta;
     options.extension = !a.no_extension;
     return options;

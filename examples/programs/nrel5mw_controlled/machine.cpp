@@ -5,12 +5,11 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
-#include "solvers/linear/coleman.hpp"
 #include "turbines/machines/nrel5mw_controller.hpp"
 
+#include "examples/shared/drive_train.hpp"
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace cardan::controlled {
 
@@ -120,12 +119,7 @@ LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {
     solvers::OperatingPoint at = plant.start;
     at.s = turbine.system().forces.states().initial();
     at.u = {};
-    const solvers::Linearisation lin = solvers::linearise(turbine.system(), at);
-    std::vector<int> all(static_cast<std::size_t>(turbine.system().model.size()));
-    std::iota(all.begin(), all.end(), 0);
-    const solvers::ColemanTransform coleman(turbine.rotor(), all, lin.states);
-    const int spin = turbine.rotor().spin;
-    LinearLoop out{turbine, coleman.transform(solvers::restrict_to(lin, all, spin), at.q(spin), at.qd(spin)), {}};
+    LinearLoop out{turbine, program::multi_blade_system(turbine, at), {}};
     out.modes = solvers::modes(out.system);
     return out;
 }
@@ -141,16 +135,7 @@ double rotor_inertia(const Plant& plant) {
 }
 
 solvers::Mode drive_train_mode(const LinearLoop& loop) {
-    const int twist = loop.turbine.system().model.coordinates().index("main shaft twist");
-    const solvers::Mode* best = nullptr;
-    double largest = 0;
-    for (const solvers::Mode& mode : loop.modes) {
-        if (!mode.oscillates() || mode.natural_hz() > 5 || mode.is_state_motion()) continue;
-        const double share = solvers::energy_by_row(loop.system, mode)(twist);
-        if (share > largest) largest = share, best = &mode;
-    }
-    if (best == nullptr) throw NumericalError("no mode up to 5 Hz twists the main shaft");
-    return *best;
+    return program::drive_train_mode(loop.turbine, loop.system, loop.modes, 5);
 }
 
 }  // namespace cardan::controlled

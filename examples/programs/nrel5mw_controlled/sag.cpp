@@ -35,14 +35,6 @@ Machine machine_in_sag(const Plant& plant, const SagOptions& options) {
     return {std::move(machine), std::move(generator)};
 }
 
-double drift(const solvers::History& history, double until) {
-    double most = 0;
-    const std::vector<double>& speed = history["RotSpeed"];
-    for (std::size_t i = 0; i < speed.size() && history.time[i] < until; ++i)
-        most = std::max(most, std::abs(speed[i] / speed.front() - 1));
-    return most;
-}
-
 }  // namespace
 
 int sag(const MachineOptions& machine, const SagOptions& options, const std::string& out) {
@@ -83,12 +75,10 @@ int sag(const MachineOptions& machine, const SagOptions& options, const std::str
     const solvers::EnergyBalance energy = integrator.energy();
     const double scale = program::largest(rows.history, "kinetic energy").value;
     bool good = program::check_energy(energy, scale, 10 * options.tolerance);
-    good = program::check("energy lost by the fields, of the largest kinetic energy", energy.state_error / scale,
-                          10 * options.tolerance) &&
-           good;
+    good = program::check_field_energy(energy, scale, 10 * options.tolerance) && good;
     if (end.reached())
         good = program::check("start in equilibrium: change of rotor speed before the sag",
-                              drift(rows.history, options.at), 1e-3) &&
+                              program::speed_drift(rows.history, options.at), 1e-3) &&
                good;
     program::print_effort(integrator, turbine.system(), elapsed);
     program::write_outputs(rows, out, end.reached(),

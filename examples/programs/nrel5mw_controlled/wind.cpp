@@ -87,12 +87,9 @@ std::vector<double> WindSteps::breaks() const {
 }
 
 std::vector<double> winds(const char* option, const std::string& given) {
-    std::vector<double> all;
-    for (const std::string& word : program::split(given, ',')) {
-        all.push_back(program::number(option, given, word, "wind speeds separated by commas, m/s"));
-        if (!(all.back() >= 7 && all.back() <= 25))
-            throw InputError(option, "wind speed [m/s]", all.back(), "7 ... 25");
-    }
+    std::vector<double> all = program::numbers(option, given, "wind speeds separated by commas, m/s");
+    for (const double wind : all)
+        if (!(wind >= 7 && wind <= 25)) throw InputError(option, "wind speed [m/s]", wind, "7 ... 25");
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include "turbines/machines/electric_wt600.hpp"
 #include "turbines/model/generator_slip.hpp"
 
+#include "examples/shared/drive_train.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/words.hpp"
 #include <cstdio>
@@ -26,15 +27,6 @@ turbines::AssemblyOptions assembly(const MotionOptions& o) {
     return options;
 }
 
-std::vector<double> speeds_of(const std::string& given) {
-    std::vector<double> all;
-    for (const std::string& word : program::split(given, ',')) {
-        all.push_back(program::number("--speeds", given, word, "numbers separated by commas, rpm"));
-        require_positive("--speeds", "rotor speed [rpm]", all.back());
-    }
-    return all;
-}
-
 // No wind and no torque, the grid's frequency that of the rotor, its voltage in proportion.
 turbines::Turbine machine_at(const MotionOptions& o, std::optional<MachineOrder> order, double speed) {
     if (!order) return turbines::with_generator_slip(turbines::wt600(assembly(o)), turbines::wt600_induction_machine());
@@ -42,7 +34,7 @@ turbines::Turbine machine_at(const MotionOptions& o, std::optional<MachineOrder>
     options.assembly = assembly(o);
     options.wind = 0;
     options.order = *order;
-    const double ratio = turbines::wt600(assembly(o)).layout().gear_ratio,
+    const double ratio = turbines::wt600_description().drive_train.gear_ratio,
                  share = speed * ratio / turbines::wt600_equivalent_circuit().synchronous_speed();
     options.grid.frequency *= share;
     options.grid.line_voltage *= share;
@@ -50,38 +42,19 @@ turbines::Turbine machine_at(const MotionOptions& o, std::optional<MachineOrder>
     return turbines::electric_wt600(options).turbine;
 }
 
-// Of the modes up to 8 Hz that one with the largest part of its elastic energy in the main shaft.
-const solvers::Mode& torsion(const solvers::SecondOrderSystem& system, const std::vector<solvers::Mode>& modes,
-                             int twist) {
-    const solvers::Mode* best = nullptr;
-    double largest = 0;
-    for (const solvers::Mode& mode : modes) {
-        if (!mode.oscillates() || mode.natural_hz() > 8 || mode.is_state_motion()) continue;
-        const double share = solvers::energy_by_row(system, mode)(twist);
-        if (share > largest) largest = share, best = &mode;
-    }
-    if (best == nullptr) throw NumericalError("no mode up to 8 Hz twists the main shaft");
-    return *best;
-}
-
 solvers::Mode torsion_at(const turbines::Turbine& turbine, double speed) {
-    const System& system = turbine.system();
-    const int spin = turbine.rotor().spin;
-    const solvers::SteadyState steady = solvers::steady_state(system, spin, {.rotor_speed = speed});
+    const solvers::SteadyState steady =
+        solvers::steady_state(turbine.system(), turbine.rotor().spin, {.rotor_speed = speed});
     require_result(steady, "steady state");
-    std::vector<int> all(static_cast<std::size_t>(system.model.size()));
-    std::iota(all.begin(), all.end(), 0);
-    const solvers::Linearisation lin = solvers::linearise(system, steady.at);
-    const solvers::ColemanTransform coleman(turbine.rotor(), all, lin.states);
-    const solvers::SecondOrderSystem fixed =
-        coleman.transform(solvers::restrict_to(lin, all, spin), steady.at.q(spin), steady.at.qd(spin));
-    return torsion(fixed, solvers::modes(fixed), system.model.coordinates().index("main shaft twist"));
+    const solvers::SecondOrderSystem system = program::multi_blade_system(turbine, steady.at);
+    return program::drive_train_mode(turbine, system, solvers::modes(system), 8);
 }
 
 }  // namespace
 
 int damping(const MotionOptions& machine, const DampingOptions& options) {
-    const std::vector<double> speeds = speeds_of(options.speeds);
+    const std::vector<double> speeds = program::numbers("--speeds", options.speeds, "numbers separated by commas, rpm");
+    for (const double rpm : speeds) require_positive("--speeds", "rotor speed [rpm]", rpm);
     program::check_outputs(machine.run.out, {".svg", ".png"});
     std::printf("torsion of the drive train, Hz, and damping ratio, %%\n%6s %17s %17s %17s %17s\n", "rpm",
                 "steady curve", "first order", "third order", "fifth order");

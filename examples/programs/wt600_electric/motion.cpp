@@ -68,15 +68,6 @@ ElectricStart running(turbines::ElectricWt600Options options) {
     return {start, state.at.s};
 }
 
-// Change of the rotor's speed until the disturbance, part of it.
-double drift(const solvers::History& history, double until) {
-    double most = 0;
-    const std::vector<double>& speed = history["RotSpeed"];
-    for (std::size_t i = 0; i < speed.size() && history.time[i] < until; ++i)
-        most = std::max(most, std::abs(speed[i] / speed.front() - 1));
-    return most;
-}
-
 const char* title(const std::string& study) {
     if (study == "start") return "direct start of the 600 kW machine";
     return study == "loss" ? "600 kW machine, grid lost and back" : "600 kW machine, sag of the voltage";
@@ -128,17 +119,10 @@ int motion(const std::string& study, const MotionOptions& given) {
     const solvers::EnergyBalance energy = integrator.energy();
     const double scale = program::largest(rows.history, "kinetic energy").value;
     bool good = program::check_energy(energy, scale, 10 * o.run.tolerance);
-    if (o.order == 5) {
-        std::printf("fields, kJ: stored %.3f, from the grid %.3f, lost in resistances %.3f, error %.2e\n",
-                    energy.stored / 1e3, energy.state_supply / 1e3, energy.state_dissipation / 1e3,
-                    energy.state_error / 1e3);
-        good = program::check("energy lost by the fields, of the largest kinetic energy", energy.state_error / scale,
-                              10 * o.run.tolerance) &&
-               good;
-    }
+    if (o.order == 5) good = program::check_field_energy(energy, scale, 10 * o.run.tolerance) && good;
     if (!from_rest && end.reached())
         good = program::check("start in equilibrium: change of rotor speed before the disturbance",
-                              drift(rows.history, o.at), 1e-3) &&
+                              program::speed_drift(rows.history, o.at), 1e-3) &&
                good;
     program::print_effort(integrator, machine.turbine.system(), elapsed);
     program::write_outputs(rows, o.run.out, end.reached(), panels(o.order), {}, {});
