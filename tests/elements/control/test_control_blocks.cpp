@@ -6,6 +6,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/state_elements.hpp"
 #include "tests/support/tree_tools.hpp"
 
 #include <cmath>
@@ -33,22 +34,6 @@ BlockName named(const std::string& name) {
     return {.name = name, .unit = "rad", .scale = 1};
 }
 
-struct Result {
-    Vector Q, f;
-    ForceDerivatives forces;
-    StateDerivatives states;
-};
-
-Result evaluated(const System& system, const Vector& q, const Vector& qd, const Vector& s, const Vector& u) {
-    Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, q, workspace);
-    const ForceInput at{0, q, qd, kin, s, u};
-    Result out{Vector(2), Vector(s.size()), {}, {}};
-    system.forces.evaluate(at, out.Q, out.f);
-    system.forces.derivatives(at, out.forces, out.states);
-    return out;
-}
-
 // Exact derivatives against those of the same element without its Jacobian.
 void check_derivatives(const StateElement& element, std::initializer_list<StateElement> others = {}) {
     const auto with = [&](bool jacobian) {
@@ -67,7 +52,7 @@ void check_derivatives(const StateElement& element, std::initializer_list<StateE
         qd << 0.8 * size, 0.2 * size;
         u << 1.1 * size;
         const Vector s = Vector::LinSpaced(m, -0.6 * size, 0.9 * size);
-        const Result a = evaluated(exact, q, qd, s, u), b = evaluated(differenced, q, qd, s, u);
+        const Evaluated a = evaluated(exact, q, qd, s, u), b = evaluated(differenced, q, qd, s, u);
         CAPTURE(element.name, size);
         CHECK((a.forces.loads - b.forces.loads).norm() < 1e-5);
         CHECK((a.forces.damping - b.forces.damping).norm() < 1e-5);

@@ -1,10 +1,10 @@
 // A slider, a rotor and a locked joint for circuits to act upon.
 #pragma once
 
-#include "mbs/system/channel.hpp"
-#include "mbs/system/system.hpp"
+#include "solvers/linear/channel_values.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/state_elements.hpp"
 #include "tests/support/tree_tools.hpp"
 
 #include <cmath>
@@ -42,32 +42,10 @@ inline OneBody locked() {
     return {JointKind::revolute, 1, CoordinateRole::driven};
 }
 
-struct Evaluated {
-    Vector Q, f;
-    ForceDerivatives forces;
-    StateDerivatives states;
-};
-inline Evaluated evaluated(const System& system, const Vector& q, const Vector& qd, const Vector& s, const Vector& u,
-                           double time = 0) {
-    Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, q, workspace);
-    const ForceInput at{time, q, qd, kin, s, u};
-    Evaluated out{Vector(q.size()), Vector(s.size()), {}, {}};
-    system.forces.evaluate(at, out.Q, out.f);
-    system.forces.derivatives(at, out.forces, out.states);
-    return out;
-}
-
 /// Values of a group's channels at a state.
 inline std::vector<double> sampled(const ChannelGroup& group, const System& system, const solvers::Integrator& run) {
-    Workspace workspace(system.model);
     const solvers::DynamicState& at = run.state();
-    const Kinematics kin = kinematics(system.model, at.q, workspace);
-    const JointLoads loads;
-    std::vector<double> values(group.channels.size());
-    group.sample({at.time, at.q, at.qd, at.qdd, at.actuator, kin, system.forces, loads, at.s, at.s_rate, at.u},
-                 values.data());
-    return values;
+    return solvers::ChannelValues(system, {&group, 1}).at({at.q, at.qd, at.qdd, at.time, at.s, at.u});
 }
 
 /// The element's own derivatives against central differences of its functions.
