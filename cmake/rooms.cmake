@@ -34,14 +34,16 @@ room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB f
 room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
-room(turbines/readers SEES turbines/model) # OpenFAST's files, tables
+room(turbines/readers SEES turbines/model elements/aerodynamics) # OpenFAST's files, tables
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
+room(turbines/aerodynamics SEES turbines/model elements/aerodynamics) # air on the blades of a machine
 room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teetered, NREL 5 MW
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
+room(turbines/operation SEES turbines/aerodynamics solvers/periodic USES boost) # operating points over the wind
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 
-room(examples SEES turbines/studies turbines/control turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples SEES turbines/studies turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
 room(examples/shared SEES examples USES cli11) # what programs and studies have in common
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods

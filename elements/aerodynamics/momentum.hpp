@@ -9,8 +9,9 @@ namespace cardan {
 /// What the balance of momentum takes into account.
 struct MomentumOptions {
     bool tip_loss = true, hub_loss = true;  ///< Prandtl
-    bool drag = true;                       ///< drag in the balance, both directions
+    bool axial_drag = true;                 ///< drag in the axial balance
     bool rotation = true;                   ///< a' of the wake
+    bool tangential_drag = true;            ///< drag in that of the rotation
 };
 
 /// A ring of the rotor and the sections of the blades in it. Axes of a section: x normal to the coned surface,
@@ -31,6 +32,7 @@ struct Annulus {
 struct Induction {
     double axial = 0, tangential = 0;  ///< a, a'
     double phi = 0;                    ///< rad
+    double root = 0;                   ///< of the balance, rad: phi unless a or a' was limited, or changed later
     bool solved = false;               ///< false: no solution, or nothing to solve; see solve_induction()
 };
 

@@ -67,16 +67,11 @@ private:
         const double sine = side.norm() > 0 ? span.dot(side) / (span.norm() * side.norm()) : 0,
                      largest = own.annuli.back().radius;
         for (std::size_t i = 0; i < own.sections.size(); ++i) {
+            const Annulus& annulus = own.annuli[i];
+            SkewedWake wake;
+            if (options_.skew == Skew::pitt_peters) wake = {skew, annulus.radius / largest * sine * std::sin(skew)};
             SectionAir& section = own.sections[i];
-            Induction& found = section.induction;
-            found.phi = std::atan2(section.V_x, section.V_y);
-            if (options_.induction) found = solve_induction(own.annuli[i], section.V_x, section.V_y, options_.momentum);
-            if (options_.skew == Skew::pitt_peters && found.solved) {
-                const double chi = (0.6 * found.axial + 1) * skew;
-                found.axial *= 1 + 15 * pi / 32 * std::tan(chi / 2) * own.annuli[i].radius / largest * sine;
-                found.phi = std::atan2(section.V_x * (1 - found.axial), section.V_y * (1 + found.tangential));
-            }
-            section.force = section_force(own.annuli[i], section.V_x, section.V_y, found, wind_.density);
+            section = section_air(annulus, section.V_x, section.V_y, wake, options_, wind_.density);
         }
     }
 
@@ -119,8 +114,14 @@ void AeroBlade::check() const {
     if (chord.size() != n || twist.size() != n || profile.size() != n)
         throw InputError(here, "lengths of the columns",
                          text(n, ", ", chord.size(), ", ", twist.size(), ", ", profile.size()), "equal");
+    for (const auto* offsets : {&prebend, &sweep})
+        if (!offsets->empty() && offsets->size() != n)
+            throw InputError(here, "number of offsets", offsets->size(), text(n, ", one per section, or none"));
     for (std::size_t i = 0; i < n; ++i) {
         const std::string section = text(here, ", section ", i + 1);
+        for (const auto* offsets : {&prebend, &sweep})
+            if (!offsets->empty() && !std::isfinite((*offsets)[i]))
+                throw InputError(section, "offset [m]", (*offsets)[i], "finite");
         require_positive(section, "place from the hub's centre [m]", position[i]);
         require_positive(section, "chord [m]", chord[i]);
         if (!std::isfinite(twist[i])) throw InputError(section, "twist [rad]", twist[i], "finite");

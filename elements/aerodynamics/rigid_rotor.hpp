@@ -2,7 +2,7 @@
 /// Air on a rotor that does not bend: loads at an instant, tables of its coefficients.
 #pragma once
 
-#include "elements/aerodynamics/momentum.hpp"
+#include "elements/aerodynamics/blade_section.hpp"
 #include "elements/aerodynamics/wind.hpp"
 
 #include <vector>
@@ -16,6 +16,10 @@ struct AeroBlade {
     std::vector<double> twist;         ///< rad, positive towards feather, as the pitch
     std::vector<std::size_t> profile;  ///< index into polars
     std::vector<Polar> polars;
+    /// Of the aerodynamic centres from the pitch axis, m: downwind, and toward the trailing edge, before the pitch.
+    /// Empty: they lie on the reference line of the blade that carries them. A rotor that does not bend has them on its
+    /// straight axes.
+    std::vector<double> prebend = {}, sweep = {};
 
     std::size_t sections() const { return position.size(); }
     /// @throws InputError for columns of different length, positions that do not ascend, chords that are not positive,
@@ -33,24 +37,6 @@ struct RotorPose {
     Vec3 hub = {0, 0, 90};
 };
 
-/// Redistribution of the induction in a wake that leaves the rotor at an angle.
-enum class Skew : std::uint8_t {
-    none,
-    pitt_peters  ///< a (1 + 15 pi/32 tan(chi/2) r/R sin psi), chi = (0.6 a + 1) chi_0  [Pitt and Peters 1981]
-};
-
-struct RotorAirOptions {
-    MomentumOptions momentum = {};
-    Skew skew = Skew::pitt_peters;
-    bool induction = true;  ///< false: a = a' = 0
-};
-
-/// Of one section, without the axes of its blade moving: in axes of the coned, unpitched blade.
-struct SectionAir {
-    double V_x = 0, V_y = 0;  ///< relative to the section, without induction, m/s
-    Induction induction;
-    SectionForce force;
-};
 struct RotorAir {
     std::vector<std::vector<SectionAir>> sections;  ///< by blade
     Vec3 force = Vec3::Zero();                      ///< on the rotor, N, shaft axes (not turning)

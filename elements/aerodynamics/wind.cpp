@@ -7,15 +7,35 @@
 
 namespace cardan {
 
-Vec3 SteadyWind::at(const Vec3& place) const {
-    const double z = std::max(place.z(), 1e-3 * reference_height);
-    double size = speed;
-    if (shear == Shear::power) size *= std::pow(z / reference_height, exponent);
+double SteadyWind::height(const Vec3& place) const {
+    return std::max(place.z(), 1e-3 * reference_height);
+}
+
+// Of the speed at the reference height.
+double SteadyWind::share(double z) const {
+    if (shear == Shear::power) return std::pow(z / reference_height, exponent);
     if (shear == Shear::logarithmic)
-        size *= std::max(0.0, std::log(z / roughness) / std::log(reference_height / roughness));
-    if (shear == Shear::linear) size *= 1 + gradient * (z - reference_height);
-    const double to = direction + veer * (z - reference_height), level = size * std::cos(upflow);
+        return std::max(0.0, std::log(z / roughness) / std::log(reference_height / roughness));
+    return shear == Shear::linear ? 1 + gradient * (z - reference_height) : 1;
+}
+
+Vec3 SteadyWind::at(const Vec3& place) const {
+    const double z = height(place), size = speed * share(z), to = direction + veer * (z - reference_height),
+                 level = size * std::cos(upflow);
     return {level * std::cos(to), level * std::sin(to), size * std::sin(upflow)};
+}
+
+Vec3 SteadyWind::change_with_height(const Vec3& place) const {
+    const double z = height(place);
+    if (place.z() < z) return Vec3::Zero();
+    double slope = 0;  // of the share
+    if (shear == Shear::power) slope = exponent * share(z) / z;
+    if (shear == Shear::logarithmic && z > roughness) slope = 1 / (z * std::log(reference_height / roughness));
+    if (shear == Shear::linear) slope = gradient;
+    const double to = direction + veer * (z - reference_height), level = speed * std::cos(upflow),
+                 turning = veer * share(z);
+    return {level * (slope * std::cos(to) - turning * std::sin(to)),
+            level * (slope * std::sin(to) + turning * std::cos(to)), speed * slope * std::sin(upflow)};
 }
 
 void SteadyWind::check() const {

@@ -31,9 +31,15 @@ struct SteadyWind {
 
     /// m/s. Below the ground, and where a law has no value, that at 1e-3 of the reference height.
     Vec3 at(const Vec3& place) const;
+    /// Its derivative by height, 1/s; below the lowest height zero.
+    Vec3 change_with_height(const Vec3& place) const;
     /// @throws InputError for what is not finite, a density or a height that is not positive, a roughness that is not
     /// between 0 and the reference height
     void check() const;
+
+private:
+    double height(const Vec3& place) const;
+    double share(double z) const;
 };
 
 }  // namespace cardan

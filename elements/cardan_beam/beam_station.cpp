@@ -116,14 +116,14 @@ bool BeamStation::holds(FrameId frame, const Model& model) const {
     return false;
 }
 
-// Of frames that the segment holds.
-bool BeamStation::is_before(FrameId frame, const Kinematics& kin) const {
-    return (element_axes(kin).inverse() * cardan::pose(kin, frame).p)(0) <= x_ - tolerance_;
+// Of places on the segment.
+bool BeamStation::is_before(const Vec3& place, const Kinematics& kin) const {
+    return (element_axes(kin).inverse() * place)(0) <= x_ - tolerance_;
 }
 
 bool BeamStation::is_inboard_of(FrameId frame, const Kinematics& kin) const {
     const Model& model = kin.model();
-    if (holds(frame, model)) return !is_before(frame, kin);
+    if (holds(frame, model)) return !is_before(cardan::pose(kin, frame).p, kin);
     return model.precedes(model.index(joint_), model.frame(frame).body);
 }
 
@@ -149,10 +149,21 @@ Wrench BeamStation::load(const Kinematics& kin, const Forces& forces, const Join
     const Vec6 between = inertia_less_weight(axes, motion(kin, loads), forces.gravity());
     add(between.head<3>(), between.tail<3>(), axes.p, inward_ ? -1 : 1);
     for (const FrameLoad& load : forces.loads()) {
-        if (!holds(load.frame, model) || is_before(load.frame, kin) == inward_) continue;
+        if (!holds(load.frame, model)) continue;
+        const Vec3 place = cardan::pose(kin, load.frame).p;
+        if (is_before(place, kin) == inward_) continue;
         const Wrench now = forces.at_frame(load, kin, loads.time);
-        add(now.force, now.moment, cardan::pose(kin, load.frame).p, inward_ ? 1 : -1);
+        add(now.force, now.moment, place, inward_ ? 1 : -1);
     }
+    for (int f = 0; f < forces.fields(); ++f)
+        for (std::size_t i = 0; i < entry(loads.fields, f).size(); ++i) {
+            const FieldPoint& point = forces.field(f).points[i];
+            if (!holds(point.frame, model)) continue;
+            const Vec3 place = place_of(kin, point);
+            if (is_before(place, kin) == inward_) continue;
+            const Wrench& now = entry(loads.fields, f)[i];
+            add(now.force, now.moment, place, inward_ ? 1 : -1);
+        }
     return sum;
 }
 

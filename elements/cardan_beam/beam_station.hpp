@@ -37,7 +37,7 @@ private:
     Placement element_axes(const Kinematics& kin) const;
     BodyMotion motion(const Kinematics& kin, const JointLoads& loads) const;
     bool holds(FrameId frame, const Model& model) const;
-    bool is_before(FrameId frame, const Kinematics& kin) const;
+    bool is_before(const Vec3& place, const Kinematics& kin) const;
     Vec6 inertia_less_weight(const Placement& axes, const BodyMotion& motion, const Vec3& gravity) const;
 
     FrameId carrier_;      ///< on the rigid segment, element axes

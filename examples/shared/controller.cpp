@@ -43,7 +43,7 @@ public:
     }
     void measure(const solvers::SampleInput& in) {
         const solvers::DynamicState& s = in.state;
-        const JointLoads loads = joint_loads(in.kinematics, in.forces, s.qd, s.qdd, s.time);
+        const JointLoads loads = joint_loads({s.time, s.q, s.qd, in.kinematics, s.s, s.u}, in.forces, s.qdd);
         const ChannelInput at{s.time,    s.q,   s.qd, s.qdd,    s.actuator, in.kinematics,
                               in.forces, loads, s.s,  s.s_rate, s.u};
         double* values = values_.data();

@@ -39,4 +39,18 @@ inline std::vector<double> numbers(const char* option, const std::string& given,
     return all;
 }
 
+/// Numbers, and FIRST:LAST:STEP, separated by commas: "3:10:1,11.4".  @throws InputError naming the option
+inline std::vector<double> ranges(const char* option, const std::string& given, const char* allowed) {
+    std::vector<double> all;
+    for (const std::string& word : split(given, ',')) {
+        std::vector<double> parts;
+        for (const std::string& part : split(word, ':')) parts.push_back(number(option, given, part, allowed));
+        if (parts.size() == 1) parts = {parts[0], parts[0], 1};
+        const double steps = parts.size() == 3 ? (parts[1] - parts[0]) / parts[2] : -1;
+        if (!(steps >= 0 && steps <= 1e5)) throw InputError(option, "value", given, allowed);
+        for (int i = 0; i <= static_cast<int>(steps + 1e-9); ++i) all.push_back(parts[0] + i * parts[2]);
+    }
+    return all;
+}
+
 }  // namespace cardan::program

@@ -90,6 +90,14 @@ void ForceSet::add_user(UserForce force) {
     users_.push_back(std::move(force));
 }
 
+void ForceSet::add_field(WrenchField field) {
+    if (!field.wrenches) throw InputError(text("field '", field.name, "': the function `wrenches` is missing"));
+    for (const FieldPoint& point : field.points)
+        if (!point.place.allFinite())
+            throw InputError(text("field '", field.name, "'"), "place [m]", point.place.transpose(), "finite");
+    fields_.push_back(std::move(field));
+}
+
 void ForceSet::add_states(StateElement element) {
     if (!element.rates) throw InputError(text("element '", element.name, "': the function `rates` is missing"));
     state_elements_.push_back(std::move(element));
@@ -111,6 +119,7 @@ Forces::Forces(const ForceSet& set, const Model& model)
       model_(model.serial()),
       size_(model.size()) {
     for (const UserForce& force : set.users()) users_.push_back({force});
+    for (const WrenchField& field : set.fields()) fields_.push_back(bound(field, model));
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
         for (BodyId body : law.coordinates) {
@@ -125,6 +134,18 @@ Forces::Forces(const ForceSet& set, const Model& model)
     for (const FrameLoad& load : loads_)
         if (load.frame.index < 0 || load.frame.index >= static_cast<int>(model.frames().size()))
             throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
+}
+
+Forces::Field Forces::bound(const WrenchField& field, const Model& model) {
+    Field out{field, {}, {}};
+    for (const FieldPoint& point : field.points) {
+        if (point.frame.index < 0 || point.frame.index >= std::ssize(model.frames()))
+            throw InputError(text("field '", field.name, "'"), "frame", point.frame.index, "a frame of the tree");
+        const Model::Frame& frame = model.frame(point.frame);
+        out.bodies.push_back(frame.body);
+        out.places.push_back(frame.in_body * point.place);
+    }
+    return out;
 }
 
 // A law's coordinates in ascending order, cut where an index is left out.
@@ -176,6 +197,7 @@ std::string Forces::stiffest_law(int coordinate) const {
 std::vector<double> Forces::breaks() const {
     std::vector<double> all;
     for (const FrameLoad& load : loads_) all.insert(all.end(), load.breaks.begin(), load.breaks.end());
+    for (const Field& field : fields_) all.insert(all.end(), field.own.breaks.begin(), field.own.breaks.end());
     states_.append_breaks(all);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -195,6 +217,7 @@ Forces Forces::with_load_factor(double factor, bool gravity_too) const {
     for (FrameLoad& load : other.loads_) scale(load, factor);
     for (User& user : other.users_)
         if (!user.own.elastic) user.factor *= factor;
+    for (Field& field : other.fields_) field.factor *= factor;
     other.states_.scale(factor);
     if (gravity_too) other.gravity_ *= factor;
     return other;

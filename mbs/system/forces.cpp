@@ -11,11 +11,12 @@ namespace cardan {
 
 namespace {
 
-// Thread-local memory for scaled user forces. A user force that evaluates other forces borrows again and gets fresh
-// memory.
+// Thread-local memory for scaled user forces and for fields. A user force that evaluates other forces borrows again and
+// gets fresh memory.
 struct Scratch {
     Vector Q;
     Matrix by_q, by_qd;
+    std::vector<Wrench> points, bodies;
 };
 class BorrowedScratch {
 public:
@@ -33,15 +34,17 @@ private:
     Scratch own_;
 };
 
-// Central differences of a user force, at a workspace of its own: the caller's kinematics must stay valid.
-void difference(const UserForce& user, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+// Central differences of a force, at a workspace of its own: the caller's kinematics must stay valid.
+// @param add  the force: add(at, Q)
+template <class Add>
+void difference(const Add& add, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
     constexpr double step = 1e-6;
     const Eigen::Index n = at.q.size();
     const Model& model = at.kinematics.model();
     Workspace own(model);
     const auto force = [&](const Vector& q, const Vector& qd) {
         Vector Q = Vector::Zero(n);
-        user.force({at.time, q, qd, kinematics(model, q, own), at.s, at.u}, Q);
+        add({at.time, q, qd, kinematics(model, q, own), at.s, at.u}, Q);
         return Q;
     };
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -151,12 +154,15 @@ void Forces::generalised_forces(const Kinematics& kin, double time, const Vector
                                 VectorOut Q) const {
     require_no_states("forces");
     generalised_forces_of_elements<double>(kin, q, qd, Q, time);
-    add_users({time, q, qd, kin, no_states, no_states}, Q);
+    const ForceInput at{time, q, qd, kin, no_states, no_states};
+    add_users(at, Q);
+    for (const Field& field : fields_) add_field(field, at, Q);
 }
 
 void Forces::evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const {
     generalised_forces_of_elements<double>(at.kinematics, at.q, at.qd, Q, at.time);
     add_users(at, Q);
+    for (const Field& field : fields_) add_field(field, at, Q);
     states_.rates({at.time, at.q, at.qd, at.s, at.u}, Q, rates);
 }
 
@@ -179,6 +185,48 @@ void Forces::add_user(const User& user, const ForceInput& at, VectorOut& Q) cons
     scratch->Q.setZero(Q.size());
     user.own.force(at, scratch->Q);
     Q += user.factor * scratch->Q;
+}
+
+const WrenchField& Forces::field(int i) const {
+    require_index("forces", "field", i, std::ssize(fields_));
+    return entry(fields_, i).own;
+}
+
+std::vector<Wrench> Forces::field_wrenches(int i, const ForceInput& at) const {
+    std::vector<Wrench> out(field(i).points.size());
+    field(i).wrenches(at, out);
+    for (Wrench& w : out) w = {entry(fields_, i).factor * w.force, entry(fields_, i).factor * w.moment};
+    return out;
+}
+
+// The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
+void Forces::add_field(const Field& field, const ForceInput& at, VectorOut Q) const {
+    const Kinematics& kin = at.kinematics;
+    BorrowedScratch scratch;
+    scratch->points.resize(field.own.points.size());
+    scratch->bodies.assign(static_cast<std::size_t>(size_), {});
+    field.own.wrenches(at, scratch->points);
+    const Workspace& ws = kin.workspace();
+    const auto add_at = [&](int body, const Vec3& force, const Vec3& moment, const Vec3& arm) {
+        Wrench& sum = entry(scratch->bodies, body);
+        sum.force += force;
+        sum.moment += moment + cross<double>(arm, force);
+    };
+    for (std::size_t i = 0; i < scratch->points.size(); ++i) {
+        const int body = field.bodies[i];
+        if (body < 0) continue;
+        add_at(body, field.factor * scratch->points[i].force, field.factor * scratch->points[i].moment,
+               entry(ws.frame, body).E.matrix() * field.places[i]);
+    }
+    for (int k = size_ - 1; k >= 0; --k) {
+        const Wrench& sum = entry(scratch->bodies, k);
+        const Workspace::Frame& frame = entry(ws.frame, k);
+        const Model::Link& link = entry(kin.model().links(), k);
+        const Vec3 axis = frame.E[2].vector();
+        Q(k) += axis.dot(link.revolute ? sum.moment : sum.force);
+        if (link.parent >= 0)
+            add_at(link.parent, sum.force, sum.moment, frame.o.vector() - entry(ws.frame, link.parent).o.vector());
+    }
 }
 
 // d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
@@ -242,9 +290,26 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
     if (user.own.jacobian)
         user.own.jacobian(at, scratch->by_q, scratch->by_qd);
     else
-        difference(user.own, at, scratch->by_q, scratch->by_qd);
+        difference(user.own.force, at, scratch->by_q, scratch->by_qd);
     stiffness -= user.factor * scratch->by_q;
     out.damping -= user.factor * scratch->by_qd;
+}
+
+void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
+    const Eigen::Index n = at.q.size();
+    BorrowedScratch scratch;
+    scratch->by_q.setZero(n, n);
+    scratch->by_qd.setZero(n, n);
+    if (field.own.jacobian) {
+        field.own.jacobian(at, scratch->by_q, scratch->by_qd);
+        scratch->by_q *= field.factor;
+        scratch->by_qd *= field.factor;
+    } else {
+        const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, input, Q); };
+        difference(add, at, scratch->by_q, scratch->by_qd);
+    }
+    out.loads -= scratch->by_q;
+    out.damping -= scratch->by_qd;
 }
 
 void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
@@ -272,6 +337,7 @@ void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out)
     if (has_gravity()) gravity_stiffness(kin, out.gravity);
     for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, at.time, out.loads);
     for (const User& user : users_) user_derivatives(user, at, out);
+    for (const Field& field : fields_) field_derivatives(field, at, out);
 }
 
 double Forces::dissipation(const Vector& qd) const {
@@ -333,6 +399,10 @@ std::vector<ForceReport> Forces::report(const ForceInput& at) const {
         if (user.own.energy) energy = user.factor * user.own.energy(at);
         reports.push_back({user.own.name, energy, power()});
     }
+    for (const Field& field : fields_) {
+        add_field(field, at, Q);
+        reports.push_back({field.own.name, std::nullopt, power()});
+    }
     return reports;
 }
 
@@ -349,6 +419,11 @@ double Forces::potential_energy(const ForceInput& at) const {
 
 StateEnergy Forces::state_energy(const ForceInput& at) const {
     return states_.energy({at.time, at.q, at.qd, at.s, at.u});
+}
+
+Vec3 place_of(const Kinematics& kin, const FieldPoint& point) {
+    const Pose<double> frame = pose(kin, point.frame);
+    return frame.p + frame.R * point.place;
 }
 
 template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,

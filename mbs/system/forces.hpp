@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace cardan {
@@ -43,6 +44,24 @@ struct UserForce {
     std::function<double(const ForceInput&)> energy = {};
     /// A spring rather than a load: -dQ/dq counts as elastic stiffness.
     bool elastic = false;
+};
+
+/// A place on a body where a field acts.
+struct FieldPoint {
+    FrameId frame = {};
+    Vec3 place = Vec3::Zero();  ///< in the axes of the frame, m
+};
+
+/// Forces and moments at many places that depend on the motion, as those of air and water. Unlike those of a user force
+/// the library knows where they act, so that loads of channels and joints take them into account.
+struct WrenchField {
+    std::string name = {};
+    std::vector<FieldPoint> points = {};
+    /// Writes force and moment about its place, base axes, for every point.
+    std::function<void(const ForceInput&, std::span<Wrench>)> wrenches = {};
+    /// Adds dQ/dq and dQ/dqd (n x n). Empty: central differences, as those of UserForce.
+    std::function<void(const ForceInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
+    std::vector<double> breaks = {};  ///< times, s, ascending, across which it is not smooth
 };
 
 /// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint's spring).
@@ -83,6 +102,7 @@ public:
     /// Also one that changes with time: loads of channels and joints take either into account.
     void add_wrench(FrameLoad load);
     void add_user(UserForce force);
+    void add_field(WrenchField field);
     /// Equations of first order, and the forces that depend on their states.
     void add_states(StateElement element);
     /// A value that elements with states may name.
@@ -93,6 +113,7 @@ public:
     const std::vector<LinearLaw>& laws() const { return laws_; }
     const std::vector<FrameLoad>& loads() const { return loads_; }
     const std::vector<UserForce>& users() const { return users_; }
+    const std::vector<WrenchField>& fields() const { return fields_; }
     const std::vector<StateElement>& state_elements() const { return state_elements_; }
     const std::vector<InputInfo>& inputs() const { return inputs_; }
     const Vec3& gravity() const { return gravity_; }
@@ -101,6 +122,7 @@ private:
     std::vector<LinearLaw> laws_;
     std::vector<FrameLoad> loads_;
     std::vector<UserForce> users_;
+    std::vector<WrenchField> fields_;
     std::vector<StateElement> state_elements_;
     std::vector<InputInfo> inputs_;
     Vec3 gravity_ = Vec3::Zero();
@@ -117,7 +139,7 @@ struct ForceReport {
 struct ForceDerivatives {
     Matrix elastic;  ///< -dQ/dq of linear laws and elastic user forces
     Matrix gravity;  ///< -dQ/dq of gravity
-    Matrix loads;    ///< -dQ/dq of wrenches, other user forces and elements with states
+    Matrix loads;    ///< -dQ/dq of wrenches, fields, other user forces and elements with states
     Matrix damping;  ///< -dQ/dqd of all
 };
 
@@ -136,7 +158,7 @@ public:
     /// The same with states.
     /// @param rates  out, of the states: ds/dt
     void evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const;
-    /// Likewise without user forces, for any scalar (tests).
+    /// Likewise without user forces and fields, for any scalar (tests).
     template <class S>
     void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
                                         double time = 0) const;
@@ -168,7 +190,11 @@ public:
     const std::vector<FrameLoad>& loads() const { return loads_; }
     /// A load as it acts at a time: force and moment at the frame's origin, base axes.
     Wrench at_frame(const FrameLoad& load, const Kinematics& kin, double time = 0) const;
-    /// Times, s, ascending, across which a load or an element with states is not smooth.
+    /// Where fields act, and the wrenches there: force and moment about the place, base axes.
+    int fields() const { return static_cast<int>(fields_.size()); }
+    const WrenchField& field(int i) const;
+    std::vector<Wrench> field_wrenches(int i, const ForceInput& at) const;
+    /// Times, s, ascending, across which a load, a field or an element with states is not smooth.
     std::vector<double> breaks() const;
     const Vec3& gravity() const { return gravity_; }
     /// Model::serial() of the model that it is bound to.
@@ -180,8 +206,8 @@ public:
     double dissipation(const Vector& qd) const;
     /// A copy with another gravity.  @throws InputError if it is not finite
     Forces with_gravity(const Vec3& g) const;
-    /// A copy with the loads multiplied by `factor`: wrenches, user forces but elastic ones (force, jacobian and
-    /// energy), forces of elements with states (not the rates of these) and, if `gravity_too`, gravity. Springs and
+    /// A copy with the loads multiplied by `factor`: wrenches, fields, user forces but elastic ones (force, jacobian
+    /// and energy), forces of elements with states (not the rates of these) and, if `gravity_too`, gravity. Springs and
     /// dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.
     Forces with_load_factor(double factor, bool gravity_too) const;
@@ -195,6 +221,12 @@ private:
     };
     struct User {
         UserForce own;
+        double factor = 1;
+    };
+    struct Field {
+        WrenchField own;
+        std::vector<int> bodies;   // of the points; -1: base
+        std::vector<Vec3> places;  // in body axes
         double factor = 1;
     };
     // Coefficients of one row of a law's matrix, of consecutive coordinates.
@@ -227,6 +259,9 @@ private:
     void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
+    static Field bound(const WrenchField& field, const Model& model);
+    void add_field(const Field& field, const ForceInput& at, VectorOut Q) const;
+    void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
     template <class S>
     void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;
@@ -235,10 +270,14 @@ private:
     Runs springs_, dampers_;
     std::vector<FrameLoad> loads_;
     std::vector<User> users_;
+    std::vector<Field> fields_;
     StateForces states_;
     Vec3 gravity_;
     std::uint64_t model_;  ///< Model::serial()
     int size_;             ///< number of coordinates
 };
+
+/// Of a field's point, base axes, m.
+Vec3 place_of(const Kinematics& kin, const FieldPoint& point);
 
 }  // namespace cardan

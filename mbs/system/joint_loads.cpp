@@ -1,6 +1,9 @@
 #include "mbs/system/joint_loads.hpp"
 
 #include "mbs/base/entry.hpp"
+#include "mbs/base/error.hpp"
+
+#include <utility>
 
 namespace cardan {
 
@@ -14,7 +17,11 @@ void add_at(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to,
 
 }  // namespace
 
-JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time) {
+namespace {
+
+// @param fields  of each, its wrenches
+JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time,
+                      std::vector<std::vector<Wrench>> fields) {
     const Model& model = kin.model();
     require_model("joint loads", "set of forces", forces.model_serial(), model.serial());
     const Workspace& ws = kin.workspace();
@@ -38,12 +45,34 @@ JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd,
         if (body < 0) continue;
         add_at(entry(applied, body), forces.at_frame(load, kin, time), pose(kin, load.frame).p, kin.origin(body), 1);
     }
+    for (int f = 0; f < forces.fields(); ++f)
+        for (std::size_t i = 0; i < entry(fields, f).size(); ++i) {
+            const FieldPoint& point = forces.field(f).points[i];
+            const int body = model.frame(point.frame).body;
+            if (body >= 0) add_at(entry(applied, body), entry(fields, f)[i], place_of(kin, point), kin.origin(body), 1);
+        }
+    t.fields = std::move(fields);
     for (int k = model.size() - 1; k >= 0; --k) {
         add_at(entry(t.joint, k), entry(applied, k), kin.origin(k), kin.origin(k), -1);
         if (const int parent = model.body(k).parent; parent >= 0)
             add_at(entry(applied, parent), entry(applied, k), kin.origin(k), kin.origin(parent), 1);
     }
     return t;
+}
+
+}  // namespace
+
+JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd) {
+    std::vector<std::vector<Wrench>> fields;
+    for (int f = 0; f < forces.fields(); ++f) fields.push_back(forces.field_wrenches(f, at));
+    return loads_with(at.kinematics, forces, at.qd, qdd, at.time, std::move(fields));
+}
+
+JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time) {
+    if (forces.fields() > 0)
+        throw InputError("joint loads", "number of fields", forces.fields(),
+                         "0: what they depend on is told by a ForceInput");
+    return loads_with(kin, forces, qd, qdd, time, {});
 }
 
 }  // namespace cardan

@@ -25,13 +25,18 @@ struct JointLoads {
     double time = 0;                 ///< s: wrenches are those of this time
     std::vector<BodyMotion> motion;  ///< one per body
     /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
-    /// inertial forces of the subtree minus gravity and wrenches on it, base axes. User forces are left out, since they
-    /// are not given as wrenches; armatures have no reaction.
+    /// inertial forces of the subtree minus gravity, wrenches and fields on it, base axes. User forces are left out,
+    /// since they are not given as wrenches; armatures have no reaction.
     std::vector<Wrench> joint;
+    std::vector<std::vector<Wrench>> fields;  ///< Forces::field_wrenches() of each
 };
 
+/// @param qdd  accelerations, size n
+JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd);
+/// The same without fields.
 /// @param qd, qdd  rates and accelerations, size n
 /// @param time     s, if wrenches change with time
+/// @throws InputError if the forces have fields: they may depend on more
 JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time = 0);
 
 }  // namespace cardan

@@ -17,7 +17,6 @@ ChannelValues::ChannelValues(const System& system, std::span<const ChannelGroup>
 const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const Vector& actuator,
                                              const Forces& forces) {
     const Kinematics kin = kinematics(system_->model, state.q, workspace_);
-    const JointLoads loads = joint_loads(kin, forces, state.qd, state.qdd, state.time);
     if (system_->forces.has_states()) {
         s_ = state.s.size() > 0 ? state.s : system_->forces.states().initial();
         u_ = state.u.size() > 0 ? state.u : system_->forces.inputs().initial();
@@ -25,6 +24,7 @@ const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const 
         s_rate_.resize(s_.size());
         system_->forces.evaluate({state.time, state.q, state.qd, kin, s_, u_}, Q_, s_rate_);
     }
+    const JointLoads loads = joint_loads({state.time, state.q, state.qd, kin, s_, u_}, forces, state.qdd);
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads, s_, s_rate_, u_};
     double* next = values_.data();
     for (const ChannelGroup& group : groups_) {

@@ -3,7 +3,7 @@
 /// <!-- given: turbine, integrator -->
 #pragma once
 
-#include "elements/aerodynamics/polar.hpp"
+#include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/machine/joints.hpp"
 #include "solvers/time/recorder.hpp"
 #include "turbines/machines/wt600.hpp"
@@ -15,6 +15,7 @@ extern const cardan::JointedFrame slide;
 extern const cardan::BodyId shaft;
 extern cardan::ForceSet forces;
 extern const cardan::Polar polar;
+extern const cardan::AeroBlade aero_blade;
 extern std::vector<cardan::solvers::Drive> drives;
 extern cardan::solvers::IntegrationOptions options;
 extern cardan::solvers::Integrator integrator;

@@ -54,6 +54,7 @@ ForceSet without_springs(const ForceSet& all, const std::vector<BodyId>& coordin
         if (std::ranges::none_of(coordinates, [&](BodyId at) { return holds_only(law, at); })) rest.add_law(law);
     for (const FrameLoad& load : all.loads()) rest.add_wrench(load);
     for (const UserForce& force : all.users()) rest.add_user(force);
+    for (const WrenchField& field : all.fields()) rest.add_field(field);
     for (const StateElement& element : all.state_elements()) rest.add_states(element);
     for (const InputInfo& input : all.inputs()) rest.add_input(input);
     rest.set_gravity(all.gravity());

@@ -36,6 +36,9 @@ struct AssemblyOptions {
     /// Complete element options of tower and blades: extension, torsion, element ends ... They replace the numbers of
     /// elements, delta and partition above. Their damping must be empty: it is part of the description.
     std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
+    /// A prescribed coordinate per blade behind its pitch bearing, for a pitch that changes: "blade 1 pitch drive" ...,
+    /// positive away from feather, zero at the pitch setting.
+    bool pitch_drives = false;
 };
 
 /// Where to find parts in the tree of a machine, for loads and channels. Parts that a machine lacks are empty.
@@ -57,6 +60,7 @@ struct MachineLayout {
     std::vector<FrameId> blade_roots;    ///< behind pitch joint and pitch setting: the blade's axes
     std::vector<BodyId> pitch;           ///< pitch joints; their coordinates are positive away from feather
     std::vector<double> pitch_settings;  ///< per blade, rad, positive toward feather
+    std::vector<BodyId> pitch_drives;    ///< per blade, if the assembly has them
 };
 
 /// A machine ready for the solvers. Immutable and cheap to copy.

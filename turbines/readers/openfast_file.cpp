@@ -264,11 +264,39 @@ std::string OpenFastFile::word(std::string_view keyword) {
     return single(keyword).text;
 }
 
-std::filesystem::path OpenFastFile::path(std::string_view keyword) {
-    std::string given = word(keyword);
+double OpenFastFile::first_number(std::string_view keyword) {
+    Line* const line = find(keyword);
+    if (line == nullptr || line->tokens.size() != 1) return number(keyword);  // which says what is wrong
+    for (Line& other : lines_)
+        if (key_of(other.keyword) == key_of(keyword)) other.used = true;
+    return parsed(line->tokens.front(), line->number, keyword);
+}
+
+double OpenFastFile::number_or_default(std::string_view keyword, double otherwise) {
+    return !has(keyword) || lower_case(word(keyword)) == "default" ? otherwise : number(keyword);
+}
+
+std::filesystem::path OpenFastFile::beside(std::string given, int line, std::string_view keyword) const {
     std::replace(given.begin(), given.end(), '\\', '/');
-    if (given.empty()) fail(keyword, cardan::text(keyword, ": the name of the file is empty"));
+    if (given.empty()) throw ParseError(file_, line, 0, cardan::text(keyword, ": the name of the file is empty"));
     return std::filesystem::path(file_).parent_path() / given;
+}
+
+std::filesystem::path OpenFastFile::path(std::string_view keyword) {
+    return beside(word(keyword), known(keyword).number, keyword);
+}
+
+std::vector<std::filesystem::path> OpenFastFile::paths(std::string_view keyword, std::size_t count) {
+    std::vector<std::filesystem::path> all;
+    auto line = lines_.begin() + (&known(keyword) - lines_.data());
+    for (; all.size() < count; ++line) {
+        if (line == lines_.end() || line->tokens.size() != 1 || (!all.empty() && !line->keyword.empty()))
+            throw ParseError(file_, line == lines_.end() ? lines_.back().number : line->number, 0,
+                             cardan::text(keyword, ": ", count, " names of files expected, found ", all.size()));
+        line->used = true;
+        all.push_back(beside(line->tokens.front().text, line->number, keyword));
+    }
+    return all;
 }
 
 void OpenFastFile::fail(std::string_view keyword, std::string_view what) const {
@@ -337,6 +365,25 @@ std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
         if (!at->tokens.empty() && at->tokens.front().text.starts_with('(')) continue;  // units
         Row row{{}, at->number};
         for (const Token& token : at->tokens) row.values.push_back(parsed(token, at->number, what));
+        at->used = true;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::vector<OpenFastFile::Row> OpenFastFile::rows_after(std::string_view keyword) {
+    const double count = first_number(keyword);
+    std::vector<Row> rows;
+    for (auto at = lines_.begin() + (find(keyword) - lines_.data()) + 1; static_cast<double>(rows.size()) < count;
+         ++at) {
+        if (at == lines_.end())
+            throw ParseError(file_, lines_.back().number, 0,
+                             cardan::text("row ", rows.size() + 1, " of the ", count, " that ", keyword,
+                                          " announces: the file ends before it"));
+        const bool names = rows.empty() && !at->tokens.empty() && !fortran_number(at->tokens.front().text);
+        if (at->heading || at->tokens.empty() || names) continue;
+        Row row{{}, at->number};
+        for (const Token& token : at->tokens) row.values.push_back(parsed(token, at->number, keyword));
         at->used = true;
         rows.push_back(std::move(row));
     }

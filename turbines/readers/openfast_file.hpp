@@ -66,8 +66,14 @@ public:
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);
+    /// The same for a keyword that several parts of a file have: that of the first one. The others count as used.
+    double first_number(std::string_view keyword);
+    /// What stands in place of a number may be the word "default".
+    double number_or_default(std::string_view keyword, double otherwise);
     /// A path relative to the folder of this file.
     std::filesystem::path path(std::string_view keyword);
+    /// Paths in the line of the keyword and in those after it.
+    std::vector<std::filesystem::path> paths(std::string_view keyword, std::size_t count);
     /// Applies `read()` to the file that the keyword names. @throws ParseError at the keyword instead of FileError
     template <class Read>
     auto follow(std::string_view keyword, const Read& read) const {
@@ -83,6 +89,9 @@ public:
     /// The rows of numbers below the heading, or the line of names, that contains `what`, up to the next heading or
     /// keyword; lines without numbers are passed over.
     std::vector<Row> rows_below(std::string_view what);
+
+    /// The rows of numbers after the first line with the keyword, as many as it says; headings are passed over.
+    std::vector<Row> rows_after(std::string_view keyword);
 
     /// Marks the lines after the keyword as used.
     void pass_over(std::string_view keyword, std::size_t lines);
@@ -117,6 +126,7 @@ private:
     const Line* find(std::string_view keyword) const;
     Line& known(std::string_view keyword);
     const Token& single(std::string_view keyword);
+    std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;
     std::optional<std::vector<double>> numbers_of(const Line& line) const;
     double parsed(const Token& token, int line, std::string_view what) const;
 

@@ -1,8 +1,9 @@
-// Steady state of any machine at one rotor speed: deflections and loads over a revolution.
+// Steady state of any machine: at one rotor speed without air, deflections and loads over a revolution; or in the wind,
+// over the wind speed (steady_wind.cpp).
 //
 // Problem: the rotor turns at constant speed and everything else has the period of a revolution: gravity, two blades,
 // blades that differ; the steady state is found by harmonic balance. At rest, or where nothing depends on the azimuth,
-// it is constant. There is no wind: what is seen is what weights and rotation do.
+// it is constant. Without wind what is seen is what weights and rotation do.
 // Checked: what the neglected harmonics would have to balance is printed.
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
@@ -14,6 +15,7 @@
 
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
+#include "examples/programs/cardan/steady_wind.hpp"
 #include "examples/shared/channel_choice.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/steady_rotation.hpp"
@@ -28,6 +30,7 @@ namespace {
 
 struct SteadyArguments {
     MachineOptions machine;
+    WindArguments wind;
     StationOptions stations;
     std::optional<double> rpm;
     double azimuth = 0;
@@ -45,6 +48,7 @@ void declare(CommandLine& app, SteadyArguments& a) {
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
     app.add_flag("--all", a.all, "print all channels, not only the main ones");
     add_station_options(app, a.stations);
+    add_wind_options(app, a.wind);
     add_machine_options(app, a.machine);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
 }
@@ -119,7 +123,11 @@ void write(const solvers::History& history, const std::string& path, const std::
 int run(SteadyArguments& a, const CommandLine& command) {
     a.machine.gravity = !a.no_gravity;
     const MachineFile machine = prepared_machine(a.machine);
-    if (a.out.empty()) a.out = default_prefix(a.machine.model, "steady");
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, a.wind.speeds.empty() ? "steady" : "wind");
+    if (!a.wind.speeds.empty()) {
+        if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
+        return steady_in_wind(machine, a.machine, a.wind, a.harmonics, a.azimuths, a.out, command);
+    }
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;
     set_pitch(machine, a.machine, speed);
@@ -149,8 +157,8 @@ int run(SteadyArguments& a, const CommandLine& command) {
 int steady_command(int argc, char** argv) {
     return run_command<SteadyArguments>(
         "cardan steady",
-        "Steady state of any machine at one rotor speed, without wind.\n"
-        "Prints the main channels; writes all over a revolution to PREFIX.h5, and pictures "
+        "Steady state of any machine at one rotor speed without wind, or with --wind over the wind speed.\n"
+        "Prints the main channels; writes all over a revolution, or over the wind speed, to PREFIX.h5, and pictures "
         "to PREFIX.svg and .png.",
         argc, argv, declare, run);
 }

@@ -3,6 +3,7 @@
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/readers/csv.hpp"
 
 #include <cmath>
@@ -15,50 +16,22 @@ namespace {
 
 using turbines::CsvTable;
 
-CsvTable file(const std::string& path) {
-    return CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/" + path);
-}
 CsvTable reference(const std::string& name) {
-    return file("tests/elements/aerodynamics/" + name);
-}
-
-AeroBlade nrel5mw() {
-    AeroBlade blade;
-    const CsvTable polars = file("turbines/data/nrel5mw_polars.csv"),
-                   sections = file("turbines/data/nrel5mw_aero_blade.csv");
-    const auto number = polars.column("profile"), angle = polars.column("angle_of_attack", "deg"),
-               lift = polars.column("lift_coefficient"), drag = polars.column("drag_coefficient"),
-               moment = polars.column("moment_coefficient");
-    for (std::size_t i = 0, next = 0; i < polars.rows(); i = next) {
-        std::vector<double> a, l, d, m;
-        for (next = i; next < polars.rows() && number[next] == number[i]; ++next) {
-            a.push_back(angle[next] * units::degree);
-            l.push_back(lift[next]);
-            d.push_back(drag[next]);
-            m.push_back(moment[next]);
-        }
-        blade.polars.emplace_back(text("profile ", number[i]), a, l, d, m);
-    }
-    for (std::size_t i = 0; i < sections.rows(); ++i) {
-        blade.position.push_back(sections.column("radius", "m")[i]);
-        blade.chord.push_back(sections.column("chord", "m")[i]);
-        blade.twist.push_back(sections.column("twist", "deg")[i] * units::degree);
-        blade.profile.push_back(static_cast<std::size_t>(sections.column("profile")[i]) - 1);
-    }
-    return blade;
+    return CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/elements/aerodynamics/" + name);
 }
 
 }  // namespace
 
 TEST_CASE("blade-element momentum: power and thrust coefficients", "[discrete]") {
-    const AeroBlade blade = nrel5mw();
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
     const CsvTable table = reference("aerodyn_rotor.csv");
     const double R = blade.position.back();
     REQUIRE(table.rows() > 60);
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
         RotorAirOptions options;
-        options.momentum = {at("tip_loss") != 0, at("hub_loss") != 0, at("drag") != 0, at("rotation") != 0};
+        options.momentum = {at("tip_loss") != 0, at("hub_loss") != 0, at("drag") != 0, at("rotation") != 0,
+                            at("drag") != 0};
         options.induction = at("induction") != 0;
         const double speed = at("speed") * units::rpm, wind = at("wind");
         const RotorAir air =
@@ -72,7 +45,7 @@ TEST_CASE("blade-element momentum: power and thrust coefficients", "[discrete]")
 }
 
 TEST_CASE("blade-element momentum: inductions and loads of the sections", "[discrete]") {
-    const AeroBlade blade = nrel5mw();
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
     const CsvTable table = reference("aerodyn_nodes.csv");
     std::map<double, RotorAir> cases;  // by wind and speed
     double largest = 0;
@@ -95,7 +68,7 @@ TEST_CASE("blade-element momentum: inductions and loads of the sections", "[disc
 
 TEST_CASE("blade-element momentum: tilt, cone, yaw and shear over the azimuth, with and without skewed wake",
           "[discrete]") {
-    const AeroBlade blade = nrel5mw();
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
     const CsvTable table = reference("aerodyn_azimuth.csv");
     REQUIRE(table.rows() > 200);
     for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -121,7 +94,7 @@ TEST_CASE("blade-element momentum: tilt, cone, yaw and shear over the azimuth, w
 }
 
 TEST_CASE("blade-element momentum: a solution by bisection is the same, for any section", "[crosscheck]") {
-    const AeroBlade blade = nrel5mw();
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
     std::mt19937 random(4);
     const auto number = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(random);

@@ -287,6 +287,13 @@ void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade
         layout.pitch.push_back(pitch.body);
         root = pitch.frame;
     }
+    if (options_.pitch_drives) {
+        const JointedFrame drive = add_joint(tree, root, JointKind::revolute, Axis::x, name + " pitch drive",
+                                             {"pitch", number}, Vec3::Zero(), CoordinateRole::driven);
+        coordinates.push_back(drive.body);
+        layout.pitch_drives.push_back(drive.body);
+        root = drive.frame;
+    }
     const double setting = options_.pitch + blade.pitch_setting;
     const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-setting)), name + " root");
     const auto damping = damping_.blades.find(number);

@@ -1,0 +1,141 @@
+/// @file
+/// Formulas of the blade-element momentum theory, for numbers and for numbers with derivatives. Internal to
+/// aerodynamics: not installed.
+#pragma once
+
+#include "elements/aerodynamics/detail/dual.hpp"
+#include "elements/aerodynamics/momentum.hpp"
+#include "mbs/base/types.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cardan {
+
+/// Velocity of the air relative to a section without induction, and the section's own angle and radius.
+template <class S>
+struct Inflow {
+    S V_x, V_y, angle, radius;
+};
+
+/// A coefficient of a polar at an angle, its slope known.
+inline double coefficient(double value, double /*slope*/, double /*angle*/) {
+    return value;
+}
+template <int N>
+Dual<N> coefficient(double value, double slope, const Dual<N>& angle) {
+    return angle.chain(value, slope);
+}
+
+/// The balance of momentum at an angle of inflow phi [Ning 2014].
+template <class S>
+class Balance {
+public:
+    Balance(const Annulus& annulus, const Inflow<S>& inflow, const MomentumOptions& options)
+        : annulus_(annulus),
+          options_(options),
+          inflow_(inflow),
+          solidity_(annulus.blades * annulus.chord / (2 * pi) / inflow.radius) {}
+
+    struct Point {
+        S k, k_tangential, F;
+    };
+    Point at(const S& phi) const {
+        using std::abs, std::cos, std::sin;
+        const S s = sin(phi), c = cos(phi), attack = phi - inflow_.angle;
+        const Polar::Point polar = annulus_.polar->at(value_of(attack));
+        const S lift = coefficient(polar.lift, polar.lift_slope, attack),
+                drag = coefficient(polar.drag, polar.drag_slope, attack),
+                normal = options_.axial_drag ? lift * c + drag * s : lift * c,
+                driving = options_.tangential_drag ? lift * s - drag * c : lift * s;
+        S F = 1;
+        if (options_.tip_loss) F *= loss(annulus_.tip / abs(s));
+        if (options_.hub_loss) F *= loss(annulus_.hub / abs(s));
+        if (!(value_of(F) >= least_loss)) F = least_loss;
+        const S turn = options_.rotation ? solidity_ * driving / (4 * F * s * c) : S(0);
+        return {solidity_ * normal / (4 * F * s * s), value_of(inflow_.V_x) < 0 ? -turn : turn, F};
+    }
+    bool brakes(const S& phi) const { return value_of(phi) * value_of(inflow_.V_x) < 0; }  // as a propeller does
+    S axial(const S& phi, const Point& at) const {
+        using std::sqrt;
+        if (brakes(phi)) return at.k / (at.k - 1);
+        if (value_of(at.k) <= glauert_from) return at.k / (1 + at.k);
+        // Buhl: C_T = 8/9 + (4 F - 40/9) a + (50/9 - 4 F) a^2.
+        const S x = 2 * at.F * at.k, g1 = x - (10.0 / 9 - at.F), g2 = x - at.F * (4.0 / 3 - at.F),
+                g3 = x - (25.0 / 9 - 2 * at.F);
+        return std::abs(value_of(g3)) < 1e-6 ? 1 - 1 / (2 * sqrt(g2)) : (g1 - sqrt(g2)) / g3;
+    }
+    /// A pole of the residual changes its sign as well.
+    bool holds(const S& phi) const {
+        const double k = value_of(at(phi).k);
+        return brakes(phi) ? k > 1 : k >= -1;
+    }
+    /// Multiplied by V_y, so that it has a value at rest too.
+    S residual(const S& phi) const {
+        using std::cos, std::sin;
+        const Point point = at(phi);
+        const S along = brakes(phi) ? 1 - point.k : 1 / (1 - axial(phi, point));
+        return sin(phi) * along * inflow_.V_y - inflow_.V_x * cos(phi) * (1 - point.k_tangential);
+    }
+
+private:
+    static constexpr double least_loss = 1e-4;       // of F
+    static constexpr double glauert_from = 2.0 / 3;  // k beyond which momentum theory fails
+
+    // (2 / pi) acos exp(-x): 1 where x is large.
+    static S loss(const S& exponent) {
+        using std::acos, std::exp;
+        return value_of(exponent) > 700 ? S(1) : 2 / pi * acos(exp(-exponent));
+    }
+
+    const Annulus& annulus_;
+    const MomentumOptions& options_;
+    const Inflow<S>& inflow_;
+    S solidity_;
+};
+
+/// a and a' at a solution.
+template <class S>
+struct Factors {
+    S axial, tangential;
+};
+
+template <class S>
+S limited(const S& x, double least, double greatest) {
+    return value_of(x) < least ? S(least) : value_of(x) > greatest ? S(greatest) : x;
+}
+template <class S>
+Factors<S> factors_at(const Balance<S>& balance, const S& phi) {
+    const typename Balance<S>::Point at = balance.at(phi);
+    return {limited<S>(balance.axial(phi, at), -1, 1.5), limited<S>(at.k_tangential / (1 - at.k_tangential), -1, 1)};
+}
+
+/// 1 + 15 pi/32 tan(chi/2) / sin(chi_0) times the lever, chi = (0.6 a + 1) chi_0: what a skewed wake makes of a.
+template <class S>
+S redistribution(const S& axial, const S& angle, const S& lever) {
+    using std::sin, std::tan;
+    const S share = 0.6 * axial + 1;
+    // The quotient of small angles: it depends on their square only.
+    const S tangent = value_of(angle) < 1e-6 ? share / 2 : tan(share * angle / 2) / sin(angle);
+    return 1 + 15 * pi / 32 * tangent * lever;
+}
+
+/// Forces of a section from what the wake has left of the inflow.
+template <class S>
+struct Loads {
+    S normal, driving, moment, phi, attack;
+};
+template <class S>
+Loads<S> loads_of(const Annulus& annulus, const Inflow<S>& inflow, const Factors<S>& factors, double density) {
+    using std::atan2, std::cos, std::sin;
+    const S u_x = inflow.V_x * (1 - factors.axial), u_y = inflow.V_y * (1 + factors.tangential), phi = atan2(u_x, u_y),
+            attack = phi - inflow.angle, pressure = density / 2 * annulus.chord * (u_x * u_x + u_y * u_y), s = sin(phi),
+            c = cos(phi);
+    const Polar::Point polar = annulus.polar->at(value_of(attack));
+    const S lift = coefficient(polar.lift, polar.lift_slope, attack),
+            drag = coefficient(polar.drag, polar.drag_slope, attack);
+    return {pressure * (lift * c + drag * s), pressure * (lift * s - drag * c),
+            pressure * annulus.chord * coefficient(polar.moment, polar.moment_slope, attack), phi, attack};
+}
+
+}  // namespace cardan

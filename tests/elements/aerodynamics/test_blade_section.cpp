@@ -1,0 +1,102 @@
+// Derivatives of what the air does to a section, against differences of the same; the wind's slope.
+#include "elements/aerodynamics/blade_section.hpp"
+#include "elements/aerodynamics/wind.hpp"
+#include "mbs/base/types.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/random_tree.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace cardan::testing::blade_section_tests {
+
+namespace {
+
+struct Case {
+    Annulus annulus;
+    double V_x, V_y;
+    SkewedWake wake;
+};
+
+Case random_case(Random& random, const AeroBlade& blade) {
+    const double angle = uniform(random, -0.2, 0.6);
+    return {{.radius = uniform(random, 2, 60),
+             .chord = uniform(random, 1, 5),
+             .angle = angle,
+             .tip = std::pow(10.0, uniform(random, -2, 2)),
+             .hub = std::pow(10.0, uniform(random, -2, 2)),
+             .polar = &blade.polars[static_cast<std::size_t>(uniform(random, 0, 8))]},
+            uniform(random, -3, 20),
+            uniform(random, 5, 90),
+            {uniform(random, 0.05, 0.6), uniform(random, -0.5, 0.5)}};
+}
+
+Vec3 forces(const Case& at, const RotorAirOptions& options) {
+    const SectionForce f = section_air(at.annulus, at.V_x, at.V_y, at.wake, options, 1.2).force;
+    return {f.normal, f.driving, f.moment};
+}
+
+// Moved by h in one of the columns of SectionSlopes.
+Case moved(Case at, int column, double h) {
+    const std::array<double*, SectionSlopes::columns> places{
+        &at.V_x, &at.V_y, &at.annulus.angle, &at.annulus.radius, &at.wake.angle, &at.wake.lever};
+    *places.at(static_cast<std::size_t>(column)) += h;
+    return at;
+}
+
+}  // namespace
+
+TEST_CASE("blade section: derivatives are those of the forces, in every branch of the induction", "[property]") {
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
+    Random random(11);
+    int compared = 0, high = 0, behind = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Case at = random_case(random, blade);
+        RotorAirOptions options;
+        options.momentum = {i % 3 != 0, i % 5 != 0, i % 7 != 0, i % 11 != 0, i % 4 != 0};
+        options.induction = i % 13 != 0;
+        const SectionAir air = section_air(at.annulus, at.V_x, at.V_y, at.wake, options, 1.2);
+        const SectionSlopes slopes = section_slopes(at.annulus, air, at.wake, options, 1.2);
+        const double size = forces(at, options).norm();
+        for (int column = 0; column < SectionSlopes::columns; ++column) {
+            const double h = 1e-6;
+            const auto difference = [&](double step) {
+                return Vec3((forces(moved(at, column, step), options) - forces(moved(at, column, -step), options)) /
+                            (2 * step));
+            };
+            const Vec3 fine = difference(h), coarse = difference(8 * h);
+            // Not across a point of the polar's table, or from one branch to the other.
+            if ((fine - coarse).norm() > 1e-6 * (fine.norm() + size)) continue;
+            CAPTURE(i, column, at.V_x, at.V_y, air.induction.axial, air.induction.solved);
+            CHECK((slopes.by.col(column) - fine).norm() < 1e-5 * (fine.norm() + size));
+            ++compared;
+        }
+        high += air.induction.axial > 0.4;
+        behind += at.V_x < 0;
+    }
+    CHECK(compared > 20000);
+    CHECK(high > 200);
+    CHECK(behind > 200);
+}
+
+TEST_CASE("wind: its slope by height is that of the wind", "[property]") {
+    for (const Shear shear : {Shear::none, Shear::power, Shear::logarithmic, Shear::linear}) {
+        const SteadyWind wind{.speed = 11,
+                              .shear = shear,
+                              .exponent = 0.2,
+                              .roughness = 0.05,
+                              .gradient = 0.004,
+                              .direction = 0.3,
+                              .veer = 0.002,
+                              .upflow = 0.1};
+        for (const double z : {20.0, 90.0, 150.0}) {
+            const Vec3 h(0, 0, 1e-4), at(3, 4, z);
+            const Vec3 expected = (wind.at(at + h) - wind.at(at - h)) / 2e-4;
+            CHECK((wind.change_with_height(at) - expected).norm() < 1e-9);
+        }
+        CHECK(wind.change_with_height(Vec3(0, 0, -5)).isZero(0));
+    }
+}
+
+}  // namespace cardan::testing::blade_section_tests

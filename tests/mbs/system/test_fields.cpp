@@ -1,0 +1,125 @@
+// Fields of wrenches: the same as loads on frames where they are constant, and what they add to the loads of joints.
+#include "mbs/base/error.hpp"
+#include "mbs/system/joint_loads.hpp"
+#include "tests/mbs/system/forced_tree.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/refusal.hpp"
+
+namespace cardan::testing::field_tests {
+
+namespace {
+
+struct DeadLoads {
+    std::vector<FieldPoint> points;
+    std::vector<Wrench> wrenches;
+};
+
+DeadLoads random_loads(ForcedTree& at) {
+    DeadLoads out;
+    for (int body = 0; body < ForcedTree::n; body += 2)
+        for (int i = 0; i < 2; ++i) {
+            out.points.push_back({at.frame(body), random_vector(at.random, 2)});
+            out.wrenches.push_back({random_vector(at.random, 5), random_vector(at.random, 5)});
+        }
+    out.points.push_back({Tree::base(), Vec3::Zero()});  // the ground takes whatever it gets
+    out.wrenches.push_back({Vec3(1, 2, 3), Vec3(4, 5, 6)});
+    return out;
+}
+
+WrenchField field_of(const DeadLoads& loads) {
+    return {
+        .name = "field",
+        .points = loads.points,
+        .wrenches = [own = loads.wrenches](const ForceInput&,
+                                           std::span<Wrench> out) { std::copy(own.begin(), own.end(), out.begin()); },
+        .jacobian = {},
+        .breaks = {}};
+}
+
+// Two systems on one tree: the loads as a field, and one by one.
+struct Twins {
+    explicit Twins(unsigned seed)
+        : as_field(seed, [](ForcedTree& at, ForceSet& set) { set.add_field(field_of(random_loads(at))); }),
+          one_by_one(seed, [](ForcedTree& at, ForceSet& set) {
+              const DeadLoads loads = random_loads(at);
+              for (std::size_t i = 0; i < loads.points.size(); ++i)
+                  set.add_wrench({text("load ", i),
+                                  at.tree.add_frame(loads.points[i].frame,
+                                                    Placement::translation(loads.points[i].place), text("point ", i)),
+                                  loads.wrenches[i]});
+          }) {
+        as_field.q = one_by_one.q;  // the random numbers of both went the same way until here
+        as_field.qd = one_by_one.qd;
+    }
+    ForcedTree as_field, one_by_one;
+};
+
+}  // namespace
+
+TEST_CASE("fields: constant wrenches have the forces and derivatives of loads on frames", "[crosscheck]") {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        Twins twins(seed);
+        const Vector Q = twins.one_by_one.Q();
+        CHECK(scaled(twins.as_field.Q() - Q, Q) < 1e-13);
+        const auto derivatives = [](ForcedTree& at, const Forces& forces) {
+            ForceDerivatives out;
+            forces.derivatives(at.kin(), at.time, at.q, at.qd, out);
+            return out;
+        };
+        const ForceDerivatives own = derivatives(twins.as_field, twins.as_field.forces()),
+                               expected = derivatives(twins.one_by_one, twins.one_by_one.forces());
+        CHECK((own.loads - expected.loads).norm() < 1e-7 * expected.loads.norm());  // differences
+        CHECK(own.damping.isZero(1e-7));
+        const Forces doubled = twins.as_field.forces().with_load_factor(2, false);
+        CHECK(scaled(twins.as_field.Q(doubled) - 2 * Q, Q) < 1e-13);
+        CHECK((derivatives(twins.as_field, doubled).loads - 2 * expected.loads).norm() < 2e-7 * expected.loads.norm());
+        const std::vector<ForceReport> report = twins.as_field.report();
+        REQUIRE(report.size() == 1);
+        CHECK(report[0].name == "field");
+        CHECK(report[0].power == Approx(Q.dot(twins.as_field.qd)));
+        CHECK(!report[0].energy);
+    }
+}
+
+TEST_CASE("fields: joints carry them", "[crosscheck]") {
+    Twins twins(3);
+    const Vector qdd = random_state(twins.as_field.random, ForcedTree::n);
+    const auto loads = [&](ForcedTree& at) {
+        const ForceInput input{at.time, at.q, at.qd, at.kin(), no_states, no_states};
+        return joint_loads(input, at.forces(), qdd);
+    };
+    const JointLoads own = loads(twins.as_field), expected = loads(twins.one_by_one);
+    for (std::size_t k = 0; k < own.joint.size(); ++k) {
+        CHECK((own.joint[k].force - expected.joint[k].force).norm() < 1e-12);
+        CHECK((own.joint[k].moment - expected.joint[k].moment).norm() < 1e-11);
+    }
+    REQUIRE(own.fields.size() == 1);
+    CHECK(own.fields[0].size() == twins.as_field.forces().field(0).points.size());
+}
+
+TEST_CASE("fields: what is refused", "[validation]") {
+    ForceSet set;
+    check_refused([&] { set.add_field({.name = "air"}); }, {"air", "wrenches"});
+    check_refused(
+        [&] {
+            set.add_field({.name = "air",
+                           .points = {{Tree::base(), Vec3(0, std::nan(""), 0)}},
+                           .wrenches = [](const ForceInput&, std::span<Wrench>) {}});
+        },
+        {"air", "place [m]", "finite"});
+    check_refused(
+        [&] {
+            ForcedTree(1, [](ForcedTree&, ForceSet& forces) {
+                forces.add_field({.name = "air",
+                                  .points = {{FrameId{999}, Vec3::Zero()}},
+                                  .wrenches = [](const ForceInput&, std::span<Wrench>) {}});
+            });
+        },
+        {"air", "frame", "999"});
+    Twins twins(1);
+    check_refused(
+        [&] { joint_loads(twins.as_field.kin(), twins.as_field.forces(), twins.as_field.qd, twins.as_field.qd); },
+        {"joint loads", "number of fields", "1"});
+}
+
+}  // namespace cardan::testing::field_tests

@@ -1,0 +1,234 @@
+// Air on machines that move: against the rigid rotor, the work of the forces, differences; order of convergence.
+#include "mbs/base/error.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/turbines/machines/sampled_channels.hpp"
+#include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
+
+namespace cardan::testing::machine_air_tests {
+
+namespace {
+
+using namespace turbines;
+
+const SteadyWind slanted{
+    .speed = 10, .shear = Shear::power, .exponent = 0.2, .direction = 0.25, .veer = 0.001, .upflow = 0.08};
+
+// A state of a machine with what evaluations need.
+class At {
+public:
+    At(const Turbine& machine, const MachineState& state)
+        : state_(state),
+          workspace_(machine.system().model),
+          kin_(kinematics(machine.system().model, state_.q, workspace_)) {}
+    ForceInput input() const { return {state_.time, state_.q, state_.qd, kin_, no_states, no_states}; }
+
+private:
+    MachineState state_;
+    Workspace workspace_;
+    Kinematics kin_;
+};
+
+Vector generalised(const Turbine& machine, const WrenchField& field, const MachineState& state) {
+    ForceSet only;
+    only.add_field(field);
+    const Forces forces(only, machine.system().model);
+    Workspace workspace(machine.system().model);
+    Vector Q(state.q.size());
+    forces.generalised_forces(kinematics(machine.system().model, state.q, workspace), state.time, state.q, state.qd, Q);
+    return Q;
+}
+
+// Turning at 1.1 rad/s, not bent.
+MachineState turning(const Turbine& machine, double azimuth) {
+    MachineState state(machine);
+    state.q(machine.rotor().spin) = azimuth;
+    state.qd(machine.rotor().spin) = 1.1;
+    return state;
+}
+
+MachineState shaken(const Turbine& machine, unsigned seed) {
+    MachineState state = turning(machine, 0.7);
+    Random random(seed);
+    for (Eigen::Index i = 0; i < state.q.size(); ++i)
+        if (i != machine.rotor().spin) {
+            state.q(i) += uniform(random, -0.02, 0.02);
+            state.qd(i) += uniform(random, -0.1, 0.1);
+        }
+    return state;
+}
+
+}  // namespace
+
+TEST_CASE("air on a machine: a rotor that is not bent feels what a rigid one does", "[crosscheck]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 4, 2);
+    const AeroBlade blade = nrel5mw_aero_blade();
+    const TurbineDescription description = nrel5mw_description();
+    for (const Skew skew : {Skew::none, Skew::pitt_peters}) {
+        RotorAirOptions options;
+        options.skew = skew;
+        const MachineAir air(machine, blade, slanted, options);
+        const MachineState state = turning(machine, 0.6);
+        const At at(machine, state);
+        const Pose<double> hub = pose(at.input().kinematics, machine.layout().rotor_centre);
+        const RotorPose rotor{.tilt = description.nacelle.tilt, .cone = description.blade.cone, .hub = hub.p};
+        const RotorAir expected = rigid_rotor_air(blade, rotor, slanted, 1.1, 0.6, 0, options);
+        const MachineAir::Rotor own = air.rotor(at.input());
+        CHECK((own.force - expected.force).norm() < 1e-9 * expected.force.norm());
+        CHECK((own.moment - expected.moment).norm() < 1e-9 * expected.moment.norm());
+        CHECK(own.speed == Approx(1.1));
+        CHECK(own.power() == Approx(1.1 * expected.moment.x()));
+        const auto sections = air.sections(at.input());
+        REQUIRE(sections.size() == 3);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < blade.sections(); ++i) {
+                const SectionAir &mine = sections[k][i], &rigid = expected.sections[k][i];
+                CHECK(mine.V_x == Approx(rigid.V_x).epsilon(1e-10));
+                CHECK(mine.induction.axial == Approx(rigid.induction.axial).epsilon(1e-8));
+                CHECK(mine.force.normal == Approx(rigid.force.normal).epsilon(1e-8));
+            }
+        // The channels of loads know of it: without masses in motion the blade's root carries the air alone.
+        const Vector Q = generalised(machine, air.field(), state);
+        CHECK(Q(machine.rotor().spin) == Approx(expected.moment.x()).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("air on a machine: loads of the roots by equilibrium", "[crosscheck]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 4, 2);
+    const AeroBlade blade = nrel5mw_aero_blade();
+    const MachineAir air(machine, blade, slanted);
+    const Turbine windy = air.on(machine);
+    MachineState state = turning(machine, 0.6);
+    state.qdd.setZero();
+    const auto sampled = [&](const Turbine& turbine) {
+        const At at(turbine, state);
+        const JointLoads loads = joint_loads(at.input(), turbine.system().forces, state.qdd);
+        const Vector none = Vector::Zero(state.q.size());
+        std::map<std::string, double> out;
+        for (const ChannelGroup& group : channels(turbine)) {
+            std::vector<double> values(group.channels.size());
+            group.sample({0, state.q, state.qd, state.qdd, none, at.input().kinematics, turbine.system().forces, loads,
+                          no_states, no_states, no_states},
+                         values.data());
+            for (std::size_t i = 0; i < values.size(); ++i) out[group.channels[i].alias] = values[i];
+        }
+        return out;
+    };
+    auto with = sampled(windy), without = sampled(machine);
+    const At at(machine, state);
+    const TurbineDescription description = nrel5mw_description();
+    const Pose<double> hub = pose(at.input().kinematics, machine.layout().rotor_centre);
+    const RotorPose rotor{.tilt = description.nacelle.tilt, .cone = description.blade.cone, .hub = hub.p};
+    const RotorAir expected = rigid_rotor_air(blade, rotor, slanted, 1.1, 0.6, 0);
+    for (const auto& [name, value] : {std::pair("RootFxc1", expected.roots[0].force.x()),
+                                      {"RootFyc1", expected.roots[0].force.y()},
+                                      {"RootMxc1", expected.roots[0].moment.x()},
+                                      {"RootMyc1", expected.roots[0].moment.y()},
+                                      {"RootMzb1", expected.roots[0].moment.z()}})
+        CHECK(with[name] - without[name] == Approx(value).epsilon(1e-8));
+}
+
+TEST_CASE("air on a machine: derivatives are those of the forces", "[property]") {
+    AssemblyOptions options = nrel5mw_assembly(Nrel5mwVariant::report, 2, 1);
+    TurbineDescription description = nrel5mw_description({.pitch_actuator = true});
+    const Turbine machine = assemble(description, options);
+    AeroBlade blade = nrel5mw_aero_blade();
+    blade.prebend.assign(blade.sections(), 0.3);
+    blade.sweep.assign(blade.sections(), 0.2);
+    for (const Skew skew : {Skew::none, Skew::pitt_peters}) {
+        RotorAirOptions air_options;
+        air_options.skew = skew;
+        const MachineAir air(machine, blade, slanted, air_options);
+        const WrenchField field = air.field();
+        const MachineState state = shaken(machine, 5);
+        const Eigen::Index n = state.q.size();
+        Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
+        field.jacobian(At(machine, state).input(), by_q, by_qd);
+        const double h = 1e-6;
+        // 4e-9: roots of the balance are good to 1e-13 rad.
+        Matrix expected_q(n, n), expected_qd(n, n);
+        for (Eigen::Index a = 0; a < n; ++a) {
+            const auto moved = [&](double dq, double dqd) {
+                MachineState other = state;
+                other.q(a) += dq;
+                other.qd(a) += dqd;
+                return generalised(machine, field, other);
+            };
+            expected_q.col(a) = (moved(h, 0) - moved(-h, 0)) / (2 * h);
+            expected_qd.col(a) = (moved(0, h) - moved(0, -h)) / (2 * h);
+        }
+        for (Eigen::Index a = 0; a < n; ++a) {
+            CAPTURE(a, machine.system().model.coordinates()[static_cast<int>(a)].name);
+            CHECK((by_q.col(a) - expected_q.col(a)).norm() <
+                  1e-6 * expected_q.col(a).norm() + 4e-9 * expected_q.norm());
+            CHECK((by_qd.col(a) - expected_qd.col(a)).norm() <
+                  1e-6 * expected_qd.col(a).norm() + 1e-9 * expected_qd.norm());
+        }
+        // Without a skewed wake blades do not feel each other.
+        const RotorMap& rotor = machine.rotor();
+        CHECK((by_q(rotor.blades[0].back(), rotor.blades[1].back()) == 0) == (skew == Skew::none));
+    }
+}
+
+TEST_CASE("air on a machine: evaluations allocate nothing", "[memory]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 4, 2);
+    const MachineAir air(machine, nrel5mw_aero_blade(), slanted);
+    const WrenchField field = air.field();
+    const At at(machine, shaken(machine, 2));
+    const ForceInput input = at.input();
+    const Eigen::Index n = input.q.size();
+    std::vector<Wrench> wrenches(field.points.size());
+    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
+    field.wrenches(input, wrenches);
+    field.jacobian(input, by_q, by_qd);
+    CHECK(allocations([&] { field.wrenches(input, wrenches); }) == 0);
+    CHECK(allocations([&] { field.jacobian(input, by_q, by_qd); }) == 0);
+}
+
+TEST_CASE("air on a machine: the deflection of a blade converges with the square of the elements' length",
+          "[convergence]") {
+    const auto deflection = [](int elements) {
+        AssemblyOptions options = nrel5mw_assembly(Nrel5mwVariant::report, elements);
+        options.spin = CoordinateRole::driven;
+        options.blade_beam->boundaries.clear();  // equal lengths
+        options.blade_beam->elements = elements;
+        const Turbine blade = isolated_blade(nrel5mw_description(), options);
+        const MachineAir air(blade, nrel5mw_aero_blade(), {.speed = 8, .reference_height = 1000});
+        const Turbine windy = air.on(blade);
+        solvers::SteadyOptions steady;
+        steady.rotor_speed = 9.156 * 2 * pi / 60;
+        const solvers::SteadyState found = solvers::steady_state(windy.system(), windy.rotor().spin, steady);
+        REQUIRE(found.converged);
+        Workspace workspace(windy.system().model);
+        const Kinematics kin = kinematics(windy.system().model, found.at.q, workspace);
+        const Pose<double> root = pose(kin, windy.layout().blade_roots[0]),
+                           tip = pose(kin, windy.layout().blades[0].tip());
+        return Vec3(root.R.transpose() * (tip.p - root.p));
+    };
+    const double exact = deflection(48).z();
+    std::vector<double> errors;
+    for (const int elements : {3, 6, 12}) errors.push_back(std::abs(deflection(elements).z() - exact));
+    CAPTURE(exact, errors[0], errors[1], errors[2]);
+    CHECK(errors[1] < errors[0] / 3);
+    CHECK(errors[2] < errors[1] / 3);
+    CHECK(errors[2] < 5e-3 * exact);
+}
+
+TEST_CASE("air on a machine: what is refused", "[validation]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    AeroBlade longer = nrel5mw_aero_blade();
+    longer.position.back() += 1;
+    check_refused([&] { MachineAir(machine, longer, slanted); },
+                  {"aerodynamic blade on blade 1", "section 19", "distance from the blade's root [m] = 62.4999"});
+    AeroBlade offsets = nrel5mw_aero_blade();
+    offsets.prebend = {1, 2};
+    check_refused([&] { MachineAir(machine, offsets, slanted); }, {"number of offsets = 2", "19"});
+    check_refused([&] { MachineAir(isolated_tower(nrel5mw_description()), nrel5mw_aero_blade(), slanted); },
+                  {"number of blades", "0"});
+}
+
+}  // namespace cardan::testing::machine_air_tests

@@ -1,0 +1,168 @@
+// AeroDyn's and InflowWind's files: both generations of keywords, what is noted, what is refused.
+#include "mbs/base/units.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
+#include "tests/turbines/readers/model_files.hpp"
+#include "turbines/readers/aerodyn.hpp"
+
+#include <fstream>
+
+namespace cardan::testing::aerodyn_reader_tests {
+
+namespace {
+
+using namespace turbines;
+
+// Two sections and two polars; the main file names its keywords as the version does.
+class Model {
+public:
+    explicit Model(const std::string& options) {
+        write("polar_1.dat",
+              "! ------------ AirfoilInfo Input File ----------\n! line\n! line\nDEFAULT InterpOrd ! order\n"
+              "1 NonDimArea ! area\n@\"coords.txt\" NumCoords ! file\n1 NumTabs ! tables\n! ---\n0.75 Re ! 1e6\n"
+              "True InclUAdata ! data follows\n-2.0 alpha0 ! deg\n! ....\n4 NumAlf ! lines in the table\n"
+              "!    Alpha      Cl      Cd        Cm\n!    (deg)      (-)     (-)       (-)\n"
+              "-180.0 0.0 0.1 0.0\n-10 -0.5 0.02 0.1\n1.0D+1 1.0 0.02 -0.1\n180.00 0.0 0.1 0.0\n");
+        write("polar_2.dat", "! a\n! b\n2 NumAlf\n-180 0 0.5 0\n180 0 0.5 0\n");
+        write("blade.dat",
+              "------- AERODYN BLADE -----\ntitle\n====== Blade Properties ===\n2 NumBlNds - nodes\n"
+              "BlSpn BlCrvAC BlSwpAC BlCrvAng BlTwist BlChord BlAFID\n(m) (m) (m) (deg) (deg) (m) (-)\n"
+              "0.0 0.0 0.0 0.0 12.0 3.5 2\n40.0 -1.5 0.25 0.0 0.5 1.2 1\n");
+        write("main.dat", "------- AERODYN INPUT FILE ----\ntitle\n====== General Options =====\n" + options +
+                              "1 AFTabMod - tables\n1 InCol_Alfa - a\n2 InCol_Cl - l\n3 InCol_Cd - d\n4 InCol_Cm - m\n"
+                              "0 InCol_Cpmin - none\n2 NumAFfiles - files\n\"polar_1.dat\" AFNames - names\n"
+                              "\"polar_2.dat\"\n====== Blades =====\nTrue UseBlCm - moments\n"
+                              "\"blade.dat\" ADBlFile(1) - one\n\"blade.dat\" ADBlFile(2) - two\n"
+                              "\"other.dat\" ADBlFile(3) - three\n");
+    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+    std::string text_of(const std::string& name) const { return test::bytes_of(folder_ / name); }
+    void replace(const std::string& name, const std::string& from, const std::string& to) const {
+        std::string text = text_of(name);
+        const std::size_t at = text.find(from);
+        REQUIRE(at != std::string::npos);
+        write(name, text.replace(at, from.size(), to));
+    }
+    AeroDynFile read() const { return read_aerodyn(folder_ / "main.dat", 1.5); }
+    std::string operator/(const std::string& name) const { return folder_ / name; }
+
+private:
+    test::Folder folder_;
+};
+
+// What is said of a file that is refused.
+template <class Call>
+void check_error(Call&& call, std::initializer_list<std::string> parts) {
+    const std::string message = test::message_of(call);
+    for (const std::string& part : parts) {
+        CAPTURE(message, part);
+        CHECK(message.find(part) != std::string::npos);
+    }
+}
+
+const std::string newer =
+    "1 Wake_Mod - BEMT\n1 TwrPotent - tower\n0 TwrShadow - none\nTrue TwrAero - loads\n1.1 AirDens - kg/m^3\n"
+    "1 BEM_Mod - model\n1 Skew_Mod - skew\nFalse SkewMomCorr - off\ndefault SkewRedistr_Mod - Pitt\n"
+    "default SkewRedistrFactor - default\nTrue TipLoss - t\nFalse HubLoss - h\nTrue TanInd - a'\nFalse AIDrag - a\n"
+    "True TIDrag - t\n0 DBEMT_Mod - none\n4 UA_Mod - unsteady\n";
+const std::string older =
+    "1 WakeMod - BEMT\n2 AFAeroMod - unsteady\n0 TwrPotent - none\nFalse TwrAero - no\ndefault AirDens - of the main "
+    "file\n"
+    "1 SkewMod - uncoupled\n\"default\" SkewModFactor - default\nTrue TipLoss - t\nTrue HubLoss - h\nTrue TanInd - a'\n"
+    "True AIDrag - a\nFalse TIDrag - t\n3 UAMod - model\n";
+
+}  // namespace
+
+TEST_CASE("aerodyn: sections, polars and options of newer files", "[analytic]") {
+    const Model model(newer);
+    const AeroDynFile file = model.read();
+    CHECK(file.density == 1.1);
+    CHECK(file.options.induction);
+    CHECK(file.options.skew == Skew::pitt_peters);
+    CHECK(file.options.momentum.tip_loss);
+    CHECK(!file.options.momentum.hub_loss);
+    CHECK(!file.options.momentum.axial_drag);
+    CHECK(file.options.momentum.tangential_drag);
+    const AeroBlade& blade = file.blade;
+    REQUIRE(blade.sections() == 2);
+    CHECK(blade.position[1] == Approx(41.5));
+    CHECK(blade.twist[0] == Approx(12 * units::degree));
+    CHECK(blade.chord[1] == 1.2);
+    CHECK(blade.prebend[1] == -1.5);
+    CHECK(blade.sweep[1] == 0.25);
+    CHECK(blade.profile == std::vector<std::size_t>{1, 0});
+    CHECK(blade.polars[0].name() == "polar_1.dat");
+    CHECK(blade.polars[0].at(0).lift == Approx(0.25));
+    CHECK(blade.polars[0].at(10 * units::degree).moment == Approx(-0.1));
+    CHECK(blade.polars[1].at(1).drag == Approx(0.5));
+    CHECK_NOTHROW(blade.check());
+    CHECK(test::has_note(file.notes, "UA_Mod", "profiles are steady here"));
+    CHECK(test::has_note(file.notes, "TwrPotent", "the tower does not disturb the wind here"));
+    CHECK(test::has_note(file.notes, "TwrAero", "no loads of the air on the tower here"));
+    CHECK(test::has_note(file.notes, "ADBlFile(3)", "the sections of the first one"));
+    CHECK(!test::has_note(file.notes, "ADBlFile(2)", "the sections of the first one"));
+}
+
+TEST_CASE("aerodyn: older files, and what is left out", "[analytic]") {
+    const Model model(older);
+    AeroDynFile file = model.read();
+    CHECK(file.density == 1.225);
+    CHECK(file.options.skew == Skew::none);
+    CHECK(file.options.momentum.axial_drag);
+    CHECK(!file.options.momentum.tangential_drag);
+    CHECK(test::has_note(file.notes, "UAMod", "profiles are steady here"));
+    model.replace("main.dat", "1 WakeMod", "0 WakeMod");
+    model.replace("main.dat", "1 SkewMod", "2 SkewMod");
+    model.replace("main.dat", "True UseBlCm", "False UseBlCm");
+    file = model.read();
+    CHECK(!file.options.induction);
+    CHECK(file.options.skew == Skew::pitt_peters);
+    CHECK(file.blade.polars[0].at(0.1).moment == 0);
+}
+
+TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
+    const auto with = [](const std::string& name, const std::string& from, const std::string& to) {
+        return [=] {
+            const Model model(newer);
+            model.replace(name, from, to);
+            static_cast<void>(model.read());
+        };
+    };
+    check_error(with("polar_1.dat", "-10 -0.5", "-190 -0.5"),
+                {"polar_1.dat:17", "angle of attack = -190 deg after -180"});
+    check_error(with("polar_1.dat", "180.00 0.0", "170.00 0.0"), {"polar_1.dat:13", "-180 ... 170"});
+    check_error(with("polar_1.dat", "4 NumAlf", "5 NumAlf"),
+                {"polar_1.dat:19", "row 5 of the 5 that NumAlf announces"});
+    check_error(with("polar_1.dat", "1.0D+1 1.0", "1.0D+1 x"), {"polar_1.dat:18", "2 numbers expected, found 1"});
+    check_error(with("blade.dat", "1.2 1\n", "1.2 3\n"), {"blade.dat:8", "BlAFID = 3; allowed: 1 ... 2"});
+    check_error(with("blade.dat", "40.0 -1.5", "-40.0 -1.5"), {"blade.dat:8", "BlSpn", "ascending"});
+    check_error(with("blade.dat", "1.2 1\n", "0 1\n"), {"blade.dat:8", "BlChord = 0; allowed: > 0"});
+    check_error(with("main.dat", "2 NumAFfiles", "3 NumAFfiles"), {"main.dat", "3 names of files expected, found 2"});
+    check_error(with("main.dat", "polar_2.dat", "none.dat"), {"main.dat", "AFNames", "none.dat"});
+    check_error(with("main.dat", "1.1 AirDens", "-1 AirDens"), {"AirDens = -1; allowed: > 0"});
+    check_error(with("main.dat", "2 NumAFfiles - files\n", ""), {"not a file of AeroDyn 15", "NumAFfiles"});
+}
+
+TEST_CASE("inflow wind: steady winds; what has their keywords again; others are refused", "[analytic]") {
+    const Model model(newer);
+    const std::string old =
+        "------- InflowWind INPUT FILE ---\ntitle\n-----\n1 WindType - steady\n30 PropagationDir - deg\n"
+        "===== steady =====\n12 HWindSpeed - m/s\n42.672 RefHt - m\n0.2 PLexp - exponent\n===== uniform =====\n"
+        "\"a.wnd\" Filename - name\n90 RefHt - m\n===== HAWC =====\n10 RefHt - m\n0.1 PLExp - exponent\n";
+    model.write("wind.dat", old);
+    SteadyWind wind = read_inflow_wind(model / "wind.dat").wind;
+    CHECK(wind.speed == 12);
+    CHECK(wind.reference_height == 42.672);
+    CHECK(wind.shear == Shear::power);
+    CHECK(wind.exponent == 0.2);
+    CHECK(wind.direction == Approx(-30 * units::degree));
+    CHECK(wind.at({0, 0, 42.672}).y() == Approx(-6));  // a positive angle turns toward -y
+    model.replace("wind.dat", "1 WindType", "3 WindType");
+    check_error([&] { static_cast<void>(read_inflow_wind(model / "wind.dat")); },
+                {"wind.dat:4", "WindType = 3; allowed: 1"});
+    model.replace("wind.dat", "3 WindType - steady\n", "1 WindType - steady\n8 VFlowAng - deg\n");
+    wind = read_inflow_wind(model / "wind.dat").wind;
+    CHECK(wind.upflow == Approx(8 * units::degree));
+}
+
+}  // namespace cardan::testing::aerodyn_reader_tests

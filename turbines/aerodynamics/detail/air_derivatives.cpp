@@ -1,0 +1,292 @@
+// Derivatives of the generalised forces of the air. With S_b the twist of coordinate b about the base's origin and W_b
+// the wrench about it on all that b moves,
+//
+//     Q_b = S_b . W_b,    dQ_b/dq_a = S_b . dW_b/dq_a + (S_a x S_b) . W_b,  the last term for a before b,
+//
+// so that wrenches and their derivatives are summed from the tips down, once, and every coordinate takes its row.
+//
+// Of a section at P, moved by coordinate a with w and v = v_a(P), angular velocity omega_a of the body behind a:
+//
+//     dV_P/dq_a = omega_a x v + w x (V_P - V_P of a point fixed to that body),    dV_P/dqd_a = v.
+//
+// Its axes x, y, z turn with w if the hub does too; else z turns with w and y stays in the plane of the rotor, so they
+// turn with w + (kappa - w.z) z, kappa = (w.x) (s.z) / (s.x), s the shaft, and the angle of the chord against them
+// changes by kappa - w.z.
+#include "mbs/base/entry.hpp"
+#include "mbs/kernels/path_twists.hpp"
+#include "turbines/aerodynamics/detail/air_evaluation.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+using Slopes = SectionSlopes;
+
+// Twist of a coordinate about the base's origin, and the motion of the body behind it as seen there.
+struct Mover {
+    Vec3 w, v, angular, linear;
+
+    Vec3 at(const Vec3& P) const { return v + cross<double>(w, P); }
+    Vec3 carried(const Vec3& P) const { return linear + cross<double>(angular, P); }  // velocity of a point fixed to it
+    Vec3 change_of_velocity(const Vec3& P, const Vec3& V) const {
+        return cross<double>(angular, at(P)) + cross<double>(w, V - carried(P));
+    }
+};
+
+// A coordinate as it moves a section: how the axes turn, the chord against them, the distance from the shaft.
+struct SectionTurn {
+    Vec3 axes;
+    double angle, radius;
+};
+
+}  // namespace
+
+class AirDerivatives {
+public:
+    AirDerivatives(const AirEvaluation& air, MatrixOut by_q, MatrixOut by_qd)
+        : air_(air), parts_(air.parts_), by_q_(by_q), by_qd_(by_qd), memory_(air.scratch_.derivatives) {
+        const Eigen::Index n = by_q.rows();
+        for (Columns6* sum : {&memory_.blade_q, &memory_.blade_qd, &memory_.trunk_q, &memory_.trunk_qd})
+            sum->setZero(6, n);
+        memory_.by_q.resize(parts_.profile->sections());
+        memory_.by_qd.resize(parts_.profile->sections());
+        memory_.by_wake.resize(air.scratch_.sections.size());
+    }
+
+    void add() {
+        Vec6 trunk = Vec6::Zero();
+        for (std::size_t k = 0; k < parts_.blades.size(); ++k) {
+            const AirBlade& blade = parts_.blades[k];
+            for (std::size_t i = 0; i < blade.sections.size(); ++i) find_columns(k, i);
+            add_blade(k, trunk);
+        }
+        for (std::size_t j = parts_.trunk.size(); j-- > 0;)
+            add_row(parts_.trunk[j], parts_.bodies, memory_.trunk_q, memory_.trunk_qd, trunk);
+        if (parts_.options.skew != Skew::none && air_.mean_.speed > 0) add_wake();
+    }
+
+private:
+    Mover mover(int a) const {
+        const auto& frame = entry(air_.kin_.workspace().frame, a);
+        const Vec3 e = frame.E[2].vector(), o = frame.o.vector();
+        const BodyRate& rate = entry(air_.scratch_.rates, a);
+        const Vec3 linear = rate.origin - cross<double>(rate.angular, o);
+        if (entry(air_.kin_.model().links(), a).revolute) return {e, cross<double>(o, e), rate.angular, linear};
+        return {Vec3::Zero(), e, rate.angular, linear};
+    }
+    int depth(int body) const { return entry(air_.kin_.model().links(), body).depth; }
+    bool moves_hub(int a) const { return air_.kin_.model().precedes(a, parts_.hub_body); }
+
+    SectionTurn turn(const SectionState& s, const Mover& by, bool with_hub) const {
+        if (with_hub) return {by.w, 0, 0};
+        const double across = by.w.dot(s.x) * air_.shaft_.dot(s.span) / air_.shaft_.dot(s.x),
+                     angle = across - by.w.dot(s.span);
+        return {by.w + angle * s.span, angle, s.radial.dot(by.at(s.place))};
+    }
+
+    // Force and moment per length of a section, base axes, by the coordinates before it.
+    void find_columns(std::size_t k, std::size_t i) {
+        const SectionState& s = air_.sections(k)[i];
+        const AirBlade& blade = parts_.blades[k];
+        const auto by = section_slopes(s.annulus, s.air, s.wake, parts_.options, parts_.wind.density).by;
+        const auto load = [&](const Vec3& change) {
+            Vec6 out;
+            out << change(0) * s.x - change(1) * s.y, change(2) * s.span;
+            return out;
+        };
+        memory_.by_wake[k * blade.sections.size() + i] << load(by.col(Slopes::wake_angle)),
+            load(by.col(Slopes::wake_lever) * s.annulus.radius / parts_.radius);
+        Columns6 &to_q = memory_.by_q[i], &to_qd = memory_.by_qd[i];
+        const int count = depth(blade.sections[i].body);
+        to_q.resize(6, static_cast<Eigen::Index>(blade.path.size()));
+        to_qd.resize(6, static_cast<Eigen::Index>(blade.path.size()));
+        for (int j = 0; j < count; ++j) {
+            const int a = entry(blade.path, j);
+            const Mover own = mover(a);
+            const SectionTurn turned = turn(s, own, moves_hub(a));
+            const Vec3 v = own.at(s.place), air = s.wind_slope * v.z() - own.change_of_velocity(s.place, s.velocity);
+            const auto change_along = [&](const Vec3& axis) {
+                return air.dot(axis) + s.relative.dot(cross<double>(turned.axes, axis));
+            };
+            const Vec3 change =
+                by.col(Slopes::V_x) * change_along(s.x) + by.col(Slopes::V_y) * change_along(s.y) +
+                by.col(Slopes::angle) * turned.angle +
+                (by.col(Slopes::radius) + by.col(Slopes::wake_lever) * s.wake.lever / s.annulus.radius) * turned.radius;
+            Vec6 carried;
+            carried << cross<double>(turned.axes, s.force), cross<double>(own.w, s.moment);
+            to_q.col(j) = load(change) + carried;
+            to_qd.col(j) = load(-by.col(Slopes::V_x) * v.dot(s.x) - by.col(Slopes::V_y) * v.dot(s.y));
+        }
+    }
+
+    // What a point adds to a wrench about the base's origin and its derivatives.
+    void add_point(std::size_t k, const AirPoint& point, Vec6& wrench, Columns6& sum_q, Columns6& sum_qd) const {
+        const AirBlade& blade = parts_.blades[k];
+        const auto& frame = entry(air_.kin_.workspace().frame, point.body);
+        const Vec3 x = frame.o.vector() + frame.E.matrix() * point.place;
+        const auto at_origin = [&](const Vec3& force, const Vec3& moment) {
+            Vec6 out;
+            out << moment + cross<double>(x, force), force;
+            return Vec6(point.length * out);
+        };
+        const SectionState& s = air_.sections(k)[point.section];
+        wrench += at_origin(s.force, s.moment);
+        const int count = depth(entry(blade.sections, point.section).body);
+        for (int j = 0; j < count; ++j) {
+            const int a = entry(blade.path, j);
+            const auto by_q = memory_.by_q[point.section].col(j), by_qd = memory_.by_qd[point.section].col(j);
+            sum_q.col(a) += at_origin(by_q.head<3>(), by_q.tail<3>());
+            sum_qd.col(a) += at_origin(by_qd.head<3>(), by_qd.tail<3>());
+        }
+        const Vec3 force = point.length * s.force;
+        for (int j = 0; j < depth(point.body); ++j) {
+            const int a = entry(blade.path, j);
+            sum_q.col(a).head<3>() += cross<double>(mover(a).at(x), force);
+        }
+    }
+
+    void add_blade(std::size_t k, Vec6& trunk) {
+        const AirBlade& blade = parts_.blades[k];
+        for (const int a : blade.path) {
+            memory_.blade_q.col(a).setZero();
+            memory_.blade_qd.col(a).setZero();
+        }
+        Vec6 wrench = Vec6::Zero();
+        auto next = blade.points.begin();
+        for (std::size_t j = blade.path.size(); j-- > parts_.trunk.size();) {
+            const int b = blade.path[j];
+            for (; next != blade.points.end() && next->body == b; ++next)
+                add_point(k, *next, wrench, memory_.blade_q, memory_.blade_qd);
+            add_row(b, blade.path, memory_.blade_q, memory_.blade_qd, wrench);
+        }
+        // Segments that the hub carries.
+        for (; next != blade.points.end(); ++next) add_point(k, *next, wrench, memory_.blade_q, memory_.blade_qd);
+        trunk += wrench;
+        for (const int a : blade.path) {
+            memory_.trunk_q.col(a) += memory_.blade_q.col(a);
+            memory_.trunk_qd.col(a) += memory_.blade_qd.col(a);
+        }
+    }
+
+    // Row b of the derivatives, from the wrench on all that b moves.
+    void add_row(int b, const std::vector<int>& columns, const Columns6& sum_q, const Columns6& sum_qd,
+                 const Vec6& wrench) {
+        const Mover own = mover(b);
+        Vec6 S;
+        S << own.w, own.v;
+        for (const int a : columns) {
+            double value = S.dot(sum_q.col(a));
+            if (a < b && air_.kin_.model().precedes(a, b)) {
+                const Mover first = mover(a);
+                Vec6 turned;
+                turned << cross<double>(first.w, own.w), cross<double>(first.w, own.v) + cross<double>(first.v, own.w);
+                value += turned.dot(wrench);
+            }
+            by_q_(b, a) += value;
+            by_qd_(b, a) += S.dot(sum_qd.col(a));
+        }
+    }
+
+    // All sections feel the mean wind, which all of them make up.
+    void add_wake() {
+        find_mean_wind();
+        find_wake();
+        find_forces_of_wake();
+        for (Eigen::Index c = 0; c < memory_.of_wake.cols(); ++c) {
+            by_q_.noalias() += memory_.of_wake.col(c) * memory_.wake_q.col(c).transpose();
+            by_qd_.noalias() += memory_.of_wake.col(c) * memory_.wake_qd.col(c).transpose();
+        }
+    }
+
+    void find_mean_wind() {
+        memory_.mean_q.setZero(3, by_q_.rows());
+        memory_.mean_qd.setZero(3, by_q_.rows());
+        const double share = 1 / static_cast<double>(air_.scratch_.sections.size());
+        for (std::size_t k = 0; k < parts_.blades.size(); ++k)
+            for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
+                const SectionState& s = air_.sections(k)[i];
+                if (s.wind_slope.isZero(0)) continue;
+                const AirBlade& blade = parts_.blades[k];
+                for (int j = 0; j < depth(blade.sections[i].body); ++j) {
+                    const int a = entry(blade.path, j);
+                    memory_.mean_q.col(a) += share * mover(a).at(s.place).z() * s.wind_slope;
+                }
+            }
+        const Vec3 &hub = air_.hub_, velocity = air_.velocity(parts_.hub_body, hub);
+        for (const int a : parts_.trunk) {
+            const Mover own = mover(a);
+            memory_.mean_q.col(a) -= own.change_of_velocity(hub, velocity);
+            memory_.mean_qd.col(a) -= own.at(hub);
+        }
+    }
+
+    void find_wake() {
+        const Eigen::Index n = by_q_.rows(), columns = 1 + std::ssize(parts_.blades);
+        memory_.wake_q.setZero(n, columns);
+        memory_.wake_qd.setZero(n, columns);
+        const Vec3 none = Vec3::Zero();
+        for (const int a : parts_.bodies) {
+            find_wake_by(memory_.mean_q.col(a), moves_hub(a) ? mover(a).w : none, memory_.wake_q, a);
+            find_wake_by(memory_.mean_qd.col(a), none, memory_.wake_qd, a);
+        }
+    }
+    // @param change, turn  of the mean wind, and of the hub
+    void find_wake_by(const Vec3& change, const Vec3& turn, Matrix& out, int a) const {
+        const Vec3 &V = air_.mean_.velocity, &shaft = air_.shaft_, turned = cross<double>(turn, shaft);
+        const double n = air_.mean_.normal, size = air_.mean_.speed, side = (V - n * shaft).norm(),
+                     dn = change.dot(shaft) + V.dot(turned), dsize = V.dot(change) / size;
+        const Vec3 along = side > 0 ? Vec3((V - n * shaft) / side) : Vec3(Vec3::Zero());
+        out(a, 0) = (n * along.dot(change - n * turned) - side * dn) / (size * size);
+        for (std::size_t k = 0; k < parts_.blades.size(); ++k) {
+            const Vec3 axis = air_.blade_direction(k);
+            out(a, static_cast<Eigen::Index>(k) + 1) =
+                (cross<double>(turn, axis).dot(V) + axis.dot(change) - axis.dot(V) * dsize / size) / size;
+        }
+    }
+
+    void find_forces_of_wake() {
+        const std::size_t sections = parts_.profile->sections();
+        memory_.of_wake.setZero(by_q_.rows(), 1 + std::ssize(parts_.blades));
+        Vec6 trunk_angle = Vec6::Zero();
+        const auto add = [&](int b, const Vec6& wrench, Eigen::Index column) {
+            const Mover own = mover(b);
+            memory_.of_wake(b, column) += own.w.dot(wrench.head<3>()) + own.v.dot(wrench.tail<3>());
+        };
+        for (std::size_t k = 0; k < parts_.blades.size(); ++k) {
+            const AirBlade& blade = parts_.blades[k];
+            const auto column = static_cast<Eigen::Index>(k) + 1;
+            Vec6 angle = Vec6::Zero(), sine = Vec6::Zero();
+            auto next = blade.points.begin();
+            const auto gather = [&] {
+                const auto& frame = entry(air_.kin_.workspace().frame, next->body);
+                const Vec3 x = frame.o.vector() + frame.E.matrix() * next->place;
+                const auto& by = memory_.by_wake[k * sections + next->section];
+                for (const auto& [sum, c] : {std::pair(&angle, 0), {&sine, 1}}) {
+                    const Vec3 force = next->length * by.col(c).head<3>();
+                    sum->head<3>() += next->length * by.col(c).tail<3>() + cross<double>(x, force);
+                    sum->tail<3>() += force;
+                }
+            };
+            for (std::size_t j = blade.path.size(); j-- > parts_.trunk.size();) {
+                for (; next != blade.points.end() && next->body == blade.path[j]; ++next) gather();
+                add(blade.path[j], angle, 0);
+                add(blade.path[j], sine, column);
+            }
+            for (; next != blade.points.end(); ++next) gather();
+            trunk_angle += angle;
+            for (const int b : parts_.trunk) add(b, sine, column);
+        }
+        for (const int b : parts_.trunk) add(b, trunk_angle, 0);
+    }
+
+    const AirEvaluation& air_;
+    const AirParts& parts_;
+    MatrixOut by_q_, by_qd_;
+    AirDerivativeScratch& memory_;
+};
+
+void AirEvaluation::add_derivatives(MatrixOut by_q, MatrixOut by_qd) {
+    AirDerivatives(*this, by_q, by_qd).add();
+}
+
+}  // namespace cardan::turbines

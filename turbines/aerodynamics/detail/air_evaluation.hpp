@@ -1,0 +1,115 @@
+/// @file
+/// Air on a machine at one state: inflow, induction, loads, and their derivatives. Internal to the air on machines: not
+/// installed.
+#pragma once
+
+#include "turbines/aerodynamics/detail/air_blade.hpp"
+
+#include <memory>
+#include <span>
+
+namespace cardan::turbines {
+
+/// What does not change with the state.
+struct AirParts {
+    std::shared_ptr<const AeroBlade> profile;  ///< of every blade; sections point to its polars
+    SteadyWind wind;
+    RotorAirOptions options;
+    std::vector<AirBlade> blades;
+    FrameId hub;
+    int hub_body, shaft_body;  ///< what turns, and what carries it; -1: the ground
+    Vec3 hub_place, hub_axis;  ///< centre and shaft, downwind; axes of the hub's body
+    std::vector<int> trunk;    ///< bodies from the base to the hub, ascending
+    double radius;             ///< of the rotor that is not bent, m
+    std::vector<int> bodies;   ///< all that move a section, ascending
+};
+
+/// A section at a state, base axes.
+struct SectionState {
+    Vec3 place, span, x, y;   ///< axes of the section: x downwind, y against the motion
+    Vec3 velocity, relative;  ///< of the section; of the air against it, m/s
+    Vec3 wind_slope;          ///< by height, 1/s
+    Vec3 radial;              ///< unit, from the shaft
+    SkewedWake wake;
+    Annulus annulus;
+    SectionAir air;
+    Vec3 force, moment;  ///< per length, N/m and N
+};
+
+/// Motion of a body, base axes: angular velocity, and velocity of its joint's origin.
+struct BodyRate {
+    Vec3 angular, origin;
+};
+
+using Columns6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Memory of AirDerivatives.
+struct AirDerivativeScratch {
+    std::vector<Columns6> by_q, by_qd;                 ///< of the sections of a blade: force, moment per length
+    std::vector<Eigen::Matrix<double, 6, 2>> by_wake;  ///< of all sections, by the wake's angle and its blade's sine
+    Columns6 blade_q, blade_qd, trunk_q, trunk_qd;     ///< moment about the base's origin, force; by coordinate
+    Eigen::Matrix<double, 3, Eigen::Dynamic> mean_q, mean_qd;  ///< of the mean wind
+    Matrix wake_q, wake_qd;  ///< n x (1 + blades): the wake's angle and the blades' sines, by coordinate
+    Matrix of_wake;          ///< n x (1 + blades): generalised forces by these
+};
+
+/// Memory that evaluations reuse.
+struct AirScratch {
+    std::vector<BodyRate> rates;
+    std::vector<SectionState> sections;  ///< of all blades, one after the other
+    AirDerivativeScratch derivatives;
+};
+
+/// A borrowed AirScratch of this thread; nested borrowers get fresh memory.
+class BorrowedAirScratch {
+public:
+    BorrowedAirScratch();
+    ~BorrowedAirScratch();
+    BorrowedAirScratch(const BorrowedAirScratch&) = delete;
+    BorrowedAirScratch& operator=(const BorrowedAirScratch&) = delete;
+    AirScratch& operator*() { return own_; }
+
+private:
+    AirScratch own_;
+};
+
+/// The mean wind against the rotor.
+struct MeanWind {
+    Vec3 velocity;  ///< less that of the hub, m/s
+    double normal;  ///< along the shaft
+    double speed, angle;
+};
+
+class AirEvaluation {
+public:
+    AirEvaluation(const AirParts& parts, const ForceInput& at, AirScratch& scratch);
+
+    std::span<const SectionState> sections(std::size_t blade) const;
+    /// Of the point: force and moment about it.
+    Wrench wrench(std::size_t blade, const AirPoint& point) const;
+    const Vec3& shaft() const { return shaft_; }
+    const Vec3& hub() const { return hub_; }
+    double speed() const;  ///< of the rotor about the shaft, rad/s
+    /// Adds dQ/dq and dQ/dqd.
+    void add_derivatives(MatrixOut by_q, MatrixOut by_qd);
+
+private:
+    void find_rates();
+    void place_sections();
+    void find_mean_wind();
+    void find_loads();
+    Vec3 velocity(int body, const Vec3& place) const;
+    Vec3 blade_direction(std::size_t blade) const;  // unit, in the plane of the rotor
+    double sine(std::size_t blade) const;  // of the blade's azimuth in the skewed wake, times that of the wake's angle
+
+    friend class AirDerivatives;
+
+    const AirParts& parts_;
+    const ForceInput& at_;
+    const Kinematics& kin_;
+    AirScratch& scratch_;
+    Vec3 shaft_, hub_;
+    MeanWind mean_ = {};
+};
+
+}  // namespace cardan::turbines

@@ -1,0 +1,120 @@
+#include "turbines/aerodynamics/machine_air.hpp"
+
+#include "mbs/base/entry.hpp"
+#include "mbs/base/error.hpp"
+#include "turbines/aerodynamics/detail/air_evaluation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cardan::turbines {
+
+struct MachineAir::Parts : AirParts {};
+
+MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind,
+                       const RotorAirOptions& options) {
+    blade.check();
+    wind.check();
+    const MachineLayout& layout = turbine.layout();
+    if (layout.blades.empty()) throw InputError("air on a machine", "number of blades", 0, "at least 1");
+    const Model& model = turbine.system().model;
+    const auto parts = std::make_shared<Parts>();
+    parts->profile = std::make_shared<const AeroBlade>(std::move(blade));
+    parts->wind = wind;
+    parts->options = options;
+    parts->hub = layout.hub;
+    const Model::Frame& hub = model.frame(layout.hub);
+    parts->hub_body = hub.body;
+    parts->shaft_body = model.frame(layout.shaft).body;
+    parts->hub_place = hub.in_body.p;
+    parts->hub_axis = hub.in_body.R.col(2);
+    parts->radius = 0;
+    for (std::size_t k = 0; k < layout.blades.size(); ++k) {
+        parts->blades.push_back(air_blade(turbine, k, *parts->profile));
+        const AirBlade& own = parts->blades.back();
+        const double coned = std::sqrt(std::max(0.0, 1 - std::pow(own.axis.dot(parts->hub_axis), 2)));
+        parts->radius = std::max(parts->radius, parts->profile->position.back() * coned);
+        parts->bodies.insert(parts->bodies.end(), own.path.begin(), own.path.end());
+    }
+    for (int at = hub.body; at >= 0; at = model.body(at).parent) parts->trunk.push_back(at);
+    std::reverse(parts->trunk.begin(), parts->trunk.end());
+    std::sort(parts->bodies.begin(), parts->bodies.end());
+    parts->bodies.erase(std::unique(parts->bodies.begin(), parts->bodies.end()), parts->bodies.end());
+    parts_ = parts;
+}
+
+MachineAir MachineAir::in(const SteadyWind& wind) const {
+    wind.check();
+    MachineAir other = *this;
+    const auto parts = std::make_shared<Parts>(*parts_);
+    parts->wind = wind;
+    other.parts_ = parts;
+    return other;
+}
+
+WrenchField MachineAir::field() const {
+    WrenchField field{.name = "air", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = {}};
+    for (const AirBlade& blade : parts_->blades)
+        for (const AirPoint& point : blade.points) field.points.push_back(point.at);
+    field.wrenches = [parts = parts_](const ForceInput& at, std::span<Wrench> out) {
+        BorrowedAirScratch scratch;
+        const AirEvaluation air(*parts, at, *scratch);
+        std::size_t next = 0;
+        for (std::size_t k = 0; k < parts->blades.size(); ++k)
+            for (const AirPoint& point : parts->blades[k].points) out[next++] = air.wrench(k, point);
+    };
+    field.jacobian = [parts = parts_](const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+        BorrowedAirScratch scratch;
+        AirEvaluation(*parts, at, *scratch).add_derivatives(by_q, by_qd);
+    };
+    return field;
+}
+
+Turbine MachineAir::on(const Turbine& turbine) const {
+    ForceSet forces = turbine.forces();
+    forces.add_field(field());
+    return turbine.with_forces(forces, text("in the air, wind ", parts_->wind.speed, " m/s"));
+}
+
+std::vector<std::vector<SectionAir>> MachineAir::sections(const ForceInput& at) const {
+    BorrowedAirScratch scratch;
+    const AirEvaluation air(*parts_, at, *scratch);
+    std::vector<std::vector<SectionAir>> out(parts_->blades.size());
+    for (std::size_t k = 0; k < out.size(); ++k)
+        for (const SectionState& s : air.sections(k)) out[k].push_back(s.air);
+    return out;
+}
+
+MachineAir::Rotor MachineAir::rotor(const ForceInput& at) const {
+    BorrowedAirScratch scratch;
+    const AirEvaluation air(*parts_, at, *scratch);
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (std::size_t k = 0; k < parts_->blades.size(); ++k)
+        for (const AirPoint& point : parts_->blades[k].points) {
+            const Wrench one = air.wrench(k, point);
+            const Vec3 place = at.kinematics.origin(point.body) + at.kinematics.rotation(point.body) * point.place;
+            force += one.force;
+            moment += one.moment + cross<double>(place - air.hub(), one.force);
+        }
+    // Axes of the shaft that do not turn: y is level.
+    const Vec3 x = air.shaft(), y = cross<double>(Vec3(Vec3::UnitZ()), x).normalized();
+    const Mat3 axes = (Mat3() << x, y, cross<double>(x, y)).finished();
+    return {axes.transpose() * force, axes.transpose() * moment, air.speed()};
+}
+
+Vec3 hub_at_rest(const Turbine& turbine) {
+    const Model& model = turbine.system().model;
+    if (turbine.layout().hub == FrameId{}) throw InputError("air on a machine", "rotor", "none", "one");
+    Workspace workspace(model);
+    const Vector q = Vector::Zero(model.size());
+    return pose(kinematics(model, q, workspace), turbine.layout().hub).p;
+}
+
+const AeroBlade& MachineAir::blade() const {
+    return *parts_->profile;
+}
+const SteadyWind& MachineAir::wind() const {
+    return parts_->wind;
+}
+
+}  // namespace cardan::turbines

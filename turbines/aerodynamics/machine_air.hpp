@@ -1,0 +1,63 @@
+/// @file
+/// Air on the blades of a machine that turns, moves and bends.
+///
+///     const turbines::MachineAir air(machine, turbines::nrel5mw_aero_blade(), {.speed = 8});
+///     const turbines::Turbine in_the_wind = air.on(machine);
+///
+/// Blade-element momentum in every section of every blade, at its displaced place, with its own velocity, in axes that
+/// follow the bent blade: z along the section's span, y across it in the plane of the rotor, against the motion, x
+/// downwind across both. Their angle to the section's chord holds twist, pitch and torsion. Ground axes of the wind and
+/// base axes are the same.
+#pragma once
+
+#include "elements/aerodynamics/rigid_rotor.hpp"
+#include "turbines/model/assembly.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// Immutable, cheap to copy, may be used by several threads.
+class MachineAir {
+public:
+    /// @param blade  of all blades; its first section lies at the blade's root, its last one at the tip
+    /// @throws InputError for a machine without blades, sections beyond the ends of the blade, and as
+    /// AeroBlade::check() and SteadyWind::check()
+    MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind, const RotorAirOptions& options = {});
+
+    /// The same in another wind.
+    MachineAir in(const SteadyWind& wind) const;
+
+    /// Its forces, for ForceSet::add_field(); valid for every machine with the tree of `turbine`. Exact derivatives; no
+    /// allocation. Loads per length are linear between the sections and do the same work on the beam's rigid segments
+    /// as spread along them. With a skewed wake (Skew::pitt_peters) every blade feels all others through the mean wind,
+    /// so derivatives are full matrices.
+    WrenchField field() const;
+    /// The machine with these forces added to its own.
+    Turbine on(const Turbine& turbine) const;
+
+    /// At a state; forces per length, as in a rotor that does not bend (RotorAir): by blade, from root to tip.
+    std::vector<std::vector<SectionAir>> sections(const ForceInput& at) const;
+    /// Force and moment of the air on the rotor about the rotor's centre, in axes of the shaft that do not turn: x
+    /// downwind along the shaft, z up.
+    struct Rotor {
+        Vec3 force, moment;  ///< N, N m; moment.x(): torque, driving
+        double speed;        ///< rate of the rotor centre about the shaft, rad/s
+        double power() const { return moment.x() * speed; }
+    };
+    Rotor rotor(const ForceInput& at) const;
+
+    const AeroBlade& blade() const;
+    const SteadyWind& wind() const;
+
+private:
+    struct Parts;
+    std::shared_ptr<const Parts> parts_;
+};
+
+/// Centre of the rotor at rest, not bent, base axes, m: the height that winds are given at.
+/// @throws InputError for a machine without a rotor
+Vec3 hub_at_rest(const Turbine& turbine);
+
+}  // namespace cardan::turbines

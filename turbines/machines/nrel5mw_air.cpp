@@ -1,0 +1,52 @@
+#include "turbines/machines/nrel5mw_air.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/readers/csv.hpp"
+#include "turbines/readers/detail/embedded_data.hpp"
+
+namespace cardan::turbines {
+
+namespace {
+
+CsvTable table(const char* name) {
+    return CsvTable::parse(embedded_data(name), name);
+}
+
+std::vector<Polar> polars() {
+    const CsvTable t = table("nrel5mw_polars.csv");
+    const auto number = t.column("profile"), angle = t.column("angle_of_attack", "deg"),
+               lift = t.column("lift_coefficient"), drag = t.column("drag_coefficient"),
+               moment = t.column("moment_coefficient");
+    std::vector<Polar> out;
+    for (std::size_t i = 0, next = 0; i < t.rows(); i = next) {
+        std::vector<double> a, l, d, m;
+        for (next = i; next < t.rows() && number[next] == number[i]; ++next) {
+            a.push_back(angle[next] * units::degree);
+            l.push_back(lift[next]);
+            d.push_back(drag[next]);
+            m.push_back(moment[next]);
+        }
+        out.emplace_back(text("profile ", number[i]), std::move(a), std::move(l), std::move(d), std::move(m));
+    }
+    return out;
+}
+
+}  // namespace
+
+AeroBlade nrel5mw_aero_blade() {
+    const CsvTable t = table("nrel5mw_aero_blade.csv");
+    const auto radius = t.column("radius", "m"), chord = t.column("chord", "m"), twist = t.column("twist", "deg"),
+               profile = t.column("profile");
+    AeroBlade blade;
+    blade.polars = polars();
+    for (std::size_t i = 0; i < t.rows(); ++i) {
+        blade.position.push_back(radius[i]);
+        blade.chord.push_back(chord[i]);
+        blade.twist.push_back(twist[i] * units::degree);
+        blade.profile.push_back(static_cast<std::size_t>(profile[i]) - 1);
+    }
+    return blade;
+}
+
+}  // namespace cardan::turbines

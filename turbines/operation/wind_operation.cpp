@@ -1,0 +1,293 @@
+#include "turbines/operation/wind_operation.hpp"
+
+#include "mbs/base/entry.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/periodic/steady_state.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <utility>
+
+namespace cardan::turbines {
+
+namespace {
+
+constexpr double pitch_step = 2 * units::degree;  // in search of a bracket
+constexpr double largest_pitch = pi / 2;
+constexpr double power_error = 1e-6;  // of rated power
+
+bool is_constant_in(const SteadyWind& wind) {
+    return wind.shear == Shear::none && wind.direction == 0 && wind.veer == 0 && wind.upflow == 0;
+}
+
+// Nothing in the machine depends on the azimuth: three or more equal blades, no gravity, a level shaft that stays so.
+bool is_isotropic(const TurbineDescription& d, const AssemblyOptions& options) {
+    const RigidInertia& hub = d.hub.inertia;
+    const bool balanced = hub.com.head<2>().isZero(0) && hub.J(0, 0) == hub.J(1, 1) && hub.J(0, 1) == 0 &&
+                          hub.J(0, 2) == 0 && hub.J(1, 2) == 0;
+    const bool held = d.tower.rigid && d.yaw.rotation.is_rigid() && d.yaw.translation.is_rigid() &&
+                      d.nacelle.tilt_bearing.is_rigid() && !d.platform && !options.shaft_beam;
+    return d.blades >= 3 && d.own_blades.empty() && d.nacelle.tilt == 0 && held && options.gravity.isZero(0) &&
+           balanced;
+}
+
+}  // namespace
+
+Operation operation_at(const std::vector<Operation>& schedule, double wind) {
+    if (schedule.empty()) throw InputError("schedule of operation", "number of rows", 0, "at least 1");
+    for (std::size_t i = 1; i < schedule.size(); ++i)
+        if (!(schedule[i].wind > schedule[i - 1].wind))
+            throw InputError("schedule of operation", "wind speed [m/s]", schedule[i].wind, "ascending");
+    const Operation &first = schedule.front(), &last = schedule.back();
+    if (!(wind >= first.wind && wind <= last.wind))
+        throw InputError("schedule of operation", "wind speed [m/s]", wind, text(first.wind, " ... ", last.wind));
+    const auto next = std::ranges::find_if(schedule, [wind](const Operation& one) { return one.wind >= wind; });
+    if (next == schedule.begin()) return first;
+    const Operation &a = next[-1], &b = *next;
+    const double t = (wind - a.wind) / (b.wind - a.wind);
+    return {wind, (1 - t) * a.rotor_speed + t * b.rotor_speed, (1 - t) * a.pitch + t * b.pitch};
+}
+
+void VariableSpeed::check() const {
+    constexpr const char* here = "operation at variable speed";
+    require_positive(here, "tip-speed ratio", tip_speed_ratio);
+    require_positive(here, "rated speed [rad/s]", rated_speed);
+    require_positive(here, "rated power [W]", rated_power);
+    if (!(least_speed >= 0 && least_speed <= rated_speed))
+        throw InputError(here, "least speed [rad/s]", least_speed, text("0 ... ", rated_speed, ", the rated speed"));
+    if (!std::isfinite(fine_pitch)) throw InputError(here, "fine pitch [rad]", fine_pitch, "finite");
+}
+
+double best_tip_speed_ratio(const AeroBlade& blade, int blades, double cone, double pitch,
+                            const RotorAirOptions& options) {
+    const RotorPose pose{.blades = blades, .cone = cone};
+    const SteadyWind wind{.speed = 8};
+    const double R = blade.position.back() * std::cos(cone);
+    const auto power = [&](double ratio) {
+        const double speed = ratio * wind.speed / R;
+        return -speed * rigid_rotor_air(blade, pose, wind, speed, 0, pitch, options).moment.x();
+    };
+    constexpr double step = 0.5;
+    double best = 2;
+    for (double ratio = best; ratio <= 20; ratio += step)
+        if (power(ratio) < power(best)) best = ratio;
+    return boost::math::tools::brent_find_minima(power, best - step, best + step, 20).first;
+}
+
+WindOperation::WindOperation(TurbineDescription description, AssemblyOptions options, const AeroBlade& blade,
+                             WindOperationOptions wind)
+    : description_(std::move(description)), options_(std::move(wind)) {
+    options.spin = CoordinateRole::driven;
+    options.pitch = 0;
+    options.pitch_drives = true;
+    turbine_ = assemble(description_, options);
+    air_.emplace(*turbine_, blade, options_.wind, options_.air);
+    constant_ = is_isotropic(description_, options) && is_constant_in(options_.wind);
+    if (options_.harmonics < 1) throw InputError("operation in the wind", "harmonics", options_.harmonics, ">= 1");
+    if (options_.azimuths < 1) throw InputError("operation in the wind", "azimuths", options_.azimuths, ">= 1");
+}
+
+double WindOperation::radius() const {
+    return air_->blade().position.back() * std::cos(description_.blade.cone);
+}
+
+bool WindOperation::is_constant() const {
+    return constant_;
+}
+
+Turbine WindOperation::machine(const Operation& operation) const {
+    SteadyWind wind = options_.wind;
+    wind.speed = operation.wind;
+    return air_->in(wind).on(*turbine_);
+}
+
+// Means of the drives' coordinates, which are positive away from feather.
+Matrix WindOperation::with_pitch(Matrix start, double pitch) const {
+    const Model& model = turbine_->system().model;
+    if (start.size() == 0) start = Matrix::Zero(model.size(), 1);
+    for (const BodyId drive : turbine_->layout().pitch_drives) start(model.index(drive), 0) = -pitch;
+    return start;
+}
+
+WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) const {
+    WindPoint point;
+    point.operation = operation;
+    SteadyWind wind = options_.wind;
+    wind.speed = operation.wind;
+    const MachineAir air = air_->in(wind);
+    const Turbine windy = air.on(*turbine_);
+    const Matrix from = with_pitch(start, operation.pitch);
+    const int spin = windy.rotor().spin;
+    const auto take = [&](const Outcome& outcome) {
+        point.converged = outcome.converged;
+        point.message = outcome.message;
+    };
+    try {
+        if (constant_ || operation.rotor_speed == 0) {
+            const solvers::SteadyState found = solvers::steady_state(
+                windy.system(), spin, {.rotor_speed = operation.rotor_speed, .initial = from.col(0)});
+            take(found);
+            point.revolution = {found.at};
+        } else {
+            solvers::PeriodicOptions periodic;
+            periodic.rotor_speed = operation.rotor_speed;
+            periodic.harmonics = options_.harmonics;
+            periodic.start = from;
+            periodic.rotor = &windy.rotor();
+            const solvers::PeriodicSteadyState found = solvers::harmonic_balance(windy.system(), spin, periodic);
+            take(found);
+            point.remainder = found.remainder;
+            point.note = found.note;
+            for (int i = 0; i < options_.azimuths; ++i)
+                point.revolution.push_back(found.at(2 * pi * i / options_.azimuths));
+            point.coefficients = found.coefficients;
+        }
+        if (point.converged) evaluate(point, air, windy);
+    } catch (const NumericalError& error) {
+        point.converged = false;
+        point.message = error.what();
+    }
+    if (!point.converged)
+        point.message = text("wind ", operation.wind, " m/s, ", operation.rotor_speed * units::to_rpm, " rpm, pitch ",
+                             operation.pitch * units::to_degrees, " deg: ", point.message);
+    return point;
+}
+
+void WindOperation::evaluate(WindPoint& point, const MachineAir& air, const Turbine& windy) const {
+    const Model& model = windy.system().model;
+    Workspace workspace(model);
+    const double share = 1 / static_cast<double>(point.revolution.size());
+    const AeroBlade& blade = air.blade();
+    point.sections.assign(blade.sections(), {});
+    for (const solvers::OperatingPoint& state : point.revolution) {
+        const Kinematics kin = kinematics(model, state.q, workspace);
+        const ForceInput at{state.time, state.q, state.qd, kin, no_states, no_states};
+        const MachineAir::Rotor rotor = air.rotor(at);
+        point.power += share * rotor.power();
+        point.thrust += share * rotor.force.x();
+        point.torque += share * rotor.moment.x();
+        const std::vector<SectionAir> sections = air.sections(at).front();
+        for (std::size_t i = 0; i < sections.size(); ++i) {
+            const SectionAir& one = sections[i];
+            SectionMean& mean = point.sections[i];
+            mean.position = blade.position[i];
+            mean.axial += share * one.induction.axial;
+            mean.tangential += share * one.induction.tangential;
+            mean.inflow += share * one.induction.phi;
+            mean.attack += share * one.force.attack;
+            mean.speed +=
+                share * std::hypot(one.V_x * (1 - one.induction.axial), one.V_y * (1 + one.induction.tangential));
+            mean.normal += share * one.force.normal;
+            mean.driving += share * one.force.driving;
+            mean.moment += share * one.force.moment;
+        }
+    }
+    const double R = radius(), V = point.operation.wind, pressure = options_.wind.density / 2 * pi * R * R * V * V;
+    if (V > 0) {
+        point.power_coefficient = point.power / (pressure * V);
+        point.thrust_coefficient = point.thrust / pressure;
+        point.tip_speed_ratio = point.operation.rotor_speed * R / V;
+    }
+}
+
+void WindOperation::keep(const WindPoint& point) {
+    last_ = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
+    if (point.coefficients.size() == 0) last_(turbine_->rotor().spin, 0) = 0;
+    last_operation_ = point.operation;
+}
+
+// From the last state that was found, in one step or in parts.
+WindPoint WindOperation::at(const Operation& operation) {
+    WindPoint point = solve(operation, last_);
+    if (!point.converged && last_operation_) {
+        const Operation from = *last_operation_;
+        for (int parts = 2; parts <= 32 && !point.converged; parts *= 2) {
+            Matrix start = last_;
+            for (int i = 1; i <= parts; ++i) {
+                const double t = static_cast<double>(i) / parts;
+                const auto between = [t](double a, double b) { return (1 - t) * a + t * b; };
+                point = solve({between(from.wind, operation.wind), between(from.rotor_speed, operation.rotor_speed),
+                               between(from.pitch, operation.pitch)},
+                              start);
+                if (!point.converged) break;
+                start = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
+            }
+        }
+    }
+    if (point.converged) keep(point);
+    return point;
+}
+
+// The power falls as the blades turn to feather: from the pitch before, on either side, until it has changed its sign.
+WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
+    WindPoint point;
+    const auto excess = [&](double pitch) {
+        point = at({wind, law.rated_speed, pitch});
+        require_result(point);
+        return point.power / law.rated_power - 1;
+    };
+    double low = std::max(law.fine_pitch, last_operation_ ? last_operation_->pitch : law.fine_pitch),
+           at_low = excess(low);
+    while (at_low < 0 && low > law.fine_pitch) {
+        low = std::max(law.fine_pitch, low - pitch_step);
+        at_low = excess(low);
+    }
+    if (at_low <= 0) return point;
+    double high = low, at_high = at_low;
+    while (at_high > 0) {
+        if (high >= largest_pitch)
+            throw NumericalError(text("no pitch up to 90 deg brings the power down to ", law.rated_power, " W"));
+        low = high;
+        at_low = at_high;
+        high = std::min(largest_pitch, high + pitch_step);
+        at_high = excess(high);
+    }
+    std::uintmax_t iterations = 50;
+    const auto close = [&](double, double) { return std::abs(point.power / law.rated_power - 1) < power_error; };
+    boost::math::tools::toms748_solve(excess, low, high, at_low, at_high, close, iterations);
+    return point;
+}
+
+WindPoint WindOperation::at(double wind, const VariableSpeed& law) {
+    law.check();
+    const double speed = std::clamp(law.tip_speed_ratio * wind / radius(), law.least_speed, law.rated_speed);
+    // Beyond rated wind the fine pitch would be far from where the machine runs.
+    const bool beyond = last_operation_ && last_operation_->pitch > law.fine_pitch && speed == law.rated_speed;
+    WindPoint point;
+    if (!beyond) point = at({wind, speed, law.fine_pitch});
+    if (point.converged && point.power <= law.rated_power) return point;
+    try {
+        return at_rated(wind, law);
+    } catch (const NumericalError& error) {
+        point.operation.wind = wind;
+        point.converged = false;
+        point.message = error.what();
+        return point;
+    }
+}
+
+std::vector<WindPoint> WindOperation::over(const std::vector<Operation>& schedule) {
+    std::vector<WindPoint> points;
+    points.reserve(schedule.size());
+    for (const Operation& one : schedule) {
+        points.push_back(at(one));
+        if (options_.progress && !options_.progress(points.back())) break;
+    }
+    return points;
+}
+
+std::vector<WindPoint> WindOperation::over(const std::vector<double>& winds, const VariableSpeed& law) {
+    std::vector<WindPoint> points;
+    points.reserve(winds.size());
+    for (const double wind : winds) {
+        points.push_back(at(wind, law));
+        if (options_.progress && !options_.progress(points.back())) break;
+    }
+    return points;
+}
+
+}  // namespace cardan::turbines

@@ -1,0 +1,181 @@
+#include "turbines/readers/aerodyn.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/readers/openfast_file.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace cardan::turbines {
+
+namespace {
+
+// Which column of the polars holds what, from 1; 0: none.
+struct PolarColumns {
+    int angle, lift, drag, moment;
+};
+
+Polar read_polar(const std::filesystem::path& path, const PolarColumns& columns) {
+    OpenFastFile file = OpenFastFile::read(path);
+    const std::vector<OpenFastFile::Row> rows = file.rows_after("NumAlf");
+    std::vector<double> angle, lift, drag, moment;
+    for (const OpenFastFile::Row& row : rows) {
+        const auto value = [&](int column) {
+            if (column == 0) return 0.0;
+            if (static_cast<std::size_t>(column) > row.values.size())
+                throw ParseError(file.name(), row.line, 0,
+                                 text(column, " numbers expected, found ", row.values.size()));
+            return row.values[static_cast<std::size_t>(column) - 1];
+        };
+        const double degrees = value(columns.angle);
+        if (!angle.empty() && !(degrees * units::degree > angle.back()))
+            throw ParseError(file.name(), row.line, 0,
+                             text("angle of attack = ", degrees, " deg after ", angle.back() * units::to_degrees,
+                                  "; allowed: ascending"));
+        angle.push_back(degrees * units::degree);
+        lift.push_back(value(columns.lift));
+        drag.push_back(value(columns.drag));
+        moment.push_back(value(columns.moment));
+    }
+    try {
+        return {path.filename().string(), std::move(angle), std::move(lift), std::move(drag), std::move(moment)};
+    } catch (const InputError& error) {
+        file.fail("NumAlf", error.what());
+    }
+}
+
+AeroBlade read_blade(const std::filesystem::path& path, double hub_radius, std::vector<Polar> polars,
+                     std::string& source) {
+    OpenFastFile file = OpenFastFile::read(path);
+    const OpenFastTable t = file.table("BlSpn", static_cast<std::size_t>(file.integer("NumBlNds", 2, 100000)));
+    AeroBlade blade;
+    blade.polars = std::move(polars);
+    for (std::size_t i = 0; i < t.rows(); ++i) {
+        const double id = t.column("BlAFID")[i];
+        if (id != std::round(id) || id < 1 || id > static_cast<double>(blade.polars.size()))
+            t.fail(i, text("BlAFID = ", id, "; allowed: 1 ... ", blade.polars.size()));
+        blade.position.push_back(hub_radius + t.column("BlSpn")[i]);
+        blade.chord.push_back(t.column("BlChord")[i]);
+        blade.twist.push_back(t.column("BlTwist")[i] * units::degree);
+        blade.prebend.push_back(t.column("BlCrvAC")[i]);
+        blade.sweep.push_back(t.column("BlSwpAC")[i]);
+        blade.profile.push_back(static_cast<std::size_t>(id) - 1);
+        if (!(blade.chord.back() > 0)) t.fail(i, text("BlChord = ", blade.chord.back(), "; allowed: > 0"));
+        if (i > 0 && !(blade.position[i] > blade.position[i - 1])) t.fail(i, "BlSpn; allowed: ascending");
+    }
+    source += text("\n# ", path.string(), "\n", file.text());
+    return blade;
+}
+
+// A switch whose keyword has changed.
+int choice(OpenFastFile& file, const char* keyword, const char* older, int otherwise) {
+    const char* const name = file.has(keyword) ? keyword : older;
+    return static_cast<int>(file.number_or_default(name, otherwise));
+}
+const char* present(const OpenFastFile& file, const char* keyword, const char* older) {
+    return file.has(keyword) ? keyword : older;
+}
+
+void read_wake(OpenFastFile& file, RotorAirOptions& options) {
+    const char* const keyword = present(file, "Wake_Mod", "WakeMod");
+    const int wake = choice(file, "Wake_Mod", "WakeMod", 1);
+    options.induction = wake != 0;
+    if (wake == 2) file.note(keyword, "the wake is in equilibrium here");
+    if (wake == 3) file.note(keyword, "no free vortices here, but blade-element momentum");
+    if (file.number_or_default("DBEMT_Mod", 0) > 0 && (wake == 2 || file.has("Wake_Mod")))
+        file.note("DBEMT_Mod", "the wake is in equilibrium here");
+    if (file.number_or_default("BEM_Mod", 1) == 2)
+        file.note("BEM_Mod", "the balance of momentum is along the blade's own normal here, with Buhl's relation (1)");
+}
+
+void read_skew(OpenFastFile& file, RotorAirOptions& options) {
+    bool redistributed = true;
+    if (file.has("Skew_Mod")) {
+        redistributed = choice(file, "Skew_Mod", "", 1) == 1 && file.number_or_default("SkewRedistr_Mod", 1) == 1;
+        if (file.has("SkewMomCorr") && file.flag("SkewMomCorr")) file.note("SkewMomCorr", "without effect here");
+    } else if (file.has("SkewMod")) {
+        const int mode = choice(file, "SkewMod", "", 2);
+        redistributed = mode == 2;
+        if (mode == 3) file.note("SkewMod", "without effect here");
+    }
+    options.skew = redistributed ? Skew::pitt_peters : Skew::none;
+    for (const char* factor : {"SkewRedistrFactor", "SkewModFactor"})
+        if (std::abs(file.number_or_default(factor, 15 * pi / 32) - 15 * pi / 32) > 1e-6)
+            file.note(factor, "15 pi / 32 here");
+}
+
+void note_rest(OpenFastFile& file) {
+    if (choice(file, "UA_Mod", "UAMod", 0) != 0 && file.number_or_default("AFAeroMod", 2) != 1)
+        file.note(present(file, "UA_Mod", "UAMod"), "profiles are steady here");
+    if (file.number_or_default("TwrPotent", 0) != 0 || file.number_or_default("TwrShadow", 0) != 0)
+        file.note("TwrPotent", "the tower does not disturb the wind here");
+    if (file.flag_or("TwrAero", false)) file.note("TwrAero", "no loads of the air on the tower here");
+    if (file.flag_or("NacelleDrag", false)) file.note("NacelleDrag", "no loads of the air on the nacelle here");
+    if (file.number_or_default("AFTabMod", 1) != 1)
+        file.note("AFTabMod", "the first table of every polar is used here");
+}
+
+const std::vector<KeywordGroup>& ignored_by_aerodyn() {
+    static const std::vector<KeywordGroup> all{
+        {{"*"}, "numerical settings, output, unsteady profiles, tower: without meaning for the steady air on blades"}};
+    return all;
+}
+
+}  // namespace
+
+AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density) {
+    OpenFastFile file = OpenFastFile::read(path);
+    if (!file.has("NumAFfiles"))
+        throw ParseError(path.string(), 1, 0, "not a file of AeroDyn 15: no line with the keyword NumAFfiles");
+    AeroDynFile out;
+    out.density = file.number_or_default("AirDens", density);
+    if (!(out.density > 0)) file.fail("AirDens", text("AirDens = ", out.density, "; allowed: > 0"));
+    read_wake(file, out.options);
+    read_skew(file, out.options);
+    out.options.momentum = {.tip_loss = file.flag("TipLoss"),
+                            .hub_loss = file.flag("HubLoss"),
+                            .axial_drag = file.flag("AIDrag"),
+                            .rotation = file.flag("TanInd"),
+                            .tangential_drag = file.flag("TIDrag")};
+    note_rest(file);
+    const auto column = [&](const char* keyword, int least) { return file.integer(keyword, least, 100); };
+    PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};
+    if (!file.flag("UseBlCm")) columns.moment = 0;
+    const auto polar_paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));
+    std::vector<Polar> polars;
+    for (const std::filesystem::path& one : polar_paths)
+        polars.push_back(file.follow("AFNames", [&] { return read_polar(one, columns); }));
+    const auto blade = [](int k) { return text("ADBlFile(", k, ")"); };
+    out.source = text("# ", path.string(), "\n", file.text());
+    out.blade = file.follow(blade(1),
+                            [&] { return read_blade(file.path(blade(1)), hub_radius, std::move(polars), out.source); });
+    for (int k = 2; k <= 3; ++k)
+        if (file.has(blade(k)) && file.word(blade(k)) != file.word(blade(1)))
+            file.note(blade(k), "all blades have the sections of the first one here");
+    out.notes = file.notes(ignored_by_aerodyn());
+    return out;
+}
+
+InflowWindFile read_inflow_wind(const std::filesystem::path& path) {
+    OpenFastFile file = OpenFastFile::read(path);
+    const int kind = file.integer("WindType", 0, 100);
+    if (kind != 1) file.fail("WindType", text("WindType = ", kind, "; allowed: 1, steady wind"));
+    InflowWindFile out;
+    SteadyWind& wind = out.wind;
+    wind.speed = file.number("HWindSpeed");
+    wind.reference_height = file.first_number("RefHt");
+    wind.exponent = file.first_number("PLexp");
+    wind.shear = wind.exponent == 0 ? Shear::none : Shear::power;
+    wind.direction = -file.number("PropagationDir") * units::degree;
+    wind.upflow = file.number_or("VFlowAng", 0) * units::degree;
+    try {
+        wind.check();
+    } catch (const InputError& error) {
+        file.fail("HWindSpeed", error.what());
+    }
+    out.notes = file.notes({{{"*"}, "of other kinds of wind, and output"}});
+    return out;
+}
+
+}  // namespace cardan::turbines

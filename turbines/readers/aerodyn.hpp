@@ -1,0 +1,39 @@
+/// @file
+/// Aerodynamics from the input files of OpenFAST: AeroDyn 15 with blades and polars, the steady wind of InflowWind.
+#pragma once
+
+#include "elements/aerodynamics/rigid_rotor.hpp"
+#include "turbines/readers/turbine_file.hpp"
+
+#include <filesystem>
+
+namespace cardan::turbines {
+
+/// Sections, polars and options of AeroDyn, and what of it is different here, as notes.
+struct AeroDynFile {
+    AeroBlade blade;
+    RotorAirOptions options;
+    double density = 1.225;  ///< kg/m^3
+    std::vector<FileNote> notes;
+    std::string source;  ///< text of the files but the polars
+};
+
+/// The main file, all versions of AeroDyn 15, with the files it names. Taken as they are: induction, tip and hub
+/// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments. Noted: unsteady airfoils,
+/// dynamic wake, free vortices, influence of and loads on the tower, interpolation over the Reynolds number (the first
+/// table of each polar is used), blades that differ.
+/// @param hub_radius  places of the sections are given from the blade's root, m
+/// @param density     where the file says "default", kg/m^3
+/// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted or do not reach
+/// around the circle
+AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density = 1.225);
+
+/// InflowWind, a wind of WindType 1: speed at a height, power law, direction, upflow.
+/// @throws ParseError, FileError; other kinds of wind are refused
+struct InflowWindFile {
+    SteadyWind wind;
+    std::vector<FileNote> notes;
+};
+InflowWindFile read_inflow_wind(const std::filesystem::path& path);
+
+}  // namespace cardan::turbines
