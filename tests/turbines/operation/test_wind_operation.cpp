@@ -7,8 +7,12 @@
 #include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/model/channels.hpp"
 #include "turbines/operation/wind_operation.hpp"
+#include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/csv.hpp"
+#include "turbines/readers/openfast.hpp"
 
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 
 namespace cardan::testing::wind_operation_tests {
@@ -187,6 +191,44 @@ TEST_CASE("operation in the wind: tilt and gravity against ElastoDyn and AeroDyn
         CHECK(mean["OoPDefl1"] == Approx(at("out_of_plane")).epsilon(0.02));
         CHECK(mean["TTDspFA"] == Approx(at("tower_fore_aft") / 0.936).epsilon(0.03));
         CHECK(mean["RootMyc1"] / 1e3 == Approx(at("root_moment_y")).epsilon(0.02));
+    }
+}
+
+// The public model itself is not part of these sources: CARDAN_MODELS names a folder that holds its repository.
+TEST_CASE("operation in the wind: IEA 22 MW machine from its files against OpenFAST and HAWC2", "[discrete][.models]") {
+    const char* const models = std::getenv("CARDAN_MODELS");
+    if (models == nullptr) return;
+    const std::filesystem::path folder = std::filesystem::path(models) / "IEA-22-280-RWT" / "IEA-22-280-RWT-Monopile";
+    TurbineDescription d = read_openfast(folder / "IEA-22-280-RWT-Monopile.fst").description;
+    d.nacelle.tilt = 0;
+    d.tower.rigid = true;
+    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
+    const AeroDynFile air = read_aerodyn(folder / "IEA-22-280-RWT_AeroDyn15.dat", d.hub.radius);
+    AssemblyOptions assembly;
+    assembly.blade_beam = CardanBeamOptions{.elements = 10, .partition = Partition::mean_difference, .extension = true};
+    WindOperationOptions options;
+    options.air = air.options;
+    options.wind.density = air.density;
+    WindOperation machine(d, assembly, air.blade, options);
+    const CsvTable table =
+        CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/iea22_steady.csv");
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const auto at = [&](const char* name) { return table.column(name)[i]; };
+        const WindPoint point = machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
+        CAPTURE(at("program"), at("wind"), point.message);
+        REQUIRE(point.converged);
+        const Turbine turbine = machine.machine(point.operation);
+        const Model& model = turbine.system().model;
+        Workspace workspace(model);
+        const Kinematics kin = kinematics(model, point.revolution.front().q, workspace);
+        const Pose<double> root = pose(kin, turbine.layout().blade_roots[0]),
+                           tip = pose(kin, turbine.layout().blades[0].tip());
+        const BeamLine& line = turbine.layout().blades[0].line;
+        const double moved = (root.R.transpose() * (tip.p - root.p) - line.pose(line.length).p).z();
+        const bool openfast = at("program") == 1;
+        CHECK(point.power == Approx(at("power")).epsilon(openfast ? 0.01 : 0.035));
+        CHECK(point.thrust == Approx(at("thrust")).epsilon(openfast ? 0.005 : 0.035));
+        CHECK(std::abs(moved - at("tip_x")) < (openfast ? 0.12 : 0.4));
     }
 }
 
