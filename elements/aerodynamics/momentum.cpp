@@ -5,6 +5,7 @@
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <optional>
 
 namespace cardan {
 
@@ -29,7 +30,12 @@ Induction solution(const Balance<double>& balance, double root, double V_x, doub
             .solved = true};
 }
 
-// @param find  a root between two angles whose residuals have different signs
+// Between two angles whose residuals, of different signs, are low and high; on the side where the air comes from.
+struct Bracket {
+    double from, to, low, high, side;
+};
+
+// @param find  a root in a bracket: find(residual, bracket)
 template <class Find>
 Induction solve(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options, const Find& find) {
     if (vanishes(annulus, options)) return {.axial = 1, .phi = std::atan2(0.0, V_y)};
@@ -45,7 +51,7 @@ Induction solve(const Annulus& annulus, double V_x, double V_y, const MomentumOp
                 const double from = first + (last - first) * i / parts, to = first + (last - first) * (i + 1) / parts,
                              low = residual(from), high = residual(to);
                 if (!(low * high <= 0)) continue;
-                const double phi = side * find(residual, from, to, low, high);
+                const double phi = side * find(residual, Bracket{from, to, low, high, side});
                 if (balance.holds(phi)) return solution(balance, phi, V_x, V_y);
             }
     return {.phi = std::atan2(V_x, V_y)};
@@ -53,20 +59,46 @@ Induction solve(const Annulus& annulus, double V_x, double V_y, const MomentumOp
 
 }  // namespace
 
+namespace {
+
+// Newton's method from the angle of a usual induction, as long as it stays in the bracket; nothing if it does not come
+// to rest there.
+std::optional<double> newton_root(const Balance<Dual<1>>& balance, const Bracket& in, double guess) {
+    constexpr double close = 1e-8;  // its error is then that of rounding: it squares in the last step
+    double phi = guess;
+    for (int i = 0; i < 8; ++i) {
+        const Dual<1> residual = balance.residual(Dual<1>::variable(in.side * phi, 0));
+        const double step = residual.value / (in.side * residual.slopes(0));
+        phi -= step;
+        if (!(phi > in.from && phi < in.to)) return std::nullopt;
+        if (std::abs(step) < close) return phi;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+// Where Newton's method fails, TOMS 748 does not.
 Induction solve_induction(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options) {
-    return solve(annulus, V_x, V_y, options, [](const auto& residual, double from, double to, double low, double high) {
+    const Inflow<Dual<1>> inflow{V_x, V_y, annulus.angle, annulus.radius};
+    const Balance<Dual<1>> balance(annulus, inflow, options);
+    return solve(annulus, V_x, V_y, options, [&](const auto& residual, const Bracket& in) {
+        const double guess = std::atan2(2 * std::abs(V_x) / 3, V_y);
+        if (const std::optional<double> root = newton_root(balance, in, guess)) return *root;
         std::uintmax_t iterations = 100;
         const auto close = [](double a, double b) { return std::abs(b - a) < 1e-13; };
-        const auto [a, b] = boost::math::tools::toms748_solve(residual, from, to, low, high, close, iterations);
+        const auto [a, b] =
+            boost::math::tools::toms748_solve(residual, in.from, in.to, in.low, in.high, close, iterations);
         return (a + b) / 2;
     });
 }
 
 Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options) {
-    return solve(annulus, V_x, V_y, options, [](const auto& residual, double from, double to, double low, double) {
+    return solve(annulus, V_x, V_y, options, [](const auto& residual, const Bracket& in) {
+        double from = in.from, to = in.to;
         for (int i = 0; i < 200 && to - from > 1e-15; ++i) {
             const double middle = (from + to) / 2, value = residual(middle);
-            ((value > 0) == (low > 0) ? from : to) = middle;
+            ((value > 0) == (in.low > 0) ? from : to) = middle;
         }
         return (from + to) / 2;
     });

@@ -82,10 +82,10 @@ private:
     static constexpr double least_loss = 1e-4;       // of F
     static constexpr double glauert_from = 2.0 / 3;  // k beyond which momentum theory fails
 
-    // (2 / pi) acos exp(-x): 1 where x is large.
+    // (2 / pi) acos exp(-x): 1 but for rounding where x is large.
     static S loss(const S& exponent) {
         using std::acos, std::exp;
-        return value_of(exponent) > 700 ? S(1) : 2 / pi * acos(exp(-exponent));
+        return value_of(exponent) > 40 ? S(1) : 2 / pi * acos(exp(-exponent));
     }
 
     const Annulus& annulus_;

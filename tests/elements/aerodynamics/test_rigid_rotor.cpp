@@ -66,6 +66,25 @@ TEST_CASE("blade-element momentum: inductions and loads of the sections", "[disc
     }
 }
 
+TEST_CASE("blade-element momentum: a rotor at rest and a slow one, without induction", "[discrete]") {
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
+    const CsvTable table = reference("aerodyn_standstill.csv");
+    RotorAirOptions options;
+    options.induction = false;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const auto at = [&](const char* name) { return table.column(name)[i]; };
+        const RotorAir air = rigid_rotor_air(blade, {}, {.speed = at("wind")}, at("speed") * units::rpm, 0,
+                                             at("pitch") * units::degree, options);
+        const SectionForce& own = air.sections[0][static_cast<std::size_t>(at("node")) - 1].force;
+        CAPTURE(at("pitch"), at("node"));
+        CHECK(own.attack * units::to_degrees == Approx(at("attack")).margin(1e-6));
+        CHECK(own.normal == Approx(at("normal")).epsilon(1e-8).margin(1e-6));
+        CHECK(own.driving == Approx(at("driving")).epsilon(1e-8).margin(1e-6));
+        CHECK(air.force.x() == Approx(at("thrust")).epsilon(1e-8));
+        CHECK(air.moment.x() == Approx(at("torque")).epsilon(1e-8));
+    }
+}
+
 TEST_CASE("blade-element momentum: tilt, cone, yaw and shear over the azimuth, with and without skewed wake",
           "[discrete]") {
     const AeroBlade blade = turbines::nrel5mw_aero_blade();

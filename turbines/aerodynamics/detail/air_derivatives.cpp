@@ -22,17 +22,6 @@ namespace {
 
 using Slopes = SectionSlopes;
 
-// Twist of a coordinate about the base's origin, and the motion of the body behind it as seen there.
-struct Mover {
-    Vec3 w, v, angular, linear;
-
-    Vec3 at(const Vec3& P) const { return v + cross<double>(w, P); }
-    Vec3 carried(const Vec3& P) const { return linear + cross<double>(angular, P); }  // velocity of a point fixed to it
-    Vec3 change_of_velocity(const Vec3& P, const Vec3& V) const {
-        return cross<double>(angular, at(P)) + cross<double>(w, V - carried(P));
-    }
-};
-
 // A coordinate as it moves a section: how the axes turn, the chord against them, the distance from the shaft.
 struct SectionTurn {
     Vec3 axes;
@@ -51,6 +40,8 @@ public:
         memory_.by_q.resize(parts_.profile->sections());
         memory_.by_qd.resize(parts_.profile->sections());
         memory_.by_wake.resize(air.scratch_.sections.size());
+        memory_.movers.resize(static_cast<std::size_t>(n));
+        for (const int a : parts_.bodies) entry(memory_.movers, a) = found_mover(a);
     }
 
     void add() {
@@ -66,7 +57,8 @@ public:
     }
 
 private:
-    Mover mover(int a) const {
+    const Mover& mover(int a) const { return entry(memory_.movers, a); }
+    Mover found_mover(int a) const {
         const auto& frame = entry(air_.kin_.workspace().frame, a);
         const Vec3 e = frame.E[2].vector(), o = frame.o.vector();
         const BodyRate& rate = entry(air_.scratch_.rates, a);
@@ -102,7 +94,7 @@ private:
         to_qd.resize(6, static_cast<Eigen::Index>(blade.path.size()));
         for (int j = 0; j < count; ++j) {
             const int a = entry(blade.path, j);
-            const Mover own = mover(a);
+            const Mover& own = mover(a);
             const SectionTurn turned = turn(s, own, moves_hub(a));
             const Vec3 v = own.at(s.place), air = s.wind_slope * v.z() - own.change_of_velocity(s.place, s.velocity);
             const auto change_along = [&](const Vec3& axis) {
@@ -171,13 +163,13 @@ private:
     // Row b of the derivatives, from the wrench on all that b moves.
     void add_row(int b, const std::vector<int>& columns, const Columns6& sum_q, const Columns6& sum_qd,
                  const Vec6& wrench) {
-        const Mover own = mover(b);
+        const Mover& own = mover(b);
         Vec6 S;
         S << own.w, own.v;
         for (const int a : columns) {
             double value = S.dot(sum_q.col(a));
             if (a < b && air_.kin_.model().precedes(a, b)) {
-                const Mover first = mover(a);
+                const Mover& first = mover(a);
                 Vec6 turned;
                 turned << cross<double>(first.w, own.w), cross<double>(first.w, own.v) + cross<double>(first.v, own.w);
                 value += turned.dot(wrench);
@@ -214,7 +206,7 @@ private:
             }
         const Vec3 &hub = air_.hub_, velocity = air_.velocity(parts_.hub_body, hub);
         for (const int a : parts_.trunk) {
-            const Mover own = mover(a);
+            const Mover& own = mover(a);
             memory_.mean_q.col(a) -= own.change_of_velocity(hub, velocity);
             memory_.mean_qd.col(a) -= own.at(hub);
         }
@@ -249,7 +241,7 @@ private:
         memory_.of_wake.setZero(by_q_.rows(), 1 + std::ssize(parts_.blades));
         Vec6 trunk_angle = Vec6::Zero();
         const auto add = [&](int b, const Vec6& wrench, Eigen::Index column) {
-            const Mover own = mover(b);
+            const Mover& own = mover(b);
             memory_.of_wake(b, column) += own.w.dot(wrench.head<3>()) + own.v.dot(wrench.tail<3>());
         };
         for (std::size_t k = 0; k < parts_.blades.size(); ++k) {

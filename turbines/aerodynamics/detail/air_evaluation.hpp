@@ -43,8 +43,20 @@ struct BodyRate {
 
 using Columns6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
+/// Twist of a coordinate about the base's origin, and the motion of the body behind it as seen there.
+struct Mover {
+    Vec3 w, v, angular, linear;
+
+    Vec3 at(const Vec3& P) const { return v + cross<double>(w, P); }
+    Vec3 carried(const Vec3& P) const { return linear + cross<double>(angular, P); }  // velocity of a point fixed to it
+    Vec3 change_of_velocity(const Vec3& P, const Vec3& V) const {
+        return cross<double>(angular, at(P)) + cross<double>(w, V - carried(P));
+    }
+};
+
 /// Memory of AirDerivatives.
 struct AirDerivativeScratch {
+    std::vector<Mover> movers;                         ///< by coordinate
     std::vector<Columns6> by_q, by_qd;                 ///< of the sections of a blade: force, moment per length
     std::vector<Eigen::Matrix<double, 6, 2>> by_wake;  ///< of all sections, by the wake's angle and its blade's sine
     Columns6 blade_q, blade_qd, trunk_q, trunk_qd;     ///< moment about the base's origin, force; by coordinate
