@@ -199,6 +199,11 @@ void print(const ChannelTable& table, const std::vector<WindPoint>& points) {
     }
 }
 
+void append(std::string& row, double value) {
+    row += ',';
+    row += in_digits(value);
+}
+
 void write_csv(const std::string& prefix, const std::vector<WindPoint>& points, const ChannelTable& table) {
     std::string out = "wind[m/s]";
     for (const Quantity& q : quantities()) out += text(",", q.name, "[", q.unit, "]");
@@ -208,9 +213,9 @@ void write_csv(const std::string& prefix, const std::vector<WindPoint>& points, 
     out += "\n";
     for (std::size_t k = 0; k < points.size(); ++k) {
         out += in_digits(points[k].operation.wind);
-        for (const Quantity& q : quantities()) out += "," + in_digits(q.factor * q.of(points[k]));
+        for (const Quantity& q : quantities()) append(out, q.factor * q.of(points[k]));
         for (std::size_t i = 0; i < table.channels.size(); ++i)
-            for (const auto* values : {&table.mean, &table.least, &table.most}) out += "," + in_digits((*values)[k][i]);
+            for (const auto* values : {&table.mean, &table.least, &table.most}) append(out, (*values)[k][i]);
         out += "\n";
     }
     write_file(prefix + ".csv", out);
@@ -219,8 +224,9 @@ void write_csv(const std::string& prefix, const std::vector<WindPoint>& points, 
     out += "\n";
     for (const WindPoint& point : points)
         for (const turbines::SectionMean& section : point.sections) {
-            out += in_digits(point.operation.wind) + "," + in_digits(section.position);
-            for (const SectionQuantity& q : section_quantities) out += "," + in_digits(q.factor * section.*q.of);
+            out += in_digits(point.operation.wind);
+            append(out, section.position);
+            for (const SectionQuantity& q : section_quantities) append(out, q.factor * section.*q.of);
             out += "\n";
         }
     write_file(prefix + "_sections.csv", out);
@@ -388,7 +394,7 @@ void add_wind_options(CommandLine& app, WindArguments& a) {
     app.add_option("--tip-speed-ratio", a.tip_speed_ratio,
                    "below rated power (default: that of the largest power coefficient at --pitch)");
     app.add_option("--shear", a.shear, "exponent of the wind's profile over the height");
-    app.add_option("--yaw", a.yaw, "direction of the wind against the shaft, deg, from downwind to the left");
+    app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
     app.add_option("--upflow", a.upflow, "of the wind, deg");
     app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
@@ -409,7 +415,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     in_wind.wind = {.reference_height = hub.z(),
                     .shear = wind.shear == 0 ? Shear::none : Shear::power,
                     .exponent = wind.shear,
-                    .direction = wind.yaw * units::degree,
+                    .direction = wind.direction * units::degree,
                     .upflow = wind.upflow * units::degree,
                     .density = air.density};
     in_wind.air = air.options;

@@ -11,11 +11,11 @@ namespace cardan::program {
 
 /// What the wind is, and how the machine runs in it.
 struct WindArguments {
-    std::string speeds;          ///< m/s, with ranges; empty: no wind
-    std::string air;             ///< AeroDyn's main file; empty: the machine's
-    std::string schedule;        ///< file; empty: variable speed
-    double shear = 0;            ///< exponent
-    double yaw = 0, upflow = 0;  ///< deg
+    std::string speeds;                ///< m/s, with ranges; empty: no wind
+    std::string air;                   ///< AeroDyn's main file; empty: the machine's
+    std::string schedule;              ///< file; empty: variable speed
+    double shear = 0;                  ///< exponent
+    double direction = 0, upflow = 0;  ///< deg
     std::optional<double> density;
     std::optional<double> tip_speed_ratio, rated_power, rated_rpm;  ///< kW
     double least_rpm = 0;
