@@ -29,6 +29,7 @@
 #include <cstdio>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <tuple>
 
 namespace cardan::program {
@@ -128,19 +129,21 @@ std::vector<Quantity> quantities() {
 }
 
 struct SectionQuantity {
-    const char *name, *unit, *long_name;
+    const char *name, *unit, *long_name, *label;  // label: beside the axis of a picture
     double factor;
     double turbines::SectionMean::*of;
 };
 constexpr std::array section_quantities{
-    SectionQuantity{"axial_induction", "-", "axial induction a", 1, &turbines::SectionMean::axial},
-    SectionQuantity{"tangential_induction", "-", "tangential induction a'", 1, &turbines::SectionMean::tangential},
-    SectionQuantity{"attack", "deg", "angle of attack", units::to_degrees, &turbines::SectionMean::attack},
-    SectionQuantity{"speed", "m/s", "speed of the air", 1, &turbines::SectionMean::speed},
-    SectionQuantity{"normal", "N/m", "force per length, normal to the coned surface", 1,
+    SectionQuantity{"axial_induction", "-", "axial induction a", "a", 1, &turbines::SectionMean::axial},
+    SectionQuantity{"tangential_induction", "-", "tangential induction a'", "a'", 1,
+                    &turbines::SectionMean::tangential},
+    SectionQuantity{"attack", "deg", "angle of attack", "angle of attack", units::to_degrees,
+                    &turbines::SectionMean::attack},
+    SectionQuantity{"speed", "m/s", "speed of the air", "speed", 1, &turbines::SectionMean::speed},
+    SectionQuantity{"normal", "N/m", "force per length, normal to the coned surface", "normal", 1,
                     &turbines::SectionMean::normal},
-    SectionQuantity{"driving", "N/m", "force per length, driving", 1, &turbines::SectionMean::driving},
-    SectionQuantity{"moment", "N", "moment per length about the blade", 1, &turbines::SectionMean::moment}};
+    SectionQuantity{"driving", "N/m", "force per length, driving", "driving", 1, &turbines::SectionMean::driving},
+    SectionQuantity{"moment", "N", "moment per length about the blade", "moment", 1, &turbines::SectionMean::moment}};
 
 // Mean, least and most of the main channels over a revolution.
 struct ChannelTable {
@@ -332,8 +335,8 @@ void draw_sections(const std::string& prefix, const std::string& title, const st
     constexpr std::size_t most = 6;
     const std::size_t count = std::min(most, points.size());
     for (const SectionQuantity& q : section_quantities) {
-        solvers::StackPanel one{
-            std::string(q.long_name) + (q.unit == std::string("-") ? "" : std::string(" in ") + q.unit), {}};
+        solvers::StackPanel one{std::string(q.label) + (q.unit == std::string("-") ? "" : std::string(" in ") + q.unit),
+                                {}};
         for (std::size_t k = 0; k < count; ++k) {
             const WindPoint& point = points[count == 1 ? 0 : k * (points.size() - 1) / (count - 1)];
             solvers::StackCurve curve{text(point.operation.wind, " m/s"), {}, {}};
@@ -367,7 +370,8 @@ void draw_coefficients(const std::string& prefix, const std::string& title, cons
             const double speed = ratio * wind.speed / R;
             const RotorAir at = rigid_rotor_air(air.blade, pose, wind, speed, 0, pitch * units::degree, air.options);
             power.x.push_back(ratio);
-            power.y.push_back(std::max(-0.1, at.moment.x() * speed / (pressure * wind.speed)));
+            const double coefficient = at.moment.x() * speed / (pressure * wind.speed);
+            power.y.push_back(coefficient > -0.1 ? coefficient : std::numeric_limits<double>::quiet_NaN());
             thrust.x.push_back(ratio);
             thrust.y.push_back(at.force.x() / pressure);
         }
@@ -451,7 +455,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     }
     if (points.empty()) return complete ? 1 : 130;
     const ChannelTable table = channels_over(operation, points);
-    const std::string title = text(d.name, " in the wind");
+    const std::string title = text(d.name, ", in the wind");
     std::printf("\n%s\n%s\n", title.c_str(), in_words(ready.mesh).c_str());
     if (!operation.is_constant())
         std::printf(
