@@ -1,0 +1,104 @@
+// The air on the NREL 5 MW machine beside its structure: forces beside the forward dynamics, derivatives beside those
+// of the forward dynamics. Skewed wake and shear, 57 sections.
+#include "bench/pairs.hpp"
+#include "mbs/kernels/dynamics.hpp"
+#include "mbs/system/forward_derivatives.hpp"
+#include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <optional>
+
+namespace cardan {
+
+namespace {
+
+// In operation, a little out of shape.
+class Machine {
+public:
+    Machine()
+        : turbine_(turbines::nrel5mw()),
+          air_(turbines::MachineAir(turbine_, turbines::nrel5mw_aero_blade(),
+                                    {.speed = 10, .shear = Shear::power, .exponent = 0.2})
+                   .field()),
+          workspace_(model()),
+          wrenches_(air_.points.size()),
+          dynamics_(model()),
+          derivatives_(model()) {
+        const Eigen::Index n = model().size();
+        q_ = Vector::LinSpaced(n, -0.005, 0.005);
+        qd_ = Vector::LinSpaced(n, -0.02, 0.02);
+        qd_(turbine_.rotor().spin) = 1.1;
+        Q_ = qdd_ = actuator_ = Vector::Zero(n);
+        by_q_ = by_qd_ = Matrix::Zero(n, n);
+    }
+
+    void forces_of_air() {
+        air_.wrenches(input(), wrenches_);
+        benchmark::DoNotOptimize(wrenches_.data());
+    }
+    void forward_dynamics() {
+        const ForceInput at = input();
+        turbine_.system().forces.generalised_forces(at.kinematics, 0, q_, qd_, Q_);
+        dynamics_.solve(at.kinematics, qd_, Q_, qdd_, actuator_);
+        benchmark::DoNotOptimize(qdd_.data());
+    }
+    void derivatives_of_air() {
+        air_.jacobian(input(), by_q_, by_qd_);
+        benchmark::DoNotOptimize(by_q_.data());
+    }
+    void derivatives_of_dynamics() {
+        const ForceInput at = input();
+        turbine_.system().forces.derivatives(at.kinematics, 0, q_, qd_, forces_);
+        benchmark::DoNotOptimize(derivatives_.compute(at.kinematics, qd_, qdd_, &forces_));
+    }
+
+private:
+    const Model& model() const { return turbine_.system().model; }
+    ForceInput input() {
+        kin_.emplace(kinematics(model(), q_, workspace_));
+        return {0, q_, qd_, *kin_, no_states, no_states};
+    }
+
+    turbines::Turbine turbine_;
+    WrenchField air_;
+    Workspace workspace_;
+    std::optional<Kinematics> kin_;
+    std::vector<Wrench> wrenches_;
+    ForwardDynamics dynamics_;
+    ForwardDynamicsDerivatives derivatives_;
+    ForceDerivatives forces_;
+    Vector q_, qd_, qdd_, Q_, actuator_;
+    Matrix by_q_, by_qd_;
+};
+
+void beside(benchmark::State& state, void (Machine::*air)(), void (Machine::*structure)()) {
+    Machine machine;
+    const auto many = [&](void (Machine::*what)()) {
+        return bench::cpu_time_of([&] {
+            for (int i = 0; i < 50; ++i) (machine.*what)();
+        });
+    };
+    bench::Pairs times;
+    for (auto _ : state) {
+        const double own = many(air);
+        times.add(own, many(structure));
+        state.SetIterationTime(own / 50);
+    }
+    state.counters["air over structure"] = times.ratio();
+}
+
+BENCHMARK_CAPTURE(beside, forces, &Machine::forces_of_air, &Machine::forward_dynamics)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(beside, derivatives, &Machine::derivatives_of_air, &Machine::derivatives_of_dynamics)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+}  // namespace cardan
