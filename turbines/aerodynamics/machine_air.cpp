@@ -63,7 +63,7 @@ WrenchField MachineAir::field() const {
         for (std::size_t k = 0; k < parts->blades.size(); ++k)
             for (const AirPoint& point : parts->blades[k].points) out[next++] = air.wrench(k, point);
     };
-    field.jacobian = [parts = parts_](const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+    field.jacobian = [parts = parts_](const ForceInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
         BorrowedAirScratch scratch;
         AirEvaluation(*parts, at, *scratch).add_derivatives(by_q, by_qd);
     };
@@ -97,7 +97,7 @@ MachineAir::Rotor MachineAir::rotor(const ForceInput& at) const {
             moment += one.moment + cross<double>(place - air.hub(), one.force);
         }
     // Axes of the shaft that do not turn: y is level.
-    const Vec3 x = air.shaft(), y = cross<double>(Vec3(Vec3::UnitZ()), x).normalized();
+    const Vec3 &x = air.shaft(), y = cross<double>(Vec3(Vec3::UnitZ()), x).normalized();
     const Mat3 axes = (Mat3() << x, y, cross<double>(x, y)).finished();
     return {axes.transpose() * force, axes.transpose() * moment, air.speed()};
 }

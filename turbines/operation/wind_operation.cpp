@@ -73,20 +73,21 @@ double best_tip_speed_ratio(const AeroBlade& blade, int blades, double cone, dou
     };
     constexpr double step = 0.5;
     double best = 2;
-    for (double ratio = best; ratio <= 20; ratio += step)
-        if (power(ratio) < power(best)) best = ratio;
+    for (int i = 4; i <= 40; ++i)
+        if (power(i * step) < power(best)) best = i * step;
     return boost::math::tools::brent_find_minima(power, best - step, best + step, 20).first;
 }
 
 WindOperation::WindOperation(TurbineDescription description, AssemblyOptions options, const AeroBlade& blade,
                              WindOperationOptions wind)
-    : description_(std::move(description)), options_(std::move(wind)) {
+    : description_(std::move(description)),
+      options_(std::move(wind)),
+      constant_(is_isotropic(description_, options) && is_constant_in(options_.wind)) {
     options.spin = CoordinateRole::driven;
     options.pitch = 0;
     options.pitch_drives = true;
     turbine_ = assemble(description_, options);
     air_.emplace(*turbine_, blade, options_.wind, options_.air);
-    constant_ = is_isotropic(description_, options) && is_constant_in(options_.wind);
     if (options_.harmonics < 1) throw InputError("operation in the wind", "harmonics", options_.harmonics, ">= 1");
     if (options_.azimuths < 1) throw InputError("operation in the wind", "azimuths", options_.azimuths, ">= 1");
 }

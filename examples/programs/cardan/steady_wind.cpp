@@ -366,7 +366,8 @@ void draw_coefficients(const std::string& prefix, const std::string& title, cons
                  pressure = wind.density / 2 * pi * R * R * wind.speed * wind.speed;
     for (const double pitch : {-2.0, 0.0, 2.0, 5.0, 10.0, 20.0}) {
         solvers::StackCurve power{text("pitch ", pitch, " deg"), {}, {}}, thrust = power;
-        for (double ratio = stack.x_low; ratio <= stack.x_high + 1e-9; ratio += 0.25) {
+        for (int i = 8; i <= 56; ++i) {
+            const double ratio = 0.25 * i;
             const double speed = ratio * wind.speed / R;
             const RotorAir at = rigid_rotor_air(air.blade, pose, wind, speed, 0, pitch * units::degree, air.options);
             power.x.push_back(ratio);

@@ -32,7 +32,7 @@ struct SectionTurn {
 
 class AirDerivatives {
 public:
-    AirDerivatives(const AirEvaluation& air, MatrixOut by_q, MatrixOut by_qd)
+    AirDerivatives(const AirEvaluation& air, const MatrixOut& by_q, const MatrixOut& by_qd)
         : air_(air), parts_(air.parts_), by_q_(by_q), by_qd_(by_qd), memory_(air.scratch_.derivatives) {
         const Eigen::Index n = by_q.rows();
         for (Columns6* sum : {&memory_.blade_q, &memory_.blade_qd, &memory_.trunk_q, &memory_.trunk_qd})
@@ -277,7 +277,7 @@ private:
     AirDerivativeScratch& memory_;
 };
 
-void AirEvaluation::add_derivatives(MatrixOut by_q, MatrixOut by_qd) {
+void AirEvaluation::add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd) {
     AirDerivatives(*this, by_q, by_qd).add();
 }
 

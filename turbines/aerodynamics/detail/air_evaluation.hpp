@@ -17,11 +17,11 @@ struct AirParts {
     RotorAirOptions options;
     std::vector<AirBlade> blades;
     FrameId hub;
-    int hub_body, shaft_body;  ///< what turns, and what carries it; -1: the ground
-    Vec3 hub_place, hub_axis;  ///< centre and shaft, downwind; axes of the hub's body
-    std::vector<int> trunk;    ///< bodies from the base to the hub, ascending
-    double radius;             ///< of the rotor that is not bent, m
-    std::vector<int> bodies;   ///< all that move a section, ascending
+    int hub_body = -1, shaft_body = -1;  ///< what turns, and what carries it; -1: the ground
+    Vec3 hub_place, hub_axis;            ///< centre and shaft, downwind; axes of the hub's body
+    std::vector<int> trunk;              ///< bodies from the base to the hub, ascending
+    double radius = 0;                   ///< of the rotor that is not bent, m
+    std::vector<int> bodies;             ///< all that move a section, ascending
 };
 
 /// A section at a state, base axes.
@@ -103,7 +103,7 @@ public:
     const Vec3& hub() const { return hub_; }
     double speed() const;  ///< of the rotor about the shaft, rad/s
     /// Adds dQ/dq and dQ/dqd.
-    void add_derivatives(MatrixOut by_q, MatrixOut by_qd);
+    void add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd);
 
 private:
     void find_rates();
