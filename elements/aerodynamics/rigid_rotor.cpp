@@ -41,7 +41,6 @@ public:
 private:
     void place(double azimuth, double speed, double pitch) {
         PlacedBlade own{shaft_ * rot_x(azimuth) * rot_y(pose_.cone), {}, {}};
-        const double root = blade_.position.front(), tip = blade_.position.back(), B = pose_.blades;
         for (std::size_t i = 0; i < blade_.sections(); ++i) {
             const double z = blade_.position[i];
             const Vec3 arm = z * own.axes.col(2), air = wind_.at(pose_.hub + arm),
@@ -50,13 +49,9 @@ private:
             SectionAir& section = own.sections.emplace_back();
             section.V_x = relative.dot(own.axes.col(0));
             section.V_y = relative.dot(own.axes.col(1));
-            own.annuli.push_back({.blades = B,
-                                  .radius = z * std::cos(pose_.cone),
-                                  .chord = blade_.chord[i],
-                                  .angle = blade_.twist[i] + pitch,
-                                  .tip = B / 2 * (tip - z) / z,
-                                  .hub = B / 2 * (z - root) / root,
-                                  .polar = &blade_.polars[blade_.profile[i]]});
+            Annulus& annulus = own.annuli.emplace_back(blade_.annulus(i, pose_.blades));
+            annulus.radius *= std::cos(pose_.cone);
+            annulus.angle += pitch;
         }
         blades_.push_back(std::move(own));
     }
@@ -107,6 +102,17 @@ private:
 
 }  // namespace
 
+Annulus AeroBlade::annulus(std::size_t section, double blades) const {
+    const double root = position.front(), tip = position.back(), z = position[section];
+    return {.blades = blades,
+            .radius = z,
+            .chord = chord[section],
+            .angle = twist[section],
+            .tip = blades / 2 * (tip - z) / z,
+            .hub = blades / 2 * (z - root) / root,
+            .polar = &polars[profile[section]]};
+}
+
 void AeroBlade::check() const {
     constexpr const char* here = "aerodynamic blade";
     const std::size_t n = sections();
@@ -139,6 +145,15 @@ RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const St
     wind.check();
     if (pose.blades < 1) throw InputError("rotor", "number of blades", pose.blades, ">= 1");
     return Evaluation(blade, pose, wind, speed, azimuth, pitch, options).result();
+}
+
+RotorCoefficients rotor_coefficients(const AeroBlade& blade, int blades, double cone, double ratio, double pitch,
+                                     const RotorAirOptions& options) {
+    const SteadyWind wind{.speed = 8};  // any: coefficients do not depend on it
+    const double R = blade.position.back() * std::cos(cone), speed = ratio * wind.speed / R,
+                 pressure = wind.density / 2 * pi * R * R * wind.speed * wind.speed;
+    const RotorAir air = rigid_rotor_air(blade, {.blades = blades, .cone = cone}, wind, speed, 0, pitch, options);
+    return {air.moment.x() * speed / (pressure * wind.speed), air.force.x() / pressure};
 }
 
 }  // namespace cardan

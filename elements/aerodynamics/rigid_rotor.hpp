@@ -22,6 +22,8 @@ struct AeroBlade {
     std::vector<double> prebend = {}, sweep = {};
 
     std::size_t sections() const { return position.size(); }
+    /// The ring of a section, radius and angle those of a straight blade without cone and pitch.
+    Annulus annulus(std::size_t section, double blades) const;
     /// @throws InputError for columns of different length, positions that do not ascend, chords that are not positive,
     /// profiles that do not exist
     void check() const;
@@ -50,5 +52,13 @@ struct RotorAir {
 /// @param speed  of the rotor, rad/s;  @param azimuth, pitch  rad
 RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed,
                          double azimuth, double pitch, const RotorAirOptions& options = {});
+
+/// Of a level rotor in uniform wind, by the radius of its disc.
+struct RotorCoefficients {
+    double power, thrust;
+};
+/// @param cone  rad;  @param ratio  speed of the tips over that of the wind;  @param pitch  rad
+RotorCoefficients rotor_coefficients(const AeroBlade& blade, int blades, double cone, double ratio, double pitch,
+                                     const RotorAirOptions& options = {});
 
 }  // namespace cardan

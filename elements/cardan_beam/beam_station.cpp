@@ -139,31 +139,18 @@ Wrench BeamStation::load(const Kinematics& kin, const Forces& forces, const Join
     const Placement axes = element_axes(kin);
     const Vec3 here = axes * section_.p;
     Wrench sum;
-    const auto add = [&](const Vec3& force, const Vec3& moment, const Vec3& at, double sign) {
-        sum.force += sign * force;
-        sum.moment += sign * (moment + cross<double>(at - here, force));
-    };
     const int joint = model.index(joint_);
-    const Wrench& passed = entry(loads.joint, joint);
-    add(passed.force, passed.moment, entry(loads.motion, joint).origin, -1);
+    add_moved(sum, entry(loads.joint, joint), entry(loads.motion, joint).origin, here, -1);
     const Vec6 between = inertia_less_weight(axes, motion(kin, loads), forces.gravity());
-    add(between.head<3>(), between.tail<3>(), axes.p, inward_ ? -1 : 1);
-    for (const FrameLoad& load : forces.loads()) {
-        if (!holds(load.frame, model)) continue;
-        const Vec3 place = cardan::pose(kin, load.frame).p;
-        if (is_before(place, kin) == inward_) continue;
-        const Wrench now = forces.at_frame(load, kin, loads.time);
-        add(now.force, now.moment, place, inward_ ? 1 : -1);
-    }
-    for (int f = 0; f < forces.fields(); ++f)
-        for (std::size_t i = 0; i < entry(loads.fields, f).size(); ++i) {
-            const FieldPoint& point = forces.field(f).points[i];
-            if (!holds(point.frame, model)) continue;
-            const Vec3 place = place_of(kin, point);
-            if (is_before(place, kin) == inward_) continue;
-            const Wrench& now = entry(loads.fields, f)[i];
-            add(now.force, now.moment, place, inward_ ? 1 : -1);
-        }
+    add_moved(sum, {between.head<3>(), between.tail<3>()}, axes.p, here, inward_ ? -1 : 1);
+    const auto add_load = [&](const Vec3& place, const Wrench& load) {
+        if (is_before(place, kin) != inward_) add_moved(sum, load, place, here, inward_ ? 1 : -1);
+    };
+    for (const FrameLoad& load : forces.loads())
+        if (holds(load.frame, model)) add_load(cardan::pose(kin, load.frame).p, forces.at_frame(load, kin, loads.time));
+    for_each_point(forces, loads, [&](const FieldPoint& point, const Wrench& load) {
+        if (holds(point.frame, model)) add_load(place_of(kin, point), load);
+    });
     return sum;
 }
 

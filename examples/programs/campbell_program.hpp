@@ -8,9 +8,9 @@
 #include "solvers/pictures/campbell.hpp"
 
 #include "examples/shared/program.hpp"
+#include "examples/shared/words.hpp"
 #include <cctype>
-#include <charconv>
-#include <cmath>
+#include <vector>
 
 namespace cardan::program {
 
@@ -19,22 +19,10 @@ inline constexpr auto rpm_format = "numbers and FIRST:LAST:STEP separated by com
 /// The option --rpm: "0:12:1,12.1". That the speeds increase is checked by the solver.
 /// @return rad/s;  @throws InputError
 inline std::vector<double> rotor_speeds(const std::string& given) {
-    const auto refuse = [&] { throw InputError("--rpm", "value", given, rpm_format); };
-    std::vector<double> speeds, range;
-    const char* const end = given.data() + given.size();
-    for (const char* at = given.data();; ++at) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || (next != end && *next != ':' && *next != ',')) refuse();
-        range.push_back(value);
-        at = next;
-        if (at != end && *at == ':') continue;
-        if (range.size() == 1) range = {value, value, 1};
-        if (range.size() != 3) refuse();
-        for (double speed : solvers::rpm_range(range[0], range[1], range[2])) speeds.push_back(speed);
-        range.clear();
-        if (at == end) return speeds;
-    }
+    std::vector<double> speeds;
+    for (const NumberRange& range : ranges("--rpm", given, rpm_format))
+        for (const double speed : solvers::rpm_range(range.first, range.last, range.step)) speeds.push_back(speed);
+    return speeds;
 }
 
 inline void speed_progress(int done, int total) {

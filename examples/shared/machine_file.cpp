@@ -139,16 +139,6 @@ std::string dofs_in_words(const turbines::TurbineFile& model) {
     return locked.empty() ? "generator and yaw bearing free" : locked.substr(2);
 }
 
-void print(const std::vector<turbines::FileNote>& notes, bool all) {
-    int groups = 0;
-    for (const turbines::FileNote& note : notes) {
-        const bool group = note.line == 0 && note.keyword != turbines::unusual_entries;
-        if (group) ++groups;
-        if (all || !group) std::cout << "note: " << to_text(note) << "\n";
-    }
-    if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
-}
-
 // The beams of a machine that was read, with what its file holds rigid.
 void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::AssemblyOptions& o) {
     const turbines::TurbineDescription& d = machine.file.description;
@@ -164,6 +154,16 @@ void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::As
 }
 
 }  // namespace
+
+void print_notes(const std::vector<turbines::FileNote>& notes, bool all) {
+    int groups = 0;
+    for (const turbines::FileNote& note : notes) {
+        const bool group = note.line == 0 && note.keyword != turbines::unusual_entries;
+        if (group) ++groups;
+        if (all || !group) std::cout << "note: " << to_text(note) << "\n";
+    }
+    if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
+}
 
 MachineFile machine_of(turbines::TurbineDescription description, MachineKind kind) {
     MachineFile machine;
@@ -281,7 +281,7 @@ std::string foundation_in_words(const MachineFile& machine) {
 MachineFile prepared_machine(MachineOptions& options) {
     MachineFile machine = read_machine(options.model, additions_of(options));
     turbines::TurbineFile& model = machine.file;
-    print(model.notes, options.notes);
+    print_notes(model.notes, options.notes);
     set_dofs(options, model);
     set_foundation(options.foundation, model);
     if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(model);
@@ -368,10 +368,6 @@ std::string in_words(const turbines::Mesh& mesh) {
         << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3) << mesh.at_hz
         << " Hz, of " << mesh.modes << ")";
     return out.str();
-}
-
-bool has_equal_blades(const turbines::TurbineDescription& machine) {
-    return machine.blades > 2 && machine.own_blades.empty();
 }
 
 }  // namespace cardan::program

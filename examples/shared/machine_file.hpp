@@ -65,6 +65,9 @@ void add_source_options(CommandLine& app, MachineOptions& options);
 /// The same, with pitch, numbers of elements, damping and what is printed; gravity is left to the program.
 void add_machine_options(CommandLine& app, MachineOptions& options);
 
+/// Prints notes; those on groups of entries without meaning are counted, unless `all` are wanted.
+void print_notes(const std::vector<turbines::FileNote>& notes, bool all);
+
 /// Reads the machine, prints notes, degrees of freedom and what the tower stands on, and puts what was asked for in the
 /// place of what the machine's source says. The options then hold what was taken in all cases.
 /// @throws InputError also for a yaw bearing that is to be free without a spring
@@ -98,8 +101,5 @@ std::string in_words(const turbines::Mesh& mesh);
 
 /// Head of the input description of a result: the command with its options as they were used.
 std::string run_text(const std::string& command, const CommandLine& options);
-
-/// Three or more blades, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
-bool has_equal_blades(const turbines::TurbineDescription& machine);
 
 }  // namespace cardan::program

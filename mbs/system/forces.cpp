@@ -1,58 +1,20 @@
 #include "mbs/system/forces.hpp"
 
+#include "mbs/base/borrowed.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/vector_loops.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
-#include <utility>
-
 namespace cardan {
 
 namespace {
 
-// Thread-local memory for scaled user forces and for fields. A user force that evaluates other forces borrows again and
-// gets fresh memory.
+// For scaled user forces, and for fields.
 struct Scratch {
     Vector Q;
-    Matrix by_q, by_qd;
     std::vector<Wrench> points, bodies;
 };
-class BorrowedScratch {
-public:
-    BorrowedScratch() : own_(std::move(kept())) {}
-    ~BorrowedScratch() { kept() = std::move(own_); }
-    BorrowedScratch(const BorrowedScratch&) = delete;
-    BorrowedScratch& operator=(const BorrowedScratch&) = delete;
-    Scratch* operator->() { return &own_; }
-
-private:
-    static Scratch& kept() {
-        thread_local Scratch scratch;
-        return scratch;
-    }
-    Scratch own_;
-};
-
-// Central differences of a force, at a workspace of its own: the caller's kinematics must stay valid.
-// @param add  the force: add(at, Q)
-template <class Add>
-void difference(const Add& add, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
-    constexpr double step = 1e-6;
-    const Eigen::Index n = at.q.size();
-    const Model& model = at.kinematics.model();
-    Workspace own(model);
-    const auto force = [&](const Vector& q, const Vector& qd) {
-        Vector Q = Vector::Zero(n);
-        add({at.time, q, qd, kinematics(model, q, own), at.s, at.u}, Q);
-        return Q;
-    };
-    for (Eigen::Index j = 0; j < n; ++j) {
-        const Vector d = step * Vector::Unit(n, j);
-        by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
-        by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
-    }
-}
 
 // One run of coefficients after the other: rows of dense matrices of any size, in whole registers.
 template <class S, class Run>
@@ -154,15 +116,12 @@ void Forces::generalised_forces(const Kinematics& kin, double time, const Vector
                                 VectorOut Q) const {
     require_no_states("forces");
     generalised_forces_of_elements<double>(kin, q, qd, Q, time);
-    const ForceInput at{time, q, qd, kin, no_states, no_states};
-    add_users(at, Q);
-    for (const Field& field : fields_) add_field(field, at, Q);
+    add_users_and_fields({time, q, qd, kin, no_states, no_states}, Q);
 }
 
 void Forces::evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const {
     generalised_forces_of_elements<double>(at.kinematics, at.q, at.qd, Q, at.time);
-    add_users(at, Q);
-    for (const Field& field : fields_) add_field(field, at, Q);
+    add_users_and_fields(at, Q);
     states_.rates({at.time, at.q, at.qd, at.s, at.u}, Q, rates);
 }
 
@@ -171,8 +130,9 @@ void Forces::require_no_states(const char* where) const {
         throw InputError(where, "number of states", states().size(), "0: they are not taken into account here");
 }
 
-void Forces::add_users(const ForceInput& at, VectorOut& Q) const {
+void Forces::add_users_and_fields(const ForceInput& at, VectorOut Q) const {
     for (const User& user : users_) add_user(user, at, Q);
+    for (const Field& field : fields_) add_field(field, field.factor, at, Q);
 }
 
 // A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
@@ -181,7 +141,7 @@ void Forces::add_user(const User& user, const ForceInput& at, VectorOut& Q) cons
         user.own.force(at, Q);
         return;
     }
-    BorrowedScratch scratch;
+    Borrowed<Scratch> scratch;
     scratch->Q.setZero(Q.size());
     user.own.force(at, scratch->Q);
     Q += user.factor * scratch->Q;
@@ -200,47 +160,26 @@ std::vector<Wrench> Forces::field_wrenches(int i, const ForceInput& at) const {
 }
 
 // The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
-void Forces::add_field(const Field& field, const ForceInput& at, VectorOut Q) const {
-    const Kinematics& kin = at.kinematics;
-    BorrowedScratch scratch;
+void Forces::add_field(const Field& field, double factor, const ForceInput& at, VectorOut Q) const {
+    const Workspace& ws = at.kinematics.workspace();
+    Borrowed<Scratch> scratch;
     scratch->points.resize(field.own.points.size());
     scratch->bodies.assign(static_cast<std::size_t>(size_), {});
     field.own.wrenches(at, scratch->points);
-    const Workspace& ws = kin.workspace();
-    const auto add_at = [&](int body, const Vec3& force, const Vec3& moment, const Vec3& arm) {
-        Wrench& sum = entry(scratch->bodies, body);
-        sum.force += force;
-        sum.moment += moment + cross<double>(arm, force);
-    };
     for (std::size_t i = 0; i < scratch->points.size(); ++i) {
         const int body = field.bodies[i];
         if (body < 0) continue;
-        add_at(body, field.factor * scratch->points[i].force, field.factor * scratch->points[i].moment,
-               entry(ws.frame, body).E.matrix() * field.places[i]);
+        const Vec3 arm = entry(ws.frame, body).E.matrix() * field.places[i];
+        add_moved(entry(scratch->bodies, body), scratch->points[i], arm, Vec3::Zero(), factor);
     }
     for (int k = size_ - 1; k >= 0; --k) {
         const Wrench& sum = entry(scratch->bodies, k);
         const Workspace::Frame& frame = entry(ws.frame, k);
-        const Model::Link& link = entry(kin.model().links(), k);
-        const Vec3 axis = frame.E[2].vector();
-        Q(k) += axis.dot(link.revolute ? sum.moment : sum.force);
+        const Model::Link& link = entry(at.kinematics.model().links(), k);
+        Q(k) += frame.E[2].vector().dot(link.revolute ? sum.moment : sum.force);
         if (link.parent >= 0)
-            add_at(link.parent, sum.force, sum.moment, frame.o.vector() - entry(ws.frame, link.parent).o.vector());
-    }
-}
-
-// d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
-void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
-    composites(kin);
-    for (int a = 0; a < kin.model().size(); ++a) {
-        const Workspace::Inertia& subtree = entry(kin.workspace().composite, a);
-        const Vec3 C = subtree.C.vector(), lift = own_twist_at(kin, a, C).v;
-        for (int b = a; b >= 0; b = own_parent(kin.model(), b)) {
-            const Vec3 w = own_twist_at(kin, b, C).w;
-            const double dQ = subtree.M * gravity_.dot(cross<double>(w, lift));
-            K(a, b) -= dQ;
-            if (b != a) K(b, a) -= dQ;
-        }
+            add_moved(entry(scratch->bodies, link.parent), sum, frame.o.vector(),
+                      entry(ws.frame, link.parent).o.vector());
     }
 }
 
@@ -249,95 +188,6 @@ Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin, double tim
     if (load.axes == WrenchAxes::base) return own;
     const Mat3 R = pose(kin, load.frame).R;
     return {R * own.force, R * own.moment};
-}
-
-void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const {
-    const Pose<double> at = pose(kin, load.frame);
-    const bool follower = load.axes == WrenchAxes::frame;
-    const auto [force, moment] = at_frame(load, kin, time);
-    const Model& model = kin.model();
-    const int tip = model.frame(load.frame).body;
-    // The force turns with a follower's frame, and the twist of a turns with coordinate b if b is proximal to a; where
-    // both do, nothing changes. If it is distal, its velocity moves the point.
-    for (int a = tip; a >= 0; a = own_parent(model, a)) {
-        const PointTwist<double> ta = own_twist_at(kin, a, at.p);
-        const Vec3 turned = cross<double>(ta.v, force) + cross<double>(ta.w, moment),
-                   moved = cross<double>(force, ta.w);
-        for (int b = tip; b >= 0; b = own_parent(model, b)) {
-            const PointTwist<double> tb = own_twist_at(kin, b, at.p);
-            double dQ = b > a ? moved.dot(tb.v) : 0;
-            if (follower == (b > a)) dQ += (follower ? -1 : 1) * turned.dot(tb.w);
-            K(a, b) -= dQ;
-        }
-    }
-}
-
-void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const {
-    Matrix& stiffness = user.own.elastic ? out.elastic : out.loads;
-    if (user.own.jacobian && user.factor == 1) {
-        // It adds dQ/dq where -dQ/dq is gathered; changes of sign are exact.
-        stiffness *= -1;
-        out.damping *= -1;
-        user.own.jacobian(at, stiffness, out.damping);
-        stiffness *= -1;
-        out.damping *= -1;
-        return;
-    }
-    const Eigen::Index n = at.q.size();
-    BorrowedScratch scratch;
-    scratch->by_q.setZero(n, n);
-    scratch->by_qd.setZero(n, n);
-    if (user.own.jacobian)
-        user.own.jacobian(at, scratch->by_q, scratch->by_qd);
-    else
-        difference(user.own.force, at, scratch->by_q, scratch->by_qd);
-    stiffness -= user.factor * scratch->by_q;
-    out.damping -= user.factor * scratch->by_qd;
-}
-
-void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
-    const Eigen::Index n = at.q.size();
-    BorrowedScratch scratch;
-    scratch->by_q.setZero(n, n);
-    scratch->by_qd.setZero(n, n);
-    if (field.own.jacobian) {
-        field.own.jacobian(at, scratch->by_q, scratch->by_qd);
-        scratch->by_q *= field.factor;
-        scratch->by_qd *= field.factor;
-    } else {
-        const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, input, Q); };
-        difference(add, at, scratch->by_q, scratch->by_qd);
-    }
-    out.loads -= scratch->by_q;
-    out.damping -= scratch->by_qd;
-}
-
-void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
-                         ForceDerivatives& out) const {
-    require_no_states("forces");
-    mechanical_derivatives({time, q, qd, kin, no_states, no_states}, out);
-}
-
-void Forces::derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const {
-    mechanical_derivatives(at, out);
-    states_.derivatives({at.time, at.q, at.qd, at.s, at.u}, out.loads, out.damping, states);
-}
-
-void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const {
-    const Kinematics& kin = at.kinematics;
-    require_state<double>(kin, at.q, at.qd);
-    const Eigen::Index n = at.q.size();
-    for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
-    for (const Law& law : laws_)
-        for (Eigen::Index i = 0; i < law.K.rows(); ++i)
-            for (Eigen::Index j = 0; j < law.K.cols(); ++j) {
-                out.elastic(entry(law.at, i), entry(law.at, j)) += law.K(i, j);
-                out.damping(entry(law.at, i), entry(law.at, j)) += law.D(i, j);
-            }
-    if (has_gravity()) gravity_stiffness(kin, out.gravity);
-    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, at.time, out.loads);
-    for (const User& user : users_) user_derivatives(user, at, out);
-    for (const Field& field : fields_) field_derivatives(field, at, out);
 }
 
 double Forces::dissipation(const Vector& qd) const {
@@ -400,7 +250,7 @@ std::vector<ForceReport> Forces::report(const ForceInput& at) const {
         reports.push_back({user.own.name, energy, power()});
     }
     for (const Field& field : fields_) {
-        add_field(field, at, Q);
+        add_field(field, field.factor, at, Q);
         reports.push_back({field.own.name, std::nullopt, power()});
     }
     return reports;

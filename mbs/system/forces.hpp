@@ -16,6 +16,11 @@ namespace cardan {
 struct Wrench {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
+/// Adds a wrench about `from` as one about `to`.
+inline void add_moved(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double factor = 1) {
+    sum.force += factor * wrench.force;
+    sum.moment += factor * (wrench.moment + cross<double>(from - to, wrench.force));
+}
 /// Axes in which a wrench is constant: those of the base (dead load) or those of the frame (follower load).
 enum class WrenchAxes : std::uint8_t { base, frame };
 
@@ -255,12 +260,12 @@ private:
     void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
     void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const;
-    void add_users(const ForceInput& at, VectorOut& Q) const;
+    void add_users_and_fields(const ForceInput& at, VectorOut Q) const;
     void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     static Field bound(const WrenchField& field, const Model& model);
-    void add_field(const Field& field, const ForceInput& at, VectorOut Q) const;
+    void add_field(const Field& field, double factor, const ForceInput& at, VectorOut Q) const;
     void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
     template <class S>

@@ -9,16 +9,6 @@ namespace cardan {
 
 namespace {
 
-// Moves a wrench about `from` to the point `to` and adds it.
-void add_at(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double factor) {
-    sum.force += factor * wrench.force;
-    sum.moment += factor * (wrench.moment + cross<double>(from - to, wrench.force));
-}
-
-}  // namespace
-
-namespace {
-
 // @param fields  of each, its wrenches
 JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time,
                       std::vector<std::vector<Wrench>> fields) {
@@ -38,24 +28,22 @@ JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, 
     std::vector<Wrench> applied(t.joint.size());
     for (int k = 0; k < model.size(); ++k) {
         const Wrench weight{model.body(k).inertia.mass * forces.gravity(), Vec3::Zero()};
-        add_at(entry(applied, k), weight, kin.centre_of_mass(k), kin.origin(k), 1);
+        add_moved(entry(applied, k), weight, kin.centre_of_mass(k), kin.origin(k));
     }
     for (const FrameLoad& load : forces.loads()) {
         const int body = model.frame(load.frame).body;
         if (body < 0) continue;
-        add_at(entry(applied, body), forces.at_frame(load, kin, time), pose(kin, load.frame).p, kin.origin(body), 1);
+        add_moved(entry(applied, body), forces.at_frame(load, kin, time), pose(kin, load.frame).p, kin.origin(body));
     }
-    for (int f = 0; f < forces.fields(); ++f)
-        for (std::size_t i = 0; i < entry(fields, f).size(); ++i) {
-            const FieldPoint& point = forces.field(f).points[i];
-            const int body = model.frame(point.frame).body;
-            if (body >= 0) add_at(entry(applied, body), entry(fields, f)[i], place_of(kin, point), kin.origin(body), 1);
-        }
     t.fields = std::move(fields);
+    for_each_point(forces, t, [&](const FieldPoint& point, const Wrench& wrench) {
+        const int body = model.frame(point.frame).body;
+        if (body >= 0) add_moved(entry(applied, body), wrench, place_of(kin, point), kin.origin(body));
+    });
     for (int k = model.size() - 1; k >= 0; --k) {
-        add_at(entry(t.joint, k), entry(applied, k), kin.origin(k), kin.origin(k), -1);
+        add_moved(entry(t.joint, k), entry(applied, k), kin.origin(k), kin.origin(k), -1);
         if (const int parent = model.body(k).parent; parent >= 0)
-            add_at(entry(applied, parent), entry(applied, k), kin.origin(k), kin.origin(parent), 1);
+            add_moved(entry(applied, parent), entry(applied, k), kin.origin(k), kin.origin(parent));
     }
     return t;
 }

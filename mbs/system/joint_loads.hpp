@@ -31,6 +31,14 @@ struct JointLoads {
     std::vector<std::vector<Wrench>> fields;  ///< Forces::field_wrenches() of each
 };
 
+/// Calls visit(point, wrench) for all points of all fields.
+template <class Visit>
+void for_each_point(const Forces& forces, const JointLoads& loads, const Visit& visit) {
+    for (std::size_t f = 0; f < loads.fields.size(); ++f)
+        for (std::size_t i = 0; i < loads.fields[f].size(); ++i)
+            visit(forces.field(static_cast<int>(f)).points[i], loads.fields[f][i]);
+}
+
 /// @param qdd  accelerations, size n
 JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd);
 /// The same without fields.

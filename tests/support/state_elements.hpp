@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/system/system.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace cardan::testing {
 
@@ -20,6 +21,21 @@ inline Evaluated evaluated(const System& system, const Vector& q, const Vector& 
     system.forces.evaluate(at, out.Q, out.f);
     system.forces.derivatives(at, out.forces, out.states);
     return out;
+}
+
+/// Allocations of a second evaluation, derivatives included.
+inline std::size_t allocations_of_evaluation(const System& system, const Vector& q, const Vector& qd, const Vector& s,
+                                             const Vector& u) {
+    Workspace workspace(system.model);
+    const Kinematics kin = kinematics(system.model, q, workspace);
+    const ForceInput at{0, q, qd, kin, s, u};
+    Evaluated out{Vector(q.size()), Vector(s.size()), {}, {}};
+    const auto evaluate = [&] {
+        system.forces.evaluate(at, out.Q, out.f);
+        system.forces.derivatives(at, out.forces, out.states);
+    };
+    evaluate();
+    return allocations(evaluate);
 }
 
 }  // namespace cardan::testing

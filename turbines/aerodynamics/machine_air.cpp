@@ -1,6 +1,6 @@
 #include "turbines/aerodynamics/machine_air.hpp"
 
-#include "mbs/base/entry.hpp"
+#include "mbs/base/borrowed.hpp"
 #include "mbs/base/error.hpp"
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
@@ -22,13 +22,11 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind
     parts->profile = std::make_shared<const AeroBlade>(std::move(blade));
     parts->wind = wind;
     parts->options = options;
-    parts->hub = layout.hub;
     const Model::Frame& hub = model.frame(layout.hub);
     parts->hub_body = hub.body;
     parts->shaft_body = model.frame(layout.shaft).body;
     parts->hub_place = hub.in_body.p;
     parts->hub_axis = hub.in_body.R.col(2);
-    parts->radius = 0;
     for (std::size_t k = 0; k < layout.blades.size(); ++k) {
         parts->blades.push_back(air_blade(turbine, k, *parts->profile));
         const AirBlade& own = parts->blades.back();
@@ -36,8 +34,7 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind
         parts->radius = std::max(parts->radius, parts->profile->position.back() * coned);
         parts->bodies.insert(parts->bodies.end(), own.path.begin(), own.path.end());
     }
-    for (int at = hub.body; at >= 0; at = model.body(at).parent) parts->trunk.push_back(at);
-    std::reverse(parts->trunk.begin(), parts->trunk.end());
+    parts->trunk = path_to(model, hub.body);
     std::sort(parts->bodies.begin(), parts->bodies.end());
     parts->bodies.erase(std::unique(parts->bodies.begin(), parts->bodies.end()), parts->bodies.end());
     parts_ = parts;
@@ -57,14 +54,14 @@ WrenchField MachineAir::field() const {
     for (const AirBlade& blade : parts_->blades)
         for (const AirPoint& point : blade.points) field.points.push_back(point.at);
     field.wrenches = [parts = parts_](const ForceInput& at, std::span<Wrench> out) {
-        BorrowedAirScratch scratch;
+        Borrowed<AirScratch> scratch;
         const AirEvaluation air(*parts, at, *scratch);
         std::size_t next = 0;
         for (std::size_t k = 0; k < parts->blades.size(); ++k)
             for (const AirPoint& point : parts->blades[k].points) out[next++] = air.wrench(k, point);
     };
     field.jacobian = [parts = parts_](const ForceInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
-        BorrowedAirScratch scratch;
+        Borrowed<AirScratch> scratch;
         AirEvaluation(*parts, at, *scratch).add_derivatives(by_q, by_qd);
     };
     return field;
@@ -77,7 +74,7 @@ Turbine MachineAir::on(const Turbine& turbine) const {
 }
 
 std::vector<std::vector<SectionAir>> MachineAir::sections(const ForceInput& at) const {
-    BorrowedAirScratch scratch;
+    Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
     std::vector<std::vector<SectionAir>> out(parts_->blades.size());
     for (std::size_t k = 0; k < out.size(); ++k)
@@ -86,20 +83,16 @@ std::vector<std::vector<SectionAir>> MachineAir::sections(const ForceInput& at) 
 }
 
 MachineAir::Rotor MachineAir::rotor(const ForceInput& at) const {
-    BorrowedAirScratch scratch;
+    Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    Wrench sum;
     for (std::size_t k = 0; k < parts_->blades.size(); ++k)
-        for (const AirPoint& point : parts_->blades[k].points) {
-            const Wrench one = air.wrench(k, point);
-            const Vec3 place = at.kinematics.origin(point.body) + at.kinematics.rotation(point.body) * point.place;
-            force += one.force;
-            moment += one.moment + cross<double>(place - air.hub(), one.force);
-        }
+        for (const AirPoint& point : parts_->blades[k].points)
+            add_moved(sum, air.wrench(k, point), place_of(at.kinematics, point.at), air.hub());
     // Axes of the shaft that do not turn: y is level.
     const Vec3 &x = air.shaft(), y = cross<double>(Vec3(Vec3::UnitZ()), x).normalized();
     const Mat3 axes = (Mat3() << x, y, cross<double>(x, y)).finished();
-    return {axes.transpose() * force, axes.transpose() * moment, air.speed()};
+    return {axes.transpose() * sum.force, axes.transpose() * sum.moment, air.speed()};
 }
 
 Vec3 hub_at_rest(const Turbine& turbine) {
@@ -110,6 +103,9 @@ Vec3 hub_at_rest(const Turbine& turbine) {
     return pose(kinematics(model, q, workspace), turbine.layout().hub).p;
 }
 
+double MachineAir::radius() const {
+    return parts_->radius;
+}
 const AeroBlade& MachineAir::blade() const {
     return *parts_->profile;
 }

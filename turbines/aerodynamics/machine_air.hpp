@@ -48,6 +48,7 @@ public:
     };
     Rotor rotor(const ForceInput& at) const;
 
+    double radius() const;  ///< of the rotor that is not bent, m
     const AeroBlade& blade() const;
     const SteadyWind& wind() const;
 

@@ -98,6 +98,11 @@ void check_blades(const TurbineDescription& d, const Ranges& ranges) {
 
 }  // namespace
 
+bool HubDescription::is_balanced() const {
+    return inertia.com.head<2>().isZero(0) && inertia.J(0, 0) == inertia.J(1, 1) && inertia.J(0, 1) == 0 &&
+           inertia.J(0, 2) == 0 && inertia.J(1, 2) == 0;
+}
+
 const BladeDescription* TurbineDescription::blade_at(int number) const {
     const auto own = own_blades.find(number);
     if (own == own_blades.end()) return &blade;

@@ -84,6 +84,9 @@ struct HubDescription {
     RigidInertia inertia;
     double radius = 0;  ///< blade roots along the blade axis, m
     std::optional<TeeterDescription> teeter;
+
+    /// It turns about the shaft as its own mass does: nothing in it depends on the azimuth.
+    bool is_balanced() const;
 };
 
 /// Rotation from hub axes, z along the shaft (downwind) and x along blade 1, to those of the shaft, x downwind along it
@@ -132,6 +135,8 @@ struct TurbineDescription {
 
     /// The blade at a place, 1 ... `blades`; null: it is missing.
     const BladeDescription* blade_at(int number) const;
+    /// Three or more, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
+    bool has_equal_blades() const { return blades > 2 && own_blades.empty(); }
     /// Refuses what cannot be and, unless `unusual`, what machines do not have: |tilt| > 0.35, |cone| > 0.5, |delta-3|
     /// > 1.3, |pitch setting| > 3.2 rad, damping ratios > 0.3. Beams are checked where elements are made of them.
     /// @throws InputError naming machine, field, value and what is allowed

@@ -78,12 +78,9 @@ Wrench RigidTower::load_above(FrameId cut, const ChannelSource& source, const Ch
     for (const FrameLoad& load : in.forces.loads())
         if (stands_on(tree, load.frame, cut))
             add_moved(sum, in.forces.at_frame(load, kin, in.time), pose(kin, load.frame).p, at);
-    for (int f = 0; f < in.forces.fields(); ++f)
-        for (std::size_t i = 0; i < in.loads.fields[static_cast<std::size_t>(f)].size(); ++i) {
-            const FieldPoint& point = in.forces.field(f).points[i];
-            if (stands_on(tree, point.frame, cut))
-                add_moved(sum, in.loads.fields[static_cast<std::size_t>(f)][i], place_of(kin, point), at);
-        }
+    for_each_point(in.forces, in.loads, [&](const FieldPoint& point, const Wrench& load) {
+        if (stands_on(tree, point.frame, cut)) add_moved(sum, load, place_of(kin, point), at);
+    });
     for (const ExternalWrench& load : source.external)
         if (stands_on(tree, load.frame, cut))
             add_moved(sum, load.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, load.frame).p, at);

@@ -1,6 +1,5 @@
 #include "turbines/operation/wind_operation.hpp"
 
-#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -26,13 +25,14 @@ bool is_constant_in(const SteadyWind& wind) {
 
 // Nothing in the machine depends on the azimuth: three or more equal blades, no gravity, a level shaft that stays so.
 bool is_isotropic(const TurbineDescription& d, const AssemblyOptions& options) {
-    const RigidInertia& hub = d.hub.inertia;
-    const bool balanced = hub.com.head<2>().isZero(0) && hub.J(0, 0) == hub.J(1, 1) && hub.J(0, 1) == 0 &&
-                          hub.J(0, 2) == 0 && hub.J(1, 2) == 0;
     const bool held = d.tower.rigid && d.yaw.rotation.is_rigid() && d.yaw.translation.is_rigid() &&
                       d.nacelle.tilt_bearing.is_rigid() && !d.platform && !options.shaft_beam;
-    return d.blades >= 3 && d.own_blades.empty() && d.nacelle.tilt == 0 && held && options.gravity.isZero(0) &&
-           balanced;
+    return d.has_equal_blades() && d.hub.is_balanced() && d.nacelle.tilt == 0 && held && options.gravity.isZero(0);
+}
+
+// What the next state is looked for from: the coefficients of a revolution.
+Matrix start_from(const WindPoint& point) {
+    return point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
 }
 
 }  // namespace
@@ -64,12 +64,8 @@ void VariableSpeed::check() const {
 
 double best_tip_speed_ratio(const AeroBlade& blade, int blades, double cone, double pitch,
                             const RotorAirOptions& options) {
-    const RotorPose pose{.blades = blades, .cone = cone};
-    const SteadyWind wind{.speed = 8};
-    const double R = blade.position.back() * std::cos(cone);
     const auto power = [&](double ratio) {
-        const double speed = ratio * wind.speed / R;
-        return -speed * rigid_rotor_air(blade, pose, wind, speed, 0, pitch, options).moment.x();
+        return -rotor_coefficients(blade, blades, cone, ratio, pitch, options).power;
     };
     constexpr double step = 0.5;
     double best = 2;
@@ -93,17 +89,21 @@ WindOperation::WindOperation(TurbineDescription description, AssemblyOptions opt
 }
 
 double WindOperation::radius() const {
-    return air_->blade().position.back() * std::cos(description_.blade.cone);
+    return air_->radius();
 }
 
 bool WindOperation::is_constant() const {
     return constant_;
 }
 
-Turbine WindOperation::machine(const Operation& operation) const {
+MachineAir WindOperation::air_at(const Operation& operation) const {
     SteadyWind wind = options_.wind;
     wind.speed = operation.wind;
-    return air_->in(wind).on(*turbine_);
+    return air_->in(wind);
+}
+
+Turbine WindOperation::machine(const Operation& operation) const {
+    return air_at(operation).on(*turbine_);
 }
 
 // Means of the drives' coordinates, which are positive away from feather.
@@ -117,9 +117,7 @@ Matrix WindOperation::with_pitch(Matrix start, double pitch) const {
 WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) const {
     WindPoint point;
     point.operation = operation;
-    SteadyWind wind = options_.wind;
-    wind.speed = operation.wind;
-    const MachineAir air = air_->in(wind);
+    const MachineAir air = air_at(operation);
     const Turbine windy = air.on(*turbine_);
     const Matrix from = with_pitch(start, operation.pitch);
     const int spin = windy.rotor().spin;
@@ -195,12 +193,6 @@ void WindOperation::evaluate(WindPoint& point, const MachineAir& air, const Turb
     }
 }
 
-void WindOperation::keep(const WindPoint& point) {
-    last_ = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
-    if (point.coefficients.size() == 0) last_(turbine_->rotor().spin, 0) = 0;
-    last_operation_ = point.operation;
-}
-
 // From the last state that was found, in one step or in parts.
 WindPoint WindOperation::at(const Operation& operation) {
     WindPoint point = solve(operation, last_);
@@ -215,11 +207,14 @@ WindPoint WindOperation::at(const Operation& operation) {
                                between(from.pitch, operation.pitch)},
                               start);
                 if (!point.converged) break;
-                start = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
+                start = start_from(point);
             }
         }
     }
-    if (point.converged) keep(point);
+    if (point.converged) {
+        last_ = start_from(point);
+        last_operation_ = point.operation;
+    }
     return point;
 }
 
@@ -232,13 +227,14 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
         return point.power / law.rated_power - 1;
     };
     double low = std::max(law.fine_pitch, last_operation_ ? last_operation_->pitch : law.fine_pitch),
-           at_low = excess(low);
+           at_low = excess(low), high = low, at_high = at_low;
     while (at_low < 0 && low > law.fine_pitch) {
+        high = low;
+        at_high = at_low;
         low = std::max(law.fine_pitch, low - pitch_step);
         at_low = excess(low);
     }
     if (at_low <= 0) return point;
-    double high = low, at_high = at_low;
     while (at_high > 0) {
         if (high >= largest_pitch)
             throw NumericalError(text("no pitch up to 90 deg brings the power down to ", law.rated_power, " W"));

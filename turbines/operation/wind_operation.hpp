@@ -105,7 +105,7 @@ public:
 private:
     WindPoint solve(const Operation& operation, const Matrix& start) const;
     WindPoint at_rated(double wind, const VariableSpeed& law);
-    void keep(const WindPoint& point);
+    MachineAir air_at(const Operation& operation) const;
     void evaluate(WindPoint& point, const MachineAir& air, const Turbine& windy) const;
     Matrix with_pitch(Matrix start, double pitch) const;
 

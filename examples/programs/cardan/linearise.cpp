@@ -55,7 +55,7 @@ double variation(const solvers::LinearModel& model) {
 
 Form form_of(const solvers::LinearModel& model, const turbines::TurbineDescription& machine) {
     constexpr double rounding = 1e-7;  // of C and D, which come from differences
-    if (has_equal_blades(machine)) return Form::multi_blade;
+    if (machine.has_equal_blades()) return Form::multi_blade;
     return model.samples.size() == 1 || variation(model) < rounding ? Form::constant : Form::periodic;
 }
 

@@ -29,12 +29,9 @@ void set_pitch(const MachineFile& machine, MachineOptions& options, double rotor
 }
 
 solvers::CampbellMethod diagram_method(const MachineFile& machine, const MachineOptions& options) {
-    const RigidInertia& hub = machine.file.description.hub.inertia;
-    const bool balanced = hub.com.head<2>().isZero(0) && hub.J(0, 0) == hub.J(1, 1) && hub.J(0, 1) == 0 &&
-                          hub.J(0, 2) == 0 && hub.J(1, 2) == 0;
-    return has_equal_blades(machine.file.description) && (options.gravity || !balanced)
-               ? solvers::CampbellMethod::averaged
-               : solvers::CampbellMethod::automatic;
+    const turbines::TurbineDescription& d = machine.file.description;
+    return d.has_equal_blades() && (options.gravity || !d.hub.is_balanced()) ? solvers::CampbellMethod::averaged
+                                                                             : solvers::CampbellMethod::automatic;
 }
 
 solvers::RotorSpin rotor_spin(const MachineFile& machine) {

@@ -9,20 +9,18 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/history.hpp"
-#include "solvers/linear/channel_values.hpp"
 #include "solvers/pictures/history.hpp"
 #include "turbines/model/channels.hpp"
 
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
+#include "examples/programs/cardan/revolution.hpp"
 #include "examples/programs/cardan/steady_wind.hpp"
 #include "examples/shared/channel_choice.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/steady_rotation.hpp"
-#include <algorithm>
 #include <array>
 #include <cstdio>
-#include <numeric>
 
 namespace cardan::program {
 
@@ -80,29 +78,11 @@ Revolution revolution(const turbines::Turbine& turbine, double speed, const Stea
     return all;
 }
 
-solvers::History history_of(const turbines::Turbine& turbine, const std::vector<ChannelGroup>& groups,
-                            const Revolution& revolution, std::string title) {
-    solvers::History history;
-    history.title = std::move(title);
-    for (const ChannelGroup& group : groups)
-        history.channels.insert(history.channels.end(), group.channels.begin(), group.channels.end());
-    history.values.resize(history.channels.size());
-    solvers::ChannelValues values(turbine.system(), groups);
-    for (const solvers::OperatingPoint& state : revolution.states) {
-        const std::vector<double>& row = values.at(state);
-        history.time.push_back(state.time);
-        for (std::size_t i = 0; i < row.size(); ++i) history.values[i].push_back(row[i]);
-    }
-    return history;
-}
-
 void print(const solvers::History& history, const std::vector<std::string>& names) {
     std::printf("\n%-40s %14s %14s %14s\n", "over a revolution", "mean", "least", "most");
     for (const std::string& name : names) {
         const std::size_t i = history.index(name);
-        const std::vector<double>& values = history.values[i];
-        const auto [least, most] = std::ranges::minmax(values);
-        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        const auto [mean, least, most] = mean_and_range(history.values[i]);
         std::printf("%-40s %14.6g %14.6g %14.6g   %s\n", history.channels[i].name.c_str(), mean, least, most,
                     history.channels[i].units.c_str());
     }
@@ -136,7 +116,8 @@ int run(SteadyArguments& a, const CommandLine& command) {
     check_outputs(a.out, {".h5", ".svg", ".png"});
     const Revolution states = revolution(turbine, speed, a);
     stop_at_once();
-    const solvers::History history = history_of(turbine, channels_of(turbine, a.stations), states,
+    const std::vector<ChannelGroup> groups = channels_of(turbine, a.stations);
+    const solvers::History history = history_of(turbine.system(), groups, states.states,
                                                 text(machine.file.description.name, ", steady at ", *a.rpm, " rpm"));
     std::printf("%s: %s\n%s\n", history.title.c_str(), states.about.c_str(), in_words(ready.mesh).c_str());
     print(history, a.all ? all_names(history.channels) : main_channels(turbine.layout(), history.channels));

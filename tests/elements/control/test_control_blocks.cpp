@@ -3,7 +3,6 @@
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/time/integrate.hpp"
-#include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/state_elements.hpp"
@@ -206,18 +205,8 @@ TEST_CASE("control blocks: evaluation allocates nothing", "[property]") {
     bench.forces.add_states(pi.element);
     bench.forces.add_states(position_actuator(pitch_drive(pi.output), bench.vane, 60, 3).element);
     const System system = bench.system();
-    Workspace workspace(system.model);
     const Vector q = Vector::Constant(2, 0.2), s = Vector::Constant(3, 0.3), u = Vector::Constant(1, 0.1);
-    const ForceInput at{0, q, q, kinematics(system.model, q, workspace), s, u};
-    Vector Q(2), f(3);
-    ForceDerivatives forces;
-    StateDerivatives states;
-    const auto evaluate = [&] {
-        system.forces.evaluate(at, Q, f);
-        system.forces.derivatives(at, forces, states);
-    };
-    evaluate();
-    CHECK(allocations(evaluate) == 0);
+    CHECK(allocations_of_evaluation(system, q, q, s, u) == 0);
 }
 
 TEST_CASE("control blocks: what cannot be is refused with the block's name", "[property]") {

@@ -4,8 +4,8 @@
 #include "mbs/base/entry.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/electric/bench.hpp"
-#include "tests/support/allocations.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/state_elements.hpp"
 
 #include <algorithm>
 #include <random>
@@ -278,19 +278,8 @@ TEST_CASE("circuit: nothing is allocated in an evaluation", "[property]") {
     bench.forces.add_states(net.element());
     const System system = bench.system();
     const Eigen::Index m = system.forces.states().size();
-    Workspace workspace(system.model);
     const Vector q = Vector::Constant(1, 0.3), qd = Vector::Constant(1, 2), s = Vector::Constant(m, 0.4), u;
-    const Kinematics kin = kinematics(system.model, q, workspace);
-    const ForceInput at{0, q, qd, kin, s, u};
-    Vector Q(1), f(m);
-    ForceDerivatives derivatives;
-    StateDerivatives states;
-    const auto evaluate = [&] {
-        system.forces.evaluate(at, Q, f);
-        system.forces.derivatives(at, derivatives, states);
-    };
-    evaluate();
-    CHECK(allocations([&] { evaluate(); }) == 0);
+    CHECK(allocations_of_evaluation(system, q, qd, s, u) == 0);
     check_derivatives(bench.tree, bench.forces, q, qd, s);
 }
 

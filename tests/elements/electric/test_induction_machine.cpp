@@ -5,8 +5,8 @@
 #include "mbs/base/entry.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/electric/bench.hpp"
-#include "tests/support/allocations.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/state_elements.hpp"
 
 namespace cardan::testing::induction_machines {
 
@@ -344,18 +344,7 @@ TEST_CASE("induction machine: nothing is allocated in an evaluation, the doubly 
         forces.add_states(element);
         const System system(bench.tree, forces);
         const Vector q = Vector::Zero(1), qd = Vector::Constant(1, 180), s = system.forces.states().initial(), u;
-        Workspace workspace(system.model);
-        const Kinematics kin = kinematics(system.model, q, workspace);
-        const ForceInput at{0, q, qd, kin, s, u};
-        Vector Q(1), f(s.size());
-        ForceDerivatives derivatives;
-        StateDerivatives states;
-        const auto evaluate = [&] {
-            system.forces.evaluate(at, Q, f);
-            system.forces.derivatives(at, derivatives, states);
-        };
-        evaluate();
-        CHECK(allocations(evaluate) == 0);
+        CHECK(allocations_of_evaluation(system, q, qd, s, u) == 0);
     };
     const OneBody bench(JointKind::revolute, 1);
     InductionGenerator own = generator(small, bench.body);

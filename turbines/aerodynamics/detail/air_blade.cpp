@@ -149,6 +149,8 @@ private:
     std::vector<Vec3> offsets_;
 };
 
+}  // namespace
+
 std::vector<int> path_to(const Model& model, int body) {
     std::vector<int> path;
     for (int at = body; at >= 0; at = model.body(at).parent) path.push_back(at);
@@ -156,26 +158,16 @@ std::vector<int> path_to(const Model& model, int body) {
     return path;
 }
 
-}  // namespace
-
 AirBlade air_blade(const Turbine& turbine, std::size_t k, const AeroBlade& blade) {
     const Model& model = turbine.system().model;
     const RootPlace root = root_place(turbine, k);
     const Layout layout(turbine.layout().blades[k], blade, model, root.distance);
     const auto B = static_cast<double>(turbine.layout().blades.size());
-    const double first = blade.position.front(), last = blade.position.back();
     AirBlade out;
     out.axis = root.axis;
     for (std::size_t i = 0; i < blade.sections(); ++i) {
-        const double z = blade.position[i];
         out.sections.push_back(layout.section(i));
-        out.sections.back().annulus = {.blades = B,
-                                       .radius = z,
-                                       .chord = blade.chord[i],
-                                       .angle = 0,
-                                       .tip = B / 2 * (last - z) / z,
-                                       .hub = B / 2 * (z - first) / first,
-                                       .polar = &blade.polars[blade.profile[i]]};
+        out.sections.back().annulus = blade.annulus(i, B);
         layout.add_points(i, out.points);
     }
     // Derivatives are gathered from the tip down.

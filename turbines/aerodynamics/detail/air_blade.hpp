@@ -39,6 +39,9 @@ struct AirBlade {
     std::vector<int> path;             ///< bodies from the base to the tip, ascending
 };
 
+/// Bodies from the base to this one, ascending.
+std::vector<int> path_to(const Model& model, int body);
+
 /// @param k  of the machine's blades, from 0
 /// @throws InputError for sections beyond the ends of the blade
 AirBlade air_blade(const Turbine& turbine, std::size_t k, const AeroBlade& blade);

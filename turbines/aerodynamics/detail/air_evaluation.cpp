@@ -4,27 +4,16 @@
 #include "mbs/kernels/path_twists.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace cardan::turbines {
 
 namespace {
-
-AirScratch& kept() {
-    thread_local AirScratch scratch;
-    return scratch;
-}
 
 Vec3 across(const Vec3& v, const Vec3& axis) {
     return v - v.dot(axis) * axis;
 }
 
 }  // namespace
-
-BorrowedAirScratch::BorrowedAirScratch() : own_(std::move(kept())) {}
-BorrowedAirScratch::~BorrowedAirScratch() {
-    kept() = std::move(own_);
-}
 
 AirEvaluation::AirEvaluation(const AirParts& parts, const ForceInput& at, AirScratch& scratch)
     : parts_(parts), at_(at), kin_(at.kinematics), scratch_(scratch) {

@@ -16,7 +16,6 @@ struct AirParts {
     SteadyWind wind;
     RotorAirOptions options;
     std::vector<AirBlade> blades;
-    FrameId hub;
     int hub_body = -1, shaft_body = -1;  ///< what turns, and what carries it; -1: the ground
     Vec3 hub_place, hub_axis;            ///< centre and shaft, downwind; axes of the hub's body
     std::vector<int> trunk;              ///< bodies from the base to the hub, ascending
@@ -70,19 +69,6 @@ struct AirScratch {
     std::vector<BodyRate> rates;
     std::vector<SectionState> sections;  ///< of all blades, one after the other
     AirDerivativeScratch derivatives;
-};
-
-/// A borrowed AirScratch of this thread; nested borrowers get fresh memory.
-class BorrowedAirScratch {
-public:
-    BorrowedAirScratch();
-    ~BorrowedAirScratch();
-    BorrowedAirScratch(const BorrowedAirScratch&) = delete;
-    BorrowedAirScratch& operator=(const BorrowedAirScratch&) = delete;
-    AirScratch& operator*() { return own_; }
-
-private:
-    AirScratch own_;
 };
 
 /// The mean wind against the rotor.

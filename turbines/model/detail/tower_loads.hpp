@@ -21,12 +21,6 @@ using Shared = std::shared_ptr<const ChannelSource>;
 /// @throws InputError for an external wrench without a function or on the base
 Shared shared_source(const Turbine& turbine, std::vector<ExternalWrench> external);
 
-/// Adds a wrench about `from` as one about `to`.
-inline void add_moved(Wrench& sum, const Wrench& wrench, const Vec3& from, const Vec3& to, double sign = 1) {
-    sum.force += sign * wrench.force;
-    sum.moment += sign * (wrench.moment + cross<double>(from - to, wrench.force));
-}
-
 /// Adds what the external wrenches on the subtree of a body contribute at a point.
 void add_external(Wrench& sum, const ChannelSource& source, const ChannelInput& in, int subtree, const Vec3& at);
 

@@ -1,0 +1,137 @@
+// Stiffness and damping of the forces.
+#include "mbs/base/borrowed.hpp"
+#include "mbs/base/entry.hpp"
+#include "mbs/kernels/path_twists.hpp"
+#include "mbs/system/forces.hpp"
+
+namespace cardan {
+
+namespace {
+
+// Central differences of a force, at a workspace of its own: the caller's kinematics must stay valid.
+// @param add  the force: add(at, Q)
+template <class Add>
+void difference(const Add& add, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+    constexpr double step = 1e-6;
+    const Eigen::Index n = at.q.size();
+    const Model& model = at.kinematics.model();
+    Workspace own(model);
+    const auto force = [&](const Vector& q, const Vector& qd) {
+        Vector Q = Vector::Zero(n);
+        add({at.time, q, qd, kinematics(model, q, own), at.s, at.u}, Q);
+        return Q;
+    };
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const Vector d = step * Vector::Unit(n, j);
+        by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
+        by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
+    }
+}
+
+struct Derivatives {
+    Matrix by_q, by_qd;
+};
+
+// Subtracts factor times the derivatives of a force; its own, or central differences.
+// @param add  the force: add(at, Q)
+template <class Jacobian, class Add>
+void subtract(const Jacobian& jacobian, const Add& add, double factor, const ForceInput& at, Matrix& stiffness,
+              Matrix& damping) {
+    if (jacobian && factor == 1) {
+        // It adds dQ/dq where -dQ/dq is gathered; changes of sign are exact.
+        stiffness *= -1;
+        damping *= -1;
+        jacobian(at, stiffness, damping);
+        stiffness *= -1;
+        damping *= -1;
+        return;
+    }
+    const Eigen::Index n = at.q.size();
+    Borrowed<Derivatives> own;
+    own->by_q.setZero(n, n);
+    own->by_qd.setZero(n, n);
+    if (jacobian)
+        jacobian(at, own->by_q, own->by_qd);
+    else
+        difference(add, at, own->by_q, own->by_qd);
+    stiffness -= factor * own->by_q;
+    damping -= factor * own->by_qd;
+}
+
+}  // namespace
+
+// d_b (v_a(C)) = e_b x v_a(C) for b <= a: the subtree of the more distal coordinate turns as one body.
+void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
+    composites(kin);
+    for (int a = 0; a < kin.model().size(); ++a) {
+        const Workspace::Inertia& subtree = entry(kin.workspace().composite, a);
+        const Vec3 C = subtree.C.vector(), lift = own_twist_at(kin, a, C).v;
+        for (int b = a; b >= 0; b = own_parent(kin.model(), b)) {
+            const Vec3 w = own_twist_at(kin, b, C).w;
+            const double dQ = subtree.M * gravity_.dot(cross<double>(w, lift));
+            K(a, b) -= dQ;
+            if (b != a) K(b, a) -= dQ;
+        }
+    }
+}
+
+void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const {
+    const Pose<double> at = pose(kin, load.frame);
+    const bool follower = load.axes == WrenchAxes::frame;
+    const auto [force, moment] = at_frame(load, kin, time);
+    const Model& model = kin.model();
+    const int tip = model.frame(load.frame).body;
+    // The force turns with a follower's frame, and the twist of a turns with coordinate b if b is proximal to a; where
+    // both do, nothing changes. If it is distal, its velocity moves the point.
+    for (int a = tip; a >= 0; a = own_parent(model, a)) {
+        const PointTwist<double> ta = own_twist_at(kin, a, at.p);
+        const Vec3 turned = cross<double>(ta.v, force) + cross<double>(ta.w, moment),
+                   moved = cross<double>(force, ta.w);
+        for (int b = tip; b >= 0; b = own_parent(model, b)) {
+            const PointTwist<double> tb = own_twist_at(kin, b, at.p);
+            double dQ = b > a ? moved.dot(tb.v) : 0;
+            if (follower == (b > a)) dQ += (follower ? -1 : 1) * turned.dot(tb.w);
+            K(a, b) -= dQ;
+        }
+    }
+}
+
+void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const {
+    subtract(user.own.jacobian, user.own.force, user.factor, at, user.own.elastic ? out.elastic : out.loads,
+             out.damping);
+}
+
+void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
+    const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, input, Q); };
+    subtract(field.own.jacobian, add, field.factor, at, out.loads, out.damping);
+}
+
+void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
+                         ForceDerivatives& out) const {
+    require_no_states("forces");
+    mechanical_derivatives({time, q, qd, kin, no_states, no_states}, out);
+}
+
+void Forces::derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const {
+    mechanical_derivatives(at, out);
+    states_.derivatives({at.time, at.q, at.qd, at.s, at.u}, out.loads, out.damping, states);
+}
+
+void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const {
+    const Kinematics& kin = at.kinematics;
+    require_state<double>(kin, at.q, at.qd);
+    const Eigen::Index n = at.q.size();
+    for (Matrix* m : {&out.elastic, &out.gravity, &out.loads, &out.damping}) m->setZero(n, n);
+    for (const Law& law : laws_)
+        for (Eigen::Index i = 0; i < law.K.rows(); ++i)
+            for (Eigen::Index j = 0; j < law.K.cols(); ++j) {
+                out.elastic(entry(law.at, i), entry(law.at, j)) += law.K(i, j);
+                out.damping(entry(law.at, i), entry(law.at, j)) += law.D(i, j);
+            }
+    if (has_gravity()) gravity_stiffness(kin, out.gravity);
+    for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, at.time, out.loads);
+    for (const User& user : users_) user_derivatives(user, at, out);
+    for (const Field& field : fields_) field_derivatives(field, at, out);
+}
+
+}  // namespace cardan

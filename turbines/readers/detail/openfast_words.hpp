@@ -1,0 +1,18 @@
+/// @file
+/// Words of OpenFAST's files. Internal to the readers: not installed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// With Fortran's exponents D and d, and a plus sign. Nothing if it is not one finite number.
+std::optional<double> fortran_number(std::string_view word);
+
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& words);
+
+}  // namespace cardan::turbines
