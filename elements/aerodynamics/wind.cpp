@@ -3,39 +3,67 @@
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace cardan {
+
+namespace {
+
+// What a table over time changes linearly.
+constexpr std::array changing{
+    &SteadyWind::speed,    &SteadyWind::reference_height, &SteadyWind::exponent, &SteadyWind::roughness,
+    &SteadyWind::gradient, &SteadyWind::direction,        &SteadyWind::veer,     &SteadyWind::upflow,
+    &SteadyWind::density,  &SteadyWind::lateral,          &SteadyWind::gust,     &SteadyWind::vertical};
+
+Vec3 left_of(double direction) {
+    return {-std::sin(direction), std::cos(direction), 0};
+}
+
+}  // namespace
 
 double SteadyWind::height(const Vec3& place) const {
     return std::max(place.z(), 1e-3 * reference_height);
 }
 
-// Of the speed at the reference height.
-double SteadyWind::share(double z) const {
+double SteadyWind::law(double z) const {
     if (shear == Shear::power) return std::pow(z / reference_height, exponent);
     if (shear == Shear::logarithmic)
         return std::max(0.0, std::log(z / roughness) / std::log(reference_height / roughness));
-    return shear == Shear::linear ? 1 + gradient * (z - reference_height) : 1;
+    return 1;
+}
+
+double SteadyWind::size(const Vec3& place, double z) const {
+    return speed * (law(z) + gradient * (z - reference_height) + lateral * place.dot(left_of(direction))) + gust;
 }
 
 Vec3 SteadyWind::at(const Vec3& place) const {
-    const double z = height(place), size = speed * share(z), to = direction + veer * (z - reference_height),
-                 level = size * std::cos(upflow);
-    return {level * std::cos(to), level * std::sin(to), size * std::sin(upflow)};
+    const double z = height(place), all = size(place, z), to = direction + veer * (z - reference_height),
+                 level = all * std::cos(upflow);
+    return {level * std::cos(to), level * std::sin(to), all * std::sin(upflow) + vertical};
 }
 
-Vec3 SteadyWind::change_with_height(const Vec3& place) const {
-    const double z = height(place);
-    if (place.z() < z) return Vec3::Zero();
-    double slope = 0;  // of the share
-    if (shear == Shear::power) slope = exponent * share(z) / z;
-    if (shear == Shear::logarithmic && z > roughness) slope = 1 / (z * std::log(reference_height / roughness));
-    if (shear == Shear::linear) slope = gradient;
-    const double to = direction + veer * (z - reference_height), level = speed * std::cos(upflow),
-                 turning = veer * share(z);
-    return {level * (slope * std::cos(to) - turning * std::sin(to)),
-            level * (slope * std::sin(to) + turning * std::cos(to)), speed * slope * std::sin(upflow)};
+Mat3 SteadyWind::gradient_at(const Vec3& place) const {
+    if (is_uniform()) return Mat3::Zero();
+    const double z = height(place), to = direction + veer * (z - reference_height), level = std::cos(upflow);
+    const Vec3 along(level * std::cos(to), level * std::sin(to), std::sin(upflow));
+    Vec3 slope = lateral * left_of(direction);
+    double turning = 0;
+    if (place.z() >= z) {
+        slope.z() = gradient;
+        if (shear == Shear::power) slope.z() += exponent * law(z) / z;
+        if (shear == Shear::logarithmic && z > roughness) slope.z() += 1 / (z * std::log(reference_height / roughness));
+        turning = veer * size(place, z);
+    }
+    Mat3 out = speed * along * slope.transpose();
+    out.col(2) += turning * level * left_of(to);
+    return out;
+}
+
+bool SteadyWind::is_uniform() const {
+    const bool lawless = shear == Shear::none || (shear == Shear::power && exponent == 0);
+    return lawless && gradient == 0 && lateral == 0 && veer == 0;
 }
 
 void SteadyWind::check() const {
@@ -43,14 +71,57 @@ void SteadyWind::check() const {
     require_positive("wind", "reference height [m]", reference_height);
     require_positive("wind", "density of the air [kg/m^3]", density);
     for (const auto& [name, value] : {std::pair("exponent of the shear", exponent),
-                                      {"gradient of the shear [1/m]", gradient},
+                                      {"gradient over the height [1/m]", gradient},
+                                      {"gradient across the wind [1/m]", lateral},
                                       {"direction [rad]", direction},
                                       {"veer [rad/m]", veer},
-                                      {"upflow [rad]", upflow}})
+                                      {"upflow [rad]", upflow},
+                                      {"gust [m/s]", gust},
+                                      {"vertical speed [m/s]", vertical}})
         if (!std::isfinite(value)) throw InputError("wind", name, value, "finite");
     if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))
         throw InputError("wind", "roughness [m]", roughness,
                          text("0 ... ", reference_height, ", the reference height"));
+}
+
+Wind::Wind(const SteadyWind& steady) : times_{0}, rows_{steady} {
+    steady.check();
+}
+
+Wind::Wind(std::vector<double> times, std::vector<SteadyWind> rows) : times_(std::move(times)), rows_(std::move(rows)) {
+    if (rows_.empty() || times_.size() != rows_.size())
+        throw InputError("wind over time", "rows", rows_.size(), text("as many as times, ", times_.size(), ", >= 1"));
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const auto here = text("wind over time, row ", i + 1);
+        if (!std::isfinite(times_[i]) || (i > 0 && times_[i] < times_[i - 1]))
+            throw InputError(here, "time [s]", times_[i], "finite, not descending");
+        if (rows_[i].shear != rows_.front().shear)
+            throw InputError(here, "law of the shear", "another one", "that of the first row");
+        try {
+            rows_[i].check();
+        } catch (const InputError& error) {
+            throw InputError(text(here, ": ", error.what()));
+        }
+    }
+}
+
+SteadyWind Wind::at(double time) const {
+    const auto next = std::upper_bound(times_.begin(), times_.end(), time);
+    if (next == times_.begin()) return rows_.front();
+    if (next == times_.end()) return rows_.back();
+    const auto i = static_cast<std::size_t>(next - times_.begin());
+    const SteadyWind &from = rows_[i - 1], &to = rows_[i];
+    const double t = (time - times_[i - 1]) / (times_[i] - times_[i - 1]);
+    SteadyWind out = from;
+    for (const auto value : changing) out.*value = (1 - t) * from.*value + t * to.*value;
+    return out;
+}
+
+std::vector<double> Wind::breaks() const {
+    if (is_steady()) return {};
+    std::vector<double> out = times_;
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
 }
 
 }  // namespace cardan

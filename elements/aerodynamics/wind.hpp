@@ -1,45 +1,75 @@
 /// @file
-/// Steady wind over the ground.
+/// Wind over the ground, the same everywhere but for its change with height and across, steady or over time.
 #pragma once
 
 #include "mbs/base/types.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace cardan {
 
 /// How the speed of the wind changes with height.
 enum class Shear : std::uint8_t {
     none,
-    power,        ///< (z / reference height)^exponent
-    logarithmic,  ///< ln(z / roughness) / ln(reference height / roughness)
-    linear        ///< 1 + gradient (z - reference height)
+    power,       ///< (z / reference height)^exponent
+    logarithmic  ///< ln(z / roughness) / ln(reference height / roughness)
 };
 
-/// Ground axes: x downwind of a wind without direction, z up.
+/// Ground axes: x downwind of a wind without direction, z up. Its speed is
+///
+///     speed [law of the shear + gradient (z - reference height) + lateral y'] + gust
+///
+/// with y' the distance of the place from the base's origin, to the left as seen along the wind.
 struct SteadyWind {
     double speed = 0;              ///< at the reference height, m/s
     double reference_height = 90;  ///< m
     Shear shear = Shear::none;
     double exponent = 0;     ///< of the power law
     double roughness = 0;    ///< m, of the logarithmic law
-    double gradient = 0;     ///< 1/m, of the linear law
+    double gradient = 0;     ///< 1/m, of a linear change with height
     double direction = 0;    ///< rad: where it blows to, from x towards y, at the reference height
     double veer = 0;         ///< rad/m: change of the direction with height
     double upflow = 0;       ///< rad above the horizontal
     double density = 1.225;  ///< of the air, kg/m^3
+    double lateral = 0;      ///< 1/m, of a linear change across the wind
+    double gust = 0;         ///< m/s, the same at all places
+    double vertical = 0;     ///< m/s, upward, the same at all places
 
     /// m/s. Below the ground, and where a law has no value, that at 1e-3 of the reference height.
     Vec3 at(const Vec3& place) const;
-    /// Its derivative by height, 1/s; below the lowest height zero.
-    Vec3 change_with_height(const Vec3& place) const;
+    /// dW_i/dx_j, 1/s; below the lowest height nothing changes with it.
+    Mat3 gradient_at(const Vec3& place) const;
+    bool is_uniform() const;  ///< the same at all places
     /// @throws InputError for what is not finite, a density or a height that is not positive, a roughness that is not
     /// between 0 and the reference height
     void check() const;
 
 private:
     double height(const Vec3& place) const;
-    double share(double z) const;
+    double law(double z) const;
+    double size(const Vec3& place, double z) const;
+};
+
+/// A wind that changes with time: between the rows of a table every value changes linearly, before and after them
+/// nothing does.
+class Wind {
+public:
+    Wind(const SteadyWind& steady);  // NOLINT(google-explicit-constructor): a steady wind is one
+    /// @param times  s, not descending; two rows of the same time are a step, after which the second one holds
+    /// @throws InputError for lists of different length or empty, times that descend, rows with different laws of the
+    /// shear, and as SteadyWind::check()
+    Wind(std::vector<double> times, std::vector<SteadyWind> rows);
+
+    SteadyWind at(double time) const;
+    bool is_steady() const { return rows_.size() == 1; }
+    /// Where it is not smooth: those of the table. Empty: it is steady.
+    std::vector<double> breaks() const;
+    const std::vector<SteadyWind>& rows() const { return rows_; }
+
+private:
+    std::vector<double> times_;
+    std::vector<SteadyWind> rows_;
 };
 
 }  // namespace cardan

@@ -11,10 +11,18 @@ namespace cardan::turbines {
 
 struct MachineAir::Parts : AirParts {};
 
-MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind,
-                       const RotorAirOptions& options) {
+namespace {
+
+std::string in_words(const Wind& wind) {
+    if (wind.is_steady()) return text("wind ", wind.rows().front().speed, " m/s");
+    const auto [least, most] = std::ranges::minmax(wind.rows(), {}, &SteadyWind::speed);
+    return text("wind of ", least.speed, " to ", most.speed, " m/s over time");
+}
+
+}  // namespace
+
+MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options) {
     blade.check();
-    wind.check();
     const MachineLayout& layout = turbine.layout();
     if (layout.blades.empty()) throw InputError("air on a machine", "number of blades", 0, "at least 1");
     const Model& model = turbine.system().model;
@@ -40,8 +48,7 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind
     parts_ = parts;
 }
 
-MachineAir MachineAir::in(const SteadyWind& wind) const {
-    wind.check();
+MachineAir MachineAir::in(const Wind& wind) const {
     MachineAir other = *this;
     const auto parts = std::make_shared<Parts>(*parts_);
     parts->wind = wind;
@@ -50,7 +57,7 @@ MachineAir MachineAir::in(const SteadyWind& wind) const {
 }
 
 WrenchField MachineAir::field() const {
-    WrenchField field{.name = "air", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = {}};
+    WrenchField field{.name = "air", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
     for (const AirBlade& blade : parts_->blades)
         for (const AirPoint& point : blade.points) field.points.push_back(point.at);
     field.wrenches = [parts = parts_](const ForceInput& at, std::span<Wrench> out) {
@@ -70,7 +77,7 @@ WrenchField MachineAir::field() const {
 Turbine MachineAir::on(const Turbine& turbine) const {
     ForceSet forces = turbine.forces();
     forces.add_field(field());
-    return turbine.with_forces(forces, text("in the air, wind ", parts_->wind.speed, " m/s"));
+    return turbine.with_forces(forces, text("in the air, ", in_words(parts_->wind)));
 }
 
 std::vector<std::vector<SectionAir>> MachineAir::sections(const ForceInput& at) const {
@@ -109,7 +116,7 @@ double MachineAir::radius() const {
 const AeroBlade& MachineAir::blade() const {
     return *parts_->profile;
 }
-const SteadyWind& MachineAir::wind() const {
+const Wind& MachineAir::wind() const {
     return parts_->wind;
 }
 

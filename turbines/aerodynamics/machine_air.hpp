@@ -23,11 +23,11 @@ class MachineAir {
 public:
     /// @param blade  of all blades; its first section lies at the blade's root, its last one at the tip
     /// @throws InputError for a machine without blades, sections beyond the ends of the blade, and as
-    /// AeroBlade::check() and SteadyWind::check()
-    MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind, const RotorAirOptions& options = {});
+    /// AeroBlade::check()
+    MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options = {});
 
     /// The same in another wind.
-    MachineAir in(const SteadyWind& wind) const;
+    MachineAir in(const Wind& wind) const;
 
     /// Its forces, for ForceSet::add_field(); valid for every machine with the tree of `turbine`. Exact derivatives; no
     /// allocation. Loads per length are linear between the sections and do the same work on the beam's rigid segments
@@ -50,7 +50,7 @@ public:
 
     double radius() const;  ///< of the rotor that is not bent, m
     const AeroBlade& blade() const;
-    const SteadyWind& wind() const;
+    const Wind& wind() const;
 
 private:
     struct Parts;

@@ -20,7 +20,7 @@ constexpr double largest_pitch = pi / 2;
 constexpr double power_error = 1e-6;  // of rated power
 
 bool is_constant_in(const SteadyWind& wind) {
-    return wind.shear == Shear::none && wind.direction == 0 && wind.veer == 0 && wind.upflow == 0;
+    return wind.is_uniform() && wind.direction == 0 && wind.upflow == 0 && wind.vertical == 0;
 }
 
 // Nothing in the machine depends on the azimuth: three or more equal blades, no gravity, a level shaft that stays so.

@@ -179,14 +179,34 @@ TEST_CASE("wind: laws of shear, direction, veer, upflow", "[analytic]") {
           Approx(10 * std::pow(0.5, 0.2)));
     CHECK(SteadyWind{.speed = 10, .shear = Shear::logarithmic, .roughness = 0.03}.at(at).x() ==
           Approx(10 * std::log(45 / 0.03) / std::log(90 / 0.03)));
-    CHECK(SteadyWind{.speed = 10, .shear = Shear::linear, .gradient = 0.001}.at(at).x() == Approx(10 * (1 - 0.045)));
+    CHECK(SteadyWind{.speed = 10, .gradient = 0.001}.at(at).x() == Approx(10 * (1 - 0.045)));
     const Vec3 turned = SteadyWind{.speed = 10, .direction = 0.3, .veer = 0.002, .upflow = 0.1}.at(at);
     CHECK(turned.norm() == Approx(10));
     CHECK(std::atan2(turned.y(), turned.x()) == Approx(0.3 - 0.09));
     CHECK(turned.z() == Approx(10 * std::sin(0.1)));
+    const SteadyWind across{.speed = 10, .direction = 0.3, .lateral = 0.001, .gust = 2, .vertical = 0.5};
+    const Vec3 left = 20 * Vec3(-std::sin(0.3), std::cos(0.3), 0) + 7 * Vec3(std::cos(0.3), std::sin(0.3), 0);
+    CHECK(across.at(left).isApprox(Vec3(12.2 * std::cos(0.3), 12.2 * std::sin(0.3), 0.5)));
     check_refused([] { SteadyWind{.speed = -1}.check(); }, {"speed", "-1"});
     check_refused([] { SteadyWind{.shear = Shear::logarithmic}.check(); }, {"roughness [m] = 0"});
     check_refused([] { SteadyWind{.density = 0}.check(); }, {"density"});
+}
+
+TEST_CASE("wind over time: linear between its rows, steps between two of the same time", "[analytic]") {
+    const auto row = [](double speed, double direction) { return SteadyWind{.speed = speed, .direction = direction}; };
+    const Wind wind({1, 2, 2, 4}, {row(8, 0), row(10, 0.1), row(14, 0.1), row(12, 0.3)});
+    for (const auto& [time, speed, direction] :
+         {std::array{0.0, 8.0, 0.0}, {1.5, 9.0, 0.05}, {2.0, 14.0, 0.1}, {3.0, 13.0, 0.2}, {9.0, 12.0, 0.3}}) {
+        CHECK(wind.at(time).speed == Approx(speed));
+        CHECK(wind.at(time).direction == Approx(direction));
+    }
+    CHECK(wind.breaks() == std::vector<double>{1, 2, 4});
+    CHECK(Wind(row(9, 0)).is_steady());
+    CHECK(Wind(row(9, 0)).breaks().empty());
+    check_refused([&] { Wind({1, 0}, {row(8, 0), row(8, 0)}); }, {"row 2", "time [s] = 0"});
+    check_refused([&] { Wind({1}, {}); }, {"rows = 0"});
+    check_refused([&] { Wind({0, 1}, {row(8, 0), row(-8, 0)}); }, {"row 2", "speed [m/s] = -8"});
+    check_refused([&] { Wind({0, 1}, {row(8, 0), {.speed = 8, .shear = Shear::power}}); }, {"row 2", "law"});
 }
 
 }  // namespace cardan::testing::rigid_rotor_tests

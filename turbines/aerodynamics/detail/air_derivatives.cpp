@@ -80,7 +80,7 @@ private:
     void find_columns(std::size_t k, std::size_t i) {
         const SectionState& s = air_.sections(k)[i];
         const AirBlade& blade = parts_.blades[k];
-        const auto by = section_slopes(s.annulus, s.air, s.wake, parts_.options, parts_.wind.density).by;
+        const auto by = section_slopes(s.annulus, s.air, s.wake, parts_.options, air_.density()).by;
         const auto load = [&](const Vec3& change) {
             Vec6 out;
             out << change(0) * s.x - change(1) * s.y, change(2) * s.span;
@@ -96,7 +96,7 @@ private:
             const int a = entry(blade.path, j);
             const Mover& own = mover(a);
             const SectionTurn turned = turn(s, own, moves_hub(a));
-            const Vec3 v = own.at(s.place), air = s.wind_slope * v.z() - own.change_of_velocity(s.place, s.velocity);
+            const Vec3 v = own.at(s.place), air = s.wind_gradient * v - own.change_of_velocity(s.place, s.velocity);
             const auto change_along = [&](const Vec3& axis) {
                 return air.dot(axis) + s.relative.dot(cross<double>(turned.axes, axis));
             };
@@ -197,11 +197,11 @@ private:
         for (std::size_t k = 0; k < parts_.blades.size(); ++k)
             for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
                 const SectionState& s = air_.sections(k)[i];
-                if (s.wind_slope.isZero(0)) continue;
+                if (s.wind_gradient.isZero(0)) continue;
                 const AirBlade& blade = parts_.blades[k];
                 for (int j = 0; j < depth(blade.sections[i].body); ++j) {
                     const int a = entry(blade.path, j);
-                    memory_.mean_q.col(a) += share * mover(a).at(s.place).z() * s.wind_slope;
+                    memory_.mean_q.col(a) += share * s.wind_gradient * mover(a).at(s.place);
                 }
             }
         const Vec3 &hub = air_.hub_, velocity = air_.velocity(parts_.hub_body, hub);

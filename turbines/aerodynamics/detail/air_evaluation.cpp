@@ -16,7 +16,7 @@ Vec3 across(const Vec3& v, const Vec3& axis) {
 }  // namespace
 
 AirEvaluation::AirEvaluation(const AirParts& parts, const ForceInput& at, AirScratch& scratch)
-    : parts_(parts), at_(at), kin_(at.kinematics), scratch_(scratch) {
+    : parts_(parts), at_(at), kin_(at.kinematics), scratch_(scratch), wind_(parts.wind.at(at.time)) {
     const Mat3 R = kin_.rotation(parts.hub_body);
     shaft_ = R * parts.hub_axis;
     hub_ = kin_.origin(parts.hub_body) + R * parts.hub_place;
@@ -73,8 +73,8 @@ void AirEvaluation::place_sections() {
         s.y = cross<double>(s.span, shaft_).normalized();
         s.x = cross<double>(s.y, s.span);
         s.velocity = velocity(own.body, s.place);
-        s.relative = parts_.wind.at(s.place) - s.velocity;
-        s.wind_slope = parts_.wind.change_with_height(s.place);
+        s.relative = wind_.at(s.place) - s.velocity;
+        s.wind_gradient = wind_.gradient_at(s.place);
         s.radial = across(s.place - hub_, shaft_);
         s.annulus = own.annulus;
         s.annulus.radius = s.radial.norm();
@@ -109,8 +109,8 @@ void AirEvaluation::find_loads() {
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {
             SectionState& s = scratch_.sections[i];
             s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
-            s.air = section_air(s.annulus, s.relative.dot(s.x), s.relative.dot(s.y), s.wake, parts_.options,
-                                parts_.wind.density);
+            s.air =
+                section_air(s.annulus, s.relative.dot(s.x), s.relative.dot(s.y), s.wake, parts_.options, wind_.density);
             s.force = s.air.force.normal * s.x - s.air.force.driving * s.y;
             s.moment = s.air.force.moment * s.span;
         }

@@ -13,7 +13,7 @@ namespace cardan::turbines {
 /// What does not change with the state.
 struct AirParts {
     std::shared_ptr<const AeroBlade> profile;  ///< of every blade; sections point to its polars
-    SteadyWind wind;
+    Wind wind = SteadyWind{};
     RotorAirOptions options;
     std::vector<AirBlade> blades;
     int hub_body = -1, shaft_body = -1;  ///< what turns, and what carries it; -1: the ground
@@ -27,7 +27,7 @@ struct AirParts {
 struct SectionState {
     Vec3 place, span, x, y;   ///< axes of the section: x downwind, y against the motion
     Vec3 velocity, relative;  ///< of the section; of the air against it, m/s
-    Vec3 wind_slope;          ///< by height, 1/s
+    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s
     Vec3 radial;              ///< unit, from the shaft
     SkewedWake wake;
     Annulus annulus;
@@ -88,6 +88,7 @@ public:
     const Vec3& shaft() const { return shaft_; }
     const Vec3& hub() const { return hub_; }
     double speed() const;  ///< of the rotor about the shaft, rad/s
+    double density() const { return wind_.density; }
     /// Adds dQ/dq and dQ/dqd.
     void add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd);
 
@@ -106,6 +107,7 @@ private:
     const ForceInput& at_;
     const Kinematics& kin_;
     AirScratch& scratch_;
+    SteadyWind wind_;  // of this time
     Vec3 shaft_, hub_;
     MeanWind mean_ = {};
 };
