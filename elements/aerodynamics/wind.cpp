@@ -117,6 +117,15 @@ SteadyWind Wind::at(double time) const {
     return out;
 }
 
+Wind Wind::turned(double direction, double upflow) const {
+    Wind out = *this;
+    for (SteadyWind& row : out.rows_) {
+        row.direction += direction;
+        row.upflow += upflow;
+    }
+    return out;
+}
+
 std::vector<double> Wind::breaks() const {
     if (is_steady()) return {};
     std::vector<double> out = times_;

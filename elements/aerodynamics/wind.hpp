@@ -63,6 +63,8 @@ public:
 
     SteadyWind at(double time) const;
     bool is_steady() const { return rows_.size() == 1; }
+    /// With angles added to its direction and its upflow, rad.
+    Wind turned(double direction, double upflow) const;
     /// Where it is not smooth: those of the table. Empty: it is steady.
     std::vector<double> breaks() const;
     const std::vector<SteadyWind>& rows() const { return rows_; }

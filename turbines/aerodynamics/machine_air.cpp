@@ -93,13 +93,56 @@ MachineAir::Rotor MachineAir::rotor(const ForceInput& at) const {
     Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
     Wrench sum;
+    double work_rate = 0;
     for (std::size_t k = 0; k < parts_->blades.size(); ++k)
-        for (const AirPoint& point : parts_->blades[k].points)
-            add_moved(sum, air.wrench(k, point), place_of(at.kinematics, point.at), air.hub());
+        for (const AirPoint& point : parts_->blades[k].points) {
+            const Wrench wrench = air.wrench(k, point);
+            const Vec3 place = place_of(at.kinematics, point.at);
+            add_moved(sum, wrench, place, air.hub());
+            work_rate += air.power(wrench, point.body, place);
+        }
     // Axes of the shaft that do not turn: y is level.
     const Vec3 &x = air.shaft(), y = cross<double>(Vec3(Vec3::UnitZ()), x).normalized();
     const Mat3 axes = (Mat3() << x, y, cross<double>(x, y)).finished();
-    return {axes.transpose() * sum.force, axes.transpose() * sum.moment, air.speed()};
+    return {axes.transpose() * sum.force, axes.transpose() * sum.moment, air.speed(), work_rate, air.hub()};
+}
+
+ChannelGroup MachineAir::channels() const {
+    const char* const axes = "shaft, not turning";
+    ChannelGroup group;
+    group.channels = {{.name = "wind speed",
+                       .units = "m/s",
+                       .long_name = "undisturbed wind at the rotor's centre",
+                       .frame = "ground"},
+                      {.name = "aerodynamic thrust",
+                       .units = "N",
+                       .long_name = "force of the air on the blades along the shaft, downwind",
+                       .frame = axes,
+                       .alias = "RtAeroFxh"},
+                      {.name = "aerodynamic torque",
+                       .units = "N m",
+                       .long_name = "moment of the air on the blades about the shaft, driving",
+                       .frame = axes,
+                       .alias = "RtAeroMxh"},
+                      {.name = "aerodynamic power",
+                       .units = "W",
+                       .long_name = "this moment times the rotor's speed",
+                       .frame = axes,
+                       .alias = "RtAeroPwr"},
+                      {.name = "work rate of the air",
+                       .units = "W",
+                       .long_name = "on the blades, all their motion included",
+                       .frame = "ground"}};
+    group.sample = [air = *this](const ChannelInput& in, double* values) {
+        const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
+        const Rotor now = air.rotor(at);
+        values[0] = air.wind().at(in.time).at(now.centre).norm();
+        values[1] = now.force.x();
+        values[2] = now.moment.x();
+        values[3] = now.power();
+        values[4] = now.work_rate;
+    };
+    return group;
 }
 
 Vec3 hub_at_rest(const Turbine& turbine) {

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "mbs/system/channel.hpp"
 #include "turbines/model/assembly.hpp"
 
 #include <memory>
@@ -44,9 +45,13 @@ public:
     struct Rotor {
         Vec3 force, moment;  ///< N, N m; moment.x(): torque, driving
         double speed;        ///< rate of the rotor centre about the shaft, rad/s
+        double work_rate;    ///< of the air on all that moves the blades, bending included, W
+        Vec3 centre;         ///< of the rotor, base axes, m
         double power() const { return moment.x() * speed; }
     };
     Rotor rotor(const ForceInput& at) const;
+    /// Wind at the rotor's centre, thrust, torque and power of the air on the rotor, rate of its work on all motions.
+    ChannelGroup channels() const;
 
     double radius() const;  ///< of the rotor that is not bent, m
     const AeroBlade& blade() const;

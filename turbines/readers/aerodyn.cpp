@@ -157,25 +157,4 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
     return out;
 }
 
-InflowWindFile read_inflow_wind(const std::filesystem::path& path) {
-    OpenFastFile file = OpenFastFile::read(path);
-    const int kind = file.integer("WindType", 0, 100);
-    if (kind != 1) file.fail("WindType", text("WindType = ", kind, "; allowed: 1, steady wind"));
-    InflowWindFile out;
-    SteadyWind& wind = out.wind;
-    wind.speed = file.number("HWindSpeed");
-    wind.reference_height = file.first_number("RefHt");
-    wind.exponent = file.first_number("PLexp");
-    wind.shear = wind.exponent == 0 ? Shear::none : Shear::power;
-    wind.direction = -file.number("PropagationDir") * units::degree;
-    wind.upflow = file.number_or("VFlowAng", 0) * units::degree;
-    try {
-        wind.check();
-    } catch (const InputError& error) {
-        file.fail("HWindSpeed", error.what());
-    }
-    out.notes = file.notes({{{"*"}, "of other kinds of wind, and output"}});
-    return out;
-}
-
 }  // namespace cardan::turbines

@@ -1,5 +1,5 @@
 /// @file
-/// Aerodynamics from the input files of OpenFAST: AeroDyn 15 with blades and polars, the steady wind of InflowWind.
+/// Aerodynamics from the input files of OpenFAST: AeroDyn 15 with blades and polars.
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
@@ -27,13 +27,5 @@ struct AeroDynFile {
 /// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted or do not reach
 /// around the circle
 AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density = 1.225);
-
-/// InflowWind, a wind of WindType 1: speed at a height, power law, direction, upflow.
-/// @throws ParseError, FileError; other kinds of wind are refused
-struct InflowWindFile {
-    SteadyWind wind;
-    std::vector<FileNote> notes;
-};
-InflowWindFile read_inflow_wind(const std::filesystem::path& path);
 
 }  // namespace cardan::turbines

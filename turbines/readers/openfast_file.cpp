@@ -227,12 +227,26 @@ std::string OpenFastFile::word(std::string_view keyword) {
     return single(keyword).text;
 }
 
-double OpenFastFile::first_number(std::string_view keyword) {
-    Line* const line = find(keyword);
-    if (line == nullptr || line->tokens.size() != 1) return number(keyword);  // which says what is wrong
-    for (Line& other : lines_)
-        if (key_of(other.keyword) == key_of(keyword)) other.used = true;
-    return parsed(line->tokens.front(), line->number, keyword);
+OpenFastFile::Line& OpenFastFile::in_part(std::string_view keyword, int which) {
+    Line* found = nullptr;
+    for (Line& line : lines_) {
+        if (line.heading || key_of(line.keyword) != key_of(keyword)) continue;
+        line.used = true;
+        if (which-- == 0) found = &line;
+    }
+    if (found != nullptr && found->tokens.size() == 1) return *found;
+    static_cast<void>(word(keyword));  // says what is wrong, unless there is the one line for all parts
+    return known(keyword);
+}
+
+double OpenFastFile::number_in_part(std::string_view keyword, int which) {
+    const Line& line = in_part(keyword, which);
+    return parsed(line.tokens.front(), line.number, keyword);
+}
+
+std::filesystem::path OpenFastFile::path_in_part(std::string_view keyword, int which) {
+    const Line& line = in_part(keyword, which);
+    return beside(line.tokens.front().text, line.number, keyword);
 }
 
 double OpenFastFile::number_or_default(std::string_view keyword, double otherwise) {

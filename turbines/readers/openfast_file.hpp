@@ -66,8 +66,10 @@ public:
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);
-    /// The same for a keyword that several parts of a file have: that of the first one. The others count as used.
-    double first_number(std::string_view keyword);
+    /// The same for a keyword that several parts of a file have: that of the part `which`, from 0. The others count as
+    /// used.
+    double number_in_part(std::string_view keyword, int which);
+    std::filesystem::path path_in_part(std::string_view keyword, int which);
     /// What stands in place of a number may be the word "default".
     double number_or_default(std::string_view keyword, double otherwise);
     /// A path relative to the folder of this file.
@@ -125,6 +127,7 @@ private:
     Line* find(std::string_view keyword);
     const Line* find(std::string_view keyword) const;
     Line& known(std::string_view keyword);
+    Line& in_part(std::string_view keyword, int which);
     const Token& single(std::string_view keyword);
     std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;
     std::optional<std::vector<double>> numbers_of(const Line& line) const;

@@ -103,7 +103,7 @@ std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
 }
 
 std::vector<OpenFastFile::Row> OpenFastFile::rows_after(std::string_view keyword) {
-    const double count = first_number(keyword);
+    const double count = number_in_part(keyword, 0);
     std::vector<Row> rows;
     for (auto at = lines_.begin() + (find(keyword) - lines_.data()) + 1; static_cast<double>(rows.size()) < count;
          ++at) {

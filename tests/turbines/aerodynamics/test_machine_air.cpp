@@ -15,8 +15,15 @@ namespace {
 
 using namespace turbines;
 
-const SteadyWind slanted{
-    .speed = 10, .shear = Shear::power, .exponent = 0.2, .direction = 0.25, .veer = 0.001, .upflow = 0.08};
+const SteadyWind slanted{.speed = 10,
+                         .shear = Shear::power,
+                         .exponent = 0.2,
+                         .direction = 0.25,
+                         .veer = 0.001,
+                         .upflow = 0.08,
+                         .lateral = 0.001,
+                         .gust = 0.4,
+                         .vertical = 0.2};
 
 // A state of a machine with what evaluations need.
 class At {
@@ -91,6 +98,7 @@ TEST_CASE("air on a machine: a rotor that is not bent feels what a rigid one doe
                 CHECK(mine.induction.axial == Approx(rigid.induction.axial).epsilon(1e-8));
                 CHECK(mine.force.normal == Approx(rigid.force.normal).epsilon(1e-8));
             }
+        CHECK(own.work_rate == Approx(generalised(machine, air.field(), state).dot(state.qd)).epsilon(1e-9));
         // The channels of loads know of it: without masses in motion the blade's root carries the air alone.
         const Vector Q = generalised(machine, air.field(), state);
         CHECK(Q(machine.rotor().spin) == Approx(expected.moment.x()).epsilon(1e-9));
@@ -171,6 +179,21 @@ TEST_CASE("air on a machine: derivatives are those of the forces", "[property]")
         // Without a skewed wake blades do not feel each other.
         const RotorMap& rotor = machine.rotor();
         CHECK((by_q(rotor.blades[0].back(), rotor.blades[1].back()) == 0) == (skew == Skew::none));
+    }
+}
+
+TEST_CASE("air on a machine: a wind over time is at every instant a steady one", "[property]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    const SteadyWind calm{.speed = 7};
+    const MachineAir air(machine, nrel5mw_aero_blade(), Wind({1, 3, 5}, {calm, slanted, slanted}));
+    CHECK(air.field().breaks == std::vector<double>{1, 3, 5});
+    CHECK(air.on(machine).system().forces.breaks() == std::vector<double>{1, 3, 5});
+    MachineState state = shaken(machine, 3);
+    for (const double time : {0.0, 1.5, 2.5, 4.0}) {
+        state.time = time;
+        const MachineAir steady = air.in(air.wind().at(time));
+        CHECK(steady.wind().is_steady());
+        CHECK(generalised(machine, air.field(), state).isApprox(generalised(machine, steady.field(), state), 1e-14));
     }
 }
 

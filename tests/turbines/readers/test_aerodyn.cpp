@@ -1,4 +1,4 @@
-// AeroDyn's and InflowWind's files: both generations of keywords, what is noted, what is refused.
+// AeroDyn's files: both generations of keywords, what is noted, what is refused.
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
@@ -141,28 +141,6 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     check_error(with("main.dat", "polar_2.dat", "none.dat"), {"main.dat", "AFNames", "none.dat"});
     check_error(with("main.dat", "1.1 AirDens", "-1 AirDens"), {"AirDens = -1; allowed: > 0"});
     check_error(with("main.dat", "2 NumAFfiles - files\n", ""), {"not a file of AeroDyn 15", "NumAFfiles"});
-}
-
-TEST_CASE("inflow wind: steady winds; what has their keywords again; others are refused", "[analytic]") {
-    const Model model(newer);
-    const std::string old =
-        "------- InflowWind INPUT FILE ---\ntitle\n-----\n1 WindType - steady\n30 PropagationDir - deg\n"
-        "===== steady =====\n12 HWindSpeed - m/s\n42.672 RefHt - m\n0.2 PLexp - exponent\n===== uniform =====\n"
-        "\"a.wnd\" Filename - name\n90 RefHt - m\n===== HAWC =====\n10 RefHt - m\n0.1 PLExp - exponent\n";
-    model.write("wind.dat", old);
-    SteadyWind wind = read_inflow_wind(model / "wind.dat").wind;
-    CHECK(wind.speed == 12);
-    CHECK(wind.reference_height == 42.672);
-    CHECK(wind.shear == Shear::power);
-    CHECK(wind.exponent == 0.2);
-    CHECK(wind.direction == Approx(-30 * units::degree));
-    CHECK(wind.at({0, 0, 42.672}).y() == Approx(-6));  // a positive angle turns toward -y
-    model.replace("wind.dat", "1 WindType", "3 WindType");
-    check_error([&] { static_cast<void>(read_inflow_wind(model / "wind.dat")); },
-                {"wind.dat:4", "WindType = 3; allowed: 1"});
-    model.replace("wind.dat", "3 WindType - steady\n", "1 WindType - steady\n8 VFlowAng - deg\n");
-    wind = read_inflow_wind(model / "wind.dat").wind;
-    CHECK(wind.upflow == Approx(8 * units::degree));
 }
 
 }  // namespace cardan::testing::aerodyn_reader_tests

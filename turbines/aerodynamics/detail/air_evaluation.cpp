@@ -54,6 +54,10 @@ Vec3 AirEvaluation::velocity(int body, const Vec3& place) const {
     return rate.origin + cross<double>(rate.angular, place - entry(kin_.workspace().frame, body).o.vector());
 }
 
+double AirEvaluation::power(const Wrench& wrench, int body, const Vec3& place) const {
+    return wrench.force.dot(velocity(body, place)) + wrench.moment.dot(entry(scratch_.rates, body).angular);
+}
+
 double AirEvaluation::speed() const {
     Vec3 turning = entry(scratch_.rates, parts_.hub_body).angular;
     if (parts_.shaft_body >= 0) turning -= entry(scratch_.rates, parts_.shaft_body).angular;

@@ -88,6 +88,8 @@ public:
     const Vec3& shaft() const { return shaft_; }
     const Vec3& hub() const { return hub_; }
     double speed() const;  ///< of the rotor about the shaft, rad/s
+    /// Of a wrench about a place that is fixed to a body, W.
+    double power(const Wrench& wrench, int body, const Vec3& place) const;
     double density() const { return wind_.density; }
     /// Adds dQ/dq and dQ/dqd.
     void add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd);
