@@ -15,6 +15,7 @@
 #include "turbines/model/assembly.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace cardan::turbines {
@@ -26,6 +27,8 @@ public:
     /// @throws InputError for a machine without blades, sections beyond the ends of the blade, and as
     /// AeroBlade::check()
     MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options = {});
+    MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind, const RotorAirOptions& options = {})
+        : MachineAir(turbine, std::move(blade), Wind(wind), options) {}
 
     /// The same in another wind.
     MachineAir in(const Wind& wind) const;
