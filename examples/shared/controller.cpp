@@ -32,7 +32,9 @@ double mean_pitch(const turbines::MachineLayout& layout, const Model& model, con
 // Channels of a machine at a sample, by their names in OpenFAST.
 class Sensors {
 public:
-    explicit Sensors(const turbines::Turbine& turbine) : turbine_(turbine), groups_(turbines::channels(turbine)) {
+    Sensors(const turbines::Turbine& turbine, const std::vector<ChannelGroup>& also)
+        : turbine_(turbine), groups_(turbines::channels(turbine)) {
+        groups_.insert(groups_.end(), also.begin(), also.end());
         std::size_t count = 0;
         for (const ChannelGroup& group : groups_)
             for (const Channel& channel : group.channels) {
@@ -79,6 +81,7 @@ BladedController::Measured measured(const Sensors& sensors, const turbines::Mach
     now.rotor_speed = sensors.at("RotSpeed");
     now.azimuth = sensors.at("Azimuth");
     now.yaw = sensors.at("NacYaw");
+    now.wind_speed = sensors.at("HorWindV");
     now.tower_acceleration = sensors.at("YawBrTAxp");
     now.nacelle_nodding = sensors.nodding();
     for (std::size_t k = 0; k < layout.blade_numbers.size() && k < 3; ++k) {
@@ -106,13 +109,13 @@ solvers::SampledController baseline_controller(const ControllerOptions& options,
 }
 
 solvers::SampledController library_controller(const ControllerOptions& options, const turbines::Turbine& turbine,
-                                              const std::string& prefix) {
+                                              const std::string& prefix, const std::vector<ChannelGroup>& also) {
     const turbines::MachineLayout& layout = turbine.layout();
     const auto blades = static_cast<int>(layout.pitch.size());
     const auto library = std::make_shared<BladedController>(
         options.what, BladedController::Options{
                           .input = options.input, .output = prefix, .blades = blades, .period = options.period});
-    const auto sensors = std::make_shared<Sensors>(turbine);
+    const auto sensors = std::make_shared<Sensors>(turbine, also);
     const int state = turbine.system().forces.states().index(turbines::torque_state);
     solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = options.period};
     controller.update = [=, efficiency = options.efficiency, layout = layout](const solvers::SampleInput& in,
@@ -176,14 +179,15 @@ double start_torque(const ControllerOptions& options, double ratio, double speed
 }
 
 ControlledMachine controlled_machine(const ControllerOptions& options, const turbines::Turbine& machine, double torque,
-                                     const std::string& prefix, const ControlSignal& more,
+                                     const std::string& prefix, const std::vector<ChannelGroup>& also,
+                                     const ControlSignal& more,
                                      const turbines::ActuatorOptions& actuators) {
     const turbines::ActuatedForces actuated(machine, actuators);
     const bool individual = !options.is_baseline();
     const turbines::Turbine turbine = machine.with_forces(actuated.with_inputs(torque, individual, more),
                                                           text(in_words(options), ", torque ", torque, " N m"));
     solvers::SampledController controller =
-        options.is_baseline() ? baseline_controller(options, turbine) : library_controller(options, turbine, prefix);
+        options.is_baseline() ? baseline_controller(options, turbine) : library_controller(options, turbine, prefix, also);
     controller.inputs = actuated.inputs(individual);
     return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency)};
 }

@@ -44,11 +44,13 @@ struct ControlledMachine {
 /// @param machine  whose pitch bearings have springs: turbines::give_pitch_springs()
 /// @param torque   of the generator at the start, N m
 /// @param prefix   of files that a library writes
+/// @param also     channels that a library measures beside those of any machine
 /// @param more     added to the demanded torque, N m
 /// @param actuators  how demands are followed
 /// @throws FileError for a library that cannot be loaded or has no function DISCON
 ControlledMachine controlled_machine(const ControllerOptions& options, const turbines::Turbine& machine, double torque,
-                                     const std::string& prefix, const ControlSignal& more = signal::constant(0),
+                                     const std::string& prefix, const std::vector<ChannelGroup>& also = {},
+                                     const ControlSignal& more = signal::constant(0),
                                      const turbines::ActuatorOptions& actuators = {});
 
 /// For the file of a run.

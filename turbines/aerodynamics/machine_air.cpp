@@ -112,8 +112,9 @@ ChannelGroup MachineAir::channels() const {
     ChannelGroup group;
     group.channels = {{.name = "wind speed",
                        .units = "m/s",
-                       .long_name = "undisturbed wind at the rotor's centre",
-                       .frame = "ground"},
+                       .long_name = "horizontal, at the rotor's centre, undisturbed",
+                       .frame = "ground",
+                       .alias = "HorWindV"},
                       {.name = "aerodynamic thrust",
                        .units = "N",
                        .long_name = "force of the air on the blades along the shaft, downwind",
@@ -136,7 +137,7 @@ ChannelGroup MachineAir::channels() const {
     group.sample = [air = *this](const ChannelInput& in, double* values) {
         const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
         const Rotor now = air.rotor(at);
-        values[0] = air.wind().at(in.time).at(now.centre).norm();
+        values[0] = air.wind().at(in.time).at(now.centre).head<2>().norm();
         values[1] = now.force.x();
         values[2] = now.moment.x();
         values[3] = now.power();

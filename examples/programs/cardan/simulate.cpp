@@ -4,14 +4,16 @@
 // under gravity, periodic where it is: two blades, unequal blades, gravity itself. From there its equations of motion
 // are integrated with the rotor free, against a constant torque of the generator or one that rises with its speed, or
 // driven at constant speed; or under a controller, which sets pitch and torque of the generator. Coordinates may start
-// elsewhere, to see their motion decay. There is no wind, but a torque may drive the rotor.
-// Checks: the energy balance, by the integration and by the recorded powers of generator and rotor torque.
+// elsewhere, to see their motion decay. What drives the rotor is the air, steady or over time, or a given torque.
+// Checks: the energy balance, by the integration and by the recorded powers of generator, air and rotor torque.
 #include "elements/machine/coordinate_force.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/model/channels.hpp"
 
+#include "examples/programs/cardan/air.hpp"
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
 #include "examples/shared/channel_choice.hpp"
@@ -31,9 +33,10 @@ struct SimulateArguments {
     RunArguments run;
     StationOptions stations;
     ControllerOptions controller;
-    std::optional<double> rpm;
-    std::string start = "steady", rotor_torque;
-    double azimuth = 0, torque = 0, slope = 0;
+    AirArguments air;
+    std::optional<double> rpm, torque;
+    std::string start = "steady", rotor_torque, wind;
+    double azimuth = 0, slope = 0;
     bool no_gravity = false, list = false;
     std::vector<std::string> plot, q, qd;
 };
@@ -52,9 +55,12 @@ void declare(CommandLine& app, SimulateArguments& a) {
     app.add_option(
         "--generator-torque", a.torque,
         "of the generator on its own shaft, N m, constant, or with a controller at the start; positive brakes "
-        "positive rotation");
+        "positive rotation (default: none; in the wind that of the air in steady rotation)");
     app.add_option("--generator-slope", a.slope,
                    "rise of this torque with the generator's speed above that at the start, as of slip, N m s/rad");
+    app.add_option("--wind", a.wind, std::string("speed at the hub's height: ") + wind_file_format)
+        .type_name("SPEED|FILE");
+    add_air_options(app, a.air);
     add_rotor_torque(app, a.rotor_torque);
     add_controller_options(app, a.controller);
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
@@ -157,11 +163,26 @@ std::vector<solvers::HistoryPanel> controlled_panels(const turbines::MachineLayo
     return all;
 }
 
+// In the air: the wind first, the power of the air with that of the generator.
+std::vector<solvers::HistoryPanel> with_air(std::vector<solvers::HistoryPanel> all) {
+    const std::string power = "aerodynamic power";
+    const auto generator = std::ranges::find_if(
+        all, [](const solvers::HistoryPanel& panel) { return panel.channels.front() == "generator power"; });
+    if (generator == all.end())
+        all.insert(all.begin() + (all.empty() ? 0 : 1), {{power}});
+    else
+        generator->channels.insert(generator->channels.begin(), power);
+    all.insert(all.begin(), {{"wind speed"}});
+    return all;
+}
+
 // What was asked for, or what there is of the usual ones.
 std::vector<solvers::HistoryPanel> panels(const SimulateArguments& a, const turbines::MachineLayout& layout,
                                           const std::vector<Channel>& channels) {
-    if (a.plot.empty())
-        return a.controller.acts() ? controlled_panels(layout, channels) : usual_panels(layout, channels);
+    if (a.plot.empty()) {
+        const auto usual = a.controller.acts() ? controlled_panels(layout, channels) : usual_panels(layout, channels);
+        return a.wind.empty() ? usual : with_air(usual);
+    }
     std::vector<solvers::HistoryPanel> all;
     const solvers::History names{"--plot", channels, {}, {}};
     for (const std::string& joined : a.plot) {
@@ -182,6 +203,7 @@ std::string options_of(const SimulateArguments& a, double speed, const RotorTorq
     for (const std::string& word : a.qd) changed += ", qd " + word;
     if (a.controller.acts()) changed += ", " + in_words(a.controller);
     if (rotor.acts()) changed += ", " + rotor.in_words();
+    if (!a.wind.empty()) changed += text(", wind ", a.wind, ", ", in_words(a.air));
     return text("start ", a.start, " at ", speed, " rad/s, azimuth ", a.azimuth, " deg", changed, ", ",
                 options_text(a.run));
 }
@@ -196,7 +218,8 @@ std::vector<solvers::Drive> drives(bool driven, int spin, const Start& start) {
 double recorded_work(const solvers::History& history) {
     double sum = 0;
     if (has(history.channels, "generator power")) sum -= integral(history, "generator power");
-    if (has(history.channels, "rotor torque power")) sum += integral(history, "rotor torque power");
+    for (const char* driving : {"rotor torque power", "work rate of the air"})
+        if (has(history.channels, driving)) sum += integral(history, driving);
     return sum;
 }
 
@@ -208,13 +231,15 @@ bool check_balance(solvers::Integrator& integrator, const solvers::History& hist
     const double scale = parked ? exchanged : kinetic;
     std::printf("\n");
     bool good = check_energy(end, scale, 10 * a.run.tolerance, parked);
-    const bool generator = has(history.channels, "generator power"),
-               rotor = has(history.channels, "rotor torque power");
-    if ((generator || rotor) && history.time.size() > 1) {
+    std::string loads;
+    for (const auto& [channel, name] : {std::pair("generator power", "generator"),
+                                        {"rotor torque power", "rotor torque"},
+                                        {"work rate of the air", "air"}})
+        if (has(history.channels, channel)) loads += text(loads.empty() ? "" : ", ", name);
+    if (!loads.empty() && history.time.size() > 1) {
         // What pitch drives do counts as a load as well.
         const double pitching = end.state_supply - end.state_dissipation;
-        good = check(rotor ? "recorded powers of rotor and generator against their work, likewise"
-                           : "recorded power of the generator against its work, likewise",
+        good = check(text("recorded power of ", loads, " against its work, likewise").c_str(),
                      (end.loads - pitching - recorded_work(history)) / scale, a.run.step / 4) &&
                good;
     }
@@ -232,22 +257,72 @@ struct Subject {
     std::string title, about;  // for the file: without the command, which differs if a run goes on
 };
 
+// What is simulated, and what its start is looked for with.
+struct Pair {
+    turbines::Turbine turbine, at_start;
+};
+
+Pair in_the_air(const turbines::Turbine& machine, const std::optional<turbines::MachineAir>& air) {
+    if (!air) return {machine, machine};
+    return {air->on(machine), air->in(air->wind().at(0)).on(machine)};
+}
+
+std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, const MachineFile& machine,
+                                           const SimulateArguments& a) {
+    if (a.wind.empty()) return std::nullopt;
+    const Air air = air_of(machine, a.machine, a.air);
+    const SteadyWind profile = wind_profile(a.air, air, turbines::hub_at_rest(turbine).z());
+    return turbines::MachineAir(turbine, air.blade, wind_of(a.wind, profile, a.machine.notes), air.options);
+}
+
+// About the shaft, mean over a revolution in steady rotation, N m.
+double torque_of(const turbines::MachineAir& air, const turbines::Turbine& at_start, double speed) {
+    if (speed == 0) return 0;
+    constexpr int azimuths = 24;
+    const solvers::PeriodicSteadyState state = [&] {
+        try {
+            return steady_rotation(at_start, speed, 8, good_start);
+        } catch (const NumericalError& error) {
+            throw NumericalError(text(error.what(), "; give the generator's torque: --generator-torque"));
+        }
+    }();
+    const Model& model = at_start.system().model;
+    Workspace workspace(model);
+    double sum = 0;
+    for (int i = 0; i < azimuths; ++i) {
+        const solvers::OperatingPoint at = state.at(2 * pi * i / azimuths);
+        const Kinematics kin = kinematics(model, at.q, workspace);
+        sum += air.rotor({0, at.q, at.qd, kin, no_states, no_states}).moment.x();
+    }
+    return sum / azimuths;
+}
+
 // With a generator as the options say.
-Subject uncontrolled(const SimulateArguments& a, const turbines::Turbine& machine, double speed) {
-    const double ratio = machine.layout().gear_ratio;
-    const ConstantGenerator generator{a.torque, a.slope, ratio * speed, ratio, *machine.layout().generator};
-    const turbines::Turbine turbine = with_generator(machine, generator);
-    Subject subject{turbine, turbine, {}, {}, speed, false, {}, {}};
+Subject uncontrolled(const SimulateArguments& a, const Pair& machine, double speed, double rotor_torque) {
+    const double ratio = machine.turbine.layout().gear_ratio;
+    const ConstantGenerator generator{a.torque.value_or(rotor_torque / ratio), a.slope, ratio * speed, ratio,
+                                      *machine.turbine.layout().generator};
+    Subject subject{with_generator(machine.turbine, generator),
+                    with_generator(machine.at_start, generator),
+                    {},
+                    {},
+                    speed,
+                    false,
+                    {},
+                    {}};
     if (generator.acts()) subject.channels.push_back(generator_channels(generator));
     return subject;
 }
 
-Subject controlled(const SimulateArguments& a, const turbines::Turbine& machine, double speed,
-                   const RotorTorque& rotor) {
-    const double ratio = machine.layout().gear_ratio, pitch = machine.layout().pitch_settings.front(),
-                 own = start_torque(a.controller, ratio, speed, pitch, rotor.acts() ? rotor.first() : 0);
-    ControlledMachine under = controlled_machine(a.controller, machine, a.torque != 0 ? a.torque : own, a.run.out);
-    return {under.turbine, machine, {std::move(under.controller)}, {std::move(under.channels)}, speed, false, {}, {}};
+Subject controlled(const SimulateArguments& a, const Pair& machine, double speed, double rotor_torque,
+                   const std::vector<ChannelGroup>& measured) {
+    const turbines::MachineLayout& layout = machine.turbine.layout();
+    const double own =
+        start_torque(a.controller, layout.gear_ratio, speed, layout.pitch_settings.front(), rotor_torque);
+    ControlledMachine under =
+        controlled_machine(a.controller, machine.turbine, a.torque.value_or(own), a.run.out, measured);
+    return {under.turbine, machine.at_start, {std::move(under.controller)}, {std::move(under.channels)}, speed, false,
+            {},            {}};
 }
 
 void add_rotor_torque(const RotorTorque& rotor, Subject& subject) {
@@ -274,8 +349,19 @@ Subject subject_of(SimulateArguments& a) {
     set_pitch(machine, a.machine, speed);
     const ReadyMachine ready = ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
     std::cout << in_words(ready.mesh) << "\n";
-    Subject subject =
-        a.controller.acts() ? controlled(a, ready.turbine, speed, rotor) : uncontrolled(a, ready.turbine, speed);
+    const std::optional<turbines::MachineAir> air = air_on(ready.turbine, machine, a);
+    const Pair pair = in_the_air(ready.turbine, air);
+    std::vector<ChannelGroup> wind;
+    double driving = 0;
+    if (air) {
+        wind.push_back(air->channels());
+        if (!a.torque && machine.file.dofs.generator) driving = torque_of(*air, pair.at_start, speed);
+    } else if (a.controller.acts() && rotor.acts()) {
+        driving = rotor.first();
+    }
+    Subject subject = a.controller.acts() ? controlled(a, pair, speed, driving, wind)
+                                          : uncontrolled(a, pair, speed, driving);
+    subject.channels.insert(subject.channels.end(), wind.begin(), wind.end());
     add_rotor_torque(rotor, subject);
     subject.driven = !machine.file.dofs.generator;
     const std::string foundation = foundation_in_words(machine);
@@ -353,8 +439,7 @@ int run(SimulateArguments& a, const CommandLine& command) {
 int simulate_command(int argc, char** argv) {
     return run_command<SimulateArguments>(
         "cardan simulate",
-        "Motion of any machine in time, without wind: gravity, a rotor that is free or driven, a generator, a "
-        "controller.\n"
+        "Motion of any machine in time: gravity, wind, a rotor that is free or driven, a generator, a controller.\n"
         "Prints the largest loads and the balance of energy; writes PREFIX.h5, .svg, .png, _energy.png and "
         "_spectrum.png (second half).",
         argc, argv, declare, run);

@@ -8,11 +8,8 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/operation/wind_operation.hpp"
-#include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/csv.hpp"
-#include "turbines/readers/openfast_file.hpp"
 
 #include "examples/programs/cardan/operation.hpp"
 #include "examples/programs/cardan/wind_results.hpp"
@@ -29,40 +26,6 @@ namespace {
 
 using turbines::WindPoint;
 constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m/s";
-
-// Profiles and options of the air, and what a machine that is built in does in the wind.
-struct Air {
-    AeroBlade blade;
-    RotorAirOptions options;
-    double density = 1.225;
-    double rated_power = 0, least_speed = 0;  // W, rad/s; 0: not known
-};
-
-Air air_of(const MachineFile& machine, const MachineOptions& options, const WindArguments& wind) {
-    const double hub_radius = machine.file.description.hub.radius;
-    std::filesystem::path file = wind.air;
-    if (file.empty() && machine.kind == MachineKind::openfast) {
-        turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
-        if (main.has("AeroFile")) file = main.path("AeroFile");
-    }
-    Air air;
-    if (!file.empty()) {
-        turbines::AeroDynFile read = turbines::read_aerodyn(file, hub_radius);
-        print_notes(read.notes, options.notes);
-        air.blade = std::move(read.blade);
-        air.options = read.options;
-        air.density = read.density;
-    } else if (options.model.starts_with("nrel5mw")) {
-        air.blade = turbines::nrel5mw_aero_blade();
-        air.rated_power = 5e6 / 0.944;  // with the losses of the generator, Table 5-1
-        air.least_speed = 6.9 * units::rpm;
-    } else {
-        throw InputError("--air", "value", "none, and the machine has no profiles", "FILE, the main file of AeroDyn");
-    }
-    if (wind.no_skew) air.options.skew = Skew::none;
-    if (wind.density) air.density = *wind.density;
-    return air;
-}
 
 turbines::VariableSpeed law_of(const MachineFile& machine, const MachineOptions& options, const WindArguments& wind,
                                const Air& air) {
@@ -98,8 +61,6 @@ std::vector<turbines::Operation> schedule_of(const std::string& path) {
 
 void add_wind_options(CommandLine& app, WindArguments& a) {
     app.add_option("--wind", a.speeds, std::string("wind speeds at the hub's height, ") + wind_format);
-    app.add_option("--air", a.air, "profiles: the main file of AeroDyn 15 (default: that of the model)")
-        .type_name("FILE");
     app.add_option(
            "--schedule", a.schedule,
            "how the machine runs: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg] (default: variable "
@@ -110,31 +71,21 @@ void add_wind_options(CommandLine& app, WindArguments& a) {
     app.add_option("--least-rpm", a.least_rpm, "rotor speed at least, rev/min");
     app.add_option("--tip-speed-ratio", a.tip_speed_ratio,
                    "below rated power (default: that of the largest power coefficient at --pitch)");
-    app.add_option("--shear", a.shear, "exponent of the wind's profile over the height");
-    app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
-    app.add_option("--upflow", a.upflow, "of the wind, deg");
-    app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
-    app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
+    add_air_options(app, a.air);
 }
 
 int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind, int harmonics,
                    int azimuths, const std::string& prefix, const CommandLine& command) {
     const turbines::TurbineDescription& d = machine.file.description;
     const std::vector<double> speeds = numbers_in_ranges("--wind", wind.speeds, wind_format);
-    const Air air = air_of(machine, options, wind);
+    const Air air = air_of(machine, options, wind.air);
     if (!options.pitch) set_pitch(machine, options, machine.file.rotor_speed);
     const ReadyMachine ready =
         ready_machine(machine, options, usual_frequency(machine, options), machine.file.rotor_speed);
     check_outputs(prefix, {".h5", ".csv", ".svg", ".png"});
 
     turbines::WindOperationOptions in_wind;
-    const Vec3 hub = turbines::hub_at_rest(ready.turbine);
-    in_wind.wind = {.reference_height = hub.z(),
-                    .shear = wind.shear == 0 ? Shear::none : Shear::power,
-                    .exponent = wind.shear,
-                    .direction = wind.direction * units::degree,
-                    .upflow = wind.upflow * units::degree,
-                    .density = air.density};
+    in_wind.wind = wind_profile(wind.air, air, turbines::hub_at_rest(ready.turbine).z());
     in_wind.air = air.options;
     in_wind.harmonics = harmonics;
     in_wind.azimuths = azimuths;

@@ -96,7 +96,7 @@ program::ControlledMachine sampled_machine(const Plant& plant, const std::functi
     program::ControllerOptions options;
     options.what = "baseline";
     options.efficiency = 0.944;
-    return program::controlled_machine(options, plant.turbine.with_forces(forces), plant.point.torque, "", more,
+    return program::controlled_machine(options, plant.turbine.with_forces(forces), plant.point.torque, "", {}, more,
                                        actuators);
 }
 

@@ -1,0 +1,81 @@
+#include "examples/programs/cardan/air.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/text_file.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/readers/aerodyn.hpp"
+#include "turbines/readers/inflow_wind.hpp"
+#include "turbines/readers/openfast_file.hpp"
+
+#include "examples/shared/words.hpp"
+#include <filesystem>
+#include <utility>
+
+namespace cardan::program {
+
+void add_air_options(CommandLine& app, AirArguments& a) {
+    app.add_option("--air", a.file, "profiles: the main file of AeroDyn 15 (default: that of the model)")
+        .type_name("FILE");
+    app.add_option("--shear", a.shear, "exponent of the wind's profile over the height");
+    app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
+    app.add_option("--upflow", a.upflow, "of the wind, deg");
+    app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
+    app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
+}
+
+std::string in_words(const AirArguments& a) {
+    return text("air ", a.file.empty() ? "of the machine" : a.file, ", shear ", a.shear, ", direction ", a.direction,
+                " deg, upflow ", a.upflow, " deg, density ", a.density ? text(*a.density) : "of the air's file",
+                a.no_skew ? ", no skew" : "");
+}
+
+Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments) {
+    const double hub_radius = machine.file.description.hub.radius;
+    std::filesystem::path file = arguments.file;
+    if (file.empty() && machine.kind == MachineKind::openfast) {
+        turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
+        if (main.has("AeroFile")) file = main.path("AeroFile");
+    }
+    Air air;
+    if (!file.empty()) {
+        turbines::AeroDynFile read = turbines::read_aerodyn(file, hub_radius);
+        print_notes(read.notes, options.notes);
+        air.blade = std::move(read.blade);
+        air.options = read.options;
+        air.density = read.density;
+    } else if (options.model.starts_with("nrel5mw")) {
+        air.blade = turbines::nrel5mw_aero_blade();
+        air.rated_power = 5e6 / 0.944;  // with the losses of the generator, Table 5-1
+        air.least_speed = 6.9 * units::rpm;
+    } else {
+        throw InputError("--air", "value", "none, and the machine has no profiles", "FILE, the main file of AeroDyn");
+    }
+    if (arguments.no_skew) air.options.skew = Skew::none;
+    if (arguments.density) air.density = *arguments.density;
+    return air;
+}
+
+SteadyWind wind_profile(const AirArguments& arguments, const Air& air, double height) {
+    return {.reference_height = height,
+            .shear = arguments.shear == 0 ? Shear::none : Shear::power,
+            .exponent = arguments.shear,
+            .direction = arguments.direction * units::degree,
+            .upflow = arguments.upflow * units::degree,
+            .density = air.density};
+}
+
+Wind wind_of(const std::string& given, const SteadyWind& profile, bool all_notes) {
+    const std::filesystem::path path = given;
+    if (std::filesystem::exists(path)) {
+        if (lower_case(path.extension().string()) == ".csv") return turbines::read_wind_table(path, profile);
+        turbines::InflowWindFile read = turbines::read_inflow_wind(path, profile.density);
+        print_notes(read.notes, all_notes);
+        return std::move(read.wind);
+    }
+    SteadyWind wind = profile;
+    wind.speed = number("--wind", given, given, wind_file_format);
+    return wind;
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,46 @@
+/// @file
+/// Air on a machine, as programs are told of it: profiles, options, wind.
+#pragma once
+
+#include "elements/aerodynamics/rigid_rotor.hpp"
+
+#include "examples/shared/command_line.hpp"
+#include "examples/shared/machine_file.hpp"
+#include <optional>
+#include <string>
+
+namespace cardan::program {
+
+struct AirArguments {
+    std::string file;                  ///< AeroDyn's main file; empty: the machine's
+    double shear = 0;                  ///< exponent
+    double direction = 0, upflow = 0;  ///< deg
+    std::optional<double> density;
+    bool no_skew = false;
+};
+void add_air_options(CommandLine& app, AirArguments& arguments);
+/// For the file of a run.
+std::string in_words(const AirArguments& arguments);
+
+/// Profiles and options of the air, and what a machine that is built in does in the wind.
+struct Air {
+    AeroBlade blade;
+    RotorAirOptions options;
+    double density = 1.225;
+    double rated_power = 0, least_speed = 0;  // W, rad/s; 0: not known
+};
+/// @throws InputError for a machine without profiles; as the readers
+Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments);
+
+/// As the options say, without a speed.
+/// @param height  of the rotor's centre, m
+SteadyWind wind_profile(const AirArguments& arguments, const Air& air, double height);
+
+inline constexpr const char* wind_file_format =
+    "SPEED in m/s, or FILE: CSV with time[s],speed[m/s] and more, or InflowWind's main file";
+/// A steady wind, or one over time.
+/// @param profile  for what the file does not say
+/// @throws InputError, ParseError, FileError
+Wind wind_of(const std::string& given, const SteadyWind& profile, bool all_notes);
+
+}  // namespace cardan::program
