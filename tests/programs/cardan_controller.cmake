@@ -2,7 +2,7 @@
 set(small nrel5mw-fast --blade-elements 1 --tower-elements 1 --tolerance 1e-5 --step 0.05 --no-gravity)
 set(driven --rotor-torque 4.18e6)
 add_example_test(example_controller_baseline cardan 0
-    "rotor free, 3 s.*energy lost.*ok.*recorded powers of rotor and generator against their work.*ok.*example_controller_baseline.h5 .61 samples"
+    "rotor free, 3 s.*energy lost.*ok.*recorded power of generator, rotor torque against its work.*ok.*example_controller_baseline.h5 .61 samples"
     simulate ${small} ${driven} --controller baseline --generator-efficiency 0.944 --duration 3 --pitch 5 --out example_controller_baseline)
 set_tests_properties(example_controller_baseline PROPERTIES FIXTURES_SETUP controlled_run)
 add_example_test(example_controller_channels cardan 0
@@ -39,7 +39,7 @@ add_example_test(example_controller_library_resume cardan 1 "--resume: controlle
 file(WRITE ${test_output_dir}/rotor_torque.csv "time[s],torque[N m]\n0,3e6\n1,3e6\n1.2,4e6\n")
 file(WRITE ${test_output_dir}/rotor_torque_back.csv "time[s],torque[N m]\n0,3e6\n0,4e6\n")
 add_example_test(example_controller_rotor_torque cardan 0
-    "energy lost.*ok.*recorded powers of rotor and generator against their work.*ok" simulate ${small} --rotor-torque rotor_torque.csv
+    "energy lost.*ok.*recorded power of generator, rotor torque against its work.*ok" simulate ${small} --rotor-torque rotor_torque.csv
     --generator-torque 3e4 --duration 2 --out example_controller_rotor_torque)
 # Bad usage.
 add_example_test(example_controller_other_machine cardan 1

@@ -6,7 +6,7 @@ add_example_test(example_turbine_time_wt600 cardan 0
     "generator and yaw bearing free\n.*from 32.9229 rpm, rotor free, 3 s.*blade 3 root moment y.*energy lost.*ok.*example_turbine_time_wt600.h5 .61 samples.*_energy.png" simulate
     wt600 ${coarse} --out example_turbine_time_wt600)
 add_example_test(example_turbine_time_generator cardan 0
-    "generator torque.*energy lost.*ok.*recorded power of the generator against its work.*ok" simulate
+    "generator torque.*energy lost.*ok.*recorded power of generator against its work.*ok" simulate
     wt600 ${coarse} --rpm 20 --generator-torque 500 --generator-slope 20 --out example_turbine_time_generator)
 # The same by the library's own calls, written by hand: tests/regression/test_simulate.cpp.
 add_test(NAME example_turbine_time_by_hand COMMAND test_regression "cardan simulate: the file of the program*"

@@ -6,40 +6,22 @@
 // driven at constant speed; or under a controller, which sets pitch and torque of the generator. Coordinates may start
 // elsewhere, to see their motion decay. What drives the rotor is the air, steady or over time, or a given torque.
 // Checks: the energy balance, by the integration and by the recorded powers of generator, air and rotor torque.
-#include "elements/machine/coordinate_force.hpp"
+#include "examples/programs/cardan/simulate.hpp"
+
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/model/channels.hpp"
 
-#include "examples/programs/cardan/air.hpp"
 #include "examples/programs/cardan/commands.hpp"
-#include "examples/programs/cardan/operation.hpp"
 #include "examples/shared/channel_choice.hpp"
-#include "examples/shared/controller.hpp"
 #include "examples/shared/named_values.hpp"
-#include "examples/shared/rotor_torque.hpp"
-#include "examples/shared/simulation_run.hpp"
 #include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
 
 namespace cardan::program {
 
 namespace {
-
-struct SimulateArguments {
-    MachineOptions machine;
-    RunArguments run;
-    StationOptions stations;
-    ControllerOptions controller;
-    AirArguments air;
-    std::optional<double> rpm, torque;
-    std::string start = "steady", rotor_torque, wind;
-    double azimuth = 0, slope = 0;
-    bool no_gravity = false, list = false;
-    std::vector<std::string> plot, q, qd;
-};
 
 void declare(CommandLine& app, SimulateArguments& a) {
     a.run.duration = 20;
@@ -74,46 +56,6 @@ void declare(CommandLine& app, SimulateArguments& a) {
                  "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration");
 }
 
-// T = torque + slope (speed - speed at the start), of the generator on its own shaft.
-struct ConstantGenerator {
-    double torque = 0, slope = 0, start = 0, ratio = 1;  // N m, N m s/rad, rad/s, -
-    BodyId shaft;
-
-    double at(double rate) const { return torque + slope * (ratio * rate - start); }
-    bool acts() const { return torque != 0 || slope != 0; }
-};
-
-turbines::Turbine with_generator(const turbines::Turbine& turbine, const ConstantGenerator& generator) {
-    if (!generator.acts()) return turbine;
-    ForceSet forces = turbine.forces();
-    const auto law = [generator](double, double, double rate) {
-        return CoordinateLaw{.force = -generator.ratio * generator.at(rate),
-                             .by_rate = -generator.ratio * generator.ratio * generator.slope};
-    };
-    forces.add_user(coordinate_force("generator", generator.shaft, law, false));
-    return turbine.with_forces(forces, text("generator: ", generator.torque, " N m + ", generator.slope,
-                                            " N m s/rad (speed - ", generator.start, " rad/s), on its own shaft"));
-}
-
-ChannelGroup generator_channels(const ConstantGenerator& generator) {
-    ChannelGroup group;
-    group.channels = {{.name = "generator torque",
-                       .units = "N m",
-                       .long_name = "torque of the generator, positive: brakes",
-                       .frame = "axis of the generator shaft",
-                       .alias = "GenTq"},
-                      {.name = "generator power",
-                       .units = "W",
-                       .long_name = "mechanical power taken from the shaft",
-                       .frame = "axis of the generator shaft"}};
-    group.sample = [generator](const ChannelInput& in, double* values) {
-        const double rate = in.qd(in.kinematics.model().index(generator.shaft));
-        values[0] = generator.at(rate);
-        values[1] = values[0] * generator.ratio * rate;
-    };
-    return group;
-}
-
 solvers::OperatingPoint at_rest(const turbines::Turbine& turbine, double azimuth) {
     solvers::SteadyOptions options;
     options.azimuth = azimuth;
@@ -121,8 +63,6 @@ solvers::OperatingPoint at_rest(const turbines::Turbine& turbine, double azimuth
     require_result(state);
     return state.at;
 }
-
-constexpr double good_start = 1e-6;  // rad or m
 
 // Empty, with the reason printed: there is no steady state, or it was not found.
 std::optional<Start> steady_start(const turbines::Turbine& turbine, double speed, double azimuth) {
@@ -197,17 +137,6 @@ void print(const std::vector<Channel>& channels) {
         std::printf("%-44s %-10s %-8s %s\n", c.name.c_str(), c.alias.c_str(), c.units.c_str(), c.long_name.c_str());
 }
 
-std::string options_of(const SimulateArguments& a, double speed, const RotorTorque& rotor) {
-    std::string changed;
-    for (const std::string& word : a.q) changed += ", q " + word;
-    for (const std::string& word : a.qd) changed += ", qd " + word;
-    if (a.controller.acts()) changed += ", " + in_words(a.controller);
-    if (rotor.acts()) changed += ", " + rotor.in_words();
-    if (!a.wind.empty()) changed += text(", wind ", a.wind, ", ", in_words(a.air));
-    return text("start ", a.start, " at ", speed, " rad/s, azimuth ", a.azimuth, " deg", changed, ", ",
-                options_text(a.run));
-}
-
 // A rotor that is driven turns on at the speed of the start.
 std::vector<solvers::Drive> drives(bool driven, int spin, const Start& start) {
     if (!driven) return {};
@@ -244,131 +173,6 @@ bool check_balance(solvers::Integrator& integrator, const solvers::History& hist
                good;
     }
     return good;
-}
-
-// The machine as it runs here.
-struct Subject {
-    turbines::Turbine turbine;
-    turbines::Turbine at_start;  // the same without anything that changes: springs in the place of actuators
-    std::vector<solvers::SampledController> controllers;
-    std::vector<ChannelGroup> channels;  // beside those of any machine
-    double speed;                        // rad/s, at the start
-    bool driven;
-    std::string title, about;  // for the file: without the command, which differs if a run goes on
-};
-
-// What is simulated, and what its start is looked for with.
-struct Pair {
-    turbines::Turbine turbine, at_start;
-};
-
-Pair in_the_air(const turbines::Turbine& machine, const std::optional<turbines::MachineAir>& air) {
-    if (!air) return {machine, machine};
-    return {air->on(machine), air->in(air->wind().at(0)).on(machine)};
-}
-
-std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, const MachineFile& machine,
-                                           const SimulateArguments& a) {
-    if (a.wind.empty()) return std::nullopt;
-    const Air air = air_of(machine, a.machine, a.air);
-    const SteadyWind profile = wind_profile(a.air, air, turbines::hub_at_rest(turbine).z());
-    return turbines::MachineAir(turbine, air.blade, wind_of(a.wind, profile, a.machine.notes), air.options);
-}
-
-// About the shaft, mean over a revolution in steady rotation, N m.
-double torque_of(const turbines::MachineAir& air, const turbines::Turbine& at_start, double speed) {
-    if (speed == 0) return 0;
-    constexpr int azimuths = 24;
-    const solvers::PeriodicSteadyState state = [&] {
-        try {
-            return steady_rotation(at_start, speed, 8, good_start);
-        } catch (const NumericalError& error) {
-            throw NumericalError(text(error.what(), "; give the generator's torque: --generator-torque"));
-        }
-    }();
-    const Model& model = at_start.system().model;
-    Workspace workspace(model);
-    double sum = 0;
-    for (int i = 0; i < azimuths; ++i) {
-        const solvers::OperatingPoint at = state.at(2 * pi * i / azimuths);
-        const Kinematics kin = kinematics(model, at.q, workspace);
-        sum += air.rotor({0, at.q, at.qd, kin, no_states, no_states}).moment.x();
-    }
-    return sum / azimuths;
-}
-
-// With a generator as the options say.
-Subject uncontrolled(const SimulateArguments& a, const Pair& machine, double speed, double rotor_torque) {
-    const double ratio = machine.turbine.layout().gear_ratio;
-    const ConstantGenerator generator{a.torque.value_or(rotor_torque / ratio), a.slope, ratio * speed, ratio,
-                                      *machine.turbine.layout().generator};
-    Subject subject{with_generator(machine.turbine, generator),
-                    with_generator(machine.at_start, generator),
-                    {},
-                    {},
-                    speed,
-                    false,
-                    {},
-                    {}};
-    if (generator.acts()) subject.channels.push_back(generator_channels(generator));
-    return subject;
-}
-
-Subject controlled(const SimulateArguments& a, const Pair& machine, double speed, double rotor_torque,
-                   const std::vector<ChannelGroup>& measured) {
-    const turbines::MachineLayout& layout = machine.turbine.layout();
-    const double own =
-        start_torque(a.controller, layout.gear_ratio, speed, layout.pitch_settings.front(), rotor_torque);
-    ControlledMachine under =
-        controlled_machine(a.controller, machine.turbine, a.torque.value_or(own), a.run.out, measured);
-    return {under.turbine, machine.at_start, {std::move(under.controller)}, {std::move(under.channels)}, speed, false,
-            {},            {}};
-}
-
-void add_rotor_torque(const RotorTorque& rotor, Subject& subject) {
-    if (!rotor.acts()) return;
-    const FrameId hub = subject.turbine.layout().hub;
-    const auto with = [&](const turbines::Turbine& turbine, FrameLoad load) {
-        ForceSet forces = turbine.forces();
-        forces.add_wrench(std::move(load));
-        return turbine.with_forces(forces, rotor.in_words());
-    };
-    subject.turbine = with(subject.turbine, rotor.load(hub));
-    subject.at_start = with(subject.at_start, rotor.first_load(hub));
-    subject.channels.push_back(rotor_torque_channels(rotor, hub));
-}
-
-Subject subject_of(SimulateArguments& a) {
-    MachineFile machine = prepared_machine(a.machine);
-    check_controller(a.controller, machine);
-    const RotorTorque rotor = rotor_torque(a.rotor_torque);
-    if (a.controller.acts()) turbines::give_pitch_springs(machine.file.description);
-    if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
-    const double speed = rotor_speed(a.rpm, machine);
-    a.rpm = speed * units::to_rpm;
-    set_pitch(machine, a.machine, speed);
-    const ReadyMachine ready = ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
-    std::cout << in_words(ready.mesh) << "\n";
-    const std::optional<turbines::MachineAir> air = air_on(ready.turbine, machine, a);
-    const Pair pair = in_the_air(ready.turbine, air);
-    std::vector<ChannelGroup> wind;
-    double driving = 0;
-    if (air) {
-        wind.push_back(air->channels());
-        if (!a.torque && machine.file.dofs.generator) driving = torque_of(*air, pair.at_start, speed);
-    } else if (a.controller.acts() && rotor.acts()) {
-        driving = rotor.first();
-    }
-    Subject subject = a.controller.acts() ? controlled(a, pair, speed, driving, wind)
-                                          : uncontrolled(a, pair, speed, driving);
-    subject.channels.insert(subject.channels.end(), wind.begin(), wind.end());
-    add_rotor_torque(rotor, subject);
-    subject.driven = !machine.file.dofs.generator;
-    const std::string foundation = foundation_in_words(machine);
-    subject.title = text(machine.file.description.name, foundation.empty() ? "" : ", ", foundation,
-                         a.machine.gravity ? "" : ", no gravity");
-    subject.about = text(options_of(a, speed, rotor), "\n", subject.turbine.rotor().description);
-    return subject;
 }
 
 void print_result(const Subject& subject, const SimulateArguments& a, solvers::Integrator& integrator,
