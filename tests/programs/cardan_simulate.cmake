@@ -76,3 +76,19 @@ add_example_test(example_turbine_time_coordinate cardan 1 "unknown coordinate 'j
 add_example_test(example_turbine_time_duration cardan 1 "--duration: value = 0" simulate wt600 --duration 0)
 add_example_test(example_turbine_time_rpm cardan 1 "--rpm: value = nan; allowed: finite" simulate wt600 --rpm nan)
 add_example_test(example_turbine_time_unwritable cardan 1 "the folder 'no/such' does not exist" simulate wt600 --out no/such/x)
+# In the air: a gust over time, with a controller, on a rotor that is driven; what is refused.
+file(WRITE ${test_output_dir}/gust.csv "time[s],speed[m/s],direction[deg]\n0,10,0\n1,10,0\n1.5,12,5\n2.5,10,0\n")
+file(WRITE ${test_output_dir}/gust_back.csv "time[s],speed[m/s]\n1,10\n0,12\n")
+set(air nrel5mw ${coarse} --wind gust.csv --rpm 11 --out)
+add_example_test(example_turbine_time_wind cardan 0
+    "energy lost.*ok.*recorded power of generator, air against its work.*ok.*61 samples" simulate ${air} example_turbine_time_wind)
+add_example_test(example_turbine_time_wind_controlled cardan 0 "energy lost.*ok.*recorded power of generator, air against.*ok" simulate
+    ${air} example_turbine_time_wind_controlled --controller baseline)
+add_example_test(example_turbine_time_wind_driven cardan 0 "rotor driven.*recorded power of air against.*ok" simulate
+    ${air} example_turbine_time_wind_driven --generator locked)
+add_example_test(example_turbine_time_wind_list cardan 0 "wind speed +HorWindV.*aerodynamic power +RtAeroPwr" simulate nrel5mw --wind 9 --list)
+add_example_test(example_turbine_time_wind_back cardan 1 "gust_back.csv:1: wind over time, row 2: time .s. = 0" simulate
+    nrel5mw ${coarse} --wind gust_back.csv)
+add_example_test(example_turbine_time_wind_word cardan 1 "--wind: value = strong; allowed: SPEED in m/s, or FILE" simulate
+    nrel5mw ${coarse} --wind strong)
+add_example_test(example_turbine_time_wind_profiles cardan 1 "--air: value = none" simulate wt600 ${coarse} --wind 9)
