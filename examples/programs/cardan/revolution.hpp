@@ -5,6 +5,7 @@
 #include "solvers/linear/channel_values.hpp"
 #include "solvers/signals/history.hpp"
 
+#include "examples/shared/channel_choice.hpp"
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -13,6 +14,11 @@
 #include <vector>
 
 namespace cardan::program {
+
+struct RevolutionOptions {
+    int azimuths = 72, harmonics = 8;
+    StationOptions stations;
+};
 
 /// All channels at all states.
 inline solvers::History history_of(const System& system, std::span<const ChannelGroup> groups,

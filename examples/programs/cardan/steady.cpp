@@ -29,10 +29,9 @@ namespace {
 struct SteadyArguments {
     MachineOptions machine;
     WindArguments wind;
-    StationOptions stations;
+    RevolutionOptions revolution;
     std::optional<double> rpm;
     double azimuth = 0;
-    int azimuths = 72, harmonics = 8;
     bool no_gravity = false, all = false;
     std::string out;
 };
@@ -41,11 +40,12 @@ void declare(CommandLine& app, SteadyArguments& a) {
     add_machine(app, a.machine);
     app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the machine's)");
     app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at rest, deg, zero upward");
-    app.add_option("--azimuths", a.azimuths, "azimuths per revolution that are written").range(4, 100000);
-    app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced").range(1, 200);
+    app.add_option("--azimuths", a.revolution.azimuths, "azimuths per revolution that are written").range(4, 100000);
+    app.add_option("--harmonics", a.revolution.harmonics, "harmonics of the revolution that are balanced")
+        .range(1, 200);
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
     app.add_flag("--all", a.all, "print all channels, not only the main ones");
-    add_station_options(app, a.stations);
+    add_station_options(app, a.revolution.stations);
     add_wind_options(app, a.wind);
     add_machine_options(app, a.machine);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
@@ -67,9 +67,9 @@ Revolution standing(const turbines::Turbine& turbine, double azimuth) {
 
 Revolution revolution(const turbines::Turbine& turbine, double speed, const SteadyArguments& a) {
     if (speed == 0) return standing(turbine, a.azimuth * units::degree);
-    const solvers::PeriodicSteadyState state = steady_rotation(turbine, speed, a.harmonics);
+    const solvers::PeriodicSteadyState state = steady_rotation(turbine, speed, a.revolution.harmonics);
     Revolution all;
-    for (int i = 0; i < a.azimuths; ++i) all.states.push_back(state.at(2 * pi * i / a.azimuths));
+    for (int i = 0; i < a.revolution.azimuths; ++i) all.states.push_back(state.at(2 * pi * i / a.revolution.azimuths));
     std::array<char, 16> remainder{};
     std::snprintf(remainder.data(), remainder.size(), "%.1e", state.remainder);
     all.about =
@@ -106,7 +106,7 @@ int run(SteadyArguments& a, const CommandLine& command) {
     if (a.out.empty()) a.out = default_prefix(a.machine.model, a.wind.speeds.empty() ? "steady" : "wind");
     if (!a.wind.speeds.empty()) {
         if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
-        return steady_in_wind(machine, a.machine, a.wind, a.harmonics, a.azimuths, a.out, command);
+        return steady_in_wind(machine, a.machine, a.wind, a.revolution, a.out, command);
     }
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;
@@ -116,7 +116,7 @@ int run(SteadyArguments& a, const CommandLine& command) {
     check_outputs(a.out, {".h5", ".svg", ".png"});
     const Revolution states = revolution(turbine, speed, a);
     stop_at_once();
-    const std::vector<ChannelGroup> groups = channels_of(turbine, a.stations);
+    const std::vector<ChannelGroup> groups = channels_of(turbine, a.revolution.stations);
     const solvers::History history = history_of(turbine.system(), groups, states.states,
                                                 text(machine.file.description.name, ", steady at ", *a.rpm, " rpm"));
     std::printf("%s: %s\n%s\n", history.title.c_str(), states.about.c_str(), in_words(ready.mesh).c_str());

@@ -74,8 +74,8 @@ void add_wind_options(CommandLine& app, WindArguments& a) {
     add_air_options(app, a.air);
 }
 
-int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind, int harmonics,
-                   int azimuths, const std::string& prefix, const CommandLine& command) {
+int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind,
+                   const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command) {
     const turbines::TurbineDescription& d = machine.file.description;
     const std::vector<double> speeds = numbers_in_ranges("--wind", wind.speeds, wind_format);
     const Air air = air_of(machine, options, wind.air);
@@ -87,8 +87,8 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     turbines::WindOperationOptions in_wind;
     in_wind.wind = wind_profile(wind.air, air, turbines::hub_at_rest(ready.turbine).z());
     in_wind.air = air.options;
-    in_wind.harmonics = harmonics;
-    in_wind.azimuths = azimuths;
+    in_revolution.harmonics = revolution.harmonics;
+    in_revolution.azimuths = revolution.azimuths;
     std::size_t done = 0;
     in_wind.progress = [&](const WindPoint&) {
         ++done;
@@ -118,13 +118,14 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
         points.push_back(std::move(point));
     }
     if (points.empty()) return complete ? 1 : 130;
-    const WindResults results = wind_results(operation, std::move(points), text(d.name, ", in the wind"));
+    const WindResults results =
+        wind_results(operation, std::move(points), revolution.stations, text(d.name, ", in the wind"));
     std::printf("\n%s\n%s\n", results.title.c_str(), in_words(ready.mesh).c_str());
     if (!operation.is_constant())
         std::printf(
             "%d harmonics of the revolution; what those left out would have to balance, over stiffness: up to "
             "%.1e rad or m\n",
-            harmonics, remainder);
+            revolution.harmonics, remainder);
     print(results);
     write_csv(results, prefix);
     write_hdf5(results, prefix + ".h5", run_text("steady", command) + ready.turbine.rotor().description);

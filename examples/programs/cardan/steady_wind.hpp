@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/programs/cardan/air.hpp"
+#include "examples/programs/cardan/revolution.hpp"
 #include <optional>
 #include <string>
 
@@ -19,10 +20,9 @@ struct WindArguments {
 
 void add_wind_options(CommandLine& app, WindArguments& arguments);
 
-/// @param harmonics, azimuths  of a revolution
-/// @param prefix               of the files
+/// @param prefix  of the files
 /// @return exit code
-int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind, int harmonics,
-                   int azimuths, const std::string& prefix, const CommandLine& command);
+int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind,
+                   const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command);
 
 }  // namespace cardan::program

@@ -124,15 +124,19 @@ solvers::StackPanel channel_panel(const WindResults& results, const char* label,
 
 }  // namespace
 
-WindResults wind_results(const turbines::WindOperation& machine, std::vector<WindPoint> points, std::string title) {
+WindResults wind_results(const turbines::WindOperation& machine, std::vector<WindPoint> points,
+                         const StationOptions& stations, std::string title) {
     WindResults out{.title = std::move(title), .points = std::move(points), .channels = {}};
     for (const WindPoint& point : out.points) {
         const turbines::Turbine turbine = machine.machine(point.operation);
-        const std::vector<ChannelGroup> groups = turbines::channels(turbine);
+        const std::vector<ChannelGroup> groups = channels_of(turbine, stations);
         const solvers::History revolution = history_of(turbine.system(), groups, point.revolution, "");
         out.channels.clear();
         std::vector<MeanAndRange>& values = out.values.emplace_back();
-        for (const std::string& name : main_channels(turbine.layout(), revolution.channels)) {
+        std::vector<std::string> names = main_channels(turbine.layout(), revolution.channels);
+        for (const ChannelGroup& group : station_channels(turbine, stations))
+            for (const Channel& channel : group.channels) names.push_back(channel.name);
+        for (const std::string& name : names) {
             const std::size_t i = revolution.index(name);
             out.channels.push_back(revolution.channels[i]);
             values.push_back(mean_and_range(revolution.values[i]));

@@ -18,7 +18,7 @@ struct WindResults {
     std::vector<std::vector<MeanAndRange>> values = {};  ///< of the channels over a revolution, by point
 };
 WindResults wind_results(const turbines::WindOperation& machine, std::vector<turbines::WindPoint> points,
-                         std::string title);
+                         const StationOptions& stations, std::string title);
 
 void print(const WindResults& results);
 /// PREFIX.csv, PREFIX_sections.csv.  @throws FileError
