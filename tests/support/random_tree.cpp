@@ -43,6 +43,10 @@ Vector random_state(Random& random, int n, double size) {
     return x;
 }
 
+Matrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
+    return random_state(random, static_cast<int>(rows * columns)).reshaped(rows, columns);
+}
+
 Tree random_tree(Random& random, const RandomTreeOptions& options) {
     const int n = options.bodies;
     std::vector<int> parent(static_cast<std::size_t>(n));

@@ -16,6 +16,7 @@ Mat3 random_rotation(Random& random);
 Placement random_placement(Random& random);
 RigidInertia random_inertia(Random& random);
 Vector random_state(Random& random, int n, double size = 1);
+Matrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns);
 
 struct RandomTreeOptions {
     int bodies = 9;

@@ -9,14 +9,6 @@ using namespace cardan;
 using namespace cardan::solvers;
 using namespace cardan::testing;
 
-namespace {
-
-Matrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
-    return random_state(random, static_cast<int>(rows * columns)).reshaped(rows, columns);
-}
-
-}  // namespace
-
 TEST_CASE("dense kernels: products of all sizes are Eigen's", "[solvers][property]") {
     Random random(1);
     for (const Eigen::Index m : {1, 3, 11, 12, 13, 25, 100})

@@ -15,13 +15,6 @@ using namespace cardan::testing;
 
 namespace {
 
-Matrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
-    Matrix A(rows, columns);
-    for (Eigen::Index j = 0; j < columns; ++j)
-        for (Eigen::Index i = 0; i < rows; ++i) A(i, j) = uniform(random, -1, 1);
-    return A;
-}
-
 // Weakly damped oscillators from 1 rad/s over some decades in mixed coordinates, and `free` double poles at zero.
 ConstantModel flexible(unsigned seed, int oscillators, int free, Eigen::Index inputs, Eigen::Index outputs,
                        double decades = 4) {

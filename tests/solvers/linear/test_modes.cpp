@@ -25,12 +25,8 @@ SecondOrderSystem oscillator(double m, double omega, double zeta) {
                      Matrix::Constant(1, 1, omega * omega * m));
 }
 
-Matrix random_matrix(Random& random, Eigen::Index n) {
-    return Matrix::NullaryExpr(n, n, [&] { return uniform(random, -1, 1); });
-}
-
 Matrix random_positive(Random& random, Eigen::Index n) {
-    const Matrix A = random_matrix(random, n);
+    const Matrix A = random_matrix(random, n, n);
     return A * A.transpose() + 0.3 * Matrix::Identity(n, n);
 }
 
@@ -199,7 +195,7 @@ TEST_CASE("modes: damped gyroscopic systems satisfy their equation, with unit en
     Random random(4);
     for (int sample = 0; sample < 60; ++sample) {
         const Eigen::Index n = 2 + sample % 7;
-        const Matrix A = random_matrix(random, n);
+        const Matrix A = random_matrix(random, n, n);
         const SecondOrderSystem s =
             system_of(random_positive(random, n), (sample % 3) * random_positive(random, n) + 2 * (A - A.transpose()),
                       random_positive(random, n));
