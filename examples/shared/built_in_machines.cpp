@@ -46,17 +46,27 @@ MachineFile teetered_machine() {
     return built_in(description, description.rotor_speed);
 }
 
+// Tables 1-1 and 5-1 of the report: 5 MW with the losses of the generator; cut-in speed.
+turbines::FileOperation nrel5mw_operation() {
+    return {.rated_power = 5e6 / 0.944, .least_speed = 6.9 * units::rpm, .source = "the report"};
+}
+
 MachineFile nrel5mw_as(turbines::Nrel5mwVariant variant) {
     constexpr double rated = 12.1;  // rpm, Table 1-1 of the report
     using turbines::Nrel5mwVariant;
-    return built_in(turbines::nrel5mw_description(turbines::nrel5mw_options(variant)), rated * units::rpm,
-                    variant == Nrel5mwVariant::fast ? Beams::without_torsion : Beams::as_they_are,
-                    variant == Nrel5mwVariant::report ? Beams::as_they_are : Beams::without_torsion);
+    MachineFile machine =
+        built_in(turbines::nrel5mw_description(turbines::nrel5mw_options(variant)), rated * units::rpm,
+                 variant == Nrel5mwVariant::fast ? Beams::without_torsion : Beams::as_they_are,
+                 variant == Nrel5mwVariant::report ? Beams::as_they_are : Beams::without_torsion);
+    machine.file.operation = nrel5mw_operation();
+    return machine;
 }
 
 MachineFile nrel5mw_spar() {
     const turbines::TurbineDescription description = turbines::nrel5mw_oc3_hywind_description();
-    return built_in(description, description.rotor_speed);
+    MachineFile machine = built_in(description, description.rotor_speed);
+    machine.file.operation = nrel5mw_operation();
+    return machine;
 }
 
 struct BuiltIn {

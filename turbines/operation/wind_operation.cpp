@@ -226,12 +226,13 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
         require_result(point);
         return point.power / law.rated_power - 1;
     };
-    double low = std::max(law.fine_pitch, last_operation_ ? last_operation_->pitch : law.fine_pitch),
-           at_low = excess(low), high = low, at_high = at_low;
-    while (at_low < 0 && low > law.fine_pitch) {
+    const double least = law.least_pitch_at(wind);
+    double low = std::max(least, last_operation_ ? last_operation_->pitch : least), at_low = excess(low), high = low,
+           at_high = at_low;
+    while (at_low < 0 && low > least) {
         high = low;
         at_high = at_low;
-        low = std::max(law.fine_pitch, low - pitch_step);
+        low = std::max(least, low - pitch_step);
         at_low = excess(low);
     }
     if (at_low <= 0) return point;
@@ -252,10 +253,11 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
 WindPoint WindOperation::at(double wind, const VariableSpeed& law) {
     law.check();
     const double speed = std::clamp(law.tip_speed_ratio * wind / radius(), law.least_speed, law.rated_speed);
-    // Beyond rated wind the fine pitch would be far from where the machine runs.
-    const bool beyond = last_operation_ && last_operation_->pitch > law.fine_pitch && speed == law.rated_speed;
+    const double least = law.least_pitch_at(wind);
+    // Beyond rated wind the least pitch may be far from where the machine runs.
+    const bool beyond = last_operation_ && last_operation_->pitch > least && speed == law.rated_speed;
     WindPoint point;
-    if (!beyond) point = at({wind, speed, law.fine_pitch});
+    if (!beyond) point = at({wind, speed, least});
     if (point.converged && point.power <= law.rated_power) return point;
     try {
         return at_rated(wind, law);

@@ -8,6 +8,7 @@
 #include "mbs/base/outcome.hpp"
 #include "solvers/linear/operating_point.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/model/pitch_schedule.hpp"
 
 #include <functional>
 #include <optional>
@@ -26,15 +27,18 @@ struct Operation {
 /// @throws InputError for one that is empty or does not ascend, and for a wind beyond its ends
 Operation operation_at(const std::vector<Operation>& schedule, double wind);
 
-/// A machine of variable speed with controlled pitch: at its best tip-speed ratio and fine pitch as far as the limits
-/// of the speed allow; where that gives more than rated power, at rated speed with the pitch that gives rated power.
+/// A machine of variable speed with controlled pitch: at its best tip-speed ratio and its least pitch as far as the
+/// limits of the speed allow; where that gives more than rated power, at rated speed with the pitch that gives rated
+/// power.
 struct VariableSpeed {
     double tip_speed_ratio = 0;  ///< rotor speed x radius of the rotor / wind speed
     double least_speed = 0;      ///< of the rotor, rad/s
     double rated_speed = 0;
     double rated_power = 0;  ///< of the air on the rotor, W: that of the generator over its efficiency
     double fine_pitch = 0;   ///< rad
+    std::vector<PitchAtWind> least_pitch = {};  ///< in the place of the fine pitch, where it depends on the wind
 
+    double least_pitch_at(double wind) const { return least_pitch.empty() ? fine_pitch : pitch_at(least_pitch, wind); }
     /// @throws InputError for values that are not positive, or speeds that do not ascend
     void check() const;
 };

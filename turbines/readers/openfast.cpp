@@ -66,6 +66,7 @@ void set_operation(TurbineFile& out, const ServoDyn& servo) {
         out.pitch_source = servo.pitch_source;
     }
     out.pitch_schedule = servo.pitch_schedule;
+    out.operation = servo.operation;
 }
 
 }  // namespace

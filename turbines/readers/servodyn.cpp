@@ -80,6 +80,10 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
     const std::optional<ControllerFile> controller = needed ? controller_file(file) : std::nullopt;
     const GeneratorSpeed speed = generator_speed(file, controller);
     read_pitch(file, controller, servo);
+    if (controller) {
+        servo.operation = operation_of(*controller);
+        servo.operation.source = file.path("DLL_InFile").filename().string();
+    }
     if (speed.value > 0) {
         servo.rated_generator_speed = speed.value;
         servo.speed_source = speed.source;

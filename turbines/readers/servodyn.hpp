@@ -21,7 +21,8 @@ struct ServoDyn {
     std::vector<PitchAt> pitch_schedule;  ///< by speed of the rotor, of such a controller (PS_BldPitchMin)
     std::string pitch_source;
     std::vector<FileNote> notes;
-    std::string source;  ///< text of the file
+    std::string source;            ///< text of the file
+    FileOperation operation = {};  ///< of a ROSCO controller
 };
 
 /// @throws ParseError, FileError

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "turbines/model/description.hpp"
+#include "turbines/model/pitch_schedule.hpp"
 
 #include <vector>
 
@@ -36,6 +37,15 @@ struct PitchAt {
     double pitch = 0;        ///< leading edge upwind, rad
 };
 
+/// How a controller runs the machine in the wind, as far as its file says so; 0 and empty: it does not.
+struct FileOperation {
+    double rated_power = 0;  ///< of the rotor, W: that of the generator over its efficiency
+    double least_speed = 0;  ///< of the rotor, rad/s
+    double tip_speed_ratio = 0;
+    std::vector<PitchAtWind> least_pitch = {};
+    std::string source = {};  ///< name of the file
+};
+
 /// Keyword of the note on angles and ratios that machines do not have: see admit_unusual().
 inline constexpr auto unusual_entries = "angles and ratios";
 
@@ -53,6 +63,7 @@ struct TurbineFile {
     std::string pitch_source;        ///< where it is from; empty: not given in the files
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
+    FileOperation operation = {};
 };
 
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule

@@ -46,8 +46,6 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
         air.density = read.density;
     } else if (options.model.starts_with("nrel5mw")) {
         air.blade = turbines::nrel5mw_aero_blade();
-        air.rated_power = 5e6 / 0.944;  // with the losses of the generator, Table 5-1
-        air.least_speed = 6.9 * units::rpm;
     } else {
         throw InputError("--air", "value", "none, and the machine has no profiles", "FILE, the main file of AeroDyn");
     }

@@ -22,12 +22,11 @@ void add_air_options(CommandLine& app, AirArguments& arguments);
 /// For the file of a run.
 std::string in_words(const AirArguments& arguments);
 
-/// Profiles and options of the air, and what a machine that is built in does in the wind.
+/// Profiles and options of the air.
 struct Air {
     AeroBlade blade;
     RotorAirOptions options;
     double density = 1.225;
-    double rated_power = 0, least_speed = 0;  // W, rad/s; 0: not known
 };
 /// @throws InputError for a machine without profiles; as the readers
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments);

@@ -27,23 +27,37 @@ namespace {
 using turbines::WindPoint;
 constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m/s";
 
-turbines::VariableSpeed law_of(const MachineFile& machine, const MachineOptions& options, const WindArguments& wind,
-                               const Air& air) {
+void print(const turbines::VariableSpeed& law, const std::string& source) {
+    const std::string pitch =
+        law.least_pitch.empty() ? in_digits(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
+    std::printf("operation: tip-speed ratio %.3f, %g to %g rpm, pitch %s; %g kW on the rotor from rated wind on%s\n",
+                law.tip_speed_ratio, law.least_speed * units::to_rpm, law.rated_speed * units::to_rpm, pitch.c_str(),
+                law.rated_power / 1e3, source.empty() ? "" : (" (" + source + ")").c_str());
+}
+
+// What the options say, else the controller of the machine.
+// @param pitch  of the options, deg
+turbines::VariableSpeed law_of(const MachineFile& machine, const std::optional<double>& pitch,
+                               const MachineOptions& options, const WindArguments& wind, const Air& air) {
     const turbines::TurbineDescription& d = machine.file.description;
+    const turbines::FileOperation& own = machine.file.operation;
     turbines::VariableSpeed law;
     law.rated_speed = wind.rated_rpm ? *wind.rated_rpm * units::rpm : machine.file.rotor_speed;
-    law.least_speed = wind.least_rpm > 0 ? wind.least_rpm * units::rpm : air.least_speed;
-    law.rated_power = wind.rated_power ? *wind.rated_power * 1e3 : air.rated_power;
+    law.least_speed = wind.least_rpm > 0 ? wind.least_rpm * units::rpm : own.least_speed;
+    law.rated_power = wind.rated_power ? *wind.rated_power * 1e3 : own.rated_power;
     law.fine_pitch = options.pitch.value_or(0) * units::degree;
-    law.tip_speed_ratio = wind.tip_speed_ratio ? *wind.tip_speed_ratio
-                                               : turbines::best_tip_speed_ratio(air.blade, d.blades, d.blade.cone,
-                                                                                law.fine_pitch, air.options);
+    if (!pitch) law.least_pitch = own.least_pitch;
+    if (wind.tip_speed_ratio)
+        law.tip_speed_ratio = *wind.tip_speed_ratio;
+    else if (own.tip_speed_ratio > 0)
+        law.tip_speed_ratio = own.tip_speed_ratio;
+    else
+        law.tip_speed_ratio =
+            turbines::best_tip_speed_ratio(air.blade, d.blades, d.blade.cone, law.fine_pitch, air.options);
     if (law.rated_power == 0)
         throw InputError("--rated-power", "value", "none",
                          "power of the air on the rotor at rated wind, kW; or a --schedule");
-    std::printf("operation: tip-speed ratio %.3f, %g to %g rpm, pitch %g deg; %g kW on the rotor from rated wind on\n",
-                law.tip_speed_ratio, law.least_speed * units::to_rpm, law.rated_speed * units::to_rpm,
-                law.fine_pitch * units::to_degrees, law.rated_power / 1e3);
+    print(law, own.source);
     return law;
 }
 
@@ -66,11 +80,13 @@ void add_wind_options(CommandLine& app, WindArguments& a) {
            "how the machine runs: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg] (default: variable "
            "speed with the following options)")
         .type_name("FILE");
-    app.add_option("--rated-power", a.rated_power, "of the air on the rotor, kW (default: a built-in machine's)");
+    app.add_option("--rated-power", a.rated_power, "of the air on the rotor, kW (default: the machine's controller's)");
     app.add_option("--rated-rpm", a.rated_rpm, "rotor speed from rated wind on, rev/min (default: the machine's)");
-    app.add_option("--least-rpm", a.least_rpm, "rotor speed at least, rev/min");
-    app.add_option("--tip-speed-ratio", a.tip_speed_ratio,
-                   "below rated power (default: that of the largest power coefficient at --pitch)");
+    app.add_option("--least-rpm", a.least_rpm,
+                   "rotor speed at least, rev/min (default: that of the machine's controller)");
+    app.add_option(
+        "--tip-speed-ratio", a.tip_speed_ratio,
+        "below rated power (default: that of the machine's controller, or of the largest power coefficient)");
     add_air_options(app, a.air);
 }
 
@@ -79,6 +95,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     const turbines::TurbineDescription& d = machine.file.description;
     const std::vector<double> speeds = numbers_in_ranges("--wind", wind.speeds, wind_format);
     const Air air = air_of(machine, options, wind.air);
+    const std::optional<double> pitch = options.pitch;
     if (!options.pitch) set_pitch(machine, options, machine.file.rotor_speed);
     const ReadyMachine ready =
         ready_machine(machine, options, usual_frequency(machine, options), machine.file.rotor_speed);
@@ -98,7 +115,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     turbines::WindOperation operation(d, assembly_options(machine, options), air.blade, in_wind);
     std::vector<WindPoint> all;
     if (wind.schedule.empty()) {
-        all = operation.over(speeds, law_of(machine, options, wind, air));
+        all = operation.over(speeds, law_of(machine, pitch, options, wind, air));
     } else {
         const std::vector<turbines::Operation> schedule = schedule_of(wind.schedule);
         std::vector<turbines::Operation> wanted;

@@ -78,8 +78,19 @@ TEST_CASE("servodyn: the pitch below rated power is that of the controller", "[a
     CHECK(pitch_at(scheduled.pitch_schedule, 4) == Approx(0.04).epsilon(1e-12));
     CHECK(pitch_at(scheduled.pitch_schedule, 0) == 0.08);
     CHECK(pitch_at(scheduled.pitch_schedule, 9) == 0.04);
+    // The same over the wind, with what else the controller knows of the machine in it.
+    CHECK(scheduled.operation.least_speed == Approx(3).epsilon(1e-14));
+    CHECK(scheduled.operation.tip_speed_ratio == 8);
+    CHECK(scheduled.operation.rated_power == 0);
+    CHECK(scheduled.operation.source == "DISCON.IN");
+    CHECK(pitch_at(scheduled.operation.least_pitch, 10) == Approx(0.035).epsilon(1e-14));
+    CHECK(pitch_at(scheduled.operation.least_pitch, 20) == 0.2);
+    CHECK(pitch_at(scheduled.operation.least_pitch, 1) == 0.09);
+    CHECK_THROWS_AS(pitch_at(std::vector<PitchAtWind>(), 1), InputError);
+    CHECK_THROWS_AS(pitch_at(std::vector<PitchAtWind>{{2, 0}, {2, 0}}, 1), InputError);
     const ServoDyn constant = read("0");
+    CHECK(constant.operation.least_pitch.empty());
     CHECK(constant.pitch_schedule.empty());
     CHECK(constant.pitch_source == "PC_FinePit of DISCON.IN");
-    CHECK_THROWS_AS(pitch_at({}, 1), InputError);
+    CHECK_THROWS_AS(pitch_at(std::vector<PitchAt>(), 1), InputError);
 }

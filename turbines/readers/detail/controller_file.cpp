@@ -27,6 +27,34 @@ std::optional<double> ControllerFile::number(std::string_view keyword) const {
     return values.front();
 }
 
+namespace {
+
+// Empty: there is none that counts.
+std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
+    const std::vector<double> winds = file.numbers("PS_WindSpeeds"), pitch = file.numbers("PS_BldPitchMin");
+    if (file.number("PS_Mode").value_or(0) == 0 || winds.size() != pitch.size()) return {};
+    std::vector<PitchAtWind> out;
+    out.reserve(winds.size());
+    for (std::size_t i = 0; i < winds.size(); ++i) {
+        if (i > 0 && !(winds[i] > winds[i - 1])) return {};
+        out.push_back({winds[i], pitch[i]});
+    }
+    return out;
+}
+
+}  // namespace
+
+FileOperation operation_of(const ControllerFile& file) {
+    const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
+    FileOperation out;
+    const double efficiency = of("VS_GenEff") / 100, gears = of("WE_GearboxRatio");
+    if (efficiency > 0 && efficiency <= 1 && of("VS_RtPwr") > 0) out.rated_power = of("VS_RtPwr") / efficiency;
+    if (gears > 0 && of("VS_MinOMSpd") > 0) out.least_speed = of("VS_MinOMSpd") / gears;
+    if (of("VS_TSRopt") > 0) out.tip_speed_ratio = of("VS_TSRopt");
+    out.least_pitch = least_pitch(file);
+    return out;
+}
+
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
     const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
     const double ratio = of("VS_TSRopt"), radius = of("WE_BladeRadius"), gears = of("WE_GearboxRatio");

@@ -30,4 +30,7 @@ private:
 /// schedule (PS_Mode), or not all that it takes.
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file);
 
+/// VS_RtPwr over VS_GenEff, VS_MinOMSpd, VS_TSRopt, PS_BldPitchMin over PS_WindSpeeds.
+FileOperation operation_of(const ControllerFile& file);
+
 }  // namespace cardan::turbines
