@@ -55,8 +55,8 @@ struct Sum {
     }
     // Inertia of a body with mass centre at the point of the motion and principal axes R.
     void inertia(const Motion& body, double mass, const Mat& R, const Eigen::Vector3d& I) {
-        const Mat J = R * Mat(I.cast<Complex>().asDiagonal()) * R.transpose();
-        load(body, -mass * body.a, -(J * body.alpha) - cross(body.w, J * body.w));
+        const Mat tensor = R * Mat(I.cast<Complex>().asDiagonal()) * R.transpose();
+        load(body, -mass * body.a, -(tensor * body.alpha) - cross(body.w, tensor * body.w));
     }
 };
 
