@@ -96,7 +96,8 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     const std::vector<double> speeds = numbers_in_ranges("--wind", wind.speeds, wind_format);
     const Air air = air_of(machine, options, wind.air);
     const std::optional<double> pitch = options.pitch;
-    if (!options.pitch) set_pitch(machine, options, machine.file.rotor_speed);
+    if (!options.pitch && machine.file.operation.least_pitch.empty())
+        set_pitch(machine, options, machine.file.rotor_speed);
     const ReadyMachine ready =
         ready_machine(machine, options, usual_frequency(machine, options), machine.file.rotor_speed);
     check_outputs(prefix, {".h5", ".csv", ".svg", ".png"});
