@@ -79,6 +79,7 @@ struct WindOperationOptions {
     int azimuths = 24;  ///< of a revolution, for means and WindPoint::revolution
     /// Called after every point; false: no further ones.
     std::function<bool(const WindPoint&)> progress = {};
+    AeroSupport support = {};  ///< air on tower and nacelle; a tower that dams the wind makes states periodic
 };
 
 /// One per thread.

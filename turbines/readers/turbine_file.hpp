@@ -4,6 +4,7 @@
 
 #include "turbines/model/description.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace cardan::turbines {
@@ -53,6 +54,8 @@ struct TurbineFile {
     std::string pitch_source;        ///< where it is from; empty: not given in the files
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
+    /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
+    std::optional<double> tower_foot = std::nullopt;
 };
 
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule

@@ -36,6 +36,7 @@ struct Air {
     RotorAirOptions options;
     double density = 1.225;
     double rated_power = 0, least_speed = 0;  // W, rad/s; 0: not known
+    AeroSupport support;
 };
 
 Air air_of(const MachineFile& machine, const MachineOptions& options, const WindArguments& wind) {
@@ -52,6 +53,7 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const Wind
         air.blade = std::move(read.blade);
         air.options = read.options;
         air.density = read.density;
+        if (!wind.no_tower) air.support = std::move(read.support);
     } else if (options.model.starts_with("nrel5mw")) {
         air.blade = turbines::nrel5mw_aero_blade();
         air.rated_power = 5e6 / 0.944;  // with the losses of the generator, Table 5-1
@@ -94,6 +96,15 @@ std::vector<turbines::Operation> schedule_of(const std::string& path) {
     return schedule;
 }
 
+// Where files do not say how high it stands.
+double tower_foot_at_rest(const turbines::Turbine& turbine) {
+    const Model& model = turbine.system().model;
+    if (turbine.layout().tower_foot == FrameId{}) return 0;
+    Workspace workspace(model);
+    const Vector q = Vector::Zero(model.size());
+    return pose(kinematics(model, q, workspace), turbine.layout().tower_foot).p.z();
+}
+
 }  // namespace
 
 void add_wind_options(CommandLine& app, WindArguments& a) {
@@ -114,6 +125,8 @@ void add_wind_options(CommandLine& app, WindArguments& a) {
     app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
     app.add_option("--upflow", a.upflow, "of the wind, deg");
     app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
+    app.add_flag("--no-tower", a.no_tower,
+                 "without the wind that the tower dams, and the air's drag on tower and nacelle");
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
 }
 
@@ -121,7 +134,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
                    int azimuths, const std::string& prefix, const CommandLine& command) {
     const turbines::TurbineDescription& d = machine.file.description;
     const std::vector<double> speeds = numbers_in_ranges("--wind", wind.speeds, wind_format);
-    const Air air = air_of(machine, options, wind);
+    Air air = air_of(machine, options, wind);
     if (!options.pitch) set_pitch(machine, options, machine.file.rotor_speed);
     const ReadyMachine ready =
         ready_machine(machine, options, usual_frequency(machine, options), machine.file.rotor_speed);
@@ -136,6 +149,8 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
                     .upflow = wind.upflow * units::degree,
                     .density = air.density};
     in_wind.air = air.options;
+    air.support.tower.foot = machine.file.tower_foot.value_or(tower_foot_at_rest(ready.turbine));
+    in_wind.support = air.support;
     in_wind.harmonics = harmonics;
     in_wind.azimuths = azimuths;
     std::size_t done = 0;

@@ -20,6 +20,7 @@ struct WindArguments {
     std::optional<double> tip_speed_ratio, rated_power, rated_rpm;  ///< kW
     double least_rpm = 0;
     bool no_skew = false;
+    bool no_tower = false;
 };
 
 void add_wind_options(CommandLine& app, WindArguments& arguments);
