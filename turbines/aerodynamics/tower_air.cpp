@@ -142,6 +142,7 @@ private:
 
 void TowerAir::Parts::add_tower(const Turbine& turbine, const AeroTower& tower) {
     const AirLine line = air_tower(turbine, tower);
+    sites.reserve(tower.height.size() + 1);
     for (std::size_t i = 0; i < tower.height.size(); ++i) {
         const RigidPiece& on = line.piece(i);
         const Placement at = on.pose(line.place(i));

@@ -119,6 +119,30 @@ TEST_CASE("operation in the wind: a constant state is the same by harmonic balan
     CHECK(a.sections[9].position == Approx(nrel5mw_aero_blade().position[9]));
 }
 
+TEST_CASE("operation in the wind: a tower that dams the wind makes states periodic, its drag does not", "[property]") {
+    TurbineDescription description = level_machine();
+    description.tower.rigid = true;
+    const AssemblyOptions assembly = nrel5mw_assembly(Nrel5mwVariant::fast, 3, 1);
+    WindOperationOptions options;
+    options.harmonics = 3;
+    options.azimuths = 9;
+    options.support.tower = {.height = {0, 87.6}, .diameter = {6, 3.87}, .drag = {1, 1}};
+    WindOperation dragged(description, assembly, nrel5mw_aero_blade(), options);
+    CHECK(dragged.is_constant());
+    options.support.tower.dam = TowerDam::potential;
+    WindOperation dammed(description, assembly, nrel5mw_aero_blade(), options);
+    REQUIRE(!dammed.is_constant());
+    const Operation operation{8, 9.156 * units::rpm, 0.02};
+    const WindPoint a = dragged.at(operation), b = dammed.at(operation);
+    REQUIRE(a.converged);
+    CAPTURE(b.message);
+    REQUIRE(b.converged);
+    // Before the tower a blade has less wind: sections of blade 1, mean of the revolution.
+    CHECK(b.power < a.power);
+    CHECK(b.power > 0.98 * a.power);
+    CHECK(b.sections[9].normal < a.sections[9].normal);
+}
+
 TEST_CASE("operation in the wind: best tip-speed ratio, limits of speed and power", "[property]") {
     const AeroBlade blade = nrel5mw_aero_blade();
     const double best = best_tip_speed_ratio(blade, 3, 0, 0);

@@ -75,9 +75,15 @@ AirLine air_tower(const Turbine& turbine, const AeroTower& tower) {
     TowerPieces on = tower_pieces(turbine);
     std::vector<double> places;
     places.reserve(tower.height.size());
-    for (std::size_t i = 0; i < tower.height.size(); ++i)
-        places.push_back(arc_at(on.line, tower.height[i] - tower.foot, text("air on the tower, row ", i + 1),
-                                "height above the tower's foot [m]"));
+    for (std::size_t i = 0; i < tower.height.size(); ++i) {
+        constexpr const char* quantity = "height above the tower's foot [m]";
+        const std::string row = text("air on the tower, row ", i + 1);
+        const double x = tower.height[i] - tower.foot;
+        places.push_back(arc_at(on.line, x, row, quantity));
+        // Rows that the rounding of an end has brought together.
+        if (i > 0 && !(places[i] > places[i - 1]))
+            throw InputError(row, quantity, x, text("one row at the end of the tower, ", places[i]));
+    }
     std::vector<Vec3> offsets(places.size(), Vec3::Zero());
     return {std::move(on.pieces), std::move(on.line.breaks), std::move(places), std::move(offsets)};
 }
@@ -85,7 +91,9 @@ AirLine air_tower(const Turbine& turbine, const AeroTower& tower) {
 DamParts dam_parts(const Turbine& turbine, const AeroTower& tower) {
     const AirLine line = air_tower(turbine, tower);
     DamParts out{tower.dam, {}, tower.diameter, tower.drag, {}};
+    out.place.reserve(tower.height.size());
     for (std::size_t i = 0; i < tower.height.size(); ++i) out.place.push_back(line.place(i));
+    out.segments.reserve(line.pieces().size());
     for (const RigidPiece& piece : line.pieces()) {
         const double from = std::max(piece.from, out.place.front()), to = std::min(piece.to, out.place.back());
         if (!(to > from)) continue;
