@@ -136,6 +136,8 @@ WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) 
             solvers::PeriodicOptions periodic;
             periodic.rotor_speed = operation.rotor_speed;
             periodic.harmonics = options_.harmonics;
+            // A dam is narrow: a few degrees before the tower.
+            if (air.has_dam()) periodic.samples = std::max(4 * (options_.harmonics + 1), options_.azimuths);
             periodic.start = from;
             periodic.rotor = &windy.rotor();
             const solvers::PeriodicSteadyState found = solvers::harmonic_balance(windy.system(), spin, periodic);

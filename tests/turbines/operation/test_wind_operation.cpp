@@ -125,7 +125,7 @@ TEST_CASE("operation in the wind: a tower that dams the wind makes states period
     const AssemblyOptions assembly = nrel5mw_assembly(Nrel5mwVariant::fast, 3, 1);
     WindOperationOptions options;
     options.harmonics = 3;
-    options.azimuths = 9;
+    options.azimuths = 80;  // 240 of a blade: the dam is narrow
     options.support.tower = {.height = {0, 87.6}, .diameter = {6, 3.87}, .drag = {1, 1}};
     WindOperation dragged(description, assembly, nrel5mw_aero_blade(), options);
     CHECK(dragged.is_constant());
@@ -137,10 +137,11 @@ TEST_CASE("operation in the wind: a tower that dams the wind makes states period
     REQUIRE(a.converged);
     CAPTURE(b.message);
     REQUIRE(b.converged);
-    // Before the tower a blade has less wind: sections of blade 1, mean of the revolution.
-    CHECK(b.power < a.power);
-    CHECK(b.power > 0.98 * a.power);
-    CHECK(b.sections[9].normal < a.sections[9].normal);
+    // On a line across the wind what the dam takes before the tower it gives beside it: the integral of
+    // (y^2 - x^2)/(x^2 + y^2)^2 over y vanishes. Powers of the wind are left.
+    CHECK(b.power == Approx(a.power).epsilon(0.005));
+    CHECK(b.power != a.power);
+    CHECK(b.sections[9].normal == Approx(a.sections[9].normal).epsilon(0.005));
 }
 
 TEST_CASE("operation in the wind: best tip-speed ratio, limits of speed and power", "[property]") {
