@@ -21,7 +21,7 @@ public:
     Machine()
         : turbine_(turbines::nrel5mw()),
           air_(turbines::MachineAir(turbine_, turbines::nrel5mw_aero_blade(),
-                                    {.speed = 10, .shear = Shear::power, .exponent = 0.2})
+                                    SteadyWind{.speed = 10, .shear = Shear::power, .exponent = 0.2})
                    .field()),
           workspace_(model()),
           wrenches_(air_.points.size()),

@@ -36,7 +36,7 @@ room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
 room(turbines/readers SEES turbines/model elements/aerodynamics) # OpenFAST's files, tables
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
-room(turbines/aerodynamics SEES turbines/model elements/aerodynamics) # air on the blades of a machine
+room(turbines/aerodynamics SEES turbines/model elements/aerodynamics) # air on the blades and the tower of a machine
 room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teetered, NREL 5 MW
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/operation SEES turbines/aerodynamics solvers/periodic USES boost) # operating points over the wind

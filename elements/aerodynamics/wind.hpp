@@ -16,7 +16,7 @@ enum class Shear : std::uint8_t {
     logarithmic  ///< ln(z / roughness) / ln(reference height / roughness)
 };
 
-/// Ground axes: x downwind of a wind without direction, z up. Its speed is
+/// Ground axes: x downwind of a wind without direction, z up. At a height z its speed is
 ///
 ///     speed [law of the shear + gradient (z - reference height) + lateral y'] + gust
 ///
@@ -35,6 +35,7 @@ struct SteadyWind {
     double lateral = 0;      ///< 1/m, of a linear change across the wind
     double gust = 0;         ///< m/s, the same at all places
     double vertical = 0;     ///< m/s, upward, the same at all places
+    double ground = 0;       ///< m, where heights are counted from
 
     /// m/s. Below the ground, and where a law has no value, that at 1e-3 of the reference height.
     Vec3 at(const Vec3& place) const;
@@ -65,6 +66,8 @@ public:
     bool is_steady() const { return rows_.size() == 1; }
     /// With angles added to its direction and its upflow, rad.
     Wind turned(double direction, double upflow) const;
+    /// With heights counted from there, m.
+    Wind over(double ground) const;
     /// Where it is not smooth: those of the table. Empty: it is steady.
     std::vector<double> breaks() const;
     const std::vector<SteadyWind>& rows() const { return rows_; }

@@ -9,7 +9,11 @@
 
 namespace cardan::turbines {
 
-struct MachineAir::Parts : AirParts {};
+struct MachineAir::Parts : AirParts {
+    TowerAir support;
+
+    explicit Parts(TowerAir drag) : support(std::move(drag)) {}
+};
 
 namespace {
 
@@ -21,12 +25,13 @@ std::string in_words(const Wind& wind) {
 
 }  // namespace
 
-MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options) {
+MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options,
+                       const AeroSupport& support) {
     blade.check();
     const MachineLayout& layout = turbine.layout();
     if (layout.blades.empty()) throw InputError("air on a machine", "number of blades", 0, "at least 1");
     const Model& model = turbine.system().model;
-    const auto parts = std::make_shared<Parts>();
+    const auto parts = std::make_shared<Parts>(TowerAir(turbine, support, wind));
     parts->profile = std::make_shared<const AeroBlade>(std::move(blade));
     parts->wind = wind;
     parts->options = options;
@@ -42,6 +47,7 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind
         parts->radius = std::max(parts->radius, parts->profile->position.back() * coned);
         parts->bodies.insert(parts->bodies.end(), own.path.begin(), own.path.end());
     }
+    if (support.tower.has_dam()) parts->dam = dam_parts(turbine, support.tower);
     parts->trunk = path_to(model, hub.body);
     std::sort(parts->bodies.begin(), parts->bodies.end());
     parts->bodies.erase(std::unique(parts->bodies.begin(), parts->bodies.end()), parts->bodies.end());
@@ -52,6 +58,7 @@ MachineAir MachineAir::in(const Wind& wind) const {
     MachineAir other = *this;
     const auto parts = std::make_shared<Parts>(*parts_);
     parts->wind = wind;
+    parts->support = parts->support.in(wind);
     other.parts_ = parts;
     return other;
 }
@@ -77,6 +84,7 @@ WrenchField MachineAir::field() const {
 Turbine MachineAir::on(const Turbine& turbine) const {
     ForceSet forces = turbine.forces();
     forces.add_field(field());
+    if (!parts_->support.is_empty()) forces.add_field(parts_->support.field());
     return turbine.with_forces(forces, text("in the air, ", in_words(parts_->wind)));
 }
 
@@ -132,7 +140,7 @@ ChannelGroup MachineAir::channels() const {
                        .alias = "RtAeroPwr"},
                       {.name = "work rate of the air",
                        .units = "W",
-                       .long_name = "on the blades, all their motion included",
+                       .long_name = "on blades, tower and nacelle, all their motion",
                        .frame = "ground"}};
     group.sample = [air = *this](const ChannelInput& in, double* values) {
         const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
@@ -141,7 +149,7 @@ ChannelGroup MachineAir::channels() const {
         values[1] = now.force.x();
         values[2] = now.moment.x();
         values[3] = now.power();
-        values[4] = now.work_rate;
+        values[4] = now.work_rate + air.support().work_rate(at);
     };
     return group;
 }
@@ -162,6 +170,12 @@ const AeroBlade& MachineAir::blade() const {
 }
 const Wind& MachineAir::wind() const {
     return parts_->wind;
+}
+const TowerAir& MachineAir::support() const {
+    return parts_->support;
+}
+bool MachineAir::has_dam() const {
+    return parts_->dam.has_value();
 }
 
 }  // namespace cardan::turbines

@@ -1,7 +1,7 @@
 /// @file
-/// Air on the blades of a machine that turns, moves and bends.
+/// Air on a machine that turns, moves and bends: on its blades and, where that is asked for, on tower and nacelle.
 ///
-///     const turbines::MachineAir air(machine, turbines::nrel5mw_aero_blade(), {.speed = 8});
+///     const turbines::MachineAir air(machine, turbines::nrel5mw_aero_blade(), SteadyWind{.speed = 8});
 ///     const turbines::Turbine in_the_wind = air.on(machine);
 ///
 /// Blade-element momentum in every section of every blade, at its displaced place, with its own velocity, in axes that
@@ -12,6 +12,7 @@
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "mbs/system/channel.hpp"
+#include "turbines/aerodynamics/tower_air.hpp"
 #include "turbines/model/assembly.hpp"
 
 #include <memory>
@@ -24,21 +25,27 @@ namespace cardan::turbines {
 class MachineAir {
 public:
     /// @param blade  of all blades; its first section lies at the blade's root, its last one at the tip
+    /// @param support  drag of tower and nacelle, and the wind that the tower dams before the sections. Dammed is the
+    ///                 wind across the tower's axis where it is next to the section, less the velocity of the tower;
+    ///                 the mean wind of a skewed wake counts it. Beyond the tower's top the dam fades to nothing over a
+    ///                 radius [AeroDyn]. Exact derivatives.
     /// @throws InputError for a machine without blades, sections beyond the ends of the blade, and as
-    /// AeroBlade::check()
-    MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options = {});
-    MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind, const RotorAirOptions& options = {})
-        : MachineAir(turbine, std::move(blade), Wind(wind), options) {}
+    /// AeroBlade::check() and TowerAir
+    MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options = {},
+               const AeroSupport& support = {});
+    MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind, const RotorAirOptions& options = {},
+               const AeroSupport& support = {})
+        : MachineAir(turbine, std::move(blade), Wind(wind), options, support) {}
 
     /// The same in another wind.
     MachineAir in(const Wind& wind) const;
 
-    /// Its forces, for ForceSet::add_field(); valid for every machine with the tree of `turbine`. Exact derivatives; no
-    /// allocation. Loads per length are linear between the sections and do the same work on the beam's rigid segments
-    /// as spread along them. With a skewed wake (Skew::pitt_peters) every blade feels all others through the mean wind,
-    /// so derivatives are full matrices.
+    /// "air": forces on the blades, for ForceSet::add_field(); those on tower and nacelle: support().field(). Valid for
+    /// every machine with the tree of `turbine`. Exact derivatives; no allocation. Loads per length are linear between
+    /// the sections and do the same work on the beam's rigid segments as spread along them. With a skewed wake
+    /// (Skew::pitt_peters) every blade feels all others through the mean wind, so derivatives are full matrices.
     WrenchField field() const;
-    /// The machine with these forces added to its own.
+    /// The machine with all forces of the air added to its own: field() and, where there is drag, support().field().
     Turbine on(const Turbine& turbine) const;
 
     /// At a state; forces per length, as in a rotor that does not bend (RotorAir): by blade, from root to tip.
@@ -53,12 +60,15 @@ public:
         double power() const { return moment.x() * speed; }
     };
     Rotor rotor(const ForceInput& at) const;
-    /// Wind at the rotor's centre, thrust, torque and power of the air on the rotor, rate of its work on all motions.
+    /// Wind at the rotor's centre, thrust, torque and power of the air on the rotor, rate of its work on all motions,
+    /// those of tower and nacelle included.
     ChannelGroup channels() const;
 
     double radius() const;  ///< of the rotor that is not bent, m
     const AeroBlade& blade() const;
     const Wind& wind() const;
+    const TowerAir& support() const;  ///< drag of tower and nacelle
+    bool has_dam() const;             ///< the tower changes the wind at the sections
 
 private:
     struct Parts;

@@ -1,9 +1,11 @@
 #include "turbines/readers/aerodyn.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -105,20 +107,54 @@ void read_skew(OpenFastFile& file, RotorAirOptions& options) {
             file.note(factor, "15 pi / 32 here");
 }
 
+AeroTower read_tower(OpenFastFile& file) {
+    AeroTower tower;
+    constexpr std::array dams{TowerDam::none, TowerDam::potential, TowerDam::bak};
+    tower.dam = entry(dams, file.has("TwrPotent") ? file.integer("TwrPotent", 0, 2) : 0);
+    tower.loads = file.flag_or("TwrAero", false);
+    if (!tower.loads && tower.dam == TowerDam::none) return tower;
+    const OpenFastTable t = file.table("TwrElev", static_cast<std::size_t>(file.integer("NumTwrNds", 2, 100000)));
+    tower.height = t.column("TwrElev");
+    tower.diameter = t.column("TwrDiam");
+    tower.drag = t.column("TwrCd");
+    for (std::size_t i = 0; i < t.rows(); ++i) {
+        if (i > 0 && !(tower.height[i] > tower.height[i - 1])) t.fail(i, "TwrElev; allowed: ascending");
+        if (!(tower.diameter[i] > 0)) t.fail(i, text("TwrDiam = ", tower.diameter[i], "; allowed: > 0"));
+        if (!(tower.drag[i] >= 0)) t.fail(i, text("TwrCd = ", tower.drag[i], "; allowed: >= 0"));
+    }
+    return tower;
+}
+
+AeroNacelle read_nacelle(OpenFastFile& file) {
+    AeroNacelle nacelle;
+    if (!file.flag_or("NacelleDrag", false)) return nacelle;
+    const auto vector = [&file](const char* keyword) {
+        const std::vector<double> values = file.numbers(keyword, 3);
+        return Vec3(values[0], values[1], values[2]);
+    };
+    nacelle.area = vector("NacArea");
+    nacelle.drag = vector("NacCd");
+    nacelle.centre = vector("NacDragAC");
+    try {
+        nacelle.check();
+    } catch (const InputError& error) {
+        file.fail("NacelleDrag", error.what());
+    }
+    return nacelle;
+}
+
 void note_rest(OpenFastFile& file) {
     if (choice(file, "UA_Mod", "UAMod", 0) != 0 && file.number_or_default("AFAeroMod", 2) != 1)
         file.note(present(file, "UA_Mod", "UAMod"), "profiles are steady here");
-    if (file.number_or_default("TwrPotent", 0) != 0 || file.number_or_default("TwrShadow", 0) != 0)
-        file.note("TwrPotent", "the tower does not disturb the wind here");
-    if (file.flag_or("TwrAero", false)) file.note("TwrAero", "no loads of the air on the tower here");
-    if (file.flag_or("NacelleDrag", false)) file.note("NacelleDrag", "no loads of the air on the nacelle here");
+    if (file.number_or_default("TwrShadow", 0) != 0) file.note("TwrShadow", "the tower has no shadow here");
     if (file.number_or_default("AFTabMod", 1) != 1)
         file.note("AFTabMod", "the first table of every polar is used here");
 }
 
 const std::vector<KeywordGroup>& ignored_by_aerodyn() {
-    static const std::vector<KeywordGroup> all{
-        {{"*"}, "numerical settings, output, unsteady profiles, tower: without meaning for the steady air on blades"}};
+    static const std::vector<KeywordGroup> all{{{"*"},
+                                                "numerical settings, output, unsteady profiles, shadow of the tower: "
+                                                "without meaning for the steady air on blades"}};
     return all;
 }
 
@@ -138,6 +174,7 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
                             .axial_drag = file.flag("AIDrag"),
                             .rotation = file.flag("TanInd"),
                             .tangential_drag = file.flag("TIDrag")};
+    out.support = {read_tower(file), read_nacelle(file)};
     note_rest(file);
     const auto column = [&](const char* keyword, int least) { return file.integer(keyword, least, 100); };
     PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};

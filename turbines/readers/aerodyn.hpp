@@ -3,6 +3,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "elements/aerodynamics/tower.hpp"
 #include "turbines/readers/turbine_file.hpp"
 
 #include <filesystem>
@@ -16,12 +17,15 @@ struct AeroDynFile {
     double density = 1.225;  ///< kg/m^3
     std::vector<FileNote> notes;
     std::string source;  ///< text of the files but the polars
+    /// Tower and nacelle; nothing where the file switches them off. Heights of the tower are those above the ground or
+    /// the still water: AeroTower::foot is for the caller to set (TurbineFile::tower_foot).
+    AeroSupport support = {};
 };
 
 /// The main file, all versions of AeroDyn 15, with the files it names. Taken as they are: induction, tip and hub
-/// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments. Noted: unsteady airfoils,
-/// dynamic wake, free vortices, influence of and loads on the tower, interpolation over the Reynolds number (the first
-/// table of each polar is used), blades that differ.
+/// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments, drag of tower and nacelle,
+/// potential flow around the tower. Noted: unsteady airfoils, dynamic wake, free vortices, shadow of the tower,
+/// interpolation over the Reynolds number (the first table of each polar is used), blades that differ.
 /// @param hub_radius  places of the sections are given from the blade's root, m
 /// @param density     where the file says "default", kg/m^3
 /// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted or do not reach

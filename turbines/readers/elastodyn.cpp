@@ -82,6 +82,7 @@ private:
         if (!(top > base)) file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above TowerBsHt = ", base));
         if (base != 0) file_.note("TowerBsHt", "the origin of the ground axes is the foot of the tower here");
         d_.missing_foundation.where = text(base, " m above the ground or the still water (TowerBsHt)");
+        out_.tower_foot = base;
         const std::filesystem::path path = file_.path("TwrFile");
         ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
         d_.tower.line = tower.line;

@@ -5,6 +5,7 @@
 #include "turbines/model/description.hpp"
 #include "turbines/model/pitch_schedule.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace cardan::turbines {
@@ -64,6 +65,8 @@ struct TurbineFile {
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
     FileOperation operation = {};
+    /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
+    std::optional<double> tower_foot = std::nullopt;
 };
 
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule

@@ -126,6 +126,7 @@ public:
         read_side();
         try {
             d_.tower.line = beam_line(windio_tower(file_));
+            out_.tower_foot = tower_heights().front();
         } catch (const InputError& error) {
             file_.root().fail(error.what());
         }
@@ -258,13 +259,19 @@ private:
         }
     }
 
+    // Of the tower's reference axis, above the ground or the still water.
+    std::vector<double> tower_heights() const {
+        return file_
+            .get({"components.tower.reference_axis.z.values",
+                  "components.tower.elastic_properties_mb.six_x_six.reference_axis.z.values",
+                  "components.tower.outer_shape_bem.reference_axis.z.values"})
+            .numbers();
+    }
+
     // Some files hold the axes of another machine, which WISDEM stretches to the diameter of the rotor and the height
     // of the hub. Here the axes count.
     void compare_sizes(double blade) {
         const double diameter = 2 * (d_.hub.radius + blade) * std::cos(d_.blade.cone);
-        const YamlNode top = file_.get({"components.tower.reference_axis.z.values",
-                                        "components.tower.elastic_properties_mb.six_x_six.reference_axis.z.values",
-                                        "components.tower.outer_shape_bem.reference_axis.z.values"});
         const YamlNode above = file_.get(
             {"components.drivetrain.outer_shape.distance_tt_hub", "components.nacelle.drivetrain.distance_tt_hub"});
         const auto compare = [&](const char* path, double found, const char* what) {
@@ -276,7 +283,7 @@ private:
                             " m; other programs stretch them to this"));
         };
         compare("assembly.rotor_diameter", diameter, "a diameter");
-        compare("assembly.hub_height", top.numbers().back() + above.number(), "a height");
+        compare("assembly.hub_height", tower_heights().back() + above.number(), "a height");
     }
 
     void read_drive_train() {

@@ -14,6 +14,19 @@
 
 namespace cardan::program {
 
+namespace {
+
+// Where files do not say how high it stands.
+double tower_foot_at_rest(const turbines::Turbine& turbine) {
+    const Model& model = turbine.system().model;
+    if (turbine.layout().tower_foot == FrameId{}) return 0;
+    Workspace workspace(model);
+    const Vector q = Vector::Zero(model.size());
+    return pose(kinematics(model, q, workspace), turbine.layout().tower_foot).p.z();
+}
+
+}  // namespace
+
 void add_air_options(CommandLine& app, AirArguments& a) {
     app.add_option("--air", a.file, "profiles: the main file of AeroDyn 15 (default: that of the model)")
         .type_name("FILE");
@@ -21,13 +34,15 @@ void add_air_options(CommandLine& app, AirArguments& a) {
     app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
     app.add_option("--upflow", a.upflow, "of the wind, deg");
     app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
+    app.add_flag("--no-tower", a.no_tower,
+                 "without the wind that the tower dams, and the air's drag on tower and nacelle");
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
 }
 
 std::string in_words(const AirArguments& a) {
     return text("air ", a.file.empty() ? "of the machine" : a.file, ", shear ", a.shear, ", direction ", a.direction,
                 " deg, upflow ", a.upflow, " deg, density ", a.density ? text(*a.density) : "of the air's file",
-                a.no_skew ? ", no skew" : "");
+                a.no_skew ? ", no skew" : "", a.no_tower ? ", no tower" : "");
 }
 
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments) {
@@ -44,6 +59,7 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
         air.blade = std::move(read.blade);
         air.options = read.options;
         air.density = read.density;
+        if (!arguments.no_tower) air.support = std::move(read.support);
     } else if (options.model.starts_with("nrel5mw")) {
         air.blade = turbines::nrel5mw_aero_blade();
     } else {
@@ -52,6 +68,12 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
     if (arguments.no_skew) air.options.skew = Skew::none;
     if (arguments.density) air.density = *arguments.density;
     return air;
+}
+
+AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine) {
+    AeroSupport support = air.support;
+    support.tower.foot = machine.file.tower_foot.value_or(tower_foot_at_rest(turbine));
+    return support;
 }
 
 SteadyWind wind_profile(const AirArguments& arguments, const Air& air, double height) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "elements/aerodynamics/tower.hpp"
+#include "elements/aerodynamics/wind.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include "examples/shared/machine_file.hpp"
@@ -16,7 +18,7 @@ struct AirArguments {
     double shear = 0;                  ///< exponent
     double direction = 0, upflow = 0;  ///< deg
     std::optional<double> density;
-    bool no_skew = false;
+    bool no_skew = false, no_tower = false;
 };
 void add_air_options(CommandLine& app, AirArguments& arguments);
 /// For the file of a run.
@@ -27,9 +29,13 @@ struct Air {
     AeroBlade blade;
     RotorAirOptions options;
     double density = 1.225;
+    AeroSupport support = {};  ///< heights as the file has them
 };
 /// @throws InputError for a machine without profiles; as the readers
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments);
+
+/// Tower and nacelle, the foot of the tower where the machine's file says, or else the machine, that it stands.
+AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine);
 
 /// As the options say, without a speed.
 /// @param height  of the rotor's centre, m

@@ -28,12 +28,17 @@ public:
               "------- AERODYN BLADE -----\ntitle\n====== Blade Properties ===\n2 NumBlNds - nodes\n"
               "BlSpn BlCrvAC BlSwpAC BlCrvAng BlTwist BlChord BlAFID\n(m) (m) (m) (deg) (deg) (m) (-)\n"
               "0.0 0.0 0.0 0.0 12.0 3.5 2\n40.0 -1.5 0.25 0.0 0.5 1.2 1\n");
-        write("main.dat", "------- AERODYN INPUT FILE ----\ntitle\n====== General Options =====\n" + options +
-                              "1 AFTabMod - tables\n1 InCol_Alfa - a\n2 InCol_Cl - l\n3 InCol_Cd - d\n4 InCol_Cm - m\n"
-                              "0 InCol_Cpmin - none\n2 NumAFfiles - files\n\"polar_1.dat\" AFNames - names\n"
-                              "\"polar_2.dat\"\n====== Blades =====\nTrue UseBlCm - moments\n"
-                              "\"blade.dat\" ADBlFile(1) - one\n\"blade.dat\" ADBlFile(2) - two\n"
-                              "\"other.dat\" ADBlFile(3) - three\n");
+        write("main.dat",
+              "------- AERODYN INPUT FILE ----\ntitle\n====== General Options =====\n" + options +
+                  "1 AFTabMod - tables\n1 InCol_Alfa - a\n2 InCol_Cl - l\n3 InCol_Cd - d\n4 InCol_Cm - m\n"
+                  "0 InCol_Cpmin - none\n2 NumAFfiles - files\n\"polar_1.dat\" AFNames - names\n"
+                  "\"polar_2.dat\"\n====== Blades =====\nTrue UseBlCm - moments\n"
+                  "\"blade.dat\" ADBlFile(1) - one\n\"blade.dat\" ADBlFile(2) - two\n"
+                  "\"other.dat\" ADBlFile(3) - three\n====== Nacelle =====\n"
+                  "0, 0, 0 NacCenB - m\n20, 40, 30 NacArea - m^2\n0.5, 1, 1.5 NacCd - 1\n"
+                  "-2.5, 0, 1.75 NacDragAC - m\n====== Tower =====\n2 NumTwrNds - nodes\n"
+                  "TwrElev TwrDiam TwrCd TwrTI TwrCb !TwrTI used only with TwrShadow=2\n"
+                  "(m) (m) (-) (-) (-)\n15.0 6.5 0.5 0.1 0.0\n80.0 3.0 0.75 0.1 0.0\n====== Outputs ====\n");
     }
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
     std::string text_of(const std::string& name) const { return test::bytes_of(folder_ / name); }
@@ -97,8 +102,6 @@ TEST_CASE("aerodyn: sections, polars and options of newer files", "[analytic]") 
     CHECK(blade.polars[1].at(1).drag == Approx(0.5));
     CHECK_NOTHROW(blade.check());
     CHECK(test::has_note(file.notes, "UA_Mod", "profiles are steady here"));
-    CHECK(test::has_note(file.notes, "TwrPotent", "the tower does not disturb the wind here"));
-    CHECK(test::has_note(file.notes, "TwrAero", "no loads of the air on the tower here"));
     CHECK(test::has_note(file.notes, "ADBlFile(3)", "the sections of the first one"));
     CHECK(!test::has_note(file.notes, "ADBlFile(2)", "the sections of the first one"));
 }
@@ -120,6 +123,35 @@ TEST_CASE("aerodyn: older files, and what is left out", "[analytic]") {
     CHECK(file.blade.polars[0].at(0.1).moment == 0);
 }
 
+TEST_CASE("aerodyn: tower and nacelle", "[analytic]") {
+    const Model model(newer);
+    AeroDynFile file = model.read();
+    const AeroTower tower = file.support.tower;
+    CHECK(tower.dam == TowerDam::potential);
+    CHECK(tower.loads);
+    CHECK(tower.height == std::vector<double>{15, 80});
+    CHECK(tower.diameter == std::vector<double>{6.5, 3});
+    CHECK(tower.drag == std::vector<double>{0.5, 0.75});
+    CHECK_NOTHROW(tower.check());
+    CHECK(!file.support.nacelle.has_loads());
+    for (const char* keyword : {"TwrPotent", "TwrAero", "TwrShadow", "NacelleDrag"})
+        CHECK(!test::has_note(file.notes, keyword, "here"));
+    model.replace("main.dat", "1 TwrPotent", "2 TwrPotent");
+    model.replace("main.dat", "0 TwrShadow - none", "1 TwrShadow - Powles\nTrue NacelleDrag - loads");
+    model.replace("main.dat", "True TwrAero", "False TwrAero");
+    file = model.read();
+    CHECK(file.support.tower.dam == TowerDam::bak);
+    CHECK(!file.support.tower.loads);
+    CHECK(file.support.nacelle.area == Vec3(20, 40, 30));
+    CHECK(file.support.nacelle.drag == Vec3(0.5, 1, 1.5));
+    CHECK(file.support.nacelle.centre == Vec3(-2.5, 0, 1.75));
+    CHECK(test::has_note(file.notes, "TwrShadow", "the tower has no shadow here"));
+    // Where nothing is asked for there is nothing, not even a table.
+    model.replace("main.dat", "2 TwrPotent", "0 TwrPotent");
+    model.replace("main.dat", "2 NumTwrNds", "0 NumTwrNds");
+    CHECK(model.read().support.tower.height.empty());
+}
+
 TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     const auto with = [](const std::string& name, const std::string& from, const std::string& to) {
         return [=] {
@@ -139,6 +171,19 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     check_error(with("blade.dat", "1.2 1\n", "0 1\n"), {"blade.dat:8", "BlChord = 0; allowed: > 0"});
     check_error(with("main.dat", "2 NumAFfiles", "3 NumAFfiles"), {"main.dat", "3 names of files expected, found 2"});
     check_error(with("main.dat", "polar_2.dat", "none.dat"), {"main.dat", "AFNames", "none.dat"});
+    check_error(with("main.dat", "1 TwrPotent", "3 TwrPotent"), {"main.dat", "TwrPotent = 3; allowed: 0 ... 2"});
+    check_error(with("main.dat", "80.0 3.0 0.75", "8.0 3.0 0.75"), {"main.dat", "TwrElev; allowed: ascending"});
+    check_error(with("main.dat", "80.0 3.0 0.75", "80.0 0 0.75"), {"main.dat", "TwrDiam = 0; allowed: > 0"});
+    check_error(with("main.dat", "80.0 3.0 0.75", "80.0 3.0 -1"), {"main.dat", "TwrCd = -1; allowed: >= 0"});
+    check_error(with("main.dat", "2 NumTwrNds", "1 NumTwrNds"), {"main.dat", "NumTwrNds = 1; allowed: 2 ..."});
+    check_error(
+        [] {
+            const Model model(newer);
+            model.replace("main.dat", "0 TwrShadow - none", "True NacelleDrag - loads");
+            model.replace("main.dat", "20, 40, 30", "20, -40, 30");
+            static_cast<void>(model.read());
+        },
+        {"main.dat", "air on the nacelle: area [m^2] = -40"});
     check_error(with("main.dat", "1.1 AirDens", "-1 AirDens"), {"AirDens = -1; allowed: > 0"});
     check_error(with("main.dat", "2 NumAFfiles - files\n", ""), {"not a file of AeroDyn 15", "NumAFfiles"});
 }

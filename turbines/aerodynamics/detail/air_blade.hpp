@@ -3,6 +3,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "turbines/aerodynamics/detail/air_line.hpp"
 #include "turbines/model/assembly.hpp"
 
 #include <vector>
@@ -18,29 +19,12 @@ struct AirSection {
     Annulus annulus;  ///< without the angle and the radius, which the motion gives
 };
 
-/// Where the load of a section acts on a segment. Loads per length are linear between sections, so a section loads all
-/// segments between its neighbours; on a rigid segment its load is one force through one point, whatever the motion:
-///
-///     length = int N ds,    place = int N x ds / length,    N: 1 at the section, 0 at its neighbours and beyond.
-///
-/// The segments move as rigid bodies: the forces do the work of the load per length, exactly.
-struct AirPoint {
-    int body;
-    FieldPoint at;  ///< on a frame of the segment
-    Vec3 place;     ///< the same in body axes, m
-    double length;  ///< m
-    std::size_t section;
-};
-
 struct AirBlade {
     std::vector<AirSection> sections;  ///< from root to tip
     std::vector<AirPoint> points;      ///< by body, descending
     Vec3 axis;                         ///< of the pitch, to the tip, axes of the hub's body
     std::vector<int> path;             ///< bodies from the base to the tip, ascending
 };
-
-/// Bodies from the base to this one, ascending.
-std::vector<int> path_to(const Model& model, int body);
 
 /// @param k  of the machine's blades, from 0
 /// @throws InputError for sections beyond the ends of the blade

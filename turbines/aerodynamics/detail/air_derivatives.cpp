@@ -9,6 +9,8 @@
 //
 //     dV_P/dq_a = omega_a x v + w x (V_P - V_P of a point fixed to that body),    dV_P/dqd_a = v.
 //
+// The wind that a tower dams depends on both motions, too: air_tower.cpp.
+//
 // Its axes x, y, z turn with w if the hub does too; else z turns with w and y stays in the plane of the rotor, so they
 // turn with w + (kappa - w.z) z, kappa = (w.x) (s.z) / (s.x), s the shaft, and the angle of the chord against them
 // changes by kappa - w.z.
@@ -41,7 +43,8 @@ public:
         memory_.by_qd.resize(parts_.profile->sections());
         memory_.by_wake.resize(air.scratch_.sections.size());
         memory_.movers.resize(static_cast<std::size_t>(n));
-        for (const int a : parts_.bodies) entry(memory_.movers, a) = found_mover(a);
+        for (const int a : parts_.bodies) entry(memory_.movers, a) = air.motion_.mover(a);
+        if (parts_.dam) find_dam();
     }
 
     void add() {
@@ -58,22 +61,33 @@ public:
 
 private:
     const Mover& mover(int a) const { return entry(memory_.movers, a); }
-    Mover found_mover(int a) const {
-        const auto& frame = entry(air_.kin_.workspace().frame, a);
-        const Vec3 e = frame.E[2].vector(), o = frame.o.vector();
-        const BodyRate& rate = entry(air_.scratch_.rates, a);
-        const Vec3 linear = rate.origin - cross<double>(rate.angular, o);
-        if (entry(air_.kin_.model().links(), a).revolute) return {e, cross<double>(o, e), rate.angular, linear};
-        return {Vec3::Zero(), e, rate.angular, linear};
-    }
-    int depth(int body) const { return entry(air_.kin_.model().links(), body).depth; }
-    bool moves_hub(int a) const { return air_.kin_.model().precedes(a, parts_.hub_body); }
+    int depth(int body) const { return air_.motion_.depth(body); }
+    bool moves(int a, int body) const { return body >= 0 && air_.kin_.model().precedes(a, body); }
+    bool moves_hub(int a) const { return moves(a, parts_.hub_body); }
 
     SectionTurn turn(const SectionState& s, const Mover& by, bool with_hub) const {
         if (with_hub) return {by.w, 0, 0};
         const double across = by.w.dot(s.x) * air_.shaft_.dot(s.span) / air_.shaft_.dot(s.x),
                      angle = across - by.w.dot(s.span);
         return {by.w + angle * s.span, angle, s.radial.dot(by.at(s.place))};
+    }
+
+    void find_dam() {
+        memory_.dam.resize(air_.scratch_.dam.size());
+        for (std::size_t i = 0; i < memory_.dam.size(); ++i)
+            memory_.dam[i] = DamSlopes(*parts_.dam, air_.motion_, air_.wind_, air_.scratch_.dam[i]);
+    }
+    // Changes of the wind at a section by a coordinate: its place moves by v.
+    Vec3 wind_by_q(std::size_t section, int a, const Vec3& v) const {
+        const Vec3 open = air_.scratch_.sections[section].wind_gradient * v;
+        if (!parts_.dam) return open;
+        const DamState& dam = air_.scratch_.dam[section];
+        return open + memory_.dam[section].by_q(dam, mover(a), v, moves(a, dam.body));
+    }
+    Vec3 wind_by_qd(std::size_t section, int a) const {
+        if (!parts_.dam) return Vec3::Zero();
+        const DamState& dam = air_.scratch_.dam[section];
+        return memory_.dam[section].by_qd(dam, mover(a), moves(a, dam.body));
     }
 
     // Force and moment per length of a section, base axes, by the coordinates before it.
@@ -86,7 +100,8 @@ private:
             out << change(0) * s.x - change(1) * s.y, change(2) * s.span;
             return out;
         };
-        memory_.by_wake[k * blade.sections.size() + i] << load(by.col(Slopes::wake_angle)),
+        const std::size_t all = k * blade.sections.size() + i;
+        memory_.by_wake[all] << load(by.col(Slopes::wake_angle)),
             load(by.col(Slopes::wake_lever) * s.annulus.radius / parts_.radius);
         Columns6 &to_q = memory_.by_q[i], &to_qd = memory_.by_qd[i];
         const int count = depth(blade.sections[i].body);
@@ -96,7 +111,8 @@ private:
             const int a = entry(blade.path, j);
             const Mover& own = mover(a);
             const SectionTurn turned = turn(s, own, moves_hub(a));
-            const Vec3 v = own.at(s.place), air = s.wind_gradient * v - own.change_of_velocity(s.place, s.velocity);
+            const Vec3 v = own.at(s.place), air = wind_by_q(all, a, v) - own.change_of_velocity(s.place, s.velocity),
+                       air_qd = wind_by_qd(all, a) - v;
             const auto change_along = [&](const Vec3& axis) {
                 return air.dot(axis) + s.relative.dot(cross<double>(turned.axes, axis));
             };
@@ -107,7 +123,7 @@ private:
             Vec6 carried;
             carried << cross<double>(turned.axes, s.force), cross<double>(own.w, s.moment);
             to_q.col(j) = load(change) + carried;
-            to_qd.col(j) = load(-by.col(Slopes::V_x) * v.dot(s.x) - by.col(Slopes::V_y) * v.dot(s.y));
+            to_qd.col(j) = load(by.col(Slopes::V_x) * air_qd.dot(s.x) + by.col(Slopes::V_y) * air_qd.dot(s.y));
         }
     }
 
@@ -160,23 +176,9 @@ private:
         }
     }
 
-    // Row b of the derivatives, from the wrench on all that b moves.
     void add_row(int b, const std::vector<int>& columns, const Columns6& sum_q, const Columns6& sum_qd,
                  const Vec6& wrench) {
-        const Mover& own = mover(b);
-        Vec6 S;
-        S << own.w, own.v;
-        for (const int a : columns) {
-            double value = S.dot(sum_q.col(a));
-            if (a < b && air_.kin_.model().precedes(a, b)) {
-                const Mover& first = mover(a);
-                Vec6 turned;
-                turned << cross<double>(first.w, own.w), cross<double>(first.w, own.v) + cross<double>(first.v, own.w);
-                value += turned.dot(wrench);
-            }
-            by_q_(b, a) += value;
-            by_qd_(b, a) += S.dot(sum_qd.col(a));
-        }
+        turbines::add_row(air_.kin_.model(), memory_.movers, b, columns, sum_q, sum_qd, wrench, by_q_, by_qd_);
     }
 
     // All sections feel the mean wind, which all of them make up.
@@ -197,14 +199,16 @@ private:
         for (std::size_t k = 0; k < parts_.blades.size(); ++k)
             for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
                 const SectionState& s = air_.sections(k)[i];
-                if (s.wind_gradient.isZero(0)) continue;
+                if (!parts_.dam && s.wind_gradient.isZero(0)) continue;
                 const AirBlade& blade = parts_.blades[k];
                 for (int j = 0; j < depth(blade.sections[i].body); ++j) {
                     const int a = entry(blade.path, j);
-                    memory_.mean_q.col(a) += share * s.wind_gradient * mover(a).at(s.place);
+                    const std::size_t all = k * parts_.profile->sections() + i;
+                    memory_.mean_q.col(a) += share * wind_by_q(all, a, mover(a).at(s.place));
+                    memory_.mean_qd.col(a) += share * wind_by_qd(all, a);
                 }
             }
-        const Vec3 &hub = air_.hub_, velocity = air_.velocity(parts_.hub_body, hub);
+        const Vec3 &hub = air_.hub_, velocity = air_.motion_.velocity(parts_.hub_body, hub);
         for (const int a : parts_.trunk) {
             const Mover& own = mover(a);
             memory_.mean_q.col(a) -= own.change_of_velocity(hub, velocity);

@@ -7,21 +7,17 @@
 
 namespace cardan::turbines {
 
-namespace {
-
-Vec3 across(const Vec3& v, const Vec3& axis) {
-    return v - v.dot(axis) * axis;
-}
-
-}  // namespace
-
 AirEvaluation::AirEvaluation(const AirParts& parts, const ForceInput& at, AirScratch& scratch)
-    : parts_(parts), at_(at), kin_(at.kinematics), scratch_(scratch), wind_(parts.wind.at(at.time)) {
-    const Mat3 R = kin_.rotation(parts.hub_body);
-    shaft_ = R * parts.hub_axis;
-    hub_ = kin_.origin(parts.hub_body) + R * parts.hub_place;
-    find_rates();
+    : parts_(parts),
+      at_(at),
+      kin_(at.kinematics),
+      scratch_(scratch),
+      motion_(at, parts.bodies, scratch.rates),
+      wind_(parts.wind.at(at.time)) {
+    shaft_ = motion_.rotation(parts.hub_body) * parts.hub_axis;
+    hub_ = motion_.place(parts.hub_body, parts.hub_place);
     place_sections();
+    if (parts.dam) dam_wind();
     find_mean_wind();
     find_loads();
 }
@@ -31,37 +27,12 @@ std::span<const SectionState> AirEvaluation::sections(std::size_t blade) const {
     return std::span(scratch_.sections).subspan(blade * count, count);
 }
 
-// Angular velocities and velocities of the joints' origins, from the base out.
-void AirEvaluation::find_rates() {
-    const Workspace& ws = kin_.workspace();
-    const auto n = kin_.model().links().size();
-    scratch_.rates.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        const Model::Link& link = kin_.model().links()[k];
-        const Vec3 axis = ws.frame[k].E[2].vector(), turn = at_.qd(static_cast<Eigen::Index>(k)) * axis;
-        BodyRate& own = scratch_.rates[k];
-        own = {Vec3::Zero(), Vec3::Zero()};
-        if (link.parent >= 0) {
-            own.angular = entry(scratch_.rates, link.parent).angular;
-            own.origin = velocity(link.parent, ws.frame[k].o.vector());
-        }
-        (link.revolute ? own.angular : own.origin) += turn;
-    }
-}
-
-Vec3 AirEvaluation::velocity(int body, const Vec3& place) const {
-    const BodyRate& rate = entry(scratch_.rates, body);
-    return rate.origin + cross<double>(rate.angular, place - entry(kin_.workspace().frame, body).o.vector());
-}
-
 double AirEvaluation::power(const Wrench& wrench, int body, const Vec3& place) const {
-    return wrench.force.dot(velocity(body, place)) + wrench.moment.dot(entry(scratch_.rates, body).angular);
+    return wrench.force.dot(motion_.velocity(body, place)) + wrench.moment.dot(motion_.angular(body));
 }
 
 double AirEvaluation::speed() const {
-    Vec3 turning = entry(scratch_.rates, parts_.hub_body).angular;
-    if (parts_.shaft_body >= 0) turning -= entry(scratch_.rates, parts_.shaft_body).angular;
-    return turning.dot(shaft_);
+    return (motion_.angular(parts_.hub_body) - motion_.angular(parts_.shaft_body)).dot(shaft_);
 }
 
 void AirEvaluation::place_sections() {
@@ -76,7 +47,7 @@ void AirEvaluation::place_sections() {
         s.span = R * own.span;
         s.y = cross<double>(s.span, shaft_).normalized();
         s.x = cross<double>(s.y, s.span);
-        s.velocity = velocity(own.body, s.place);
+        s.velocity = motion_.velocity(own.body, s.place);
         s.relative = wind_.at(s.place) - s.velocity;
         s.wind_gradient = wind_.gradient_at(s.place);
         s.radial = across(s.place - hub_, shaft_);
@@ -88,11 +59,20 @@ void AirEvaluation::place_sections() {
     }
 }
 
+void AirEvaluation::dam_wind() {
+    scratch_.dam.resize(scratch_.sections.size());
+    for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
+        SectionState& s = scratch_.sections[i];
+        scratch_.dam[i] = dam_at(*parts_.dam, motion_, wind_, s.place);
+        if (scratch_.dam[i].acts) s.relative += scratch_.dam[i].disturbance;
+    }
+}
+
 // Of the wind at the sections, less the velocity of the hub.
 void AirEvaluation::find_mean_wind() {
     Vec3 sum = Vec3::Zero();
     for (const SectionState& s : scratch_.sections) sum += s.relative + s.velocity;
-    mean_.velocity = sum / static_cast<double>(scratch_.sections.size()) - velocity(parts_.hub_body, hub_);
+    mean_.velocity = sum / static_cast<double>(scratch_.sections.size()) - motion_.velocity(parts_.hub_body, hub_);
     mean_.normal = mean_.velocity.dot(shaft_);
     mean_.speed = mean_.velocity.norm();
     mean_.angle = std::atan2(across(mean_.velocity, shaft_).norm(), mean_.normal);

@@ -4,8 +4,11 @@
 #pragma once
 
 #include "turbines/aerodynamics/detail/air_blade.hpp"
+#include "turbines/aerodynamics/detail/air_tower.hpp"
+#include "turbines/aerodynamics/detail/body_motion.hpp"
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace cardan::turbines {
@@ -21,13 +24,14 @@ struct AirParts {
     std::vector<int> trunk;              ///< bodies from the base to the hub, ascending
     double radius = 0;                   ///< of the rotor that is not bent, m
     std::vector<int> bodies;             ///< all that move a section, ascending
+    std::optional<DamParts> dam;         ///< the tower changes the wind at the sections
 };
 
 /// A section at a state, base axes.
 struct SectionState {
     Vec3 place, span, x, y;   ///< axes of the section: x downwind, y against the motion
     Vec3 velocity, relative;  ///< of the section; of the air against it, m/s
-    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s
+    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s, of the wind that no tower dams
     Vec3 radial;              ///< unit, from the shaft
     SkewedWake wake;
     Annulus annulus;
@@ -35,27 +39,10 @@ struct SectionState {
     Vec3 force, moment;  ///< per length, N/m and N
 };
 
-/// Motion of a body, base axes: angular velocity, and velocity of its joint's origin.
-struct BodyRate {
-    Vec3 angular, origin;
-};
-
-using Columns6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-
-/// Twist of a coordinate about the base's origin, and the motion of the body behind it as seen there.
-struct Mover {
-    Vec3 w, v, angular, linear;
-
-    Vec3 at(const Vec3& P) const { return v + cross<double>(w, P); }
-    Vec3 carried(const Vec3& P) const { return linear + cross<double>(angular, P); }  // velocity of a point fixed to it
-    Vec3 change_of_velocity(const Vec3& P, const Vec3& V) const {
-        return cross<double>(angular, at(P)) + cross<double>(w, V - carried(P));
-    }
-};
-
 /// Memory of AirDerivatives.
 struct AirDerivativeScratch {
     std::vector<Mover> movers;                         ///< by coordinate
+    std::vector<DamSlopes> dam;                        ///< of all sections, if there is a dam
     std::vector<Columns6> by_q, by_qd;                 ///< of the sections of a blade: force, moment per length
     std::vector<Eigen::Matrix<double, 6, 2>> by_wake;  ///< of all sections, by the wake's angle and its blade's sine
     Columns6 blade_q, blade_qd, trunk_q, trunk_qd;     ///< moment about the base's origin, force; by coordinate
@@ -68,6 +55,7 @@ struct AirDerivativeScratch {
 struct AirScratch {
     std::vector<BodyRate> rates;
     std::vector<SectionState> sections;  ///< of all blades, one after the other
+    std::vector<DamState> dam;           ///< at them, if there is one
     AirDerivativeScratch derivatives;
 };
 
@@ -95,11 +83,10 @@ public:
     void add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd);
 
 private:
-    void find_rates();
     void place_sections();
+    void dam_wind();
     void find_mean_wind();
     void find_loads();
-    Vec3 velocity(int body, const Vec3& place) const;
     Vec3 blade_direction(std::size_t blade) const;  // unit, in the plane of the rotor
     double sine(std::size_t blade) const;  // of the blade's azimuth in the skewed wake, times that of the wake's angle
 
@@ -109,6 +96,7 @@ private:
     const ForceInput& at_;
     const Kinematics& kin_;
     AirScratch& scratch_;
+    BodyMotion motion_;
     SteadyWind wind_;  // of this time
     Vec3 shaft_, hub_;
     MeanWind mean_ = {};

@@ -1,0 +1,82 @@
+#include "turbines/aerodynamics/detail/body_motion.hpp"
+
+#include "mbs/base/entry.hpp"
+#include "mbs/kernels/path_twists.hpp"
+
+#include <algorithm>
+
+namespace cardan::turbines {
+
+// Angular velocities and velocities of the joints' origins, from the base out.
+BodyMotion::BodyMotion(const ForceInput& at, std::span<const int> bodies, std::vector<BodyRate>& rates)
+    : kin_(at.kinematics), rates_(rates) {
+    rates_.resize(model().links().size());
+    for (const int k : bodies) {
+        const Model::Link& link = entry(model().links(), k);
+        const auto& frame = entry(kin_.workspace().frame, k);
+        const Vec3 turn = at.qd(k) * frame.E[2].vector();
+        BodyRate& own = entry(rates_, k);
+        own = {angular(link.parent), velocity(link.parent, frame.o.vector())};
+        (link.revolute ? own.angular : own.origin) += turn;
+    }
+}
+
+Mat3 BodyMotion::rotation(int body) const {
+    return body < 0 ? Mat3(Mat3::Identity()) : entry(kin_.workspace().frame, body).E.matrix();
+}
+
+Vec3 BodyMotion::place(int body, const Vec3& in_body) const {
+    if (body < 0) return in_body;
+    const auto& frame = entry(kin_.workspace().frame, body);
+    return frame.o.vector() + frame.E.matrix() * in_body;
+}
+
+Vec3 BodyMotion::angular(int body) const {
+    return body < 0 ? Vec3(Vec3::Zero()) : entry(rates_, body).angular;
+}
+
+Vec3 BodyMotion::velocity(int body, const Vec3& place) const {
+    if (body < 0) return Vec3::Zero();
+    const BodyRate& rate = entry(rates_, body);
+    return rate.origin + cross<double>(rate.angular, place - entry(kin_.workspace().frame, body).o.vector());
+}
+
+Mover BodyMotion::mover(int coordinate) const {
+    const auto& frame = entry(kin_.workspace().frame, coordinate);
+    const Vec3 e = frame.E[2].vector(), o = frame.o.vector();
+    const BodyRate& rate = entry(rates_, coordinate);
+    const Vec3 linear = rate.origin - cross<double>(rate.angular, o);
+    if (entry(model().links(), coordinate).revolute) return {e, cross<double>(o, e), rate.angular, linear};
+    return {Vec3::Zero(), e, rate.angular, linear};
+}
+
+int BodyMotion::depth(int body) const {
+    return body < 0 ? 0 : entry(model().links(), body).depth;
+}
+
+std::vector<int> path_to(const Model& model, int body) {
+    std::vector<int> path;
+    for (int at = body; at >= 0; at = model.body(at).parent) path.push_back(at);
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+void add_row(const Model& model, const std::vector<Mover>& movers, int b, const std::vector<int>& columns,
+             const Columns6& sum_q, const Columns6& sum_qd, const Vec6& wrench, MatrixOut by_q, MatrixOut by_qd) {
+    const Mover& own = entry(movers, b);
+    Vec6 S;
+    S << own.w, own.v;
+    for (const int a : columns) {
+        double value = S.dot(sum_q.col(a));
+        if (a < b && model.precedes(a, b)) {
+            const Mover& first = entry(movers, a);
+            Vec6 turned;
+            turned << cross<double>(first.w, own.w), cross<double>(first.w, own.v) + cross<double>(first.v, own.w);
+            value += turned.dot(wrench);
+        }
+        by_q(b, a) += value;
+        by_qd(b, a) += S.dot(sum_qd.col(a));
+    }
+}
+
+}  // namespace cardan::turbines

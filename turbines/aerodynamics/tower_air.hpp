@@ -1,0 +1,54 @@
+/// @file
+/// Drag of the air on the tower and the nacelle of a machine.
+///
+///     const turbines::TowerAir air(machine, {.tower = {.height = {0, 87.6}, .diameter = {6, 3.87}, .drag = {0.5,
+///     0.5}}},
+///                                  SteadyWind{.speed = 8});
+///     ForceSet forces = machine.forces();
+///     forces.add_field(air.field());
+///
+/// Per length of the tower, which bends and moves,
+///
+///     1/2 rho C_d D |V| V,    V the air's velocity against it, the part across its axis,
+///
+/// at the heights of the table, linear between them, nothing beyond. Ground axes of the wind and base axes are the
+/// same.
+#pragma once
+
+#include "elements/aerodynamics/tower.hpp"
+#include "elements/aerodynamics/wind.hpp"
+#include "turbines/model/assembly.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// Immutable, cheap to copy, may be used by several threads.
+class TowerAir {
+public:
+    /// The wind is that of the open field. A dam is no matter of the tower's own forces, but of the rotor's:
+    /// MachineAir.
+    /// @throws InputError for drag of a tower or a nacelle that the machine does not have, rows beyond the ends of the
+    /// tower, and as AeroTower::check() and AeroNacelle::check()
+    TowerAir(const Turbine& turbine, const AeroSupport& support, const Wind& wind);
+
+    /// The same in another wind.
+    TowerAir in(const Wind& wind) const;
+
+    /// "air on the tower": its forces, for ForceSet::add_field(); valid for every machine with the tree of `turbine`.
+    /// Exact derivatives; no allocation. Loads do the same work on the beam's rigid segments as spread along them.
+    WrenchField field() const;
+
+    /// At a state, base axes: forces per length at the rows of the table, N/m, from the foot upwards.
+    std::vector<Vec3> tower(const ForceInput& at) const;
+    Vec3 nacelle(const ForceInput& at) const;      ///< force on it, N
+    double work_rate(const ForceInput& at) const;  ///< of the drag on all motions, W
+    bool is_empty() const;                         ///< neither tower nor nacelle has drag
+
+private:
+    struct Parts;
+    std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace cardan::turbines
