@@ -15,7 +15,8 @@ namespace {
 constexpr std::array changing{
     &SteadyWind::speed,    &SteadyWind::reference_height, &SteadyWind::exponent, &SteadyWind::roughness,
     &SteadyWind::gradient, &SteadyWind::direction,        &SteadyWind::veer,     &SteadyWind::upflow,
-    &SteadyWind::density,  &SteadyWind::lateral,          &SteadyWind::gust,     &SteadyWind::vertical};
+    &SteadyWind::density,  &SteadyWind::lateral,          &SteadyWind::gust,     &SteadyWind::vertical,
+    &SteadyWind::ground};
 
 Vec3 left_of(double direction) {
     return {-std::sin(direction), std::cos(direction), 0};
@@ -24,7 +25,7 @@ Vec3 left_of(double direction) {
 }  // namespace
 
 double SteadyWind::height(const Vec3& place) const {
-    return std::max(place.z(), 1e-3 * reference_height);
+    return std::max(place.z() - ground, 1e-3 * reference_height);
 }
 
 double SteadyWind::law(double z) const {
@@ -50,7 +51,7 @@ Mat3 SteadyWind::gradient_at(const Vec3& place) const {
     const Vec3 along(level * std::cos(to), level * std::sin(to), std::sin(upflow));
     Vec3 slope = lateral * left_of(direction);
     double turning = 0;
-    if (place.z() >= z) {
+    if (place.z() - ground >= z) {
         slope.z() = gradient;
         if (shear == Shear::power) slope.z() += exponent * law(z) / z;
         if (shear == Shear::logarithmic && z > roughness) slope.z() += 1 / (z * std::log(reference_height / roughness));
@@ -77,7 +78,8 @@ void SteadyWind::check() const {
                                       {"veer [rad/m]", veer},
                                       {"upflow [rad]", upflow},
                                       {"gust [m/s]", gust},
-                                      {"vertical speed [m/s]", vertical}})
+                                      {"vertical speed [m/s]", vertical},
+                                      {"height of the ground [m]", ground}})
         if (!std::isfinite(value)) throw InputError("wind", name, value, "finite");
     if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))
         throw InputError("wind", "roughness [m]", roughness,
@@ -123,6 +125,12 @@ Wind Wind::turned(double direction, double upflow) const {
         row.direction += direction;
         row.upflow += upflow;
     }
+    return out;
+}
+
+Wind Wind::over(double ground) const {
+    Wind out = *this;
+    for (SteadyWind& row : out.rows_) row.ground = ground;
     return out;
 }
 

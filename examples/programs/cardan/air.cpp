@@ -16,13 +16,18 @@ namespace cardan::program {
 
 namespace {
 
-// Where files do not say how high it stands.
+// Base axes, m.
 double tower_foot_at_rest(const turbines::Turbine& turbine) {
     const Model& model = turbine.system().model;
     if (turbine.layout().tower_foot == FrameId{}) return 0;
     Workspace workspace(model);
     const Vector q = Vector::Zero(model.size());
     return pose(kinematics(model, q, workspace), turbine.layout().tower_foot).p.z();
+}
+
+// Above the ground or the still water, m: as the files say, else as the machine stands.
+double tower_foot(const MachineFile& machine, const turbines::Turbine& turbine) {
+    return machine.file.tower_foot.value_or(tower_foot_at_rest(turbine));
 }
 
 }  // namespace
@@ -72,26 +77,29 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
 
 AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine) {
     AeroSupport support = air.support;
-    support.tower.foot = machine.file.tower_foot.value_or(tower_foot_at_rest(turbine));
+    support.tower.foot = tower_foot(machine, turbine);
     return support;
 }
 
-SteadyWind wind_profile(const AirArguments& arguments, const Air& air, double height) {
-    return {.reference_height = height,
+SteadyWind wind_profile(const AirArguments& arguments, const Air& air, const MachineFile& machine,
+                        const turbines::Turbine& turbine) {
+    const double ground = tower_foot_at_rest(turbine) - tower_foot(machine, turbine);
+    return {.reference_height = turbines::hub_at_rest(turbine).z() - ground,
             .shear = arguments.shear == 0 ? Shear::none : Shear::power,
             .exponent = arguments.shear,
             .direction = arguments.direction * units::degree,
             .upflow = arguments.upflow * units::degree,
-            .density = air.density};
+            .density = air.density,
+            .ground = ground};
 }
 
 Wind wind_of(const std::string& given, const SteadyWind& profile, bool all_notes) {
     const std::filesystem::path path = given;
     if (std::filesystem::exists(path)) {
         if (lower_case(path.extension().string()) == ".csv") return turbines::read_wind_table(path, profile);
-        turbines::InflowWindFile read = turbines::read_inflow_wind(path, profile.density);
+        const turbines::InflowWindFile read = turbines::read_inflow_wind(path, profile.density);
         print_notes(read.notes, all_notes);
-        return std::move(read.wind);
+        return read.wind.over(profile.ground);
     }
     SteadyWind wind = profile;
     wind.speed = number("--wind", given, given, wind_file_format);

@@ -37,9 +37,9 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
 /// Tower and nacelle, the foot of the tower where the machine's file says, or else the machine, that it stands.
 AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine);
 
-/// As the options say, without a speed.
-/// @param height  of the rotor's centre, m
-SteadyWind wind_profile(const AirArguments& arguments, const Air& air, double height);
+/// As the options say, without a speed; its reference height is that of the rotor's centre.
+SteadyWind wind_profile(const AirArguments& arguments, const Air& air, const MachineFile& machine,
+                        const turbines::Turbine& turbine);
 
 inline constexpr const char* wind_file_format =
     "SPEED in m/s, or FILE: CSV with time[s],speed[m/s] and more, or InflowWind's main file";

@@ -79,7 +79,7 @@ std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, con
                                            const SimulateArguments& a) {
     if (a.wind.empty()) return std::nullopt;
     const Air air = air_of(machine, a.machine, a.air);
-    const SteadyWind profile = wind_profile(a.air, air, turbines::hub_at_rest(turbine).z());
+    const SteadyWind profile = wind_profile(a.air, air, machine, turbine);
     return turbines::MachineAir(turbine, air.blade, wind_of(a.wind, profile, a.machine.notes), air.options,
                                 support_of(air, machine, turbine));
 }

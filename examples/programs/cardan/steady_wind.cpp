@@ -103,7 +103,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     check_outputs(prefix, {".h5", ".csv", ".svg", ".png"});
 
     turbines::WindOperationOptions in_wind;
-    in_wind.wind = wind_profile(wind.air, air, turbines::hub_at_rest(ready.turbine).z());
+    in_wind.wind = wind_profile(wind.air, air, machine, ready.turbine);
     in_wind.air = air.options;
     in_wind.support = support_of(air, machine, ready.turbine);
     in_wind.harmonics = revolution.harmonics;

@@ -92,7 +92,8 @@ TEST_CASE("wind: its gradient is that of the wind", "[property]") {
                               .upflow = 0.1,
                               .lateral = 0.003,
                               .gust = 2,
-                              .vertical = 0.4};
+                              .vertical = 0.4,
+                              .ground = 1.5};
         for (const double z : {20.0, 90.0, 150.0})
             for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
                 const Vec3 h = 1e-4 * axis, at(3, 4, z);

@@ -201,6 +201,8 @@ TEST_CASE("wind over time: linear between its rows, steps between two of the sam
         CHECK(wind.at(time).direction == Approx(direction));
     }
     CHECK(wind.breaks() == std::vector<double>{1, 2, 4});
+    const SteadyWind low{.speed = 10, .shear = Shear::power, .exponent = 0.2, .ground = -15};
+    CHECK(Wind(low).over(0).at(0).at({0, 0, 75}).isApprox(low.at({0, 0, 60})));
     CHECK(Wind(row(9, 0)).is_steady());
     CHECK(Wind(row(9, 0)).breaks().empty());
     check_refused([&] { Wind({1, 0}, {row(8, 0), row(8, 0)}); }, {"row 2", "time [s] = 0"});
