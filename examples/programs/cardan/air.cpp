@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/inflow_wind.hpp"
