@@ -235,6 +235,26 @@ double OpenFastFile::first_number(std::string_view keyword) {
     return parsed(line->tokens.front(), line->number, keyword);
 }
 
+std::size_t OpenFastFile::count(std::string_view keyword) const {
+    return static_cast<std::size_t>(std::count_if(
+        lines_.begin(), lines_.end(), [key = key_of(keyword)](const Line& l) { return key_of(l.keyword) == key; }));
+}
+
+const OpenFastFile::Line& OpenFastFile::line_of(std::string_view keyword, std::size_t part) const {
+    const std::string key = key_of(keyword);
+    for (const Line& line : lines_)
+        if (key_of(line.keyword) == key && part-- == 0) return line;
+    fail(keyword, cardan::text("no further line with the keyword ", keyword));
+}
+
+double OpenFastFile::number_of(std::string_view keyword, std::size_t part) {
+    if (part == 0) return first_number(keyword);
+    const Line& line = line_of(keyword, part);
+    if (line.tokens.size() != 1)
+        fail_in(keyword, part, cardan::text("one value expected before ", keyword, ", found ", line.tokens.size()));
+    return parsed(line.tokens.front(), line.number, keyword);
+}
+
 double OpenFastFile::number_or_default(std::string_view keyword, double otherwise) {
     return !has(keyword) || lower_case(word(keyword)) == "default" ? otherwise : number(keyword);
 }
@@ -265,6 +285,10 @@ std::vector<std::filesystem::path> OpenFastFile::paths(std::string_view keyword,
 void OpenFastFile::fail(std::string_view keyword, std::string_view what) const {
     const Line* line = find(keyword);
     throw ParseError(file_, line == nullptr ? lines_.back().number : line->number, 0, what);
+}
+
+void OpenFastFile::fail_in(std::string_view keyword, std::size_t part, std::string_view what) const {
+    throw ParseError(file_, line_of(keyword, part).number, 0, what);
 }
 
 std::optional<std::vector<double>> OpenFastFile::numbers_of(const Line& line) const {

@@ -90,8 +90,13 @@ public:
     /// keyword; lines without numbers are passed over.
     std::vector<Row> rows_below(std::string_view what);
 
-    /// The rows of numbers after the first line with the keyword, as many as it says; headings are passed over.
-    std::vector<Row> rows_after(std::string_view keyword);
+    /// How many lines have the keyword.
+    std::size_t count(std::string_view keyword) const;
+    /// Of a keyword that several parts have, that of one part, the first one being 0.
+    double number_of(std::string_view keyword, std::size_t part);
+    /// The rows of numbers after the line with the keyword, as many as it says; headings are passed over.
+    std::vector<Row> rows_after(std::string_view keyword, std::size_t part = 0);
+    [[noreturn]] void fail_in(std::string_view keyword, std::size_t part, std::string_view what) const;
 
     /// Marks the lines after the keyword as used.
     void pass_over(std::string_view keyword, std::size_t lines);
@@ -125,6 +130,7 @@ private:
     Line* find(std::string_view keyword);
     const Line* find(std::string_view keyword) const;
     Line& known(std::string_view keyword);
+    const Line& line_of(std::string_view keyword, std::size_t part) const;
     const Token& single(std::string_view keyword);
     std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;
     std::optional<std::vector<double>> numbers_of(const Line& line) const;

@@ -197,7 +197,7 @@ TEST_CASE("air on a machine: the deflection of a blade converges with the square
         options.blade_beam->boundaries.clear();  // equal lengths
         options.blade_beam->elements = elements;
         const Turbine blade = isolated_blade(nrel5mw_description(), options);
-        const MachineAir air(blade, nrel5mw_aero_blade(), {.speed = 8, .reference_height = 1000});
+        const MachineAir air(blade, nrel5mw_aero_blade(), SteadyWind{.speed = 8, .reference_height = 1000});
         const Turbine windy = air.on(blade);
         solvers::SteadyOptions steady;
         steady.rotor_speed = 9.156 * 2 * pi / 60;
