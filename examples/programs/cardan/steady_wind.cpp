@@ -13,6 +13,7 @@
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/csv.hpp"
 #include "turbines/readers/openfast_file.hpp"
+#include "turbines/yaml/windio_air.hpp"
 
 #include "examples/programs/cardan/operation.hpp"
 #include "examples/programs/cardan/wind_results.hpp"
@@ -38,26 +39,46 @@ struct Air {
     double rated_power = 0, least_speed = 0;  // W, rad/s; 0: not known
 };
 
+// As AeroDyn's or windIO's reader gives them.
+template <class File>
+void take(Air& air, File read, const MachineOptions& options) {
+    print_notes(read.notes, options.notes);
+    air.blade = std::move(read.blade);
+    air.options = read.options;
+    air.density = read.density;
+}
+
+// What an AeroDyn file calls "default" is in the main file of OpenFAST.
+turbines::AeroDynFile aerodyn_of(const MachineFile& machine, const MachineOptions& options,
+                                 std::filesystem::path file) {
+    const double hub_radius = machine.file.description.hub.radius;
+    if (machine.kind != MachineKind::openfast) return turbines::read_aerodyn(file, hub_radius);
+    turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
+    if (file.empty()) file = main.path("AeroFile");
+    return turbines::read_aerodyn(file, hub_radius, main.number_or_default("AirDens", 1.225),
+                                  main.number_or_default("KinVisc", standard_viscosity));
+}
+
+bool has_aerodyn(const MachineFile& machine, const MachineOptions& options) {
+    return machine.kind == MachineKind::openfast && turbines::OpenFastFile::read(options.model).has("AeroFile");
+}
+
 Air air_of(const MachineFile& machine, const MachineOptions& options, const WindArguments& wind) {
     const double hub_radius = machine.file.description.hub.radius;
-    std::filesystem::path file = wind.air;
-    if (file.empty() && machine.kind == MachineKind::openfast) {
-        turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
-        if (main.has("AeroFile")) file = main.path("AeroFile");
-    }
     Air air;
-    if (!file.empty()) {
-        turbines::AeroDynFile read = turbines::read_aerodyn(file, hub_radius);
-        print_notes(read.notes, options.notes);
-        air.blade = std::move(read.blade);
-        air.options = read.options;
-        air.density = read.density;
+    if (is_yaml(wind.air)) {
+        take(air, turbines::read_windio_air(wind.air, hub_radius), options);
+    } else if (!wind.air.empty() || has_aerodyn(machine, options)) {
+        take(air, aerodyn_of(machine, options, wind.air), options);
+    } else if (machine.kind == MachineKind::windio) {
+        take(air, turbines::read_windio_air(options.model, hub_radius, additions_of(options)), options);
     } else if (options.model.starts_with("nrel5mw")) {
         air.blade = turbines::nrel5mw_aero_blade();
         air.rated_power = 5e6 / 0.944;  // with the losses of the generator, Table 5-1
         air.least_speed = 6.9 * units::rpm;
     } else {
-        throw InputError("--air", "value", "none, and the machine has no profiles", "FILE, the main file of AeroDyn");
+        throw InputError("--air", "value", "none, and the machine has no profiles",
+                         "FILE, the main file of AeroDyn, or windIO");
     }
     if (wind.no_skew) air.options.skew = Skew::none;
     if (wind.density) air.density = *wind.density;
@@ -98,7 +119,7 @@ std::vector<turbines::Operation> schedule_of(const std::string& path) {
 
 void add_wind_options(CommandLine& app, WindArguments& a) {
     app.add_option("--wind", a.speeds, std::string("wind speeds at the hub's height, ") + wind_format);
-    app.add_option("--air", a.air, "profiles: the main file of AeroDyn 15 (default: that of the model)")
+    app.add_option("--air", a.air, "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
         .type_name("FILE");
     app.add_option(
            "--schedule", a.schedule,

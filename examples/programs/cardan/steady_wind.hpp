@@ -12,7 +12,7 @@ namespace cardan::program {
 /// What the wind is, and how the machine runs in it.
 struct WindArguments {
     std::string speeds;                ///< m/s, with ranges; empty: no wind
-    std::string air;                   ///< AeroDyn's main file; empty: the machine's
+    std::string air;                   ///< AeroDyn's main file, or windIO; empty: the machine's
     std::string schedule;              ///< file; empty: variable speed
     double shear = 0;                  ///< exponent
     double direction = 0, upflow = 0;  ///< deg
