@@ -257,6 +257,7 @@ private:
         const WindioCurve& t = *thickness;
         for (std::size_t i = 1; i < t.grid.size(); ++i) {
             const double a = t.values[i - 1], b = t.values[i];
+            if (a == b && a == thick && t.grid[i] >= from) return std::max(from, t.grid[i - 1]);
             if (a == b || (a - thick) * (b - thick) > 0) continue;
             const double place = t.grid[i - 1] + (t.grid[i] - t.grid[i - 1]) * (thick - a) / (b - a);
             if (place >= from) return place;

@@ -162,14 +162,14 @@ TEST_CASE("windio air: additions, and a model without structure", "[property]") 
 TEST_CASE("windio air: bad files are refused with file, line, value and what is allowed", "[validation]") {
     const char *one = "small_v1.yaml", *two = "small_v2.yaml";
     CHECK_THAT(refusal(two, "name: thick, span", "name: fat, span"),
-               Contains("small_v2.yaml:14") && Contains("no airfoil 'fat'; there are: round, thick, thin"));
+               Contains("small_v2.yaml:15") && Contains("no airfoil 'fat'; there are: round, thick, thin"));
     CHECK_THAT(refusal(two, "values: [1.0, 0.3]}", "values: [1.0, 0.0]}"),
-               Contains("small_v2.yaml:18") && Contains("chord of 0 m; allowed: > 0"));
+               Contains("small_v2.yaml:19") && Contains("chord of 0 m; allowed: > 0"));
     CHECK_THAT(refusal(two, "spanwise_position: 0.3", "spanwise_position: 0.04"),
-               Contains("small_v2.yaml:14") && Contains("spanwise position 0.04 after 0.05; allowed: larger"));
+               Contains("small_v2.yaml:15") && Contains("spanwise position 0.04 after 0.05; allowed: larger"));
     CHECK_THAT(refusal(two, "spanwise_position: 0.3", "spanwise_position: 1.3"), Contains("1.3; allowed: 0 ... 1"));
     CHECK_THAT(refusal(two, "[default], weight: [1.0]", "[default], weight: [0.5]"),
-               Contains("small_v2.yaml:12") && Contains("weights with the sum 0.5; allowed: 1"));
+               Contains("small_v2.yaml:13") && Contains("weights with the sum 0.5; allowed: 1"));
     CHECK_THAT(refusal(two, "[default], weight", "[rough], weight"),
                Contains("no configuration 'rough'; there are: 'default'"));
     CHECK_THAT(refusal(two, "rthick: 0.4", "rthick: 40"), Contains("airfoils[1].rthick: 40; allowed: 0 ... 1"));
