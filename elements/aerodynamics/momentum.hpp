@@ -14,6 +14,9 @@ struct MomentumOptions {
     bool tangential_drag = true;            ///< drag in that of the rotation
 };
 
+/// Kinematic, of the air at 15 C at sea level, m^2/s [ISO 2533:1975, standard atmosphere].
+inline constexpr double standard_viscosity = 1.4607e-5;
+
 /// A ring of the rotor and the sections of the blades in it. Axes of a section: x normal to the coned surface,
 /// downwind; z along the blade to its tip; y against the motion.
 struct Annulus {
@@ -25,6 +28,7 @@ struct Annulus {
     /// its tip, z_h its root.
     double tip = 1e300, hub = 1e300;
     const Polar* polar = nullptr;
+    double viscosity = standard_viscosity;  ///< kinematic, of the air, m^2/s: for polars at several Reynolds numbers
 };
 
 /// Of a section, with V_x and V_y the velocity of the air relative to it without induction:
@@ -38,6 +42,9 @@ struct Induction {
 
 /// The residual in the single unknown phi [Ning 2014], with Buhl's relation [2005] at high thrust and the branch of a
 /// propeller that brakes: solutions are bracketed, so that there is none that is not found.
+///
+/// The Reynolds number within the balance is that of the velocity without induction, that of the forces the one with
+/// it, both as in AeroDyn: the balance keeps its single unknown.
 ///
 /// Where F = 0 (root and tip with losses) a = 1, a' = 0. Where the air has no speed in one direction, or no bracket has
 /// a sign change, a = a' = 0.

@@ -14,55 +14,143 @@ namespace cardan {
 namespace {
 
 constexpr double slack = 1e-6;  // rad, of the ends of a table
+constexpr double same = 1e-9;   // rad, of points of two tables
 
-}  // namespace
-
-Polar::Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,
-             std::vector<double> moment)
-    : name_(std::move(name)),
-      angles_(std::move(angles)),
-      lift_(std::move(lift)),
-      drag_(std::move(drag)),
-      moment_(std::move(moment)) {
-    const std::string here = text("polar of profile '", name_, "'");
-    const std::size_t n = angles_.size();
+void check(const std::string& here, const Polar::Table& table) {
+    const std::vector<double>& angles = table.angles;
+    const std::size_t n = angles.size();
     if (n < 2) throw InputError(here, "number of points", n, "at least 2");
     if (n > std::numeric_limits<std::uint16_t>::max()) throw InputError(here, "number of points", n, "at most 65535");
-    for (const auto* column : {&lift_, &drag_, &moment_})
+    for (const auto* column : {&table.lift, &table.drag, &table.moment})
         if (column->size() != n)
             throw InputError(here, "values in a column", column->size(), text("as many as angles, ", n));
     for (std::size_t i = 0; i < n; ++i) {
-        for (const auto* column : {&angles_, &lift_, &drag_, &moment_})
+        for (const auto* column : {&angles, &table.lift, &table.drag, &table.moment})
             if (!std::isfinite((*column)[i]))
                 throw InputError(text(here, ", point ", i + 1), "value", (*column)[i], "finite");
-        if (i > 0 && !(angles_[i] > angles_[i - 1]))
-            throw InputError(text(here, ", point ", i + 1), "angle of attack [deg]", angles_[i] * units::to_degrees,
-                             text("above that of the point before, ", angles_[i - 1] * units::to_degrees));
+        if (i > 0 && !(angles[i] > angles[i - 1]))
+            throw InputError(text(here, ", point ", i + 1), "angle of attack [deg]", angles[i] * units::to_degrees,
+                             text("above that of the point before, ", angles[i - 1] * units::to_degrees));
     }
-    if (angles_.front() > -pi + slack || angles_.back() < pi - slack)
+    if (angles.front() > -pi + slack || angles.back() < pi - slack)
         throw InputError(here, "angles of attack [deg]",
-                         text(angles_.front() * units::to_degrees, " ... ", angles_.back() * units::to_degrees),
+                         text(angles.front() * units::to_degrees, " ... ", angles.back() * units::to_degrees),
                          "-180 ... 180");
+}
+
+// All values once.
+std::vector<double> united(std::vector<double> all, double tolerance) {
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end(), [=](double x, double y) { return y - x < tolerance; }), all.end());
+    return all;
+}
+
+}  // namespace
+
+Polar::IndexedTable::IndexedTable(Table of) : table(std::move(of)) {
+    const std::vector<double>& angles = table.angles;
     for (std::size_t cell = 0; cell < cells; ++cell) {
         const double from = -pi + 2 * pi * static_cast<double>(cell) / cells;
-        const auto next = std::upper_bound(angles_.begin() + 1, angles_.end() - 1, from);
-        first_[cell] = static_cast<std::uint16_t>(next - angles_.begin() - 1);
+        const auto next = std::upper_bound(angles.begin() + 1, angles.end() - 1, from);
+        first[cell] = static_cast<std::uint16_t>(next - angles.begin() - 1);
     }
 }
 
-Polar::Point Polar::at(double angle) const {
-    const double x = std::remainder(angle, 2 * pi);
+// @param x  from -pi to pi
+Polar::Point Polar::IndexedTable::at(double x) const {
+    const std::vector<double>& angles = table.angles;
     const auto cell = std::min(static_cast<std::size_t>(std::max(0.0, (x + pi) / (2 * pi) * cells)), cells - 1);
-    std::size_t i = first_[cell];
-    while (i + 2 < angles_.size() && x >= angles_[i + 1]) ++i;
-    const double width = angles_[i + 1] - angles_[i], t = (x - angles_[i]) / width;
+    std::size_t i = first[cell];
+    while (i + 2 < angles.size() && x >= angles[i + 1]) ++i;
+    const double width = angles[i + 1] - angles[i], t = (x - angles[i]) / width;
     const auto line = [&](const std::vector<double>& y) {
         return std::pair((1 - t) * y[i] + t * y[i + 1], (y[i + 1] - y[i]) / width);
     };
-    const auto [lift, lift_slope] = line(lift_);
-    const auto [drag, drag_slope] = line(drag_);
-    const auto [moment, moment_slope] = line(moment_);
+    const auto [lift, lift_slope] = line(table.lift);
+    const auto [drag, drag_slope] = line(table.drag);
+    const auto [moment, moment_slope] = line(table.moment);
     return {lift, drag, moment, lift_slope, drag_slope, moment_slope};
+}
+
+Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name)) {
+    const std::string here = text("polar of profile '", name_, "'");
+    if (tables.empty()) throw InputError(here, "number of tables", 0, "at least 1");
+    const bool several = tables.size() > 1;
+    tables_.reserve(tables.size());
+    for (Table& table : tables) {
+        const std::string place = several ? text(here, ", table ", tables_.size() + 1) : here;
+        check(place, table);
+        const double least = tables_.empty() ? 0 : tables_.back().table.reynolds;
+        if (several && !(table.reynolds > least && std::isfinite(table.reynolds)))
+            throw InputError(place, "Reynolds number", table.reynolds, text("above ", least, ", finite"));
+        tables_.emplace_back(std::move(table));
+    }
+}
+
+Polar::Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,
+             std::vector<double> moment)
+    : Polar(std::move(name), {Table{std::move(angles), std::move(lift), std::move(drag), std::move(moment)}}) {}
+
+std::vector<double> Polar::reynolds() const {
+    std::vector<double> all;
+    all.reserve(tables_.size());
+    for (const IndexedTable& one : tables_) all.push_back(one.table.reynolds);
+    return all;
+}
+
+Polar Polar::mixed(std::string name, const Polar& a, const Polar& b, double share) {
+    std::vector<double> angles, numbers;
+    for (const Polar* polar : {&a, &b}) {
+        for (const IndexedTable& one : polar->tables_)
+            angles.insert(angles.end(), one.table.angles.begin(), one.table.angles.end());
+        const std::vector<double> own = polar->reynolds();
+        if (polar->over_reynolds() || numbers.empty()) numbers.insert(numbers.end(), own.begin(), own.end());
+    }
+    // A single table says nothing of where the other has its own.
+    if (b.over_reynolds() && !a.over_reynolds()) numbers.erase(numbers.begin());
+    angles = united(std::move(angles), same);
+    numbers = united(std::move(numbers), std::numeric_limits<double>::min());
+    std::vector<Table> tables;
+    tables.reserve(numbers.size());
+    for (const double reynolds : numbers) {
+        Table& table = tables.emplace_back(Table{angles, {}, {}, {}, reynolds});
+        for (auto* column : {&table.lift, &table.drag, &table.moment}) column->reserve(angles.size());
+        for (const double x : angles) {
+            const Point from = a.between(x, reynolds), to = b.between(x, reynolds);
+            table.lift.push_back((1 - share) * from.lift + share * to.lift);
+            table.drag.push_back((1 - share) * from.drag + share * to.drag);
+            table.moment.push_back((1 - share) * from.moment + share * to.moment);
+        }
+    }
+    return {std::move(name), std::move(tables)};
+}
+
+Polar::Point Polar::at(double angle) const {
+    return tables_.front().at(std::remainder(angle, 2 * pi));
+}
+
+Polar::Point Polar::at(double angle, double reynolds) const {
+    return between(std::remainder(angle, 2 * pi), reynolds);
+}
+
+Polar::Point Polar::between(double x, double reynolds) const {
+    if (!over_reynolds() || !(reynolds > tables_.front().table.reynolds)) return tables_.front().at(x);
+    if (reynolds >= tables_.back().table.reynolds) return tables_.back().at(x);
+    std::size_t i = 1;
+    while (reynolds >= tables_[i].table.reynolds) ++i;
+    const double first = tables_[i - 1].table.reynolds, width = std::log(tables_[i].table.reynolds / first),
+                 t = std::log(reynolds / first) / width, by = 1 / (width * reynolds);
+    const Point from = tables_[i - 1].at(x), to = tables_[i].at(x);
+    const auto mean = [t](double a, double b) { return (1 - t) * a + t * b; };
+    return {mean(from.lift, to.lift),
+            mean(from.drag, to.drag),
+            mean(from.moment, to.moment),
+            mean(from.lift_slope, to.lift_slope),
+            mean(from.drag_slope, to.drag_slope),
+            mean(from.moment_slope, to.moment_slope),
+            by * (to.lift - from.lift),
+            by * (to.drag - from.drag),
+            by * (to.moment - from.moment)};
 }
 
 }  // namespace cardan

@@ -1,5 +1,5 @@
 /// @file
-/// Coefficients of a profile over the full circle of the angle of attack.
+/// Coefficients of a profile over the full circle of the angle of attack, and over the Reynolds number.
 #pragma once
 
 #include <array>
@@ -9,29 +9,52 @@
 
 namespace cardan {
 
-/// Lift, drag and moment coefficients, linear between the points of a table, periodic.
+/// Lift, drag and moment coefficients: linear between the angles of a table, periodic; of several tables linear in the
+/// logarithm of the Reynolds number, which friction follows, and constant beyond the first and the last one.
 class Polar {
 public:
-    /// Slopes per rad; at a point of the table those of the interval above it.
+    struct Table {
+        std::vector<double> angles;  ///< rad, ascending, from -pi to pi
+        std::vector<double> lift, drag, moment;
+        double reynolds = 0;  ///< without meaning for a single table
+    };
+    /// Slopes per rad, and per unit of the Reynolds number; at a point of the tables those of the interval above it.
     struct Point {
         double lift, drag, moment, lift_slope, drag_slope, moment_slope;
+        double lift_reynolds = 0, drag_reynolds = 0, moment_reynolds = 0;
     };
 
-    /// @param angles  rad, ascending, from -pi to pi
-    /// @throws InputError naming profile and angle unless there are at least two points, finite, ascending, and the
-    /// table reaches around the circle
+    /// @throws InputError naming profile, table and angle unless there is a table, all have at least two points,
+    /// finite, ascending, and reach around the circle, and the Reynolds numbers of several tables are positive and
+    /// ascend
+    Polar(std::string name, std::vector<Table> tables);
+    /// Of one table.
     Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,
           std::vector<double> moment);
+    /// Between two profiles: (1 - share) a + share b, over the angles and Reynolds numbers of both.
+    static Polar mixed(std::string name, const Polar& a, const Polar& b, double share);
 
+    /// Of the first table.
     Point at(double angle) const;
+    Point at(double angle, double reynolds) const;
     const std::string& name() const { return name_; }
+    /// Has it several tables?
+    bool over_reynolds() const { return tables_.size() > 1; }
+    std::vector<double> reynolds() const;  ///< of the tables
 
 private:
     static constexpr std::size_t cells = 512;
+    struct IndexedTable {
+        Table table;
+        std::array<std::uint16_t, cells> first{};  ///< interval in which a cell of the circle begins
+
+        explicit IndexedTable(Table of);
+        Point at(double x) const;
+    };
+    Point between(double x, double reynolds) const;
 
     std::string name_;
-    std::vector<double> angles_, lift_, drag_, moment_;
-    std::array<std::uint16_t, cells> first_{};  ///< interval in which a cell of the circle begins
+    std::vector<IndexedTable> tables_;
 };
 
 }  // namespace cardan

@@ -110,7 +110,8 @@ Annulus AeroBlade::annulus(std::size_t section, double blades) const {
             .angle = twist[section],
             .tip = blades / 2 * (tip - z) / z,
             .hub = blades / 2 * (z - root) / root,
-            .polar = &polars[profile[section]]};
+            .polar = &polars[profile[section]],
+            .viscosity = viscosity};
 }
 
 void AeroBlade::check() const {
@@ -120,6 +121,7 @@ void AeroBlade::check() const {
     if (chord.size() != n || twist.size() != n || profile.size() != n)
         throw InputError(here, "lengths of the columns",
                          text(n, ", ", chord.size(), ", ", twist.size(), ", ", profile.size()), "equal");
+    require_positive(here, "kinematic viscosity of the air [m^2/s]", viscosity);
     for (const auto* offsets : {&prebend, &sweep})
         if (!offsets->empty() && offsets->size() != n)
             throw InputError(here, "number of offsets", offsets->size(), text(n, ", one per section, or none"));
@@ -149,7 +151,7 @@ RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const St
 
 RotorCoefficients rotor_coefficients(const AeroBlade& blade, int blades, double cone, double ratio, double pitch,
                                      const RotorAirOptions& options) {
-    const SteadyWind wind{.speed = 8};  // any: coefficients do not depend on it
+    const SteadyWind wind{.speed = 8};  // coefficients depend on it by the Reynolds number alone
     const double R = blade.position.back() * std::cos(cone), speed = ratio * wind.speed / R,
                  pressure = wind.density / 2 * pi * R * R * wind.speed * wind.speed;
     const RotorAir air = rigid_rotor_air(blade, {.blades = blades, .cone = cone}, wind, speed, 0, pitch, options);

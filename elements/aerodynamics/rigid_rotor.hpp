@@ -20,12 +20,13 @@ struct AeroBlade {
     /// Empty: they lie on the reference line of the blade that carries them. A rotor that does not bend has them on its
     /// straight axes.
     std::vector<double> prebend = {}, sweep = {};
+    double viscosity = standard_viscosity;  ///< kinematic, of the air, m^2/s: for polars at several Reynolds numbers
 
     std::size_t sections() const { return position.size(); }
     /// The ring of a section, radius and angle those of a straight blade without cone and pitch.
     Annulus annulus(std::size_t section, double blades) const;
     /// @throws InputError for columns of different length, positions that do not ascend, chords that are not positive,
-    /// profiles that do not exist
+    /// profiles that do not exist, a viscosity that is not positive
     void check() const;
 };
 
@@ -53,7 +54,8 @@ struct RotorAir {
 RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed,
                          double azimuth, double pitch, const RotorAirOptions& options = {});
 
-/// Of a level rotor in uniform wind, by the radius of its disc.
+/// Of a level rotor in uniform wind, by the radius of its disc; with polars at several Reynolds numbers in a wind of 8
+/// m/s.
 struct RotorCoefficients {
     double power, thrust;
 };

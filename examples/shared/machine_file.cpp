@@ -42,12 +42,16 @@ turbines::ModelAddition addition_of(const std::string& assignment) {
     return {text(begin, ": ", assignment.substr(equal + 1), end, "\n"), text("--set ", assignment)};
 }
 
+}  // namespace
+
 std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options) {
     std::vector<turbines::ModelAddition> additions;
     for (const std::string& file : options.with) additions.push_back({text_file(file), file});
     for (const std::string& assignment : options.set) additions.push_back(addition_of(assignment));
     return additions;
 }
+
+namespace {
 
 // A word that can only be meant as a name.
 bool is_word(const std::filesystem::path& path) {

@@ -65,6 +65,9 @@ void add_source_options(CommandLine& app, MachineOptions& options);
 /// The same, with pitch, numbers of elements, damping and what is printed; gravity is left to the program.
 void add_machine_options(CommandLine& app, MachineOptions& options);
 
+/// What --with and --set add to a model of windIO.  @throws FileError
+std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options);
+
 /// Prints notes; those on groups of entries without meaning are counted, unless `all` are wanted.
 void print_notes(const std::vector<turbines::FileNote>& notes, bool all);
 

@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds="${1:-60}"
 shift || true
 targets=("$@")
-if ((${#targets[@]} == 0)); then targets=(urdf csv openfast description windio checkpoint history); fi
+if ((${#targets[@]} == 0)); then targets=(urdf csv openfast aerodyn description windio checkpoint history); fi
 
 # The first byte of a seed of `openfast` says which file it replaces, in the order of fuzz_openfast.cpp.
 seeds_of_openfast() { # <folder>
@@ -20,6 +20,15 @@ seeds_of_openfast() { # <folder>
     done
 }
 
+# Likewise, in the order of fuzz_aerodyn.cpp.
+seeds_of_aerodyn() { # <folder>
+    local file digit=0
+    for file in small_AeroDyn.dat small_AeroDyn_Blade.dat small_Polar_1.dat small_Polar_2.dat; do
+        { printf '%d' "$digit" && cat "tests/data/aerodyn/$file"; } >"$1/$file"
+        digit=$((digit + 1))
+    done
+}
+
 # Inputs take a second; the limit of one is 60 s of the clock, since beside other work these programs, as the nicest, may
 # get no processor for long.
 fuzz() { # <target>
@@ -27,6 +36,7 @@ fuzz() { # <target>
     mkdir -p "$seeds" "$corpus"
     case "$target" in
         openfast) seeds_of_openfast "$seeds" ;;
+        aerodyn) seeds_of_aerodyn "$seeds" ;;
         windio) cp tests/data/windio/*.yaml "$seeds" ;;
         urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
         *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
@@ -41,6 +51,6 @@ fuzz() { # <target>
 }
 
 mkdir -p build/fuzz/findings
-export -f fuzz seeds_of_openfast
+export -f fuzz seeds_of_openfast seeds_of_aerodyn
 export seconds
 printf '%s\n' "${targets[@]}" | xargs -P "${CARDAN_JOBS:-$(nproc)}" -I '{}' bash -euo pipefail -c 'fuzz {}'

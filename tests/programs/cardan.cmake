@@ -15,6 +15,11 @@ add_example_test(example_steady cardan 0 "harmonics.*mesh.*RotSpeed|rotor speed 
     steady nrel5mw ${coarse} --out example_steady)
 add_example_test(example_steady_wind cardan 0 "5296[.]61 kW on the rotor.*8[.]000 +9[.]3[0-9]+ +0[.]0000 +18[0-9]+[.].*files: example_steady_wind[.]h5"
     steady nrel5mw --wind 8,9 --no-gravity --harmonics 2 ${coarse} --blade-stations 40 --out example_steady_wind)
+add_example_test(example_steady_wind_windio cardan 0 "operation: tip-speed ratio.*8[.]000 .*files: example_steady_wind_windio[.]h5" steady
+    ${models}/windio/small_v1.yaml --wind 8 --rated-power 90 --no-gravity --harmonics 2 ${coarse} --out example_steady_wind_windio)
+add_example_test(example_steady_wind_air cardan 0 "8[.]000 .*files: example_steady_wind_air[.]h5" steady ${models}/windio/small_v2.yaml
+    --air ${models}/windio/small_v1.yaml --rated-rpm 60 --wind 8 --rated-power 90 --no-gravity --harmonics 2 ${coarse}
+    --out example_steady_wind_air)
 add_example_test(example_steady_wind_profiles cardan 1 "--air: value = none, and the machine has no profiles" steady wt600 --wind 8)
 add_example_test(example_steady_wind_bad cardan 1 "--wind: value = 9:8:1; allowed: numbers and FIRST:LAST:STEP" steady nrel5mw --wind 9:8:1)
 add_example_test(example_steady_wind_rpm cardan 1 "--rpm: value = 3; allowed: none beside --wind" steady nrel5mw --wind 8 --rpm 3)

@@ -18,10 +18,10 @@ struct PolarColumns {
     int angle, lift, drag, moment;
 };
 
-Polar read_polar(const std::filesystem::path& path, const PolarColumns& columns) {
-    OpenFastFile file = OpenFastFile::read(path);
-    const std::vector<OpenFastFile::Row> rows = file.rows_after("NumAlf");
-    std::vector<double> angle, lift, drag, moment;
+Polar::Table polar_table(OpenFastFile& file, const PolarColumns& columns, std::size_t part) {
+    const std::vector<OpenFastFile::Row> rows = file.rows_after("NumAlf", part);
+    Polar::Table out;
+    for (auto* column : {&out.angles, &out.lift, &out.drag, &out.moment}) column->reserve(rows.size());
     for (const OpenFastFile::Row& row : rows) {
         const auto value = [&](int column) {
             if (column == 0) return 0.0;
@@ -31,17 +31,61 @@ Polar read_polar(const std::filesystem::path& path, const PolarColumns& columns)
             return row.values[static_cast<std::size_t>(column) - 1];
         };
         const double degrees = value(columns.angle);
-        if (!angle.empty() && !(degrees * units::degree > angle.back()))
+        if (!out.angles.empty() && !(degrees * units::degree > out.angles.back()))
             throw ParseError(file.name(), row.line, 0,
-                             text("angle of attack = ", degrees, " deg after ", angle.back() * units::to_degrees,
+                             text("angle of attack = ", degrees, " deg after ", out.angles.back() * units::to_degrees,
                                   "; allowed: ascending"));
-        angle.push_back(degrees * units::degree);
-        lift.push_back(value(columns.lift));
-        drag.push_back(value(columns.drag));
-        moment.push_back(value(columns.moment));
+        out.angles.push_back(degrees * units::degree);
+        out.lift.push_back(value(columns.lift));
+        out.drag.push_back(value(columns.drag));
+        out.moment.push_back(value(columns.moment));
+    }
+    return out;
+}
+
+// Of several tables, all are at one setting of what a controller may change (UserProp, before that Ctrl).
+void check_user_property(OpenFastFile& file, std::size_t part) {
+    for (const char* keyword : {"UserProp", "Ctrl"}) {
+        if (file.count(keyword) <= part) continue;
+        const double first = file.number_of(keyword, 0), own = file.number_of(keyword, part);
+        if (own != first)
+            file.fail_in(keyword, part, text(keyword, " = ", own, "; allowed: ", first, ", as in the first table"));
+    }
+}
+
+// In files in millions.
+double reynolds_number(OpenFastFile& file, std::size_t part, double before) {
+    const double given = file.number_of("Re", part), number = given * 1e6;
+    if (!(number > before))
+        file.fail_in("Re", part, text("Re = ", given, "; allowed: above ", before / 1e6, ", that of the table before"));
+    return number;
+}
+
+std::size_t number_of_tables(OpenFastFile& file) {
+    if (!file.has("NumTabs")) return 1;
+    const auto tables = static_cast<std::size_t>(file.integer("NumTabs", 1, 1000));
+    for (const char* keyword : {"NumAlf", "Re"})
+        if (tables > 1 && file.count(keyword) != tables)
+            file.fail("NumTabs",
+                      text("NumTabs = ", tables, ", but there are ", file.count(keyword), " lines with ", keyword));
+    return tables;
+}
+
+// @param all  tables, not the first one alone
+Polar read_polar(const std::filesystem::path& path, const PolarColumns& columns, bool all) {
+    OpenFastFile file = OpenFastFile::read(path);
+    const std::size_t count = all ? number_of_tables(file) : 1;
+    std::vector<Polar::Table> tables;
+    tables.reserve(count);
+    for (std::size_t part = 0; part < count; ++part) {
+        const double before = tables.empty() ? 0 : tables.back().reynolds;
+        tables.push_back(polar_table(file, columns, part));
+        if (count == 1) break;
+        check_user_property(file, part);
+        tables.back().reynolds = reynolds_number(file, part, before);
     }
     try {
-        return {path.filename().string(), std::move(angle), std::move(lift), std::move(drag), std::move(moment)};
+        return {path.filename().string(), std::move(tables)};
     } catch (const InputError& error) {
         file.fail("NumAlf", error.what());
     }
@@ -147,8 +191,14 @@ void note_rest(OpenFastFile& file) {
     if (choice(file, "UA_Mod", "UAMod", 0) != 0 && file.number_or_default("AFAeroMod", 2) != 1)
         file.note(present(file, "UA_Mod", "UAMod"), "profiles are steady here");
     if (file.number_or_default("TwrShadow", 0) != 0) file.note("TwrShadow", "the tower has no shadow here");
-    if (file.number_or_default("AFTabMod", 1) != 1)
-        file.note("AFTabMod", "the first table of every polar is used here");
+}
+
+// Are polars to be taken over the Reynolds number?
+bool over_reynolds(OpenFastFile& file) {
+    const double mode = file.number_or_default("AFTabMod", 1);
+    if (mode == 3) file.note("AFTabMod", "the first table of every polar is used here: nothing changes UserProp");
+    if (mode != 1 && mode != 2 && mode != 3) file.fail("AFTabMod", text("AFTabMod = ", mode, "; allowed: 1, 2, 3"));
+    return mode == 2;
 }
 
 const std::vector<KeywordGroup>& ignored_by_aerodyn() {
@@ -160,13 +210,15 @@ const std::vector<KeywordGroup>& ignored_by_aerodyn() {
 
 }  // namespace
 
-AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density) {
+AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density, double viscosity) {
     OpenFastFile file = OpenFastFile::read(path);
     if (!file.has("NumAFfiles"))
         throw ParseError(path.string(), 1, 0, "not a file of AeroDyn 15: no line with the keyword NumAFfiles");
     AeroDynFile out;
     out.density = file.number_or_default("AirDens", density);
     if (!(out.density > 0)) file.fail("AirDens", text("AirDens = ", out.density, "; allowed: > 0"));
+    const double kinematic = file.number_or_default("KinVisc", viscosity);
+    if (!(kinematic > 0)) file.fail("KinVisc", text("KinVisc = ", kinematic, "; allowed: > 0"));
     read_wake(file, out.options);
     read_skew(file, out.options);
     out.options.momentum = {.tip_loss = file.flag("TipLoss"),
@@ -180,13 +232,16 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
     PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};
     if (!file.flag("UseBlCm")) columns.moment = 0;
     const auto polar_paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));
+    const bool all_tables = over_reynolds(file);
     std::vector<Polar> polars;
+    polars.reserve(polar_paths.size());
     for (const std::filesystem::path& one : polar_paths)
-        polars.push_back(file.follow("AFNames", [&] { return read_polar(one, columns); }));
+        polars.push_back(file.follow("AFNames", [&] { return read_polar(one, columns, all_tables); }));
     const auto blade = [](int k) { return text("ADBlFile(", k, ")"); };
     out.source = text("# ", path.string(), "\n", file.text());
     out.blade = file.follow(blade(1),
                             [&] { return read_blade(file.path(blade(1)), hub_radius, std::move(polars), out.source); });
+    out.blade.viscosity = kinematic;
     for (int k = 2; k <= 3; ++k)
         if (file.has(blade(k)) && file.word(blade(k)) != file.word(blade(1)))
             file.note(blade(k), "all blades have the sections of the first one here");

@@ -23,13 +23,16 @@ struct AeroDynFile {
 };
 
 /// The main file, all versions of AeroDyn 15, with the files it names. Taken as they are: induction, tip and hub
-/// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments, drag of tower and nacelle,
-/// potential flow around the tower. Noted: unsteady airfoils, dynamic wake, free vortices, shadow of the tower,
-/// interpolation over the Reynolds number (the first table of each polar is used), blades that differ.
+/// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments, polars over the Reynolds number
+/// (AFTabMod 2, KinVisc), drag of tower and nacelle, potential flow around the tower. Noted: unsteady airfoils, dynamic
+/// wake, free vortices, shadow of the tower, polars over UserProp (AFTabMod 3: the first table of each is used), blades
+/// that differ.
 /// @param hub_radius  places of the sections are given from the blade's root, m
 /// @param density     where the file says "default", kg/m^3
+/// @param viscosity   likewise, kinematic, m^2/s
 /// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted or do not reach
 /// around the circle
-AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density = 1.225);
+AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density = 1.225,
+                         double viscosity = standard_viscosity);
 
 }  // namespace cardan::turbines

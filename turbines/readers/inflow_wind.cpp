@@ -17,8 +17,8 @@ namespace {
 SteadyWind steady_wind(OpenFastFile& file, double density) {
     SteadyWind wind;
     wind.speed = file.number("HWindSpeed");
-    wind.reference_height = file.number_in_part("RefHt", 0);
-    wind.exponent = file.number_in_part("PLexp", 0);
+    wind.reference_height = file.number_of("RefHt", 0);
+    wind.exponent = file.number_of("PLexp", 0);
     wind.shear = wind.exponent == 0 ? Shear::none : Shear::power;
     wind.density = density;
     try {
@@ -93,12 +93,13 @@ Wind uniform_wind(const std::filesystem::path& path, const UniformWind& common) 
 
 Wind wind_over_time(OpenFastFile& file, double density) {
     const bool newer = file.has("Filename_Uni");
-    const UniformWind common{newer ? file.number("RefHt_Uni") : file.number_in_part("RefHt", 1),
-                             file.number("RefLength"), density};
+    const UniformWind common{
+        newer ? file.number("RefHt_Uni") : file.number_of("RefHt", file.count("RefHt") > 1 ? 1 : 0),
+        file.number("RefLength"), density};
     if (!(common.height > 0)) file.fail(newer ? "RefHt_Uni" : "RefHt", "allowed: > 0");
     if (!(common.length > 0)) file.fail("RefLength", "allowed: > 0");
     const char* const keyword = newer ? "Filename_Uni" : "Filename";
-    const std::filesystem::path path = file.path_in_part(keyword, 0);
+    const std::filesystem::path path = file.path_of(keyword, 0);
     return file.follow(keyword, [&] { return uniform_wind(path, common); });
 }
 

@@ -227,26 +227,37 @@ std::string OpenFastFile::word(std::string_view keyword) {
     return single(keyword).text;
 }
 
-OpenFastFile::Line& OpenFastFile::in_part(std::string_view keyword, int which) {
-    Line* found = nullptr;
-    for (Line& line : lines_) {
-        if (line.heading || key_of(line.keyword) != key_of(keyword)) continue;
-        line.used = true;
-        if (which-- == 0) found = &line;
-    }
-    if (found != nullptr && found->tokens.size() == 1) return *found;
-    static_cast<void>(word(keyword));  // says what is wrong, unless there is the one line for all parts
-    return known(keyword);
+std::size_t OpenFastFile::count(std::string_view keyword) const {
+    return static_cast<std::size_t>(std::count_if(
+        lines_.begin(), lines_.end(), [key = key_of(keyword)](const Line& l) { return key_of(l.keyword) == key; }));
 }
 
-double OpenFastFile::number_in_part(std::string_view keyword, int which) {
-    const Line& line = in_part(keyword, which);
-    return parsed(line.tokens.front(), line.number, keyword);
+const OpenFastFile::Line& OpenFastFile::line_of(std::string_view keyword, std::size_t part) const {
+    const std::string key = key_of(keyword);
+    for (const Line& line : lines_)
+        if (key_of(line.keyword) == key && part-- == 0) return line;
+    fail(keyword, cardan::text("no further line with the keyword ", keyword));
 }
 
-std::filesystem::path OpenFastFile::path_in_part(std::string_view keyword, int which) {
-    const Line& line = in_part(keyword, which);
-    return beside(line.tokens.front().text, line.number, keyword);
+const OpenFastFile::Token& OpenFastFile::token_of(std::string_view keyword, std::size_t part) {
+    if (!has(keyword)) static_cast<void>(known(keyword));  // says so
+    const std::string key = key_of(keyword);
+    for (Line& line : lines_)
+        if (key_of(line.keyword) == key) line.used = true;
+    const Line& line = line_of(keyword, part);
+    if (line.tokens.size() != 1)
+        fail_in(keyword, part, cardan::text("one value expected before ", keyword, ", found ", line.tokens.size()));
+    return line.tokens.front();
+}
+
+double OpenFastFile::number_of(std::string_view keyword, std::size_t part) {
+    const Token& token = token_of(keyword, part);
+    return parsed(token, line_of(keyword, part).number, keyword);
+}
+
+std::filesystem::path OpenFastFile::path_of(std::string_view keyword, std::size_t part) {
+    const Token& token = token_of(keyword, part);
+    return beside(token.text, line_of(keyword, part).number, keyword);
 }
 
 double OpenFastFile::number_or_default(std::string_view keyword, double otherwise) {
@@ -279,6 +290,10 @@ std::vector<std::filesystem::path> OpenFastFile::paths(std::string_view keyword,
 void OpenFastFile::fail(std::string_view keyword, std::string_view what) const {
     const Line* line = find(keyword);
     throw ParseError(file_, line == nullptr ? lines_.back().number : line->number, 0, what);
+}
+
+void OpenFastFile::fail_in(std::string_view keyword, std::size_t part, std::string_view what) const {
+    throw ParseError(file_, line_of(keyword, part).number, 0, what);
 }
 
 std::optional<std::vector<double>> OpenFastFile::numbers_of(const Line& line) const {

@@ -66,10 +66,6 @@ public:
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);
-    /// The same for a keyword that several parts of a file have: that of the part `which`, from 0. The others count as
-    /// used.
-    double number_in_part(std::string_view keyword, int which);
-    std::filesystem::path path_in_part(std::string_view keyword, int which);
     /// What stands in place of a number may be the word "default".
     double number_or_default(std::string_view keyword, double otherwise);
     /// A path relative to the folder of this file.
@@ -92,8 +88,14 @@ public:
     /// keyword; lines without numbers are passed over.
     std::vector<Row> rows_below(std::string_view what);
 
-    /// The rows of numbers after the first line with the keyword, as many as it says; headings are passed over.
-    std::vector<Row> rows_after(std::string_view keyword);
+    /// How many lines have the keyword.
+    std::size_t count(std::string_view keyword) const;
+    /// Of a keyword that several parts have, that of one part, the first one being 0. All count as used.
+    double number_of(std::string_view keyword, std::size_t part);
+    std::filesystem::path path_of(std::string_view keyword, std::size_t part);
+    /// The rows of numbers after the line with the keyword, as many as it says; headings are passed over.
+    std::vector<Row> rows_after(std::string_view keyword, std::size_t part = 0);
+    [[noreturn]] void fail_in(std::string_view keyword, std::size_t part, std::string_view what) const;
 
     /// Marks the lines after the keyword as used.
     void pass_over(std::string_view keyword, std::size_t lines);
@@ -127,7 +129,8 @@ private:
     Line* find(std::string_view keyword);
     const Line* find(std::string_view keyword) const;
     Line& known(std::string_view keyword);
-    Line& in_part(std::string_view keyword, int which);
+    const Line& line_of(std::string_view keyword, std::size_t part) const;
+    const Token& token_of(std::string_view keyword, std::size_t part);
     const Token& single(std::string_view keyword);
     std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;
     std::optional<std::vector<double>> numbers_of(const Line& line) const;

@@ -102,11 +102,11 @@ std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
     return rows;
 }
 
-std::vector<OpenFastFile::Row> OpenFastFile::rows_after(std::string_view keyword) {
-    const double count = number_in_part(keyword, 0);
+std::vector<OpenFastFile::Row> OpenFastFile::rows_after(std::string_view keyword, std::size_t part) {
+    const double count = number_of(keyword, part);
     std::vector<Row> rows;
-    for (auto at = lines_.begin() + (find(keyword) - lines_.data()) + 1; static_cast<double>(rows.size()) < count;
-         ++at) {
+    for (auto at = lines_.begin() + (&line_of(keyword, part) - lines_.data()) + 1;
+         static_cast<double>(rows.size()) < count; ++at) {
         if (at == lines_.end())
             throw ParseError(file_, lines_.back().number, 0,
                              cardan::text("row ", rows.size() + 1, " of the ", count, " that ", keyword,

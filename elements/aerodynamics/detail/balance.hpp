@@ -18,13 +18,27 @@ struct Inflow {
     S V_x, V_y, angle, radius;
 };
 
-/// A coefficient of a polar at an angle, its slope known.
-inline double coefficient(double value, double /*slope*/, double /*angle*/) {
+/// A coefficient of a polar at an angle and a Reynolds number, its slopes by both known.
+inline double coefficient(double value, double /*slope*/, double /*angle*/, double /*by*/, double /*reynolds*/) {
     return value;
 }
 template <int N>
-Dual<N> coefficient(double value, double slope, const Dual<N>& angle) {
-    return angle.chain(value, slope);
+Dual<N> coefficient(double value, double slope, const Dual<N>& angle, double by, const Dual<N>& reynolds) {
+    return by == 0 ? angle.chain(value, slope) : Dual<N>(value, slope * angle.slopes + by * reynolds.slopes);
+}
+
+/// Of chord and velocity in the plane of the section; zero where no polar asks for it.
+template <class S>
+S reynolds_of(const Annulus& annulus, const S& u_x, const S& u_y) {
+    using std::sqrt;
+    if (!annulus.polar->over_reynolds()) return S(0);
+    const S square = u_x * u_x + u_y * u_y;
+    return value_of(square) > 0 ? sqrt(square) * (annulus.chord / annulus.viscosity) : S(0);
+}
+
+/// The usual polar has one table, which is to cost no more for those that have several.
+inline Polar::Point point_of(const Polar& polar, double angle, double reynolds) {
+    return polar.over_reynolds() ? polar.at(angle, reynolds) : polar.at(angle);
 }
 
 /// The balance of momentum at an angle of inflow phi [Ning 2014].
@@ -35,7 +49,8 @@ public:
         : annulus_(annulus),
           options_(options),
           inflow_(inflow),
-          solidity_(annulus.blades * annulus.chord / (2 * pi) / inflow.radius) {}
+          solidity_(annulus.blades * annulus.chord / (2 * pi) / inflow.radius),
+          reynolds_(reynolds_of<S>(annulus, inflow.V_x, inflow.V_y)) {}
 
     struct Point {
         S k, k_tangential, F;
@@ -43,9 +58,9 @@ public:
     Point at(const S& phi) const {
         using std::abs, std::cos, std::sin;
         const S s = sin(phi), c = cos(phi), attack = phi - inflow_.angle;
-        const Polar::Point polar = annulus_.polar->at(value_of(attack));
-        const S lift = coefficient(polar.lift, polar.lift_slope, attack),
-                drag = coefficient(polar.drag, polar.drag_slope, attack),
+        const Polar::Point polar = point_of(*annulus_.polar, value_of(attack), value_of(reynolds_));
+        const S lift = coefficient(polar.lift, polar.lift_slope, attack, polar.lift_reynolds, reynolds_),
+                drag = coefficient(polar.drag, polar.drag_slope, attack, polar.drag_reynolds, reynolds_),
                 normal = options_.axial_drag ? lift * c + drag * s : lift * c,
                 driving = options_.tangential_drag ? lift * s - drag * c : lift * s;
         S F = 1;
@@ -91,7 +106,7 @@ private:
     const Annulus& annulus_;
     const MomentumOptions& options_;
     const Inflow<S>& inflow_;
-    S solidity_;
+    S solidity_, reynolds_;
 };
 
 /// a and a' at a solution.
@@ -130,12 +145,13 @@ Loads<S> loads_of(const Annulus& annulus, const Inflow<S>& inflow, const Factors
     using std::atan2, std::cos, std::sin;
     const S u_x = inflow.V_x * (1 - factors.axial), u_y = inflow.V_y * (1 + factors.tangential), phi = atan2(u_x, u_y),
             attack = phi - inflow.angle, pressure = density / 2 * annulus.chord * (u_x * u_x + u_y * u_y), s = sin(phi),
-            c = cos(phi);
-    const Polar::Point polar = annulus.polar->at(value_of(attack));
-    const S lift = coefficient(polar.lift, polar.lift_slope, attack),
-            drag = coefficient(polar.drag, polar.drag_slope, attack);
-    return {pressure * (lift * c + drag * s), pressure * (lift * s - drag * c),
-            pressure * annulus.chord * coefficient(polar.moment, polar.moment_slope, attack), phi, attack};
+            c = cos(phi), reynolds = reynolds_of<S>(annulus, u_x, u_y);
+    const Polar::Point polar = point_of(*annulus.polar, value_of(attack), value_of(reynolds));
+    const S lift = coefficient(polar.lift, polar.lift_slope, attack, polar.lift_reynolds, reynolds),
+            drag = coefficient(polar.drag, polar.drag_slope, attack, polar.drag_reynolds, reynolds),
+            moment = coefficient(polar.moment, polar.moment_slope, attack, polar.moment_reynolds, reynolds);
+    return {pressure * (lift * c + drag * s), pressure * (lift * s - drag * c), pressure * annulus.chord * moment, phi,
+            attack};
 }
 
 }  // namespace cardan

@@ -8,6 +8,7 @@
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/openfast_file.hpp"
+#include "turbines/yaml/windio_air.hpp"
 
 #include "examples/shared/words.hpp"
 #include <filesystem>
@@ -31,10 +32,34 @@ double tower_foot(const MachineFile& machine, const turbines::Turbine& turbine) 
     return machine.file.tower_foot.value_or(tower_foot_at_rest(turbine));
 }
 
+// As AeroDyn's or windIO's reader gives them.
+template <class File>
+void take(Air& air, File read, const MachineOptions& options) {
+    print_notes(read.notes, options.notes);
+    air.blade = std::move(read.blade);
+    air.options = read.options;
+    air.density = read.density;
+}
+
+// What an AeroDyn file calls "default" is in the main file of OpenFAST.
+turbines::AeroDynFile aerodyn_of(const MachineFile& machine, const MachineOptions& options,
+                                 std::filesystem::path file) {
+    const double hub_radius = machine.file.description.hub.radius;
+    if (machine.kind != MachineKind::openfast) return turbines::read_aerodyn(file, hub_radius);
+    turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
+    if (file.empty()) file = main.path("AeroFile");
+    return turbines::read_aerodyn(file, hub_radius, main.number_or_default("AirDens", 1.225),
+                                  main.number_or_default("KinVisc", standard_viscosity));
+}
+
+bool has_aerodyn(const MachineFile& machine, const MachineOptions& options) {
+    return machine.kind == MachineKind::openfast && turbines::OpenFastFile::read(options.model).has("AeroFile");
+}
+
 }  // namespace
 
 void add_air_options(CommandLine& app, AirArguments& a) {
-    app.add_option("--air", a.file, "profiles: the main file of AeroDyn 15 (default: that of the model)")
+    app.add_option("--air", a.file, "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
         .type_name("FILE");
     app.add_option("--shear", a.shear, "exponent of the wind's profile over the height");
     app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
@@ -53,23 +78,20 @@ std::string in_words(const AirArguments& a) {
 
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments) {
     const double hub_radius = machine.file.description.hub.radius;
-    std::filesystem::path file = arguments.file;
-    if (file.empty() && machine.kind == MachineKind::openfast) {
-        turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
-        if (main.has("AeroFile")) file = main.path("AeroFile");
-    }
     Air air;
-    if (!file.empty()) {
-        turbines::AeroDynFile read = turbines::read_aerodyn(file, hub_radius);
-        print_notes(read.notes, options.notes);
-        air.blade = std::move(read.blade);
-        air.options = read.options;
-        air.density = read.density;
-        if (!arguments.no_tower) air.support = std::move(read.support);
+    if (is_yaml(arguments.file)) {
+        take(air, turbines::read_windio_air(arguments.file, hub_radius), options);
+    } else if (!arguments.file.empty() || has_aerodyn(machine, options)) {
+        turbines::AeroDynFile file = aerodyn_of(machine, options, arguments.file);
+        if (!arguments.no_tower) air.support = std::move(file.support);
+        take(air, std::move(file), options);
+    } else if (machine.kind == MachineKind::windio) {
+        take(air, turbines::read_windio_air(options.model, hub_radius, additions_of(options)), options);
     } else if (options.model.starts_with("nrel5mw")) {
         air.blade = turbines::nrel5mw_aero_blade();
     } else {
-        throw InputError("--air", "value", "none, and the machine has no profiles", "FILE, the main file of AeroDyn");
+        throw InputError("--air", "value", "none, and the machine has no profiles",
+                         "FILE, the main file of AeroDyn, or windIO");
     }
     if (arguments.no_skew) air.options.skew = Skew::none;
     if (arguments.density) air.density = *arguments.density;

@@ -14,7 +14,7 @@
 namespace cardan::program {
 
 struct AirArguments {
-    std::string file;                  ///< AeroDyn's main file; empty: the machine's
+    std::string file;                  ///< AeroDyn's main file, or windIO; empty: the machine's
     double shear = 0;                  ///< exponent
     double direction = 0, upflow = 0;  ///< deg
     std::optional<double> density;

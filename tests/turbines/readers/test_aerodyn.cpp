@@ -188,4 +188,55 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     check_error(with("main.dat", "2 NumAFfiles - files\n", ""), {"not a file of AeroDyn 15", "NumAFfiles"});
 }
 
+TEST_CASE("aerodyn: polars at several Reynolds numbers, or the first table of each", "[analytic]") {
+    const test::ModelFolder model("aerodyn");
+    const auto read = [&] { return read_aerodyn(model / "small_AeroDyn.dat", 1); };
+    AeroDynFile file = read();
+    CHECK(file.blade.viscosity == 1.5e-5);
+    CHECK(!file.blade.polars[0].over_reynolds());
+    const Polar& polar = file.blade.polars[1];
+    CHECK(polar.reynolds() == std::vector<double>{0.5e6, 2e6, 8e6});
+    CHECK(polar.at(0, 0.1e6).lift == Approx(0.3));
+    CHECK(polar.at(0, 1e6).lift == Approx(0.35));  // the geometric mean of the first two
+    CHECK(polar.at(10 * units::degree, 4e6).lift == Approx((1.4 + 0.4 + 1.4 * 10 / 12) / 2));
+    CHECK(polar.at(12 * units::degree, 1e8).lift == Approx(1.8));
+    CHECK(!test::has_note(file.notes, "AFTabMod", ""));
+    model.replace("small_AeroDyn.dat", "2         AFTabMod", "3         AFTabMod");
+    file = read();
+    CHECK(test::has_note(file.notes, "AFTabMod", "the first table of every polar is used here"));
+    CHECK(!file.blade.polars[1].over_reynolds());
+    CHECK(file.blade.polars[1].at(0, 1e6).lift == Approx(0.3));
+    model.replace("small_AeroDyn.dat", "3         AFTabMod", "1         AFTabMod");
+    model.replace("small_AeroDyn.dat", "1.5e-5    KinVisc", "default   KinVisc");
+    CHECK(read().blade.viscosity == standard_viscosity);
+    CHECK(read_aerodyn(model / "small_AeroDyn.dat", 1, 1.2, 1.7e-5).blade.viscosity == 1.7e-5);
+    CHECK(!read().blade.polars[1].over_reynolds());
+}
+
+TEST_CASE("aerodyn: tables over the Reynolds number that do not fit are refused with file and line", "[validation]") {
+    const auto with = [](const std::string& name, const std::string& from, const std::string& to) {
+        return [=] {
+            const test::ModelFolder model("aerodyn");
+            model.replace(name, from, to);
+            static_cast<void>(read_aerodyn(model / "small_AeroDyn.dat", 1));
+        };
+    };
+    const std::string polar = "small_Polar_2.dat", main = "small_AeroDyn.dat";
+    check_error(with(polar, "2.0        Re", "0.5        Re"),
+                {"small_Polar_2.dat:24", "Re = 0.5; allowed: above 0.5"});
+    check_error(with(polar, "0.5        Re", "-1         Re"), {"small_Polar_2.dat:9", "Re = -1; allowed: above 0"});
+    check_error(with(polar, "8.0        Re", "8.0 9      Re"),
+                {"small_Polar_2.dat:36", "one value expected before Re"});
+    check_error(with(polar, "3          NumTabs", "4          NumTabs"),
+                {"small_Polar_2.dat:7", "NumTabs = 4, but there are 3 lines with NumAlf"});
+    check_error(with(polar, "8.0        Re          ! 1e6\n0          Ctrl", "8.0        Re\n1          Ctrl"),
+                {"small_Polar_2.dat:37", "Ctrl = 1; allowed: 0, as in the first table"});
+    check_error(with(polar, "  14.0     1.6", "   9.0     1.6"), {"small_Polar_2.dat:33", "9 deg after 10"});
+    check_error(with(polar, "  12.0     1.8", " 190.0     1.8"), {"small_Polar_2.dat:45", "180 deg after 190"});
+    check_error(with(main, "2         AFTabMod", "4         AFTabMod"),
+                {"small_AeroDyn.dat:21", "AFTabMod = 4; allowed: 1, 2, 3"});
+    check_error(with(main, "1.5e-5    KinVisc", "0         KinVisc"),
+                {"small_AeroDyn.dat:9", "KinVisc = 0; allowed: > 0"});
+}
+
 }  // namespace cardan::testing::aerodyn_reader_tests

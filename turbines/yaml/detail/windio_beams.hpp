@@ -28,6 +28,7 @@ public:
     /// Unread entries next to others that were read, and the other top-level keys as a group.
     std::vector<FileNote> unused() const;
     const YamlNode& root() const { return root_; }
+    /// Once, if asked several times.
     void note(const YamlNode& node, std::string value, std::string why);
     std::vector<FileNote> notes;
 
