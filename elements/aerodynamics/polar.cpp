@@ -45,6 +45,11 @@ std::vector<double> united(std::vector<double> all, double tolerance) {
     return all;
 }
 
+// From -pi to pi, where it nearly always is.
+double on_circle(double angle) {
+    return std::abs(angle) <= pi ? angle : std::remainder(angle, 2 * pi);
+}
+
 }  // namespace
 
 Polar::IndexedTable::IndexedTable(Table of) : table(std::move(of)) {
@@ -126,11 +131,11 @@ Polar Polar::mixed(std::string name, const Polar& a, const Polar& b, double shar
 }
 
 Polar::Point Polar::at(double angle) const {
-    return tables_.front().at(std::remainder(angle, 2 * pi));
+    return tables_.front().at(on_circle(angle));
 }
 
 Polar::Point Polar::at(double angle, double reynolds) const {
-    return between(std::remainder(angle, 2 * pi), reynolds);
+    return between(on_circle(angle), reynolds);
 }
 
 Polar::Point Polar::between(double x, double reynolds) const {

@@ -40,7 +40,8 @@ public:
     const std::string& name() const { return name_; }
     /// Has it several tables?
     bool over_reynolds() const { return tables_.size() > 1; }
-    std::vector<double> reynolds() const;  ///< of the tables
+    std::vector<double> reynolds() const;                         ///< of the tables
+    const Table& table() const { return tables_.front().table; }  ///< the first one
 
 private:
     static constexpr std::size_t cells = 512;

@@ -34,6 +34,22 @@ std::vector<Polar> polars() {
 
 }  // namespace
 
+std::vector<UnsteadyProfile> nrel5mw_unsteady_profiles() {
+    const CsvTable t = table("nrel5mw_unsteady.csv");
+    const auto slope = t.column("slope", "1/rad"), zero = t.column("zero_lift", "deg"),
+               upper = t.column("upper", "deg"), lower = t.column("lower", "deg"), drag = t.column("least_drag");
+    std::vector<UnsteadyProfile> out;
+    for (const Polar& polar : polars()) {
+        const std::size_t i = out.size();
+        out.emplace_back(polar, AttachedFlow{.slope = slope[i],
+                                             .zero_lift = zero[i] * units::degree,
+                                             .upper = upper[i] * units::degree,
+                                             .lower = lower[i] * units::degree,
+                                             .least_drag = drag[i]});
+    }
+    return out;
+}
+
 AeroBlade nrel5mw_aero_blade() {
     const CsvTable t = table("nrel5mw_aero_blade.csv");
     const auto radius = t.column("radius", "m"), chord = t.column("chord", "m"), twist = t.column("twist", "deg"),

@@ -6,10 +6,17 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
+
+#include <vector>
 
 namespace cardan::turbines {
 
 /// 19 sections from the root (1.5 m) to the tip (63 m), eight profiles.
 AeroBlade nrel5mw_aero_blade();
+
+/// Its profiles with the lags of their flow; the two cylinders have none. Angles without lift and of separation from
+/// the public files; that of the NACA64 profile is the zero of its table (turbines/data/nrel5mw_unsteady.csv).
+std::vector<UnsteadyProfile> nrel5mw_unsteady_profiles();
 
 }  // namespace cardan::turbines

@@ -54,10 +54,12 @@ public:
 
     struct Point {
         S k, k_tangential, F;
+        SineCosine<S> of_phi;
     };
     Point at(const S& phi) const {
-        using std::abs, std::cos, std::sin;
-        const S s = sin(phi), c = cos(phi), attack = phi - inflow_.angle;
+        using std::abs;
+        const SineCosine<S> of_phi = sine_cosine(phi);
+        const S &s = of_phi.sine, &c = of_phi.cosine, attack = phi - inflow_.angle;
         const Polar::Point polar = point_of(*annulus_.polar, value_of(attack), value_of(reynolds_));
         const S lift = coefficient(polar.lift, polar.lift_slope, attack, polar.lift_reynolds, reynolds_),
                 drag = coefficient(polar.drag, polar.drag_slope, attack, polar.drag_reynolds, reynolds_),
@@ -68,7 +70,7 @@ public:
         if (options_.hub_loss) F *= loss(annulus_.hub / abs(s));
         if (!(value_of(F) >= least_loss)) F = least_loss;
         const S turn = options_.rotation ? solidity_ * driving / (4 * F * s * c) : S(0);
-        return {solidity_ * normal / (4 * F * s * s), value_of(inflow_.V_x) < 0 ? -turn : turn, F};
+        return {solidity_ * normal / (4 * F * s * s), value_of(inflow_.V_x) < 0 ? -turn : turn, F, of_phi};
     }
     bool brakes(const S& phi) const { return value_of(phi) * value_of(inflow_.V_x) < 0; }  // as a propeller does
     S axial(const S& phi, const Point& at) const {
@@ -87,10 +89,9 @@ public:
     }
     /// Multiplied by V_y, so that it has a value at rest too.
     S residual(const S& phi) const {
-        using std::cos, std::sin;
         const Point point = at(phi);
         const S along = brakes(phi) ? 1 - point.k : 1 / (1 - axial(phi, point));
-        return sin(phi) * along * inflow_.V_y - inflow_.V_x * cos(phi) * (1 - point.k_tangential);
+        return point.of_phi.sine * along * inflow_.V_y - inflow_.V_x * point.of_phi.cosine * (1 - point.k_tangential);
     }
 
 private:
@@ -142,10 +143,11 @@ struct Loads {
 };
 template <class S>
 Loads<S> loads_of(const Annulus& annulus, const Inflow<S>& inflow, const Factors<S>& factors, double density) {
-    using std::atan2, std::cos, std::sin;
+    using std::atan2;
     const S u_x = inflow.V_x * (1 - factors.axial), u_y = inflow.V_y * (1 + factors.tangential), phi = atan2(u_x, u_y),
-            attack = phi - inflow.angle, pressure = density / 2 * annulus.chord * (u_x * u_x + u_y * u_y), s = sin(phi),
-            c = cos(phi), reynolds = reynolds_of<S>(annulus, u_x, u_y);
+            attack = phi - inflow.angle, pressure = density / 2 * annulus.chord * (u_x * u_x + u_y * u_y),
+            reynolds = reynolds_of<S>(annulus, u_x, u_y);
+    const auto [s, c] = sine_cosine(phi);
     const Polar::Point polar = point_of(*annulus.polar, value_of(attack), value_of(reynolds));
     const S lift = coefficient(polar.lift, polar.lift_slope, attack, polar.lift_reynolds, reynolds),
             drag = coefficient(polar.drag, polar.drag_slope, attack, polar.drag_reynolds, reynolds),

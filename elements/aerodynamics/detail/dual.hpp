@@ -50,6 +50,19 @@ template <int N>
 Dual<N> cos(const Dual<N>& x) {
     return x.chain(std::cos(x.value), -std::sin(x.value));
 }
+/// Sine and cosine at once.
+template <class S>
+struct SineCosine {
+    S sine, cosine;
+};
+inline SineCosine<double> sine_cosine(double x) {
+    return {std::sin(x), std::cos(x)};
+}
+template <int N>
+SineCosine<Dual<N>> sine_cosine(const Dual<N>& x) {
+    const double s = std::sin(x.value), c = std::cos(x.value);
+    return {x.chain(s, c), x.chain(c, -s)};
+}
 template <int N>
 Dual<N> tan(const Dual<N>& x) {
     const double t = std::tan(x.value);

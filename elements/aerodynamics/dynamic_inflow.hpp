@@ -1,0 +1,51 @@
+/// @file
+/// Induction that lags behind the loads: two filters in series at every section [Oye; state-space form: E. Branlard et
+/// al., J. Phys. Conf. Ser. 2265 (2022) 032044].
+///
+/// Of the induced velocity w = (-a V_x, a' V_y) along the axes of a section (Annulus), with w_q that in equilibrium
+/// with the loads of the instant,
+///
+///     tau_1 u' = -u + (1 - kappa) w_q,      tau_2 w' = -w + u + kappa w_q,      kappa = 0.6,
+///     tau_2 = [0.39 - 0.26 (r/R)^2] tau_1.
+#pragma once
+
+#include "elements/aerodynamics/momentum.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <span>
+
+namespace cardan {
+
+struct InflowTimes {
+    double first, second;  ///< tau_1 and tau_2, s
+};
+/// @param share  r/R, 0 ... 1
+InflowTimes inflow_times(double first, double share);
+
+/// tau_1 = 1.1 R / [(1 - 1.3 min(a, 0.5)) V], at most 100 s.
+/// @param radius  of the rotor, m;  @param induction  mean of the rotor, mean_induction()
+/// @param wind    mean along the shaft, m/s, taken as 0.1 at least
+double inflow_time(double radius, double induction, double wind);
+
+/// Mean axial induction around 70 % of the radius: weights (1 - min(1, |u|)^2)^3, u = (r/R - 0.7) / 0.1, over their
+/// sum.
+/// @param shares, axial  r/R and a of the sections, of all blades
+/// @return that of the section nearest to 70 % if no section has a weight
+double mean_induction(std::span<const double> shares, std::span<const double> axial);
+
+/// Velocities u and w, m/s: axial and tangential each.
+struct DynamicInflow {
+    enum State : std::uint8_t { early_axial, early_tangential, axial, tangential, states };
+    using States = Eigen::Matrix<double, states, 1>;
+
+    /// w_q of a solution without lag.
+    static Eigen::Vector2d velocity(const Induction& steady, double V_x, double V_y);
+    static States steady(const Eigen::Vector2d& velocity);
+    static States rates(const States& x, const Eigen::Vector2d& velocity, const InflowTimes& times);
+    /// a and a' of these states, within the limits of those without lag, and the angle of the inflow.
+    static Induction induction(const States& x, double V_x, double V_y);
+};
+
+}  // namespace cardan

@@ -1,0 +1,107 @@
+/// @file
+/// A profile whose flow lags behind its motion: four states for the wake's shed vorticity, the pressure and the point
+/// of separation [M. H. Hansen, M. Gaunaa, H. Aa. Madsen, A Beddoes-Leishman type dynamic stall model in state-space
+/// and indicial formulations, Riso-R-1354, 2004].
+#pragma once
+
+#include "elements/aerodynamics/polar.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+
+namespace cardan {
+
+/// Of a profile whose flow does not separate.
+struct AttachedFlow {
+    double slope = 0;             ///< of the lift, 1/rad
+    double zero_lift = 0;         ///< angle of attack without lift, rad
+    double upper = 0, lower = 0;  ///< angles of attack at which the flow begins to separate, rad
+    double least_drag = 0;        ///< drag coefficient without lift
+};
+
+/// Of a thin profile, indicial response by two exponentials; lags in half chords travelled.
+struct ProfileLags {
+    double A1 = 0.3, A2 = 0.7, b1 = 0.14, b2 = 0.53;
+    double pressure = 1.7, boundary_layer = 3.0;
+};
+
+/// How a section moves through the air, at its aerodynamic centre, a quarter of the chord behind the leading edge.
+struct ProfileMotion {
+    double attack;  ///< rad
+    double speed;   ///< of the air, m/s
+    double rate;    ///< of the section about its span, nose up, rad/s
+    double chord;   ///< m
+};
+
+/// With T = c / (2 U), the angle of attack at three quarters of the chord, alpha_34 = atan2(U sin alpha + rate c/2, U
+/// cos alpha), and alpha_E = (1 - A1 - A2) alpha_34 + x1 + x2:
+///
+///     T x1' = A1 b1 alpha_34 - b1 x1,      T x2' = A2 b2 alpha_34 - b2 x2,
+///     T_p T x3' = c_p - x3,                c_p = slope (alpha_E - zero_lift) + pi T rate,
+///     T_f T x4' = f(alpha_F) - x4,         alpha_F = x3 / slope + zero_lift,
+///
+///     c_l = x4 slope (alpha_E - zero_lift) + (1 - x4) c_l,separated(alpha_E) + pi T rate,
+///     c_d = c_d(alpha_E) + (alpha_34 - alpha_E + T rate) (c_l - pi T rate)
+///           + [c_d(alpha_E) - least drag] [(sqrt f(alpha_E) - sqrt x4) / 2 - (f(alpha_E) - x4) / 4],
+///     c_m = c_m(alpha_E) - pi/2 T rate.
+///
+/// The speed is taken as constant in the lags. Beyond 40 degrees of attack the coefficients go over to those of the
+/// table, which they are from 45 degrees on (by a cosine; a choice as in AeroDyn).
+class UnsteadyProfile {
+public:
+    enum State : std::uint8_t { wake_1, wake_2, lagging_lift, separation_point, states };
+    using States = Eigen::Matrix<double, states, 1>;
+    struct Coefficients {
+        double lift, drag, moment;
+    };
+
+    /// f from Kirchhoff's flow, c_l = slope (alpha - zero_lift) [(1 + sqrt f) / 2]^2, at the points of the table,
+    /// linear in between; zero beyond its first minimum below one half outside of `lower` ... `upper`. A profile
+    /// without slope (a cylinder) keeps its table's coefficients.
+    /// @throws InputError for values that are not finite, a slope or a lag that is negative, `lower` above `upper`
+    UnsteadyProfile(const Polar& polar, const AttachedFlow& flow, const ProfileLags& lags = {});
+
+    /// Those at rest.
+    States steady(const ProfileMotion& motion) const;
+    States rates(const States& x, const ProfileMotion& motion) const;
+    Coefficients coefficients(const States& x, const ProfileMotion& motion) const;
+
+    /// Derivatives of rates and coefficients (rows).
+    struct Slopes {
+        enum Column : std::uint8_t { attack = states, speed, rate, columns };  ///< behind the states
+        Eigen::Matrix<double, states, columns> rates;
+        Eigen::Matrix<double, 3, columns> coefficients;
+    };
+    Slopes slopes(const States& x, const ProfileMotion& motion) const;
+
+    /// Point of separation, from 0 at the leading to 1 at the trailing edge, and the lift of the separated flow.
+    struct Separation {
+        double f, lift, f_slope, lift_slope;  ///< slopes per rad
+    };
+    Separation separation(double attack) const;
+
+    bool is_unsteady() const { return flow_.slope > 0; }
+    const AttachedFlow& flow() const { return flow_; }
+    const Polar& polar() const { return polar_; }
+
+private:
+    template <class S>
+    struct Flow;
+    template <class S>
+    struct Values;
+    template <class S>
+    Flow<S> flow_at(const Values<S>& at) const;
+    template <class S>
+    std::array<S, states> rates_of(const Values<S>& at) const;
+    template <class S>
+    std::array<S, 3> coefficients_of(const Values<S>& at) const;
+
+    Polar polar_;
+    Polar curves_;  // f in the place of the lift, that of the separated flow in the place of the drag
+    AttachedFlow flow_;
+    ProfileLags lags_;
+};
+
+}  // namespace cardan
