@@ -14,7 +14,7 @@ using namespace cardan::testing;
 
 namespace {
 
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+Matrix seeded_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
     std::srand(seed);
     return Matrix::Random(rows, columns);
 }
@@ -56,7 +56,7 @@ TEST_CASE("real eigen: residuals are of the order of rounding, eigenvalues those
         RealEigen solver(n, n);
         for (unsigned seed = 0; seed < 5; ++seed) {
             CAPTURE(n, seed);
-            const Matrix A = random_matrix(n, n, seed);
+            const Matrix A = seeded_matrix(n, n, seed);
             REQUIRE(solver.compute(A));
             CHECK(largest_residual(A, solver) < 1e-14);
             std::vector<Complex> own;
@@ -70,7 +70,7 @@ TEST_CASE("real eigen: residuals are of the order of rounding, eigenvalues those
 }
 
 TEST_CASE("real eigen: the first rows of the vectors are the first rows of the whole vectors", "[property]") {
-    const Matrix A = random_matrix(60, 60, 3);
+    const Matrix A = seeded_matrix(60, 60, 3);
     RealEigen whole(60, 60), part(60, 25);
     REQUIRE(whole.compute(A));
     REQUIRE(part.compute(A));
@@ -111,7 +111,7 @@ TEST_CASE("real eigen: known spectra, among them rotations, permutations, triang
 
 TEST_CASE("real eigen: what is not finite is refused, and the solver works afterwards", "[property]") {
     RealEigen solver(5, 5);
-    const Matrix good = random_matrix(5, 5, 1);
+    const Matrix good = seeded_matrix(5, 5, 1);
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         Matrix A = good;
         A(2, 3) = bad;
@@ -124,7 +124,7 @@ TEST_CASE("real eigen: what is not finite is refused, and the solver works after
 TEST_CASE("dense kernels: product, elimination and definiteness agree with Eigen", "[crosscheck]") {
     for (const Eigen::Index n : {1, 2, 7, 47, 48, 49, 130, 300}) {
         CAPTURE(n);
-        const Matrix A = random_matrix(n, n, 5), B = random_matrix(n, n / 2 + 1, 6);
+        const Matrix A = seeded_matrix(n, n, 5), B = seeded_matrix(n, n / 2 + 1, 6);
         Matrix C = B;
         add_product(C, A, B, -1);
         CHECK((C - (B - A * B)).norm() < 1e-14 * A.norm() * B.norm());
@@ -150,7 +150,7 @@ TEST_CASE("real eigen and dense kernels: nothing is allocated, for large matrice
     if (!AllocationGuard::works()) return;
     for (const Eigen::Index n : {6, 60, 150, 420}) {
         CAPTURE(n);
-        const Matrix A = random_matrix(n, n, 7), B = random_matrix(n, 2 * n, 8);
+        const Matrix A = seeded_matrix(n, n, 7), B = seeded_matrix(n, 2 * n, 8);
         Matrix C = B, D = A;
         CHECK(allocations([&] { add_product(C, A, B); }) == 0);
         CHECK(allocations([&] { solve_in_place(D, C); }) == 0);
@@ -174,10 +174,10 @@ TEST_CASE("real eigen: a double pair without coupling has two independent vector
     // at times.
     for (unsigned seed = 0; seed < 100; ++seed) {
         const Eigen::Index n = 6 + seed % 15;
-        Matrix A = random_matrix(n, n, seed).triangularView<Eigen::Upper>();
+        Matrix A = seeded_matrix(n, n, seed).triangularView<Eigen::Upper>();
         A.topLeftCorner(4, 4).setZero();
         for (const Eigen::Index at : {0, 2}) A.block(at, at, 2, 2) << -0.1, 3, -2, 0.3;
-        const Matrix Q = orthogonal_factor(random_matrix(n, n, seed + 1000));
+        const Matrix Q = orthogonal_factor(seeded_matrix(n, n, seed + 1000));
         RealEigen solver(n, n);
         REQUIRE(solver.compute(Q * A * Q.transpose()));
         CAPTURE(seed, n);
