@@ -61,17 +61,23 @@ Induction solve(const Annulus& annulus, double V_x, double V_y, const MomentumOp
 
 namespace {
 
-// Newton's method from the angle of a usual induction, as long as it stays in the bracket; nothing if it does not come
-// to rest there.
+// Newton's method from the angle of a usual induction; a step out of the bracket ends half way to its edge. Nothing if
+// it does not come to rest there.
 std::optional<double> newton_root(const Balance<Dual<1>>& balance, const Bracket& in, double guess) {
-    constexpr double close = 1e-8;  // its error is then that of rounding: it squares in the last step
+    // The error of the last step is then that of rounding: it squares, over the distance from phi = 0, where the
+    // balance is singular.
+    const auto is_close = [](double step, double at) { return step * step < 1e-16 * std::abs(at); };
     double phi = guess;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 16; ++i) {
         const Dual<1> residual = balance.residual(Dual<1>::variable(in.side * phi, 0));
-        const double step = residual.value / (in.side * residual.slopes(0));
-        phi -= step;
-        if (!(phi > in.from && phi < in.to)) return std::nullopt;
-        if (std::abs(step) < close) return phi;
+        const double step = residual.value / (in.side * residual.slopes(0)), next = phi - step;
+        if (!std::isfinite(next)) return std::nullopt;
+        if (next > in.from && next < in.to) {
+            phi = next;
+            if (is_close(step, phi)) return phi;
+        } else {
+            phi = (phi + (next <= in.from ? in.from : in.to)) / 2;
+        }
     }
     return std::nullopt;
 }
@@ -93,7 +99,7 @@ Induction solve_induction(const Annulus& annulus, double V_x, double V_y, const 
     return solve(annulus, V_x, V_y, options, [&](const auto& residual, const Bracket& in) {
         if (const std::optional<double> root = newton_root(balance, in, guess)) return *root;
         std::uintmax_t iterations = 100;
-        const auto close = [](double a, double b) { return std::abs(b - a) < 1e-13; };
+        const auto close = [](double a, double b) { return std::abs(b - a) < 1e-15 * std::abs(a); };
         const auto [a, b] =
             boost::math::tools::toms748_solve(residual, in.from, in.to, in.low, in.high, close, iterations);
         return (a + b) / 2;

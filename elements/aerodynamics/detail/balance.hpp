@@ -73,14 +73,14 @@ public:
         return {solidity_ * normal / (4 * F * s * s), value_of(inflow_.V_x) < 0 ? -turn : turn, F, of_phi};
     }
     bool brakes(const S& phi) const { return value_of(phi) * value_of(inflow_.V_x) < 0; }  // as a propeller does
-    S axial(const S& phi, const Point& at) const {
+    /// 1 - a: near 1 it is a that would lose its digits.
+    S rest(const S& phi, const Point& at) const {
         using std::sqrt;
-        if (brakes(phi)) return at.k / (at.k - 1);
-        if (value_of(at.k) <= glauert_from) return at.k / (1 + at.k);
+        if (brakes(phi)) return 1 / (1 - at.k);
+        if (value_of(at.k) <= glauert_from) return 1 / (1 + at.k);
         // Buhl: C_T = 8/9 + (4 F - 40/9) a + (50/9 - 4 F) a^2.
-        const S x = 2 * at.F * at.k, g1 = x - (10.0 / 9 - at.F), g2 = x - at.F * (4.0 / 3 - at.F),
-                g3 = x - (25.0 / 9 - 2 * at.F);
-        return std::abs(value_of(g3)) < 1e-6 ? 1 - 1 / (2 * sqrt(g2)) : (g1 - sqrt(g2)) / g3;
+        const S x = 2 * at.F * at.k, root = sqrt(x - at.F * (4.0 / 3 - at.F)), g = x - (25.0 / 9 - 2 * at.F);
+        return std::abs(value_of(g)) < 1e-6 ? 1 / (2 * root) : (root + at.F - 5.0 / 3) / g;
     }
     /// A pole of the residual changes its sign as well.
     bool holds(const S& phi) const {
@@ -90,7 +90,7 @@ public:
     /// Multiplied by V_y, so that it has a value at rest too.
     S residual(const S& phi) const {
         const Point point = at(phi);
-        const S along = brakes(phi) ? 1 - point.k : 1 / (1 - axial(phi, point));
+        const S along = 1 / rest(phi, point);
         return point.of_phi.sine * along * inflow_.V_y - inflow_.V_x * point.of_phi.cosine * (1 - point.k_tangential);
     }
 
@@ -123,7 +123,7 @@ S limited(const S& x, double least, double greatest) {
 template <class S>
 Factors<S> factors_at(const Balance<S>& balance, const S& phi) {
     const typename Balance<S>::Point at = balance.at(phi);
-    return {limited<S>(balance.axial(phi, at), -1, 1.5), limited<S>(at.k_tangential / (1 - at.k_tangential), -1, 1)};
+    return {limited<S>(1 - balance.rest(phi, at), -1, 1.5), limited<S>(at.k_tangential / (1 - at.k_tangential), -1, 1)};
 }
 
 /// 1 + 15 pi/32 tan(chi/2) / sin(chi_0) times the lever, chi = (0.6 a + 1) chi_0: what a skewed wake makes of a.

@@ -184,7 +184,9 @@ TEST_CASE("air on a machine: derivatives are those of the forces", "[property]")
 
 TEST_CASE("air on a machine: a wind over time is at every instant a steady one", "[property]") {
     const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
-    const SteadyWind calm{.speed = 7};
+    SteadyWind calm = slanted;
+    calm.speed = 7;
+    calm.direction = 0;
     const MachineAir air(machine, nrel5mw_aero_blade(), Wind({1, 3, 5}, {calm, slanted, slanted}));
     CHECK(air.field().breaks == std::vector<double>{1, 3, 5});
     CHECK(air.on(machine).system().forces.breaks() == std::vector<double>{1, 3, 5});
