@@ -180,14 +180,13 @@ double start_torque(const ControllerOptions& options, double ratio, double speed
 
 ControlledMachine controlled_machine(const ControllerOptions& options, const turbines::Turbine& machine, double torque,
                                      const std::string& prefix, const std::vector<ChannelGroup>& also,
-                                     const ControlSignal& more,
-                                     const turbines::ActuatorOptions& actuators) {
+                                     const ControlSignal& more, const turbines::ActuatorOptions& actuators) {
     const turbines::ActuatedForces actuated(machine, actuators);
     const bool individual = !options.is_baseline();
     const turbines::Turbine turbine = machine.with_forces(actuated.with_inputs(torque, individual, more),
                                                           text(in_words(options), ", torque ", torque, " N m"));
-    solvers::SampledController controller =
-        options.is_baseline() ? baseline_controller(options, turbine) : library_controller(options, turbine, prefix, also);
+    solvers::SampledController controller = options.is_baseline() ? baseline_controller(options, turbine)
+                                                                  : library_controller(options, turbine, prefix, also);
     controller.inputs = actuated.inputs(individual);
     return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency)};
 }

@@ -1,6 +1,7 @@
 // The first byte says which of the four files of a blade the rest replaces; the others are those of tests/data.
 #include "tests/fuzz/fuzz.hpp"
 #include "turbines/readers/aerodyn.hpp"
+#include "turbines/readers/inflow_wind.hpp"
 
 #include <array>
 

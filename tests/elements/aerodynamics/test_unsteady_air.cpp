@@ -186,8 +186,13 @@ TEST_CASE("dynamic inflow: a step of the pitch of a rigid rotor", "[discrete]") 
         return sum;
     };
 
-    for (const auto& [mod, constant, tolerance] :
-         {std::tuple(2, 0.0, 4e-5), {3, 4.0, 4e-5}, {3, 8.0, 4e-5}, {1, 4.0, 2e-4}}) {
+    struct Case {
+        int mod;
+        double constant, tolerance;
+    };
+    for (const Case& one : {Case{2, 0, 4e-5}, {3, 4, 4e-5}, {3, 8, 4e-5}, {1, 4, 2e-4}}) {
+        const int mod = one.mod;
+        const double constant = one.constant, tolerance = one.tolerance;
         const auto pitch_at = [](double t) { return 2 * units::degree * std::clamp((t - 10) / 0.2, 0.0, 1.0); };
         All x(DynamicInflow::states, static_cast<Eigen::Index>(n));
         const Instant start = instant(0);
