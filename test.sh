@@ -92,7 +92,7 @@ check_package() {
 check_headers() { cmake --build build/packaging/consumer --target consumer_headers --parallel "$jobs"; }
 
 check_tidy() {
-    # The library and the programs, as joined sources: their headers are read once for twelve sources. Hence the check of
+    # The library and the programs, as joined sources: their headers are read once for two dozen sources. Hence the check of
     # included .cpp files makes no sense, and those are "headers" to report.
     local ours='(mbs|elements|turbines|solvers|examples)/[a-z0-9_/]+\.[ch]pp$'
     cmake --preset tidy >/dev/null && run-clang-tidy -quiet -j "$jobs" -p build/tidy -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" \
