@@ -1,31 +1,12 @@
 #include "elements/aerodynamics/blade_section.hpp"
 
-#include "elements/aerodynamics/detail/balance.hpp"
+#include "elements/aerodynamics/detail/section_factors.hpp"
 
 namespace cardan {
 
 namespace {
 
 using Slope = Dual<SectionSlopes::columns>;
-
-// The root of the balance follows from R(phi, V_x, V_y, angle, radius) = 0.
-Slope root_of(const Annulus& annulus, const Inflow<Slope>& inflow, double root, const MomentumOptions& options) {
-    // The place of a wake variable, which the balance does not know, serves for phi.
-    constexpr int place = SectionSlopes::wake_angle;
-    const Balance<Slope> balance(annulus, inflow, options);
-    const Slope residual = balance.residual(Slope::variable(root, place));
-    Slope::Slopes slopes = -residual.slopes / residual.slopes(place);
-    slopes(place) = 0;
-    return {root, slopes};
-}
-
-Factors<Slope> factors_of(const Annulus& annulus, const Inflow<Slope>& inflow, const SectionAir& at,
-                          const MomentumOptions& options) {
-    const Induction& found = at.induction;
-    if (!found.solved) return {found.axial, found.tangential};
-    const Slope root = root_of(annulus, inflow, found.root, options);
-    return factors_at(Balance<Slope>(annulus, inflow, options), root);
-}
 
 }  // namespace
 
@@ -47,7 +28,7 @@ SectionSlopes section_slopes(const Annulus& annulus, const SectionAir& at, const
     const Inflow<Slope> inflow{Slope::variable(at.V_x, SectionSlopes::V_x), Slope::variable(at.V_y, SectionSlopes::V_y),
                                Slope::variable(annulus.angle, SectionSlopes::angle),
                                Slope::variable(annulus.radius, SectionSlopes::radius)};
-    Factors<Slope> factors = factors_of(annulus, inflow, at, options.momentum);
+    Factors<Slope> factors = factors_of(annulus, inflow, at.induction, options.momentum, SectionSlopes::wake_angle);
     if (at.induction.solved && options.skew != Skew::none)
         factors.axial *= redistribution(factors.axial, Slope::variable(wake.angle, SectionSlopes::wake_angle),
                                         Slope::variable(wake.lever, SectionSlopes::wake_lever));

@@ -7,7 +7,6 @@ namespace cardan {
 
 namespace {
 
-constexpr double kappa = 0.6;
 constexpr double longest = 100, least_wind = 0.1;  // s, m/s
 
 }  // namespace

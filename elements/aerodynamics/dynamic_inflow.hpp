@@ -37,6 +37,7 @@ double mean_induction(std::span<const double> shares, std::span<const double> ax
 
 /// Velocities u and w, m/s: axial and tangential each.
 struct DynamicInflow {
+    static constexpr double kappa = 0.6;
     enum State : std::uint8_t { early_axial, early_tangential, axial, tangential, states };
     using States = Eigen::Matrix<double, states, 1>;
 

@@ -102,8 +102,73 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
 }
 
 void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
-    const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, input, Q); };
+    Vector none;
+    const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, input, Q, none); };
     subtract(field.own.jacobian, add, field.factor, at, out.loads, out.damping);
+}
+
+namespace {
+
+// Memory of the derivatives of a field with states.
+struct FieldMemory {
+    Matrix Q_q, Q_qd, Q_s;
+};
+
+// Central differences of forces and rates, one after the other.
+// @param evaluate  evaluate(at, out): Q, then f
+template <class Evaluate>
+void difference_field(const Evaluate& evaluate, const FieldInput& at, const std::vector<StateInfo>& states,
+                      FieldJacobian& out) {
+    constexpr double step = 1e-6;
+    const Eigen::Index n = at.q.size(), m = at.own.size();
+    Workspace workspace(at.kinematics.model());
+    const auto values = [&](const Vector& q, const Vector& qd, const Vector& s) {
+        Vector all = Vector::Zero(n + m);
+        const Kinematics kin = kinematics(at.kinematics.model(), q, workspace);
+        evaluate(FieldInput({at.time, q, qd, kin, at.s, at.u}, s), all);
+        return all;
+    };
+    const auto add = [&](const Vector& above, const Vector& below, double h, auto Q, auto f) {
+        Q += (above - below).head(n) / (2 * h);
+        f += (above - below).tail(m) / (2 * h);
+    };
+    const Vector s = at.own;
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const Vector d = step * Vector::Unit(n, j);
+        add(values(at.q + d, at.qd, s), values(at.q - d, at.qd, s), step, out.Q_q.col(j), out.f_q.col(j));
+        add(values(at.q, at.qd + d, s), values(at.q, at.qd - d, s), step, out.Q_qd.col(j), out.f_qd.col(j));
+    }
+    for (Eigen::Index j = 0; j < m; ++j) {
+        const double h = step * entry(states, j).scale;
+        const Vector d = h * Vector::Unit(m, j);
+        add(values(at.q, at.qd, s + d), values(at.q, at.qd, s - d), h, out.Q_s.col(j), out.f_s.col(j));
+    }
+}
+
+}  // namespace
+
+void Forces::state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
+                                     StateDerivatives& states) const {
+    const Eigen::Index n = at.q.size(), m = field.states(), first = field.first;
+    Borrowed<FieldMemory> own;
+    own->Q_q.setZero(n, n);
+    own->Q_qd.setZero(n, n);
+    own->Q_s.setZero(n, m);
+    FieldJacobian J{own->Q_q,
+                    own->Q_qd,
+                    own->Q_s,
+                    states.f_q.middleRows(first, m),
+                    states.f_qd.middleRows(first, m),
+                    states.f_s.block(first, first, m, m)};
+    if (field.own.state_jacobian)
+        field.own.state_jacobian(field.input(at), J);
+    else
+        difference_field([&](const FieldInput& input,
+                             Vector& all) { add_field(field, 1, input, all.head(n), all.tail(m)); },
+                         field.input(at), field.own.states, J);
+    out.loads -= field.factor * own->Q_q;
+    out.damping -= field.factor * own->Q_qd;
+    states.Q_s.middleCols(first, m) += field.factor * own->Q_s;
 }
 
 void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
@@ -115,6 +180,8 @@ void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, co
 void Forces::derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const {
     mechanical_derivatives(at, out);
     states_.derivatives({at.time, at.q, at.qd, at.s, at.u}, out.loads, out.damping, states);
+    for (const Field& field : fields_)
+        if (field.states() > 0) state_field_derivatives(field, at, out, states);
 }
 
 void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const {
@@ -131,7 +198,8 @@ void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out)
     if (has_gravity()) gravity_stiffness(kin, out.gravity);
     for (const FrameLoad& load : loads_) wrench_stiffness(load, kin, at.time, out.loads);
     for (const User& user : users_) user_derivatives(user, at, out);
-    for (const Field& field : fields_) field_derivatives(field, at, out);
+    for (const Field& field : fields_)
+        if (field.states() == 0) field_derivatives(field, at, out);
 }
 
 }  // namespace cardan

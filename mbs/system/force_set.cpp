@@ -91,7 +91,10 @@ void ForceSet::add_user(UserForce force) {
 }
 
 void ForceSet::add_field(WrenchField field) {
-    if (!field.wrenches) throw InputError(text("field '", field.name, "': the function `wrenches` is missing"));
+    const bool has_states = !field.states.empty();
+    if (has_states ? !field.evaluate : !field.wrenches)
+        throw InputError(text("field '", field.name, "': the function `", has_states ? "evaluate" : "wrenches",
+                              "` is missing"));
     for (const FieldPoint& point : field.points)
         if (!point.place.allFinite())
             throw InputError(text("field '", field.name, "'"), "place [m]", point.place.transpose(), "finite");
@@ -112,14 +115,47 @@ void ForceSet::set_gravity(const Vec3& g) {
     gravity_ = g;
 }
 
+namespace {
+
+// Those of fields, behind those of the elements.
+std::vector<OtherStates> states_of_fields(const ForceSet& set, const Model& model) {
+    std::vector<OtherStates> all;
+    for (const WrenchField& field : set.fields()) {
+        if (field.states.empty()) continue;
+        OtherStates& out = all.emplace_back(OtherStates{field.name, field.states, {}});
+        for (const FieldGroup& group : field.groups) {
+            StateGroup& to = out.groups.emplace_back(StateGroup{group.states, {}});
+            for (const BodyId body : group.coordinates) {
+                if (body.index < 0 || body.index >= model.size())
+                    throw InputError(text("field '", field.name, "'"), "body", body.index, "a body of the tree");
+                to.coordinates.push_back(model.index(body));
+            }
+        }
+        if (!field.groups.empty()) continue;
+        StateGroup& to = out.groups.emplace_back();
+        to.states.resize(field.states.size());
+        std::iota(to.states.begin(), to.states.end(), 0);
+        to.coordinates.resize(static_cast<std::size_t>(model.size()));
+        std::iota(to.coordinates.begin(), to.coordinates.end(), 0);
+    }
+    return all;
+}
+
+}  // namespace
+
 Forces::Forces(const ForceSet& set, const Model& model)
     : loads_(set.loads()),
-      states_(set.state_elements(), set.inputs(), model),
+      states_(set.state_elements(), set.inputs(), model, states_of_fields(set, model)),
       gravity_(set.gravity()),
       model_(model.serial()),
       size_(model.size()) {
     for (const UserForce& force : set.users()) users_.push_back({force});
-    for (const WrenchField& field : set.fields()) fields_.push_back(bound(field, model));
+    int first = 0;
+    for (const StateElement& element : set.state_elements()) first += static_cast<int>(element.states.size());
+    for (const WrenchField& field : set.fields()) {
+        fields_.push_back(bound(field, model, first));
+        first += static_cast<int>(field.states.size());
+    }
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
         for (BodyId body : law.coordinates) {
@@ -136,8 +172,8 @@ Forces::Forces(const ForceSet& set, const Model& model)
             throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
 }
 
-Forces::Field Forces::bound(const WrenchField& field, const Model& model) {
-    Field out{field, {}, {}};
+Forces::Field Forces::bound(const WrenchField& field, const Model& model, int first) {
+    Field out{field, {}, {}, first};
     for (const FieldPoint& point : field.points) {
         if (point.frame.index < 0 || point.frame.index >= std::ssize(model.frames()))
             throw InputError(text("field '", field.name, "'"), "frame", point.frame.index, "a frame of the tree");

@@ -12,7 +12,7 @@ namespace {
 
 // For scaled user forces, and for fields.
 struct Scratch {
-    Vector Q;
+    Vector Q, rates;
     std::vector<Wrench> points, bodies;
 };
 
@@ -116,13 +116,18 @@ void Forces::generalised_forces(const Kinematics& kin, double time, const Vector
                                 VectorOut Q) const {
     require_no_states("forces");
     generalised_forces_of_elements<double>(kin, q, qd, Q, time);
-    add_users_and_fields({time, q, qd, kin, no_states, no_states}, Q);
+    const ForceInput at{time, q, qd, kin, no_states, no_states};
+    Vector none;
+    add_users(at, Q);
+    for (const Field& field : fields_) add_field(field, field.factor, at, Q, none);
 }
 
 void Forces::evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const {
     generalised_forces_of_elements<double>(at.kinematics, at.q, at.qd, Q, at.time);
-    add_users_and_fields(at, Q);
+    add_users(at, Q);
     states_.rates({at.time, at.q, at.qd, at.s, at.u}, Q, rates);
+    for (const Field& field : fields_)
+        add_field(field, field.factor, field.input(at), Q, rates.segment(field.first, field.states()));
 }
 
 void Forces::require_no_states(const char* where) const {
@@ -130,9 +135,8 @@ void Forces::require_no_states(const char* where) const {
         throw InputError(where, "number of states", states().size(), "0: they are not taken into account here");
 }
 
-void Forces::add_users_and_fields(const ForceInput& at, VectorOut Q) const {
+void Forces::add_users(const ForceInput& at, VectorOut Q) const {
     for (const User& user : users_) add_user(user, at, Q);
-    for (const Field& field : fields_) add_field(field, field.factor, at, Q);
 }
 
 // A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
@@ -153,19 +157,29 @@ const WrenchField& Forces::field(int i) const {
 }
 
 std::vector<Wrench> Forces::field_wrenches(int i, const ForceInput& at) const {
-    std::vector<Wrench> out(field(i).points.size());
-    field(i).wrenches(at, out);
-    for (Wrench& w : out) w = {entry(fields_, i).factor * w.force, entry(fields_, i).factor * w.moment};
+    const Field& own = (static_cast<void>(field(i)), entry(fields_, i));
+    std::vector<Wrench> out(own.own.points.size());
+    Vector rates(own.states());
+    evaluate_field(own.input(at), own, out, rates);
+    for (Wrench& w : out) w = {own.factor * w.force, own.factor * w.moment};
     return out;
 }
 
+void Forces::evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches, VectorOut rates) {
+    if (field.states() > 0)
+        field.own.evaluate(at, wrenches, rates);
+    else
+        field.own.wrenches(at, wrenches);
+}
+
 // The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
-void Forces::add_field(const Field& field, double factor, const ForceInput& at, VectorOut Q) const {
+// @param rates  out, of the field's states
+void Forces::add_field(const Field& field, double factor, const FieldInput& at, VectorOut Q, VectorOut rates) const {
     const Workspace& ws = at.kinematics.workspace();
     Borrowed<Scratch> scratch;
     scratch->points.resize(field.own.points.size());
     scratch->bodies.assign(static_cast<std::size_t>(size_), {});
-    field.own.wrenches(at, scratch->points);
+    evaluate_field(at, field, scratch->points, rates);
     for (std::size_t i = 0; i < scratch->points.size(); ++i) {
         const int body = field.bodies[i];
         if (body < 0) continue;
@@ -250,7 +264,8 @@ std::vector<ForceReport> Forces::report(const ForceInput& at) const {
         reports.push_back({user.own.name, energy, power()});
     }
     for (const Field& field : fields_) {
-        add_field(field, field.factor, at, Q);
+        Vector rates(field.states());
+        add_field(field, field.factor, field.input(at), Q, rates);
         reports.push_back({field.own.name, std::nullopt, power()});
     }
     return reports;

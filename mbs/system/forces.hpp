@@ -57,16 +57,49 @@ struct FieldPoint {
     Vec3 place = Vec3::Zero();  ///< in the axes of the frame, m
 };
 
+/// A motion as a field sees it, with the field's own states.
+struct FieldInput : ForceInput {
+    Eigen::Ref<const Vector> own;  ///< in the field's order; empty without
+
+    FieldInput(const ForceInput& at) : ForceInput(at), own(no_states) {}  // NOLINT(google-explicit-constructor)
+    FieldInput(const ForceInput& at, const Eigen::Ref<const Vector>& states) : ForceInput(at), own(states) {}
+};
+
+/// Derivatives of a field with states, to be added to: of the generalised forces Q and of the states' rates f.
+struct FieldJacobian {
+    MatrixOut Q_q, Q_qd, Q_s;  ///< n x n, n x n, n x number of the field's states m
+    MatrixOut f_q, f_qd, f_s;  ///< m x n, m x n, m x m
+};
+
+/// States of a field that depend on one another, and the coordinates that they see or act upon; what other groups do
+/// reaches them through coordinates only.
+struct FieldGroup {
+    std::vector<int> states = {};  ///< indices in the field
+    std::vector<BodyId> coordinates = {};
+};
+
 /// Forces and moments at many places that depend on the motion, as those of air and water. Unlike those of a user force
 /// the library knows where they act, so that loads of channels and joints take them into account.
 struct WrenchField {
     std::string name = {};
     std::vector<FieldPoint> points = {};
     /// Writes force and moment about its place, base axes, for every point.
-    std::function<void(const ForceInput&, std::span<Wrench>)> wrenches = {};
+    std::function<void(const FieldInput&, std::span<Wrench>)> wrenches = {};
     /// Adds dQ/dq and dQ/dqd (n x n). Empty: central differences, as those of UserForce.
-    std::function<void(const ForceInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
+    std::function<void(const FieldInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
     std::vector<double> breaks = {};  ///< times, s, ascending, across which it is not smooth
+
+    /// @name States of first order beside the coordinates, as of elements with states (StateElement)
+    /// The following functions then take the place of `wrenches` and `jacobian`.
+    ///@{
+    std::vector<StateInfo> states = {};
+    /// Writes wrenches and ds/dt.
+    std::function<void(const FieldInput&, std::span<Wrench>, VectorOut rates)> evaluate = {};
+    /// Empty: central differences with 1e-6 rad, m, rad/s, m/s, and 1e-6 of the scale of a state.
+    std::function<void(const FieldInput&, FieldJacobian&)> state_jacobian = {};
+    /// Every state in one of them. Empty: all depend on one another and on all coordinates.
+    std::vector<FieldGroup> groups = {};
+    ///@}
 };
 
 /// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint's spring).
@@ -232,7 +265,11 @@ private:
         WrenchField own;
         std::vector<int> bodies;   // of the points; -1: base
         std::vector<Vec3> places;  // in body axes
+        int first = 0;             // index of its first state
         double factor = 1;
+
+        Eigen::Index states() const { return std::ssize(own.states); }
+        FieldInput input(const ForceInput& at) const { return {at, at.s.segment(first, states())}; }
     };
     // Coefficients of one row of a law's matrix, of consecutive coordinates.
     struct Run {
@@ -260,13 +297,16 @@ private:
     void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
     void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const;
-    void add_users_and_fields(const ForceInput& at, VectorOut Q) const;
+    void add_users(const ForceInput& at, VectorOut Q) const;
     void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
-    static Field bound(const WrenchField& field, const Model& model);
-    void add_field(const Field& field, double factor, const ForceInput& at, VectorOut Q) const;
+    static Field bound(const WrenchField& field, const Model& model, int first);
+    static void evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches, VectorOut rates);
+    void add_field(const Field& field, double factor, const FieldInput& at, VectorOut Q, VectorOut rates) const;
     void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
+    void state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
+                                 StateDerivatives& states) const;
     double gravity_energy(const Kinematics& kin) const;
     template <class S>
     void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;

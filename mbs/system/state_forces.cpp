@@ -93,7 +93,8 @@ private:
     std::vector<double> memory_;
 };
 
-StateForces::StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model)
+StateForces::StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model,
+                         const std::vector<OtherStates>& others)
     : size_(model.size()) {
     std::set<std::string> taken;
     for (const CoordinateInfo& coordinate : model.coordinates()) taken.insert(coordinate.name);
@@ -107,14 +108,43 @@ StateForces::StateForces(std::vector<StateElement> elements, std::vector<InputIn
         all.insert(all.end(), element.states.begin(), element.states.end());
         elements_.push_back({std::move(element), {}, {}, {}, first});
     }
+    own_ = static_cast<int>(all.size());
+    std::vector<int> firsts;
+    for (const OtherStates& other : others) {
+        const std::string where = text("field '", other.owner, "'");
+        for (const StateInfo& state : other.states) check(state, where, "state", taken);
+        firsts.push_back(static_cast<int>(all.size()));
+        all.insert(all.end(), other.states.begin(), other.states.end());
+    }
     states_ = StateTable(std::move(all));
     for (Bound& element : elements_) bind(element, model);
     find_groups();
+    for (std::size_t i = 0; i < others.size(); ++i)
+        add_groups(others[i], firsts[i], text("field '", others[i].owner, "'"));
+}
+
+void StateForces::add_groups(const OtherStates& others, int first, const std::string& where) {
+    std::vector<int> times(others.states.size(), 0);  // that a state is in a group
+    for (StateGroup group : others.groups) {
+        for (int& state : group.states) {
+            if (state < 0 || state >= std::ssize(times))
+                throw InputError(where, "state of a group", state, text("0 ... ", std::ssize(times) - 1));
+            ++entry(times, state);
+            state += first;
+        }
+        std::ranges::sort(group.states);
+        std::ranges::sort(group.coordinates);
+        groups_.push_back(std::move(group));
+    }
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (times[i] != 1)
+            throw InputError(text(where, ", state '", others.states[i].name, "'"), "number of groups with it", times[i],
+                             "1");
 }
 
 // Elements belong together that own or read the same states.
 void StateForces::find_groups() {
-    std::vector<int> leader(static_cast<std::size_t>(states_.size()));  // of every state: a state of its group
+    std::vector<int> leader(static_cast<std::size_t>(own_));  // of every state: a state of its group
     std::iota(leader.begin(), leader.end(), 0);
     const auto find = [&](int state) {
         while (entry(leader, state) != state) state = entry(leader, state);
@@ -130,7 +160,7 @@ void StateForces::find_groups() {
         for (const int state : all) entry(leader, find(state)) = find(all.front());
     }
     std::map<int, StateGroup> groups;
-    for (int i = 0; i < states_.size(); ++i) groups[find(i)].states.push_back(i);
+    for (int i = 0; i < own_; ++i) groups[find(i)].states.push_back(i);
     for (const Bound& element : elements_) {
         const std::vector<int> all = states_of(element);
         if (all.empty()) continue;
@@ -159,7 +189,12 @@ void StateForces::bind(Bound& element, const Model& model) {
             throw InputError(text(where, ": ", error.what()));
         }
     };
-    for (const std::string& name : element.own.reads) element.reads.push_back(named(name, states_));
+    for (const std::string& name : element.own.reads) {
+        element.reads.push_back(named(name, states_));
+        // Groups of a field know nothing of elements.
+        if (element.reads.back() >= own_)
+            throw InputError(text(where, ": it cannot read '", name, "', a state of a field"));
+    }
     for (const std::string& name : element.own.inputs) element.inputs.push_back(named(name, inputs_));
 }
 

@@ -16,15 +16,23 @@ struct StateGroup {
     std::vector<int> states, coordinates;  ///< indices in the system, ascending
 };
 
+/// States that somebody else evaluates, behind those of the elements: their names and pattern.
+struct OtherStates {
+    std::string owner;
+    std::vector<StateInfo> states;
+    std::vector<StateGroup> groups;  ///< states by their index here, coordinates by that in the system
+};
+
 /// Allocates nothing after the first call in a thread, unless an element's own functions do.
 class StateForces {
 public:
     StateForces() = default;
     /// @throws InputError for coordinates, states and inputs that the system does not have, and for names that occur
     /// twice
-    StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model);
+    StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model,
+                const std::vector<OtherStates>& others = {});
 
-    bool empty() const { return elements_.empty(); }
+    bool empty() const { return states_.empty() && elements_.empty(); }
     const StateTable& states() const { return states_; }
     const InputTable& inputs() const { return inputs_; }
     const std::vector<StateGroup>& groups() const { return groups_; }
@@ -34,9 +42,9 @@ public:
         double time;
         const Vector &q, &qd, &s, &u;
     };
-    /// Adds the forces to Q and writes the rates of the states.  @param f  out, number of states
+    /// Adds the forces to Q and writes the rates of the elements' states.  @param f  out, number of states
     void rates(const At& at, VectorOut& Q, VectorOut& f) const;
-    /// Subtracts dQ/dq from K and dQ/dqd from D (n x n), and writes the rest.
+    /// Subtracts dQ/dq from K and dQ/dqd from D (n x n), and writes the rest, zero for the states of others.
     void derivatives(const At& at, Matrix& K, Matrix& D, StateDerivatives& out) const;
     /// Sum over the elements that tell their energy.
     StateEnergy energy(const At& at) const;
@@ -56,6 +64,7 @@ private:
 
     void bind(Bound& element, const Model& model);
     void find_groups();
+    void add_groups(const OtherStates& others, int first, const std::string& where);
     void difference(const Bound& element, double time, Local& local) const;
     double step(const Bound& element, int column) const;
     void require_sizes(const At& at) const;
@@ -64,7 +73,7 @@ private:
     StateTable states_;
     InputTable inputs_;
     std::vector<StateGroup> groups_;
-    int size_ = 0;
+    int size_ = 0, own_ = 0;  // coordinates; states of the elements
     double factor_ = 1;
 };
 

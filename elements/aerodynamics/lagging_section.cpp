@@ -1,0 +1,215 @@
+#include "elements/aerodynamics/lagging_section.hpp"
+
+#include "elements/aerodynamics/detail/section_factors.hpp"
+
+#include <cmath>
+
+namespace cardan {
+
+namespace {
+
+using Slope = Dual<LaggingSlopes::columns>;
+
+UnsteadyProfile::States profile_states(const SectionStates& s, const SectionLags& lags) {
+    return s.segment<UnsteadyProfile::states>(lags.inflow_states());
+}
+
+// What is left of the inflow when the wake has taken its share.
+struct Reaching {
+    double u_x, u_y;
+    double attack(const Annulus& annulus) const { return std::atan2(u_x, u_y) - annulus.angle; }
+    ProfileMotion motion(const Annulus& annulus, double rate) const {
+        return {attack(annulus), std::hypot(u_x, u_y), rate, annulus.chord};
+    }
+};
+Reaching reaching(const SectionMotion& motion, const Induction& induction) {
+    return {motion.V_x * (1 - induction.axial), motion.V_y * (1 + induction.tangential)};
+}
+
+SectionForce force_of(const Annulus& annulus, const Reaching& u, const UnsteadyProfile::Coefficients& c,
+                      double density) {
+    const double pressure = density / 2 * annulus.chord, size = std::hypot(u.u_x, u.u_y);
+    // Speed times sine and cosine of the inflow's angle are the velocities.
+    return {pressure * size * (c.lift * u.u_y + c.drag * u.u_x), pressure * size * (c.lift * u.u_x - c.drag * u.u_y),
+            pressure * size * size * annulus.chord * c.moment, u.attack(annulus)};
+}
+
+Induction skewed(Induction induction, bool solved, const SectionMotion& motion) {
+    if (!solved || motion.wake.lever == 0) return induction;
+    induction.axial *= redistribution(induction.axial, motion.wake.angle, motion.wake.lever);
+    induction.phi = std::atan2(motion.V_x * (1 - induction.axial), motion.V_y * (1 + induction.tangential));
+    return induction;
+}
+
+Slope profile_value(double value, const Eigen::Matrix<double, 1, UnsteadyProfile::Slopes::columns>& slopes,
+                    const Slope& attack, const Slope& speed, const Slope& rate, int first) {
+    Slope out(value);
+    for (int i = 0; i < UnsteadyProfile::states; ++i) out.slopes(first + i) += slopes(i);
+    using Column = UnsteadyProfile::Slopes;
+    out.slopes += slopes(Column::attack) * attack.slopes + slopes(Column::speed) * speed.slopes +
+                  slopes(Column::rate) * rate.slopes;
+    return out;
+}
+
+// Derivatives of all that a section returns.
+class Differentiation {
+public:
+    Differentiation(const Annulus& annulus, const LaggingAir& at, const SectionMotion& motion, const SectionStates& s,
+                    const RotorAirOptions& options, double density, const SectionLags& lags)
+        : annulus_(annulus),
+          at_(at),
+          motion_(motion),
+          s_(s),
+          options_(options),
+          density_(density),
+          lags_(lags),
+          inflow_{Slope::variable(motion.V_x, LaggingSlopes::V_x), Slope::variable(motion.V_y, LaggingSlopes::V_y),
+                  Slope::variable(annulus.angle, LaggingSlopes::angle),
+                  Slope::variable(annulus.radius, LaggingSlopes::radius)},
+          rate_(Slope::variable(motion.rate, LaggingSlopes::rate)) {}
+
+    LaggingSlopes run() {
+        Factors<Slope> factors = lags_.wake == WakeLag::frozen ? held_factors() : in_equilibrium();
+        if (lags_.wake == WakeLag::dynamic) {
+            follow_inflow(factors);
+            factors = held_factors();
+        }
+        if (at_.solved && options_.skew != Skew::none)
+            factors.axial *= redistribution(factors.axial,
+                                            Slope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
+                                            Slope::variable(motion_.wake.lever, LaggingSlopes::wake_lever));
+        if (lags_.has_profile())
+            follow_profile(factors);
+        else
+            follow_table(factors);
+        return out_;
+    }
+
+private:
+    static Slope state(double value, int i) { return Slope::variable(value, LaggingSlopes::first_state + i); }
+    void set(int row, const Slope& value) { out_.by.row(row) = value.slopes.matrix().transpose(); }
+
+    Factors<Slope> in_equilibrium() const {
+        const Induction found{.axial = -at_.velocity.x() / (motion_.V_x == 0 ? 1 : motion_.V_x),
+                              .tangential = at_.velocity.y() / (motion_.V_y == 0 ? 1 : motion_.V_y),
+                              .root = at_.root,
+                              .solved = at_.solved};
+        return factors_of(annulus_, inflow_, found, options_.momentum, LaggingSlopes::wake_angle);
+    }
+
+    void follow_inflow(const Factors<Slope>& steady) {
+        constexpr double kappa = DynamicInflow::kappa;
+        const std::array<Slope, 2> velocity{-steady.axial * inflow_.V_x, steady.tangential * inflow_.V_y};
+        for (int i = 0; i < 2; ++i) {
+            const Slope &w = velocity[static_cast<std::size_t>(i)], early = state(s_(i), i),
+                        late = state(s_(i + 2), i + 2);
+            set(3 + i, ((1 - kappa) * w - early) / lags_.times.first);
+            set(5 + i, (early + kappa * w - late) / lags_.times.second);
+        }
+    }
+
+    // Of induced velocities that do not change with the motion.
+    Factors<Slope> held_factors() const {
+        const bool dynamic = lags_.wake == WakeLag::dynamic;
+        const Slope axial = dynamic ? state(s_(2), 2) : Slope(lags_.velocity.x()),
+                    tangential = dynamic ? state(s_(3), 3) : Slope(lags_.velocity.y());
+        return {motion_.V_x == 0 ? Slope(0) : limited<Slope>(-axial / inflow_.V_x, -1, 1.5),
+                motion_.V_y == 0 ? Slope(0) : limited<Slope>(tangential / inflow_.V_y, -1, 1)};
+    }
+
+    void follow_table(const Factors<Slope>& factors) {
+        const Loads<Slope> loads = loads_of(annulus_, inflow_, factors, density_);
+        set(0, loads.normal);
+        set(1, loads.driving);
+        set(2, loads.moment);
+    }
+
+    void follow_profile(const Factors<Slope>& factors) {
+        const Slope u_x = inflow_.V_x * (1 - factors.axial), u_y = inflow_.V_y * (1 + factors.tangential),
+                    speed = sqrt(u_x * u_x + u_y * u_y), attack = atan2(u_x, u_y) - inflow_.angle;
+        const ProfileMotion motion{attack.value, speed.value, motion_.rate, annulus_.chord};
+        const UnsteadyProfile::States x = profile_states(s_, lags_);
+        const UnsteadyProfile::Slopes slopes = lags_.profile->slopes(x, motion);
+        const UnsteadyProfile::Coefficients c = lags_.profile->coefficients(x, motion);
+        const int first = LaggingSlopes::first_state + lags_.inflow_states();
+        const auto value = [&](double of, const auto& row) {
+            return profile_value(of, row, attack, speed, rate_, first);
+        };
+        for (int i = 0; i < UnsteadyProfile::states; ++i)
+            set(3 + lags_.inflow_states() + i, value(0, slopes.rates.row(i)));
+        const Slope lift = value(c.lift, slopes.coefficients.row(0)), drag = value(c.drag, slopes.coefficients.row(1)),
+                    moment = value(c.moment, slopes.coefficients.row(2)),
+                    pressure = density_ / 2 * annulus_.chord * speed;
+        set(0, pressure * (lift * u_y + drag * u_x));
+        set(1, pressure * (lift * u_x - drag * u_y));
+        set(2, pressure * speed * annulus_.chord * moment);
+    }
+
+    const Annulus& annulus_;
+    const LaggingAir& at_;
+    const SectionMotion& motion_;
+    const SectionStates& s_;
+    const RotorAirOptions& options_;
+    double density_;
+    const SectionLags& lags_;
+    Inflow<Slope> inflow_;
+    Slope rate_;
+    LaggingSlopes out_;
+};
+
+}  // namespace
+
+LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
+                       const RotorAirOptions& options, double density, const SectionLags& lags) {
+    const double V_x = motion.V_x, V_y = motion.V_y;
+    Induction steady{.phi = std::atan2(V_x, V_y)};
+    // A frozen wake asks for no balance.
+    const bool balanced = options.induction && lags.wake != WakeLag::frozen;
+    if (balanced) steady = solve_induction(annulus, V_x, V_y, options.momentum);
+    LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = steady, .force = {}},
+                   .velocity = balanced ? DynamicInflow::velocity(steady, V_x, V_y) : lags.velocity,
+                   .root = steady.root,
+                   .solved = steady.solved};
+    Induction& now = out.air.induction;
+    if (lags.wake == WakeLag::dynamic) {
+        const DynamicInflow::States inflow = s.head<DynamicInflow::states>();
+        out.rates.head<DynamicInflow::states>() = DynamicInflow::rates(inflow, out.velocity, lags.times);
+        now = DynamicInflow::induction(inflow, V_x, V_y);
+    } else if (lags.wake == WakeLag::frozen) {
+        now = DynamicInflow::induction(DynamicInflow::steady(lags.velocity), V_x, V_y);
+    }
+    now.solved = out.solved;
+    now = skewed(now, out.solved, motion);
+    if (lags.has_profile()) {
+        const Reaching u = reaching(motion, now);
+        const ProfileMotion moving = u.motion(annulus, motion.rate);
+        const UnsteadyProfile::States x = profile_states(s, lags);
+        out.rates.segment<UnsteadyProfile::states>(lags.inflow_states()) = lags.profile->rates(x, moving);
+        out.air.force = force_of(annulus, u, lags.profile->coefficients(x, moving), density);
+    } else {
+        out.air.force = section_force(annulus, V_x, V_y, now, density);
+    }
+    return out;
+}
+
+SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
+                            const SectionLags& lags) {
+    SectionLags still = lags;
+    if (lags.wake == WakeLag::dynamic) still.wake = WakeLag::none;
+    still.profile = nullptr;
+    const LaggingAir at = lagging_air(annulus, motion, SectionStates::Zero(), options, 1, still);
+    SectionStates out = SectionStates::Zero();
+    if (lags.wake == WakeLag::dynamic) out.head<DynamicInflow::states>() = DynamicInflow::steady(at.velocity);
+    if (lags.has_profile())
+        out.segment<UnsteadyProfile::states>(lags.inflow_states()) =
+            lags.profile->steady(reaching(motion, at.air.induction).motion(annulus, motion.rate));
+    return out;
+}
+
+LaggingSlopes lagging_slopes(const Annulus& annulus, const LaggingAir& at, const SectionMotion& motion,
+                             const SectionStates& s, const RotorAirOptions& options, double density,
+                             const SectionLags& lags) {
+    return Differentiation(annulus, at, motion, s, options, density, lags).run();
+}
+
+}  // namespace cardan

@@ -1,0 +1,68 @@
+/// @file
+/// Air on one section of a blade that lags behind its motion: induction, profile, or both, with derivatives.
+#pragma once
+
+#include "elements/aerodynamics/blade_section.hpp"
+#include "elements/aerodynamics/dynamic_inflow.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace cardan {
+
+/// How the induction follows the loads.
+enum class WakeLag : std::uint8_t {
+    none,     ///< it is in equilibrium with them
+    dynamic,  ///< DynamicInflow
+    frozen    ///< the induced velocities stay, whatever the wake's skew
+};
+
+/// What lags on a section. Its states are those of the inflow, then those of the profile.
+struct SectionLags {
+    const UnsteadyProfile* profile = nullptr;  ///< none: that of the annulus, steady
+    WakeLag wake = WakeLag::none;
+    InflowTimes times = {0, 0};                         ///< of a dynamic wake, s
+    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< induced, of a frozen one, m/s
+
+    static constexpr int most = int{DynamicInflow::states} + int{UnsteadyProfile::states};
+    bool has_profile() const { return profile != nullptr && profile->is_unsteady(); }
+    int inflow_states() const { return wake == WakeLag::dynamic ? DynamicInflow::states : 0; }
+    int states() const { return inflow_states() + (has_profile() ? UnsteadyProfile::states : 0); }
+};
+/// Of a section; only the first SectionLags::states() count.
+using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;
+
+/// What a section sees of its motion.
+struct SectionMotion {
+    double V_x, V_y;  ///< air against the section without induction, m/s
+    double rate;      ///< of the section about its span, nose up, rad/s
+    SkewedWake wake;
+};
+
+struct LaggingAir {
+    SectionAir air;
+    SectionStates rates = SectionStates::Zero();
+    Eigen::Vector2d velocity;  ///< induced, in equilibrium with the loads, before the wake's skew, m/s
+    double root = 0;           ///< of the balance, as Induction::root; for lagging_slopes()
+    bool solved = false;
+};
+LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
+                       const RotorAirOptions& options, double density, const SectionLags& lags);
+/// States that stay as they are.
+SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
+                            const SectionLags& lags);
+
+/// Derivatives of normal, driving, moment and the states' rates (rows).
+struct LaggingSlopes {
+    enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, rate, first_state };
+    static constexpr int columns = first_state + SectionLags::most, rows = 3 + SectionLags::most;
+    Eigen::Matrix<double, rows, columns> by = Eigen::Matrix<double, rows, columns>::Zero();
+};
+/// @param at  lagging_air() with the same arguments
+LaggingSlopes lagging_slopes(const Annulus& annulus, const LaggingAir& at, const SectionMotion& motion,
+                             const SectionStates& s, const RotorAirOptions& options, double density,
+                             const SectionLags& lags);
+
+}  // namespace cardan
