@@ -75,9 +75,9 @@ public:
             factors = held_factors();
         }
         if (at_.solved && options_.skew != Skew::none)
-            factors.axial *= redistribution(factors.axial,
-                                            Slope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
-                                            Slope::variable(motion_.wake.lever, LaggingSlopes::wake_lever));
+            factors.axial *=
+                redistribution(factors.axial, Slope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
+                               Slope::variable(motion_.wake.lever, LaggingSlopes::wake_lever));
         if (lags_.has_profile())
             follow_profile(factors);
         else

@@ -23,7 +23,7 @@ enum class WakeLag : std::uint8_t {
 struct SectionLags {
     const UnsteadyProfile* profile = nullptr;  ///< none: that of the annulus, steady
     WakeLag wake = WakeLag::none;
-    InflowTimes times = {0, 0};                         ///< of a dynamic wake, s
+    InflowTimes times = {0, 0};                          ///< of a dynamic wake, s
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< induced, of a frozen one, m/s
 
     static constexpr int most = int{DynamicInflow::states} + int{UnsteadyProfile::states};

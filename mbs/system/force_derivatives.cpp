@@ -163,9 +163,9 @@ void Forces::state_field_derivatives(const Field& field, const ForceInput& at, F
     if (field.own.state_jacobian)
         field.own.state_jacobian(field.input(at), J);
     else
-        difference_field([&](const FieldInput& input,
-                             Vector& all) { add_field(field, 1, input, all.head(n), all.tail(m)); },
-                         field.input(at), field.own.states, J);
+        difference_field(
+            [&](const FieldInput& input, Vector& all) { add_field(field, 1, input, all.head(n), all.tail(m)); },
+            field.input(at), field.own.states, J);
     out.loads -= field.factor * own->Q_q;
     out.damping -= field.factor * own->Q_qd;
     states.Q_s.middleCols(first, m) += field.factor * own->Q_s;

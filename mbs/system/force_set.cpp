@@ -93,8 +93,8 @@ void ForceSet::add_user(UserForce force) {
 void ForceSet::add_field(WrenchField field) {
     const bool has_states = !field.states.empty();
     if (has_states ? !field.evaluate : !field.wrenches)
-        throw InputError(text("field '", field.name, "': the function `", has_states ? "evaluate" : "wrenches",
-                              "` is missing"));
+        throw InputError(
+            text("field '", field.name, "': the function `", has_states ? "evaluate" : "wrenches", "` is missing"));
     for (const FieldPoint& point : field.points)
         if (!point.place.allFinite())
             throw InputError(text("field '", field.name, "'"), "place [m]", point.place.transpose(), "finite");

@@ -1,19 +1,14 @@
 #include "turbines/aerodynamics/machine_air.hpp"
 
 #include "mbs/base/borrowed.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "turbines/aerodynamics/detail/air_evaluation.hpp"
+#include "turbines/aerodynamics/detail/machine_air_parts.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace cardan::turbines {
-
-struct MachineAir::Parts : AirParts {
-    TowerAir support;
-
-    explicit Parts(TowerAir drag) : support(std::move(drag)) {}
-};
 
 namespace {
 
@@ -21,6 +16,12 @@ std::string in_words(const Wind& wind) {
     if (wind.is_steady()) return text("wind ", wind.rows().front().speed, " m/s");
     const auto [least, most] = std::ranges::minmax(wind.rows(), {}, &SteadyWind::speed);
     return text("wind of ", least.speed, " to ", most.speed, " m/s over time");
+}
+
+void write_wrenches(const AirParts& parts, const AirEvaluation& air, std::span<Wrench> out) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < parts.blades.size(); ++k)
+        for (const AirPoint& point : parts.blades[k].points) out[next++] = air.wrench(k, point);
 }
 
 }  // namespace
@@ -33,6 +34,9 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind
     const Model& model = turbine.system().model;
     const auto parts = std::make_shared<Parts>(TowerAir(turbine, support, wind));
     parts->profile = std::make_shared<const AeroBlade>(std::move(blade));
+    parts->blade_numbers = layout.blade_numbers;
+    parts->body_ids.resize(static_cast<std::size_t>(model.size()));
+    for (int i = 0; i < model.size(); ++i) entry(parts->body_ids, model.index(BodyId{i})) = BodyId{i};
     parts->wind = wind;
     parts->options = options;
     const Model::Frame& hub = model.frame(layout.hub);
@@ -67,18 +71,34 @@ WrenchField MachineAir::field() const {
     WrenchField field{.name = "air", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
     for (const AirBlade& blade : parts_->blades)
         for (const AirPoint& point : blade.points) field.points.push_back(point.at);
+    if (states() > 0) {
+        add_lags(field);
+        return field;
+    }
     field.wrenches = [parts = parts_](const ForceInput& at, std::span<Wrench> out) {
         Borrowed<AirScratch> scratch;
-        const AirEvaluation air(*parts, at, *scratch);
-        std::size_t next = 0;
-        for (std::size_t k = 0; k < parts->blades.size(); ++k)
-            for (const AirPoint& point : parts->blades[k].points) out[next++] = air.wrench(k, point);
+        write_wrenches(*parts, AirEvaluation(*parts, at, *scratch), out);
     };
     field.jacobian = [parts = parts_](const ForceInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
         Borrowed<AirScratch> scratch;
         AirEvaluation(*parts, at, *scratch).add_derivatives(by_q, by_qd);
     };
     return field;
+}
+
+void MachineAir::add_lags(WrenchField& field) const {
+    field.states = states_of(*parts_, parts_->blade_numbers);
+    field.groups = groups_of(*parts_, parts_->body_ids);
+    field.evaluate = [parts = parts_](const FieldInput& at, std::span<Wrench> out, VectorOut rates) {
+        Borrowed<AirScratch> scratch;
+        const AirEvaluation air(*parts, at, *scratch);
+        write_wrenches(*parts, air, out);
+        air.rates(rates);
+    };
+    field.state_jacobian = [parts = parts_](const FieldInput& at, FieldJacobian& out) {
+        Borrowed<AirScratch> scratch;
+        AirEvaluation(*parts, at, *scratch).add_derivatives(out);
+    };
 }
 
 Turbine MachineAir::on(const Turbine& turbine) const {
@@ -88,7 +108,7 @@ Turbine MachineAir::on(const Turbine& turbine) const {
     return turbine.with_forces(forces, text("in the air, ", in_words(parts_->wind)));
 }
 
-std::vector<std::vector<SectionAir>> MachineAir::sections(const ForceInput& at) const {
+std::vector<std::vector<SectionAir>> MachineAir::sections(const FieldInput& at) const {
     Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
     std::vector<std::vector<SectionAir>> out(parts_->blades.size());
@@ -97,7 +117,7 @@ std::vector<std::vector<SectionAir>> MachineAir::sections(const ForceInput& at) 
     return out;
 }
 
-MachineAir::Rotor MachineAir::rotor(const ForceInput& at) const {
+MachineAir::Rotor MachineAir::rotor(const FieldInput& at) const {
     Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
     Wrench sum;
@@ -143,7 +163,7 @@ ChannelGroup MachineAir::channels() const {
                        .long_name = "on blades, tower and nacelle, all their motion",
                        .frame = "ground"}};
     group.sample = [air = *this](const ChannelInput& in, double* values) {
-        const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
+        const FieldInput at = air.input({in.time, in.q, in.qd, in.kinematics, in.s, in.u}, in.forces);
         const Rotor now = air.rotor(at);
         values[0] = air.wind().at(in.time).at(now.centre).head<2>().norm();
         values[1] = now.force.x();

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
 #include "mbs/system/channel.hpp"
 #include "turbines/aerodynamics/tower_air.hpp"
 #include "turbines/model/assembly.hpp"
@@ -20,6 +21,15 @@
 #include <vector>
 
 namespace cardan::turbines {
+
+/// What of the air lags behind the motion: states of first order.
+struct AirLagOptions {
+    /// In the place of the blade's polars, one for each; those of cylinders and of the like lag in nothing. Empty:
+    /// profiles are steady.
+    std::vector<UnsteadyProfile> profiles = {};
+    bool dynamic_wake = false;  ///< DynamicInflow in every section but those without balance of momentum, root and tip
+    double wake_time = 0;       ///< tau_1 of a dynamic wake, s: MachineAir::wake_time()
+};
 
 /// Immutable, cheap to copy, may be used by several threads.
 class MachineAir {
@@ -40,6 +50,20 @@ public:
     /// The same in another wind.
     MachineAir in(const Wind& wind) const;
 
+    /// The same with air that lags. Functions of a state then take the states of the air as well: input().
+    /// @throws InputError for another number of profiles than of polars, a time that is not positive
+    MachineAir lagging(AirLagOptions options) const;
+    /// Likewise, the induced velocities being those of a state for ever; profiles lag as they do.
+    MachineAir with_frozen_wake(const FieldInput& at) const;
+    int states() const;
+    /// A motion with those of the system's states that are the air's.
+    /// @param forces  of on()
+    FieldInput input(const ForceInput& at, const Forces& forces) const;
+    /// States that stay as they are while the machine moves as it does.
+    Vector steady_states(const FieldInput& at) const;
+    /// tau_1 of a dynamic wake by the mean induction and wind of a state, s: inflow_time().
+    double wake_time(const FieldInput& at) const;
+
     /// "air": forces on the blades, for ForceSet::add_field(); those on tower and nacelle: support().field(). Valid for
     /// every machine with the tree of `turbine`. Exact derivatives; no allocation. Loads per length are linear between
     /// the sections and do the same work on the beam's rigid segments as spread along them. With a skewed wake
@@ -49,7 +73,7 @@ public:
     Turbine on(const Turbine& turbine) const;
 
     /// At a state; forces per length, as in a rotor that does not bend (RotorAir): by blade, from root to tip.
-    std::vector<std::vector<SectionAir>> sections(const ForceInput& at) const;
+    std::vector<std::vector<SectionAir>> sections(const FieldInput& at) const;
     /// Force and moment of the air on the rotor about the rotor's centre, in axes of the shaft that do not turn: x
     /// downwind along the shaft, z up.
     struct Rotor {
@@ -59,7 +83,7 @@ public:
         Vec3 centre;         ///< of the rotor, base axes, m
         double power() const { return moment.x() * speed; }
     };
-    Rotor rotor(const ForceInput& at) const;
+    Rotor rotor(const FieldInput& at) const;
     /// Wind at the rotor's centre, thrust, torque and power of the air on the rotor, rate of its work on all motions,
     /// those of tower and nacelle included.
     ChannelGroup channels() const;
@@ -72,6 +96,8 @@ public:
 
 private:
     struct Parts;
+    void add_lags(WrenchField& field) const;
+
     std::shared_ptr<const Parts> parts_;
 };
 

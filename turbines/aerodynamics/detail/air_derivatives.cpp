@@ -13,7 +13,7 @@
 //
 // Its axes x, y, z turn with w if the hub does too; else z turns with w and y stays in the plane of the rotor, so they
 // turn with w + (kappa - w.z) z, kappa = (w.x) (s.z) / (s.x), s the shaft, and the angle of the chord against them
-// changes by kappa - w.z.
+// changes by kappa - w.z. The section's rate about its span, omega . z, changes by z . (omega_a x w), and by w . z.
 #include "mbs/base/entry.hpp"
 #include "mbs/kernels/path_twists.hpp"
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
@@ -22,7 +22,9 @@ namespace cardan::turbines {
 
 namespace {
 
-using Slopes = SectionSlopes;
+using Slopes = LaggingSlopes;
+using Loads = Eigen::Matrix<double, 3, Slopes::first_state>;         // normal, driving, moment by the motion
+using MotionChange = Eigen::Matrix<double, Slopes::first_state, 1>;  // of what a section sees
 
 // A coordinate as it moves a section: how the axes turn, the chord against them, the distance from the shaft.
 struct SectionTurn {
@@ -34,8 +36,15 @@ struct SectionTurn {
 
 class AirDerivatives {
 public:
-    AirDerivatives(const AirEvaluation& air, const MatrixOut& by_q, const MatrixOut& by_qd)
-        : air_(air), parts_(air.parts_), by_q_(by_q), by_qd_(by_qd), memory_(air.scratch_.derivatives) {
+    /// @param states  of the states, if there are any
+    AirDerivatives(const AirEvaluation& air, const MatrixOut& by_q, const MatrixOut& by_qd,
+                   FieldJacobian* states = nullptr)
+        : air_(air),
+          parts_(air.parts_),
+          by_q_(by_q),
+          by_qd_(by_qd),
+          states_(states),
+          memory_(air.scratch_.derivatives) {
         const Eigen::Index n = by_q.rows();
         for (Columns6* sum : {&memory_.blade_q, &memory_.blade_qd, &memory_.trunk_q, &memory_.trunk_qd})
             sum->setZero(6, n);
@@ -43,6 +52,7 @@ public:
         memory_.by_qd.resize(parts_.profile->sections());
         memory_.by_wake.resize(air.scratch_.sections.size());
         memory_.movers.resize(static_cast<std::size_t>(n));
+        if (parts_.lags) memory_.lagging.resize(air.scratch_.sections.size());
         for (const int a : parts_.bodies) entry(memory_.movers, a) = air.motion_.mover(a);
         if (parts_.dam) find_dam();
     }
@@ -53,6 +63,8 @@ public:
             const AirBlade& blade = parts_.blades[k];
             for (std::size_t i = 0; i < blade.sections.size(); ++i) find_columns(k, i);
             add_blade(k, trunk);
+            if (states_ != nullptr)
+                for (std::size_t i = 0; i < blade.sections.size(); ++i) add_by_states(k, i);
         }
         for (std::size_t j = parts_.trunk.size(); j-- > 0;)
             add_row(parts_.trunk[j], parts_.bodies, memory_.trunk_q, memory_.trunk_qd, trunk);
@@ -90,19 +102,42 @@ private:
         return memory_.dam[section].by_qd(dam, mover(a), moves(a, dam.body));
     }
 
+    std::size_t index(std::size_t k, std::size_t i) const { return k * parts_.profile->sections() + i; }
+
+    Loads slopes_of(std::size_t all) {
+        const SectionState& s = air_.scratch_.sections[all];
+        if (parts_.lags) {
+            LaggingSlopes& own = memory_.lagging[all];
+            own = lagging_slopes(s.annulus, air_.scratch_.lagging[all], air_.motion_of(all), air_.states_of(all),
+                                 parts_.options, air_.density(), parts_.lags->sections[all]);
+            return own.by.topLeftCorner<3, Slopes::first_state>();
+        }
+        Loads out = Loads::Zero();
+        out.leftCols<SectionSlopes::columns>() =
+            section_slopes(s.annulus, s.air, s.wake, parts_.options, air_.density()).by;
+        return out;
+    }
+    // Of changes of normal, driving and moment: force and moment per length, base axes.
+    static Vec6 load(const SectionState& s, const Vec3& change) {
+        Vec6 out;
+        out << change(0) * s.x - change(1) * s.y, change(2) * s.span;
+        return out;
+    }
+    void add_rates(std::size_t all, int a, const MotionChange& by_q, const MotionChange& by_qd) {
+        const int m = parts_.lags->sections[all].states(), first = parts_.lags->first[all];
+        const auto slopes = memory_.lagging[all].by.block(3, 0, m, Slopes::first_state);
+        states_->f_q.col(a).segment(first, m).noalias() += slopes.lazyProduct(by_q);
+        states_->f_qd.col(a).segment(first, m).noalias() += slopes.lazyProduct(by_qd);
+    }
+
     // Force and moment per length of a section, base axes, by the coordinates before it.
     void find_columns(std::size_t k, std::size_t i) {
         const SectionState& s = air_.sections(k)[i];
         const AirBlade& blade = parts_.blades[k];
-        const auto by = section_slopes(s.annulus, s.air, s.wake, parts_.options, air_.density()).by;
-        const auto load = [&](const Vec3& change) {
-            Vec6 out;
-            out << change(0) * s.x - change(1) * s.y, change(2) * s.span;
-            return out;
-        };
-        const std::size_t all = k * blade.sections.size() + i;
-        memory_.by_wake[all] << load(by.col(Slopes::wake_angle)),
-            load(by.col(Slopes::wake_lever) * s.annulus.radius / parts_.radius);
+        const std::size_t all = index(k, i);
+        const Loads by = slopes_of(all);
+        memory_.by_wake[all] << load(s, by.col(Slopes::wake_angle)),
+            load(s, by.col(Slopes::wake_lever) * s.annulus.radius / parts_.radius);
         Columns6 &to_q = memory_.by_q[i], &to_qd = memory_.by_qd[i];
         const int count = depth(blade.sections[i].body);
         to_q.resize(6, static_cast<Eigen::Index>(blade.path.size()));
@@ -116,14 +151,49 @@ private:
             const auto change_along = [&](const Vec3& axis) {
                 return air.dot(axis) + s.relative.dot(cross<double>(turned.axes, axis));
             };
-            const Vec3 change =
-                by.col(Slopes::V_x) * change_along(s.x) + by.col(Slopes::V_y) * change_along(s.y) +
-                by.col(Slopes::angle) * turned.angle +
-                (by.col(Slopes::radius) + by.col(Slopes::wake_lever) * s.wake.lever / s.annulus.radius) * turned.radius;
+            MotionChange change, change_qd = MotionChange::Zero();
+            change << change_along(s.x), change_along(s.y), turned.angle, turned.radius, 0,
+                s.wake.lever / s.annulus.radius * turned.radius, s.span.dot(cross<double>(own.angular, own.w));
+            change_qd(Slopes::V_x) = air_qd.dot(s.x);
+            change_qd(Slopes::V_y) = air_qd.dot(s.y);
+            change_qd(Slopes::rate) = own.w.dot(s.span);
             Vec6 carried;
             carried << cross<double>(turned.axes, s.force), cross<double>(own.w, s.moment);
-            to_q.col(j) = load(change) + carried;
-            to_qd.col(j) = load(by.col(Slopes::V_x) * air_qd.dot(s.x) + by.col(Slopes::V_y) * air_qd.dot(s.y));
+            to_q.col(j) = load(s, by * change) + carried;
+            to_qd.col(j) = load(s, by * change_qd);
+            if (states_ != nullptr) add_rates(all, a, change, change_qd);
+        }
+    }
+
+    // dQ/ds and df/ds of a section. The points that it loads make up L = sum length and X = sum length x beyond every
+    // body: a force f and a moment m per length act on it as L f and L m + X x f about the base's origin.
+    void add_by_states(std::size_t k, std::size_t i) {
+        const std::size_t all = index(k, i);
+        const int m = parts_.lags->sections[all].states(), first = parts_.lags->first[all];
+        if (m == 0) return;
+        const LaggingSlopes& slopes = memory_.lagging[all];
+        states_->f_s.block(first, first, m, m) += slopes.by.block(3, Slopes::first_state, m, m);
+        const AirBlade& blade = parts_.blades[k];
+        const SectionState& s = air_.sections(k)[i];
+        Eigen::Matrix<double, 6, SectionLags::most> loads;
+        for (int c = 0; c < m; ++c) loads.col(c) = load(s, slopes.by.block<3, 1>(0, Slopes::first_state + c));
+        double L = 0;
+        Vec3 X = Vec3::Zero();
+        auto next = blade.points.begin();
+        for (std::size_t j = blade.path.size(); j-- > 0;) {
+            const int b = blade.path[j];
+            for (; next != blade.points.end() && next->body >= b; ++next)
+                if (next->section == i) {
+                    L += next->length;
+                    X += next->length * air_.motion_.place(next->body, next->place);
+                }
+            if (L == 0) continue;
+            const Mover& own = mover(b);
+            for (int c = 0; c < m; ++c) {
+                const Vec3 force = loads.col(c).head<3>(), moment = loads.col(c).tail<3>();
+                states_->Q_s(b, first + c) +=
+                    own.w.dot(Vec3(L * moment + cross<double>(X, force))) + L * own.v.dot(force);
+            }
         }
     }
 
@@ -190,6 +260,25 @@ private:
             by_q_.noalias() += memory_.of_wake.col(c) * memory_.wake_q.col(c).transpose();
             by_qd_.noalias() += memory_.of_wake.col(c) * memory_.wake_qd.col(c).transpose();
         }
+        if (states_ != nullptr) add_wake_to_rates();
+    }
+
+    void add_wake_to_rates() {
+        for (std::size_t k = 0; k < parts_.blades.size(); ++k)
+            for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
+                const std::size_t all = index(k, i);
+                const int m = parts_.lags->sections[all].states(), first = parts_.lags->first[all];
+                const double lever = air_.sections(k)[i].annulus.radius / parts_.radius;
+                const auto& by = memory_.lagging[all].by;
+                const auto column = static_cast<Eigen::Index>(k) + 1;
+                for (int r = 0; r < m; ++r) {
+                    const double angle = by(3 + r, Slopes::wake_angle), sine = lever * by(3 + r, Slopes::wake_lever);
+                    states_->f_q.row(first + r) +=
+                        (angle * memory_.wake_q.col(0) + sine * memory_.wake_q.col(column)).transpose();
+                    states_->f_qd.row(first + r) +=
+                        (angle * memory_.wake_qd.col(0) + sine * memory_.wake_qd.col(column)).transpose();
+                }
+            }
     }
 
     void find_mean_wind() {
@@ -203,7 +292,7 @@ private:
                 const AirBlade& blade = parts_.blades[k];
                 for (int j = 0; j < depth(blade.sections[i].body); ++j) {
                     const int a = entry(blade.path, j);
-                    const std::size_t all = k * parts_.profile->sections() + i;
+                    const std::size_t all = index(k, i);
                     memory_.mean_q.col(a) += share * wind_by_q(all, a, mover(a).at(s.place));
                     memory_.mean_qd.col(a) += share * wind_by_qd(all, a);
                 }
@@ -278,11 +367,16 @@ private:
     const AirEvaluation& air_;
     const AirParts& parts_;
     MatrixOut by_q_, by_qd_;
+    FieldJacobian* states_;
     AirDerivativeScratch& memory_;
 };
 
 void AirEvaluation::add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd) {
     AirDerivatives(*this, by_q, by_qd).add();
+}
+
+void AirEvaluation::add_derivatives(FieldJacobian& out) {
+    AirDerivatives(*this, out.Q_q, out.Q_qd, &out).add();
 }
 
 }  // namespace cardan::turbines

@@ -7,10 +7,10 @@
 
 namespace cardan::turbines {
 
-AirEvaluation::AirEvaluation(const AirParts& parts, const ForceInput& at, AirScratch& scratch)
+AirEvaluation::AirEvaluation(const AirParts& parts, const FieldInput& at, AirScratch& scratch)
     : parts_(parts),
-      at_(at),
       kin_(at.kinematics),
+      states_(at.own),
       scratch_(scratch),
       motion_(at, parts.bodies, scratch.rates),
       wind_(parts.wind.at(at.time)) {
@@ -86,15 +86,53 @@ double AirEvaluation::sine(std::size_t blade) const {
     return mean_.speed > 0 ? blade_direction(blade).dot(mean_.velocity) / mean_.speed : 0;
 }
 
+SectionMotion AirEvaluation::motion_of(std::size_t section) const {
+    const std::size_t count = parts_.profile->sections();
+    const SectionState& s = scratch_.sections[section];
+    const int body = parts_.blades[section / count].sections[section % count].body;
+    return {s.relative.dot(s.x), s.relative.dot(s.y), motion_.angular(body).dot(s.span), s.wake};
+}
+
+SectionStates AirEvaluation::states_of(std::size_t section) const {
+    SectionStates out = SectionStates::Zero();
+    const int count = parts_.lags->sections[section].states();
+    out.head(count) = states_.segment(parts_.lags->first[section], count);
+    return out;
+}
+
+void AirEvaluation::rates(VectorOut out) const {
+    if (!parts_.lags) return;
+    for (std::size_t i = 0; i < scratch_.lagging.size(); ++i) {
+        const int count = parts_.lags->sections[i].states();
+        out.segment(parts_.lags->first[i], count) = scratch_.lagging[i].rates.head(count);
+    }
+}
+
+void AirEvaluation::steady_states(VectorOut out) const {
+    if (!parts_.lags) return;
+    for (std::size_t i = 0; i < scratch_.lagging.size(); ++i) {
+        const SectionLags& lags = parts_.lags->sections[i];
+        out.segment(parts_.lags->first[i], lags.states()) =
+            cardan::steady_states(scratch_.sections[i].annulus, motion_of(i), parts_.options, lags).head(lags.states());
+    }
+}
+
 void AirEvaluation::find_loads() {
     const std::size_t count = parts_.profile->sections();
+    if (parts_.lags) scratch_.lagging.resize(scratch_.sections.size());
     for (std::size_t blade = 0; blade < parts_.blades.size(); ++blade) {
         const double along = parts_.options.skew == Skew::none ? 0 : sine(blade);
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {
             SectionState& s = scratch_.sections[i];
             s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
-            s.air =
-                section_air(s.annulus, s.relative.dot(s.x), s.relative.dot(s.y), s.wake, parts_.options, wind_.density);
+            if (parts_.lags) {
+                scratch_.lagging[i] = lagging_air(s.annulus, motion_of(i), states_of(i), parts_.options, wind_.density,
+                                                  parts_.lags->sections[i]);
+                s.air = scratch_.lagging[i].air;
+            } else {
+                s.air = section_air(s.annulus, s.relative.dot(s.x), s.relative.dot(s.y), s.wake, parts_.options,
+                                    wind_.density);
+            }
             s.force = s.air.force.normal * s.x - s.air.force.driving * s.y;
             s.moment = s.air.force.moment * s.span;
         }

@@ -3,6 +3,7 @@
 /// installed.
 #pragma once
 
+#include "elements/aerodynamics/lagging_section.hpp"
 #include "turbines/aerodynamics/detail/air_blade.hpp"
 #include "turbines/aerodynamics/detail/air_tower.hpp"
 #include "turbines/aerodynamics/detail/body_motion.hpp"
@@ -12,6 +13,14 @@
 #include <span>
 
 namespace cardan::turbines {
+
+/// What of the air lags: of all sections, one blade after the other.
+struct AirLags {
+    std::shared_ptr<const std::vector<UnsteadyProfile>> profiles;  ///< sections point to these
+    std::vector<SectionLags> sections;
+    std::vector<int> first;  ///< index of a section's first state
+    int states = 0;
+};
 
 /// What does not change with the state.
 struct AirParts {
@@ -25,6 +34,7 @@ struct AirParts {
     double radius = 0;                   ///< of the rotor that is not bent, m
     std::vector<int> bodies;             ///< all that move a section, ascending
     std::optional<DamParts> dam;         ///< the tower changes the wind at the sections
+    std::optional<AirLags> lags;
 };
 
 /// A section at a state, base axes.
@@ -43,6 +53,7 @@ struct SectionState {
 struct AirDerivativeScratch {
     std::vector<Mover> movers;                         ///< by coordinate
     std::vector<DamSlopes> dam;                        ///< of all sections, if there is a dam
+    std::vector<LaggingSlopes> lagging;                ///< likewise, if something lags
     std::vector<Columns6> by_q, by_qd;                 ///< of the sections of a blade: force, moment per length
     std::vector<Eigen::Matrix<double, 6, 2>> by_wake;  ///< of all sections, by the wake's angle and its blade's sine
     Columns6 blade_q, blade_qd, trunk_q, trunk_qd;     ///< moment about the base's origin, force; by coordinate
@@ -56,6 +67,7 @@ struct AirScratch {
     std::vector<BodyRate> rates;
     std::vector<SectionState> sections;  ///< of all blades, one after the other
     std::vector<DamState> dam;           ///< at them, if there is one
+    std::vector<LaggingAir> lagging;     ///< likewise, if something lags
     AirDerivativeScratch derivatives;
 };
 
@@ -68,7 +80,7 @@ struct MeanWind {
 
 class AirEvaluation {
 public:
-    AirEvaluation(const AirParts& parts, const ForceInput& at, AirScratch& scratch);
+    AirEvaluation(const AirParts& parts, const FieldInput& at, AirScratch& scratch);
 
     std::span<const SectionState> sections(std::size_t blade) const;
     /// Of the point: force and moment about it.
@@ -79,22 +91,28 @@ public:
     /// Of a wrench about a place that is fixed to a body, W.
     double power(const Wrench& wrench, int body, const Vec3& place) const;
     double density() const { return wind_.density; }
+    void rates(VectorOut out) const;  ///< of the states
+    void steady_states(VectorOut out) const;
     /// Adds dQ/dq and dQ/dqd.
     void add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd);
+    /// Adds those by and of the states as well.
+    void add_derivatives(FieldJacobian& out);
 
 private:
     void place_sections();
     void dam_wind();
     void find_mean_wind();
     void find_loads();
+    SectionMotion motion_of(std::size_t section) const;
+    SectionStates states_of(std::size_t section) const;
     Vec3 blade_direction(std::size_t blade) const;  // unit, in the plane of the rotor
     double sine(std::size_t blade) const;  // of the blade's azimuth in the skewed wake, times that of the wake's angle
 
     friend class AirDerivatives;
 
     const AirParts& parts_;
-    const ForceInput& at_;
     const Kinematics& kin_;
+    Eigen::Ref<const Vector> states_;
     AirScratch& scratch_;
     BodyMotion motion_;
     SteadyWind wind_;  // of this time

@@ -1,0 +1,164 @@
+// Air that lags behind the motion of a machine: which states there are, and where they come to rest.
+#include "mbs/base/borrowed.hpp"
+#include "mbs/base/entry.hpp"
+#include "mbs/base/error.hpp"
+#include "turbines/aerodynamics/detail/machine_air_parts.hpp"
+
+#include <array>
+#include <numeric>
+
+namespace cardan::turbines {
+
+namespace {
+
+// Has a section a balance of momentum? Root and tip have none where losses count.
+bool has_balance(const Annulus& annulus, const RotorAirOptions& options) {
+    const MomentumOptions& momentum = options.momentum;
+    return options.induction && !(momentum.tip_loss && annulus.tip <= 0) && !(momentum.hub_loss && annulus.hub <= 0);
+}
+
+struct StateKindOfAir {
+    const char *name, *unit;
+    double scale;
+};
+constexpr std::array<StateKindOfAir, DynamicInflow::states> inflow_states{{{"early axial inflow", "m/s", 1},
+                                                                           {"early tangential inflow", "m/s", 1},
+                                                                           {"axial inflow", "m/s", 1},
+                                                                           {"tangential inflow", "m/s", 1}}};
+constexpr std::array<StateKindOfAir, UnsteadyProfile::states> profile_states{{{"fast wake of the profile", "rad", 0.1},
+                                                                              {"slow wake of the profile", "rad", 0.1},
+                                                                              {"lagging lift", "1", 1},
+                                                                              {"point of separation", "1", 1}}};
+
+void find_first_states(AirLags& lags) {
+    lags.first.clear();
+    lags.states = 0;
+    for (const SectionLags& section : lags.sections) {
+        lags.first.push_back(lags.states);
+        lags.states += section.states();
+    }
+}
+
+// Of a machine without lags: nothing lags in any section.
+AirLags lags_of(const AirParts& parts) {
+    if (parts.lags) return *parts.lags;
+    AirLags out;
+    out.sections.resize(parts.blades.size() * parts.profile->sections());
+    find_first_states(out);
+    return out;
+}
+
+}  // namespace
+
+std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& blade_numbers) {
+    std::vector<StateInfo> all;
+    const std::size_t count = parts.profile->sections();
+    for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
+        const SectionLags& lags = parts.lags->sections[i];
+        const int number = blade_numbers[i / count];
+        const auto add = [&](const StateKindOfAir& kind) {
+            all.push_back({.name = text("blade ", number, " section ", i % count + 1, " ", kind.name),
+                           .unit = kind.unit,
+                           .scale = kind.scale,
+                           .part = "air",
+                           .blade = number});
+        };
+        if (lags.inflow_states() > 0)
+            for (const StateKindOfAir& kind : inflow_states) add(kind);
+        if (lags.has_profile())
+            for (const StateKindOfAir& kind : profile_states) add(kind);
+    }
+    return all;
+}
+
+// In a skewed wake a section sees all blades, through the mean wind.
+std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids) {
+    std::vector<FieldGroup> all;
+    const std::size_t count = parts.profile->sections();
+    for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
+        const int states = parts.lags->sections[i].states();
+        if (states == 0) continue;
+        FieldGroup& group = all.emplace_back();
+        group.states.resize(static_cast<std::size_t>(states));
+        std::iota(group.states.begin(), group.states.end(), parts.lags->first[i]);
+        const std::vector<int>& seen = parts.options.skew == Skew::none ? parts.blades[i / count].path : parts.bodies;
+        group.coordinates.reserve(seen.size());
+        for (const int body : seen) group.coordinates.push_back(entry(body_ids, body));
+    }
+    return all;
+}
+
+MachineAir MachineAir::lagging(AirLagOptions options) const {
+    const AeroBlade& blade = *parts_->profile;
+    if (!options.profiles.empty() && options.profiles.size() != blade.polars.size())
+        throw InputError("air that lags", "number of profiles", options.profiles.size(),
+                         text(blade.polars.size(), ", that of the blade's polars, or none"));
+    if (options.dynamic_wake) require_positive("air that lags", "time of the wake [s]", options.wake_time);
+    AirLags lags;
+    lags.profiles = std::make_shared<const std::vector<UnsteadyProfile>>(std::move(options.profiles));
+    const double tip = blade.position.back();
+    for (const AirBlade& own : parts_->blades)
+        for (std::size_t i = 0; i < blade.sections(); ++i) {
+            SectionLags& section = lags.sections.emplace_back();
+            if (!lags.profiles->empty()) section.profile = &(*lags.profiles)[blade.profile[i]];
+            if (!options.dynamic_wake || !has_balance(own.sections[i].annulus, parts_->options)) continue;
+            section.wake = WakeLag::dynamic;
+            section.times = inflow_times(options.wake_time, blade.position[i] / tip);
+        }
+    find_first_states(lags);
+    const auto parts = std::make_shared<Parts>(*parts_);
+    parts->lags = std::move(lags);
+    MachineAir other = *this;
+    other.parts_ = parts;
+    return other;
+}
+
+MachineAir MachineAir::with_frozen_wake(const FieldInput& at) const {
+    AirLags lags = lags_of(*parts_);
+    const std::vector<std::vector<SectionAir>> now = sections(at);
+    const std::size_t count = parts_->profile->sections();
+    for (std::size_t i = 0; i < lags.sections.size(); ++i) {
+        const SectionAir& air = now[i / count][i % count];
+        lags.sections[i].wake = WakeLag::frozen;
+        lags.sections[i].velocity = DynamicInflow::velocity(air.induction, air.V_x, air.V_y);
+    }
+    find_first_states(lags);
+    const auto parts = std::make_shared<Parts>(*parts_);
+    parts->lags = std::move(lags);
+    MachineAir other = *this;
+    other.parts_ = parts;
+    return other;
+}
+
+int MachineAir::states() const {
+    return parts_->lags ? parts_->lags->states : 0;
+}
+
+FieldInput MachineAir::input(const ForceInput& at, const Forces& forces) const {
+    if (states() == 0) return at;
+    const std::string first = states_of(*parts_, parts_->blade_numbers).front().name;
+    return {at, at.s.segment(forces.states().index(first), states())};
+}
+
+Vector MachineAir::steady_states(const FieldInput& at) const {
+    Vector out = Vector::Zero(states());
+    const Vector any = Vector::Zero(states());
+    Borrowed<AirScratch> scratch;
+    AirEvaluation(*parts_, FieldInput(at, any), *scratch).steady_states(out);
+    return out;
+}
+
+double MachineAir::wake_time(const FieldInput& at) const {
+    const std::vector<std::vector<SectionAir>> now = sections(at);
+    std::vector<double> shares, axial;
+    double wind = 0;
+    for (const std::vector<SectionAir>& blade : now)
+        for (std::size_t i = 0; i < blade.size(); ++i) {
+            shares.push_back(parts_->profile->position[i] / parts_->profile->position.back());
+            axial.push_back(blade[i].induction.axial);
+            wind += blade[i].V_x / static_cast<double>(now.size() * blade.size());
+        }
+    return inflow_time(parts_->radius, mean_induction(shares, axial), wind);
+}
+
+}  // namespace cardan::turbines

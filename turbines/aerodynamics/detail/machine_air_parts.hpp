@@ -1,0 +1,26 @@
+/// @file
+/// What a MachineAir holds. Internal to the air on machines: not installed.
+#pragma once
+
+#include "turbines/aerodynamics/detail/air_evaluation.hpp"
+#include "turbines/aerodynamics/machine_air.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cardan::turbines {
+
+struct MachineAir::Parts : AirParts {
+    TowerAir support;
+    std::vector<int> blade_numbers;
+    std::vector<BodyId> body_ids;  ///< by index in the model
+
+    explicit Parts(TowerAir drag) : support(std::move(drag)) {}
+};
+
+/// Of the states of a lagging air, in their order.
+std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& blade_numbers);
+std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids);
+
+}  // namespace cardan::turbines
