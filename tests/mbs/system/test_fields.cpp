@@ -1,5 +1,6 @@
 // Fields of wrenches: the same as loads on frames where they are constant, and what they add to the loads of joints.
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/path_twists.hpp"
 #include "mbs/system/joint_loads.hpp"
 #include "tests/mbs/system/forced_tree.hpp"
 #include "tests/support/catch.hpp"
@@ -97,9 +98,87 @@ TEST_CASE("fields: joints carry them", "[crosscheck]") {
     CHECK(own.fields[0].size() == twins.as_field.forces().field(0).points.size());
 }
 
+namespace {
+
+// A Maxwell element between the ground and the origin of a body: the spring's force s along x, ds/dt = k v - k/c s.
+WrenchField maxwell_field(const ForcedTree& at, int body, bool exact) {
+    constexpr double k = 30, c = 7;
+    WrenchField field{.name = "bushing", .points = {{at.frame(body), Vec3::Zero()}}};
+    field.states = {{.name = "bushing force", .unit = "N", .scale = 2}};
+    // Of the origin, along x.
+    const auto twist = [body](const ForceInput& in, int a) {
+        const Model& model = in.kinematics.model();
+        return model.precedes(a, model.index(BodyId{body}))
+                   ? own_twist_at(in.kinematics, a, in.kinematics.origin(model.index(BodyId{body}))).v.x()
+                   : 0.0;
+    };
+    field.evaluate = [twist](const FieldInput& in, std::span<Wrench> out, VectorOut rates) {
+        double v = 0;
+        for (int a = 0; a < in.kinematics.model().size(); ++a) v += twist(in, a) * in.qd(a);
+        out[0] = {Vec3(-in.own(0), 0, 0), Vec3::Zero()};
+        rates(0) = k * v - k / c * in.own(0);
+    };
+    if (exact)
+        field.state_jacobian = [twist](const FieldInput& in, FieldJacobian& J) {
+            // By the states and the rates; what turns with q is left to the differences of the other one.
+            for (int a = 0; a < in.kinematics.model().size(); ++a) {
+                J.Q_s(a, 0) += -twist(in, a);
+                J.f_qd(0, a) += k * twist(in, a);
+            }
+            J.f_s(0, 0) += -k / c;
+        };
+    return field;
+}
+
+}  // namespace
+
+TEST_CASE("fields: with a state, by differences and exactly", "[crosscheck]") {
+    for (unsigned seed = 1; seed < 6; ++seed) {
+        const auto make = [&](bool exact) {
+            return ForcedTree(seed,
+                              [exact](ForcedTree& at, ForceSet& set) { set.add_field(maxwell_field(at, 5, exact)); });
+        };
+        ForcedTree tree = make(false), exact = make(true);
+        const Vector s = Vector::Constant(1, 1.7);
+        CHECK(tree.forces().states().size() == 1);
+        REQUIRE(tree.forces().state_groups().size() == 1);
+        CHECK(tree.forces().state_groups()[0].coordinates.size() == ForcedTree::n);
+        Vector Q(ForcedTree::n), rates(1);
+        const Kinematics kin = tree.kin();
+        tree.forces().evaluate({tree.time, tree.q, tree.qd, kin, s, no_states}, Q, rates);
+        ForceDerivatives a, b;
+        StateDerivatives by_differences, by_hand;
+        tree.forces().derivatives({tree.time, tree.q, tree.qd, kin, s, no_states}, a, by_differences);
+        const Kinematics other = exact.kin();
+        exact.forces().derivatives({exact.time, exact.q, exact.qd, other, s, no_states}, b, by_hand);
+        CHECK((by_differences.Q_s - by_hand.Q_s).norm() < 1e-8 * (1 + by_hand.Q_s.norm()));
+        CHECK((by_differences.f_qd - by_hand.f_qd).norm() < 1e-7 * (1 + by_hand.f_qd.norm()));
+        CHECK((by_differences.f_s - by_hand.f_s).norm() < 1e-8);
+        // The force is linear in the state; half of it, with half the derivatives, on a system with that factor.
+        CHECK((Q - by_hand.Q_s * s).norm() < 1e-12 * (1 + Q.norm()));
+        const Forces half = exact.forces().with_load_factor(0.5, false);
+        Vector half_Q(ForcedTree::n), same_rates(1);
+        half.evaluate({exact.time, exact.q, exact.qd, other, s, no_states}, half_Q, same_rates);
+        CHECK((half_Q - Q / 2).norm() < 1e-12 * (1 + Q.norm()));
+        CHECK(same_rates(0) == Approx(rates(0)));
+        StateDerivatives half_states;
+        half.derivatives({exact.time, exact.q, exact.qd, other, s, no_states}, b, half_states);
+        CHECK((half_states.Q_s - by_hand.Q_s / 2).norm() < 1e-12 * (1 + by_hand.Q_s.norm()));
+        CHECK((half_states.f_qd - by_hand.f_qd).isZero(0));
+        check_refused([&] { tree.Q(); }, {"forces", "number of states", "1"});
+    }
+}
+
 TEST_CASE("fields: what is refused", "[validation]") {
     ForceSet set;
     check_refused([&] { set.add_field({.name = "air"}); }, {"air", "wrenches"});
+    check_refused(
+        [&] {
+            set.add_field({.name = "air",
+                           .wrenches = [](const ForceInput&, std::span<Wrench>) {},
+                           .states = {{.name = "lag", .unit = "1", .scale = 1}}});
+        },
+        {"air", "evaluate"});
     check_refused(
         [&] {
             set.add_field({.name = "air",

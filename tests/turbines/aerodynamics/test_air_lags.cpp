@@ -1,0 +1,162 @@
+// Air that lags on machines: derivatives, states at rest, a frozen wake.
+#include "mbs/base/error.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/turbines/machines/sampled_channels.hpp"
+#include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
+
+namespace cardan::testing::air_lag_tests {
+
+namespace {
+
+using namespace turbines;
+
+const SteadyWind sheared{.speed = 9, .shear = Shear::power, .exponent = 0.2, .direction = 0.2};
+
+// A machine in lagging air, at a state.
+class Lagging {
+public:
+    Lagging(const Turbine& machine, const MachineAir& air) : air_(air), windy_(air.on(machine)), state_(windy_) {
+        Random random(5);
+        const int spin = windy_.rotor().spin;
+        for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
+            state_.q(i) += uniform(random, -0.02, 0.02);
+            state_.qd(i) += uniform(random, -0.1, 0.1);
+        }
+        state_.q(spin) = 0.7;
+        state_.qd(spin) = 1.1;
+        workspace_.emplace(windy_.system().model);
+        s = Vector::Zero(air.states());
+        s = air.steady_states(at());
+    }
+    const Forces& forces() const { return windy_.system().forces; }
+    ForceInput at() {
+        kin_.emplace(kinematics(windy_.system().model, state_.q, *workspace_));
+        return {state_.time, state_.q, state_.qd, *kin_, s, no_states};
+    }
+    // Q, then the rates.
+    Vector response() {
+        Vector Q(state_.q.size()), rates(s.size());
+        forces().evaluate(at(), Q, rates);
+        Vector out(Q.size() + rates.size());
+        out << Q, rates;
+        return out;
+    }
+    MachineState& state() { return state_; }
+
+    Vector s;
+
+private:
+    MachineAir air_;
+    Turbine windy_;
+    MachineState state_;
+    std::optional<Workspace> workspace_;
+    std::optional<Kinematics> kin_;
+};
+
+MachineAir lagging_air_of(const Turbine& machine, Skew skew, bool profiles = true) {
+    RotorAirOptions options;
+    options.skew = skew;
+    AirLagOptions lags{.dynamic_wake = true, .wake_time = 8};
+    if (profiles) lags.profiles = nrel5mw_unsteady_profiles();
+    return MachineAir(machine, nrel5mw_aero_blade(), sheared, options).lagging(lags);
+}
+
+}  // namespace
+
+TEST_CASE("lagging air on a machine: derivatives are those of forces and rates", "[property]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    for (const Skew skew : {Skew::none, Skew::pitt_peters}) {
+        Lagging air(machine, lagging_air_of(machine, skew));
+        Random random(8);
+        for (Eigen::Index i = 0; i < air.s.size(); ++i) air.s(i) += uniform(random, -0.02, 0.02);
+        ForceDerivatives own;
+        StateDerivatives states;
+        air.forces().derivatives(air.at(), own, states);
+        const Eigen::Index n = air.state().q.size(), m = air.s.size();
+        Matrix by_q(n + m, n), by_qd(n + m, n), by_s(n + m, m);
+        by_q << -own.loads - own.elastic - own.gravity, states.f_q;
+        by_qd << -own.damping, states.f_qd;
+        by_s << states.Q_s, states.f_s;
+        const double h = 1e-6;
+        const auto difference = [&](double& value) {
+            const double middle = value;
+            value = middle + h;
+            const Vector above = air.response();
+            value = middle - h;
+            const Vector below = air.response();
+            value = middle;
+            return Vector((above - below) / (2 * h));
+        };
+        // Forces and rates apart: their sizes differ.
+        const auto check = [&](const Matrix& all, Eigen::Index column, double& value, double force, double rate) {
+            const Vector expected = difference(value), mine = all.col(column);
+            CAPTURE(column, skew == Skew::none);
+            CHECK((mine - expected).head(n).norm() < 2e-6 * expected.head(n).norm() + force);
+            CHECK((mine - expected).tail(m).norm() < 2e-6 * expected.tail(m).norm() + rate);
+        };
+        const double force = 1e-8 * by_q.topRows(n).norm(), rate = 1e-8 * by_q.bottomRows(m).norm();
+        for (Eigen::Index a = 0; a < n; ++a) {
+            check(by_q, a, air.state().q(a), force, rate);
+            check(by_qd, a, air.state().qd(a), force, rate);
+        }
+        for (Eigen::Index i = 0; i < m; i += 7)
+            check(by_s, i, air.s(i), 1e-8 * by_s.topRows(n).norm(), 1e-8 * by_s.bottomRows(m).norm());
+    }
+}
+
+TEST_CASE("lagging air on a machine: in equilibrium it is that without lags", "[crosscheck]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    for (const Skew skew : {Skew::none, Skew::pitt_peters}) {
+        const MachineAir air = lagging_air_of(machine, skew, false);
+        CHECK(air.states() == 3 * 17 * 4);
+        Lagging lagging(machine, air);
+        RotorAirOptions options;
+        options.skew = skew;
+        Lagging plain(machine, MachineAir(machine, nrel5mw_aero_blade(), sheared, options));
+        const Eigen::Index n = lagging.state().q.size();
+        const Vector own = lagging.response(), expected = plain.response();
+        CHECK((own.head(n) - expected).norm() < 1e-10 * expected.norm());
+        CHECK(own.tail(own.size() - n).norm() < 1e-9);
+    }
+}
+
+TEST_CASE("lagging air on a machine: a frozen wake holds the induced velocities", "[crosscheck]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    const MachineAir air(machine, nrel5mw_aero_blade(), sheared);
+    Lagging plain(machine, air);
+    const MachineAir frozen = air.with_frozen_wake(plain.at());
+    CHECK(frozen.states() == 0);
+    Lagging held(machine, frozen);
+    CHECK((held.response() - plain.response()).norm() < 1e-10 * plain.response().norm());
+    // Faster, each section has the induced velocity that it had.
+    plain.state().qd(machine.rotor().spin) = held.state().qd(machine.rotor().spin) = 1.2;
+    const auto before = air.sections(plain.at()), now = frozen.sections(held.at());
+    held.state().qd(machine.rotor().spin) = 1.1;
+    const auto first = frozen.sections(held.at());
+    for (std::size_t i = 1; i + 1 < now[0].size(); ++i) {
+        CHECK(now[0][i].induction.axial * now[0][i].V_x ==
+              Approx(first[0][i].induction.axial * first[0][i].V_x).margin(1e-12));
+        CHECK(now[0][i].induction.axial != before[0][i].induction.axial);
+    }
+}
+
+TEST_CASE("lagging air on a machine: names and groups of the states; what is refused", "[property]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    Lagging air(machine, lagging_air_of(machine, Skew::none));
+    const StateTable& states = air.forces().states();
+    CHECK(states[states.index("blade 2 section 5 axial inflow")].blade == 2);
+    CHECK(states.find("blade 1 section 1 axial inflow") < 0);         // no balance of momentum at the root
+    CHECK(states.find("blade 1 section 2 point of separation") < 0);  // a cylinder
+    CHECK(air.forces().state_groups().size() == 3 * 18);              // the tip's profile lags
+    const MachineAir plain(machine, nrel5mw_aero_blade(), sheared);
+    check_refused([&] { static_cast<void>(plain.lagging({.dynamic_wake = true})); }, {"time of the wake [s] = 0"});
+    std::vector<UnsteadyProfile> few = nrel5mw_unsteady_profiles();
+    few.pop_back();
+    check_refused([&] { static_cast<void>(plain.lagging({.profiles = few})); }, {"number of profiles = 7", "8"});
+}
+
+}  // namespace cardan::testing::air_lag_tests
