@@ -32,7 +32,7 @@ Induction solution(const Balance<double>& balance, double root, double V_x, doub
 
 // Between two angles whose residuals, of different signs, are low and high; on the side where the air comes from.
 struct Bracket {
-    double from, to, low = 0, high = 0, side = 1;
+    double from = 0, to = 0, low = 0, high = 0, side = 1;
 };
 
 // @param find  a root in a bracket: find(residual, bracket)

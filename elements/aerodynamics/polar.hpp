@@ -20,7 +20,7 @@ public:
     };
     /// Slopes per rad, and per unit of the Reynolds number; at a point of the tables those of the interval above it.
     struct Point {
-        double lift, drag, moment, lift_slope, drag_slope, moment_slope;
+        double lift = 0, drag = 0, moment = 0, lift_slope = 0, drag_slope = 0, moment_slope = 0;
         double lift_reynolds = 0, drag_reynolds = 0, moment_reynolds = 0;
     };
 

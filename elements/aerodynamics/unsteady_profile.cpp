@@ -133,7 +133,7 @@ S root(const S& f) {
 template <class S>
 UnsteadyProfile::Flow<S> UnsteadyProfile::flow_at(const Values<S>& at) const {
     using std::atan2, std::cos, std::sin;
-    Flow<S> out;
+    Flow<S> out{};
     out.T = limited<S>(at.chord / 2 / at.speed, least_lag, largest_lag);
     out.attack_34 = atan2(at.speed * sin(at.attack) + at.rate * (at.chord / 2), at.speed * cos(at.attack));
     out.effective = (1 - lags_.A1 - lags_.A2) * out.attack_34 + at.x[wake_1] + at.x[wake_2];
@@ -145,7 +145,7 @@ UnsteadyProfile::Flow<S> UnsteadyProfile::flow_at(const Values<S>& at) const {
 template <class S>
 std::array<S, UnsteadyProfile::states> UnsteadyProfile::rates_of(const Values<S>& at) const {
     const Flow<S> flow = flow_at(at);
-    std::array<S, states> out;
+    std::array<S, states> out{};
     out[wake_1] = lags_.b1 * (lags_.A1 * flow.attack_34 - at.x[wake_1]) / flow.T;
     out[wake_2] = lags_.b2 * (lags_.A2 * flow.attack_34 - at.x[wake_2]) / flow.T;
     out[lagging_lift] = (flow.attached + flow.lift_34 - at.x[lagging_lift]) / (lags_.pressure * flow.T);
@@ -166,7 +166,7 @@ std::array<S, 3> UnsteadyProfile::coefficients_of(const Values<S>& at) const {
             drag = on_curve(table.drag, table.drag_slope, flow.effective),
             x4 = limited<S>(at.x[separation_point], 0, 1), circulation = x4 * flow.attached + (1 - x4) * lift_apart;
     const S lagging_drag = (root(f) - root(x4)) / 2 - (f - x4) / 4;
-    std::array<S, 3> out;
+    std::array<S, 3> out{};
     out[0] = circulation + flow.lift_34;
     out[1] = drag + (flow.attack_34 - flow.effective + flow.T * at.rate) * circulation +
              (drag - flow_.least_drag) * lagging_drag;

@@ -135,7 +135,7 @@ void Forces::require_no_states(const char* where) const {
         throw InputError(where, "number of states", states().size(), "0: they are not taken into account here");
 }
 
-void Forces::add_users(const ForceInput& at, VectorOut Q) const {
+void Forces::add_users(const ForceInput& at, VectorOut& Q) const {
     for (const User& user : users_) add_user(user, at, Q);
 }
 
@@ -174,7 +174,7 @@ void Forces::evaluate_field(const FieldInput& at, const Field& field, std::span<
 
 // The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
 // @param rates  out, of the field's states
-void Forces::add_field(const Field& field, double factor, const FieldInput& at, VectorOut Q, VectorOut rates) const {
+void Forces::add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, VectorOut rates) const {
     const Workspace& ws = at.kinematics.workspace();
     Borrowed<Scratch> scratch;
     scratch->points.resize(field.own.points.size());
@@ -265,7 +265,8 @@ std::vector<ForceReport> Forces::report(const ForceInput& at) const {
     }
     for (const Field& field : fields_) {
         Vector rates(field.states());
-        add_field(field, field.factor, field.input(at), Q, rates);
+        VectorOut sum = Q;
+        add_field(field, field.factor, field.input(at), sum, rates);
         reports.push_back({field.own.name, std::nullopt, power()});
     }
     return reports;

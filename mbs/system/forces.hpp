@@ -297,13 +297,13 @@ private:
     void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
     void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const;
-    void add_users(const ForceInput& at, VectorOut Q) const;
+    void add_users(const ForceInput& at, VectorOut& Q) const;
     void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     static Field bound(const WrenchField& field, const Model& model, int first);
     static void evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches, VectorOut rates);
-    void add_field(const Field& field, double factor, const FieldInput& at, VectorOut Q, VectorOut rates) const;
+    void add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, VectorOut rates) const;
     void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
     void state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
                                  StateDerivatives& states) const;

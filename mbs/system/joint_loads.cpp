@@ -52,6 +52,7 @@ JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, 
 
 JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd) {
     std::vector<std::vector<Wrench>> fields;
+    fields.reserve(static_cast<std::size_t>(forces.fields()));
     for (int f = 0; f < forces.fields(); ++f) fields.push_back(forces.field_wrenches(f, at));
     return loads_with(at.kinematics, forces, at.qd, qdd, at.time, std::move(fields));
 }

@@ -40,7 +40,7 @@ YamlNode WindioFile::get(std::initializer_list<const char*> paths) const {
 }
 
 void WindioFile::note(const YamlNode& node, std::string value, std::string why) {
-    const std::string path = node.path();
+    const std::string& path = node.path();
     const auto is_there = [&](const FileNote& other) { return other.keyword == path && other.why == why; };
     if (std::any_of(notes.begin(), notes.end(), is_there)) return;
     notes.push_back({node.file(), node.line(), node.path(), std::move(value), std::move(why)});

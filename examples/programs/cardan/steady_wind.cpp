@@ -121,6 +121,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     } else {
         const std::vector<turbines::Operation> schedule = schedule_of(wind.schedule);
         std::vector<turbines::Operation> wanted;
+        wanted.reserve(speeds.size());
         for (const double speed : speeds) wanted.push_back(turbines::operation_at(schedule, speed));
         all = operation.over(wanted);
     }

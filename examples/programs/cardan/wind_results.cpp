@@ -281,7 +281,8 @@ void draw_coefficients(const std::string& title, const AeroBlade& blade, const R
     stack.panels = {{"power coefficient", {}}, {"thrust coefficient", {}}};
     constexpr double least_shown = -0.1;
     for (const double degrees_of_pitch : {-2.0, 0.0, 2.0, 5.0, 10.0, 20.0}) {
-        solvers::StackCurve of_power{text("pitch ", degrees_of_pitch, " deg"), {}, {}}, of_thrust = of_power;
+        const std::string label = text("pitch ", degrees_of_pitch, " deg");
+        solvers::StackCurve of_power{label, {}, {}}, of_thrust{label, {}, {}};
         for (int i = 8; i <= 56; ++i) {
             const double ratio = 0.25 * i;
             const RotorCoefficients at =

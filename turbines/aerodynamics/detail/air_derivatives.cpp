@@ -91,7 +91,7 @@ private:
     }
     // Changes of the wind at a section by a coordinate: its place moves by v.
     Vec3 wind_by_q(std::size_t section, int a, const Vec3& v) const {
-        const Vec3 open = air_.scratch_.sections[section].wind_gradient * v;
+        Vec3 open = air_.scratch_.sections[section].wind_gradient * v;
         if (!parts_.dam) return open;
         const DamState& dam = air_.scratch_.dam[section];
         return open + memory_.dam[section].by_q(dam, mover(a), v, moves(a, dam.body));

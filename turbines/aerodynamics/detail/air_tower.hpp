@@ -41,11 +41,11 @@ struct DamState {
     Vec3 axis, foot, velocity;  ///< of the segment; velocity that of the segment at the foot
     Vec3 relative, wind;        ///< at the foot, against the tower; the part across the axis: n
     Vec3 across;                ///< X: the place over the radius, as tower_dam() has it
-    double radius, drag;
-    double radius_slope, drag_slope;  ///< along the tower, 1 and 1/m
-    double height_slope;              ///< beyond an end of the tower: d ln|X| / d height, 1/m
-    double stretch;                   ///< |X| radius over the distance from the axis
-    Vec3 disturbance;                 ///< m/s, to be added to the wind
+    double radius = 0, drag = 0;
+    double radius_slope = 0, drag_slope = 0;  ///< along the tower, 1 and 1/m
+    double height_slope = 0;                  ///< beyond an end of the tower: d ln|X| / d height, 1/m
+    double stretch = 0;                       ///< |X| radius over the distance from the axis
+    Vec3 disturbance;                         ///< m/s, to be added to the wind
 };
 
 /// Beyond an end of the tower X is stretched by 1/cos(pi z/2), z the height over the radius, up to z = 1, from where on
