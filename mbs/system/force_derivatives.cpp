@@ -164,7 +164,10 @@ void Forces::state_field_derivatives(const Field& field, const ForceInput& at, F
         field.own.state_jacobian(field.input(at), J);
     else
         difference_field(
-            [&](const FieldInput& input, Vector& all) { add_field(field, 1, input, all.head(n), all.tail(m)); },
+            [&](const FieldInput& input, Vector& all) {
+                VectorOut Q = all.head(n);
+                add_field(field, 1, input, Q, all.tail(m));
+            },
             field.input(at), field.own.states, J);
     out.loads -= field.factor * own->Q_q;
     out.damping -= field.factor * own->Q_qd;
