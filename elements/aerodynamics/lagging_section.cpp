@@ -8,7 +8,7 @@ namespace cardan {
 
 namespace {
 
-using Slope = Dual<LaggingSlopes::columns>;
+using LagSlope = Dual<LaggingSlopes::columns>;
 
 UnsteadyProfile::States profile_states(const SectionStates& s, const SectionLags& lags) {
     return s.segment<UnsteadyProfile::states>(lags.inflow_states());
@@ -41,9 +41,9 @@ Induction skewed(Induction induction, bool solved, const SectionMotion& motion) 
     return induction;
 }
 
-Slope profile_value(double value, const Eigen::Matrix<double, 1, UnsteadyProfile::Slopes::columns>& slopes,
-                    const Slope& attack, const Slope& speed, const Slope& rate, int first) {
-    Slope out(value);
+LagSlope profile_value(double value, const Eigen::Matrix<double, 1, UnsteadyProfile::Slopes::columns>& slopes,
+                       const LagSlope& attack, const LagSlope& speed, const LagSlope& rate, int first) {
+    LagSlope out(value);
     for (int i = 0; i < UnsteadyProfile::states; ++i) out.slopes(first + i) += slopes(i);
     using Column = UnsteadyProfile::Slopes;
     out.slopes += slopes(Column::attack) * attack.slopes + slopes(Column::speed) * speed.slopes +
@@ -63,21 +63,22 @@ public:
           options_(options),
           density_(density),
           lags_(lags),
-          inflow_{Slope::variable(motion.V_x, LaggingSlopes::V_x), Slope::variable(motion.V_y, LaggingSlopes::V_y),
-                  Slope::variable(annulus.angle, LaggingSlopes::angle),
-                  Slope::variable(annulus.radius, LaggingSlopes::radius)},
-          rate_(Slope::variable(motion.rate, LaggingSlopes::rate)) {}
+          inflow_{LagSlope::variable(motion.V_x, LaggingSlopes::V_x),
+                  LagSlope::variable(motion.V_y, LaggingSlopes::V_y),
+                  LagSlope::variable(annulus.angle, LaggingSlopes::angle),
+                  LagSlope::variable(annulus.radius, LaggingSlopes::radius)},
+          rate_(LagSlope::variable(motion.rate, LaggingSlopes::rate)) {}
 
     LaggingSlopes run() {
-        Factors<Slope> factors = lags_.wake == WakeLag::frozen ? held_factors() : in_equilibrium();
+        Factors<LagSlope> factors = lags_.wake == WakeLag::frozen ? held_factors() : in_equilibrium();
         if (lags_.wake == WakeLag::dynamic) {
             follow_inflow(factors);
             factors = held_factors();
         }
         if (at_.solved && options_.skew != Skew::none)
             factors.axial *=
-                redistribution(factors.axial, Slope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
-                               Slope::variable(motion_.wake.lever, LaggingSlopes::wake_lever));
+                redistribution(factors.axial, LagSlope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
+                               LagSlope::variable(motion_.wake.lever, LaggingSlopes::wake_lever));
         if (lags_.has_profile())
             follow_profile(factors);
         else
@@ -86,10 +87,10 @@ public:
     }
 
 private:
-    static Slope state(double value, int i) { return Slope::variable(value, LaggingSlopes::first_state + i); }
-    void set(int row, const Slope& value) { out_.by.row(row) = value.slopes.matrix().transpose(); }
+    static LagSlope state(double value, int i) { return LagSlope::variable(value, LaggingSlopes::first_state + i); }
+    void set(int row, const LagSlope& value) { out_.by.row(row) = value.slopes.matrix().transpose(); }
 
-    Factors<Slope> in_equilibrium() const {
+    Factors<LagSlope> in_equilibrium() const {
         const Induction found{.axial = -at_.velocity.x() / (motion_.V_x == 0 ? 1 : motion_.V_x),
                               .tangential = at_.velocity.y() / (motion_.V_y == 0 ? 1 : motion_.V_y),
                               .root = at_.root,
@@ -97,36 +98,36 @@ private:
         return factors_of(annulus_, inflow_, found, options_.momentum, LaggingSlopes::wake_angle);
     }
 
-    void follow_inflow(const Factors<Slope>& steady) {
+    void follow_inflow(const Factors<LagSlope>& steady) {
         constexpr double kappa = DynamicInflow::kappa;
-        const std::array<Slope, 2> velocity{-steady.axial * inflow_.V_x, steady.tangential * inflow_.V_y};
+        const std::array<LagSlope, 2> velocity{-steady.axial * inflow_.V_x, steady.tangential * inflow_.V_y};
         for (int i = 0; i < 2; ++i) {
-            const Slope &w = velocity[static_cast<std::size_t>(i)], early = state(s_(i), i),
-                        late = state(s_(i + 2), i + 2);
+            const LagSlope &w = velocity[static_cast<std::size_t>(i)], early = state(s_(i), i),
+                           late = state(s_(i + 2), i + 2);
             set(3 + i, ((1 - kappa) * w - early) / lags_.times.first);
             set(5 + i, (early + kappa * w - late) / lags_.times.second);
         }
     }
 
     // Of induced velocities that do not change with the motion.
-    Factors<Slope> held_factors() const {
+    Factors<LagSlope> held_factors() const {
         const bool dynamic = lags_.wake == WakeLag::dynamic;
-        const Slope axial = dynamic ? state(s_(2), 2) : Slope(lags_.velocity.x()),
-                    tangential = dynamic ? state(s_(3), 3) : Slope(lags_.velocity.y());
-        return {motion_.V_x == 0 ? Slope(0) : limited<Slope>(-axial / inflow_.V_x, -1, 1.5),
-                motion_.V_y == 0 ? Slope(0) : limited<Slope>(tangential / inflow_.V_y, -1, 1)};
+        const LagSlope axial = dynamic ? state(s_(2), 2) : LagSlope(lags_.velocity.x()),
+                       tangential = dynamic ? state(s_(3), 3) : LagSlope(lags_.velocity.y());
+        return {motion_.V_x == 0 ? LagSlope(0) : limited<LagSlope>(-axial / inflow_.V_x, -1, 1.5),
+                motion_.V_y == 0 ? LagSlope(0) : limited<LagSlope>(tangential / inflow_.V_y, -1, 1)};
     }
 
-    void follow_table(const Factors<Slope>& factors) {
-        const Loads<Slope> loads = loads_of(annulus_, inflow_, factors, density_);
+    void follow_table(const Factors<LagSlope>& factors) {
+        const Loads<LagSlope> loads = loads_of(annulus_, inflow_, factors, density_);
         set(0, loads.normal);
         set(1, loads.driving);
         set(2, loads.moment);
     }
 
-    void follow_profile(const Factors<Slope>& factors) {
-        const Slope u_x = inflow_.V_x * (1 - factors.axial), u_y = inflow_.V_y * (1 + factors.tangential),
-                    speed = sqrt(u_x * u_x + u_y * u_y), attack = atan2(u_x, u_y) - inflow_.angle;
+    void follow_profile(const Factors<LagSlope>& factors) {
+        const LagSlope u_x = inflow_.V_x * (1 - factors.axial), u_y = inflow_.V_y * (1 + factors.tangential),
+                       speed = sqrt(u_x * u_x + u_y * u_y), attack = atan2(u_x, u_y) - inflow_.angle;
         const ProfileMotion motion{attack.value, speed.value, motion_.rate, annulus_.chord};
         const UnsteadyProfile::States x = profile_states(s_, lags_);
         const UnsteadyProfile::Slopes slopes = lags_.profile->slopes(x, motion);
@@ -137,9 +138,10 @@ private:
         };
         for (int i = 0; i < UnsteadyProfile::states; ++i)
             set(3 + lags_.inflow_states() + i, value(0, slopes.rates.row(i)));
-        const Slope lift = value(c.lift, slopes.coefficients.row(0)), drag = value(c.drag, slopes.coefficients.row(1)),
-                    moment = value(c.moment, slopes.coefficients.row(2)),
-                    pressure = density_ / 2 * annulus_.chord * speed;
+        const LagSlope lift = value(c.lift, slopes.coefficients.row(0)),
+                       drag = value(c.drag, slopes.coefficients.row(1)),
+                       moment = value(c.moment, slopes.coefficients.row(2)),
+                       pressure = density_ / 2 * annulus_.chord * speed;
         set(0, pressure * (lift * u_y + drag * u_x));
         set(1, pressure * (lift * u_x - drag * u_y));
         set(2, pressure * speed * annulus_.chord * moment);
@@ -152,8 +154,8 @@ private:
     const RotorAirOptions& options_;
     double density_;
     const SectionLags& lags_;
-    Inflow<Slope> inflow_;
-    Slope rate_;
+    Inflow<LagSlope> inflow_;
+    LagSlope rate_;
     LaggingSlopes out_;
 };
 
