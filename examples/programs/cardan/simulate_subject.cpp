@@ -101,7 +101,7 @@ double torque_of(const turbines::MachineAir& air, const turbines::Turbine& at_st
     for (int i = 0; i < azimuths; ++i) {
         const solvers::OperatingPoint at = state.at(2 * pi * i / azimuths);
         const Kinematics kin = kinematics(model, at.q, workspace);
-        sum += air.rotor({0, at.q, at.qd, kin, no_states, no_states}).moment.x();
+        sum += air.rotor(ForceInput{0, at.q, at.qd, kin, no_states, no_states}).moment.x();
     }
     return sum / azimuths;
 }
