@@ -34,6 +34,12 @@ SectionForce force_of(const Annulus& annulus, const Reaching& u, const UnsteadyP
             pressure * size * size * annulus.chord * c.moment, u.attack(annulus)};
 }
 
+// Without limits: what the wake's skew has made of an induction may be beyond them.
+Induction frozen_induction(const Eigen::Vector2d& velocity, double V_x, double V_y) {
+    const double axial = V_x == 0 ? 0 : -velocity.x() / V_x, tangential = V_y == 0 ? 0 : velocity.y() / V_y;
+    return {.axial = axial, .tangential = tangential, .phi = std::atan2(V_x * (1 - axial), V_y * (1 + tangential))};
+}
+
 Induction skewed(Induction induction, bool solved, const SectionMotion& motion) {
     if (!solved || motion.wake.lever == 0) return induction;
     induction.axial *= redistribution(induction.axial, motion.wake.angle, motion.wake.lever);
@@ -114,8 +120,10 @@ private:
         const bool dynamic = lags_.wake == WakeLag::dynamic;
         const LagSlope axial = dynamic ? state(s_(2), 2) : LagSlope(lags_.velocity.x()),
                        tangential = dynamic ? state(s_(3), 3) : LagSlope(lags_.velocity.y());
-        return {motion_.V_x == 0 ? LagSlope(0) : limited<LagSlope>(-axial / inflow_.V_x, -1, 1.5),
-                motion_.V_y == 0 ? LagSlope(0) : limited<LagSlope>(tangential / inflow_.V_y, -1, 1)};
+        const Factors<LagSlope> held{motion_.V_x == 0 ? LagSlope(0) : -axial / inflow_.V_x,
+                                     motion_.V_y == 0 ? LagSlope(0) : tangential / inflow_.V_y};
+        if (!dynamic) return held;
+        return {limited<LagSlope>(held.axial, -1, 1.5), limited<LagSlope>(held.tangential, -1, 1)};
     }
 
     void follow_table(const Factors<LagSlope>& factors) {
@@ -178,7 +186,7 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
         out.rates.head<DynamicInflow::states>() = DynamicInflow::rates(inflow, out.velocity, lags.times);
         now = DynamicInflow::induction(inflow, V_x, V_y);
     } else if (lags.wake == WakeLag::frozen) {
-        now = DynamicInflow::induction(DynamicInflow::steady(lags.velocity), V_x, V_y);
+        now = frozen_induction(lags.velocity, V_x, V_y);
     }
     now.solved = out.solved;
     now = skewed(now, out.solved, motion);

@@ -107,12 +107,14 @@ TEST_CASE("lagging section: at rest the wake is in equilibrium, and profiles are
         CHECK(air.air.force.normal == Approx(steady.force.normal).epsilon(1e-10));
         CHECK(air.air.force.driving == Approx(steady.force.driving).epsilon(1e-9).margin(1e-6));
 
+        const Polar* const polar = at.annulus.polar;
         at.lags.profile = &profiles[static_cast<std::size_t>(2 + i % 6)];
         at.annulus.polar = &at.lags.profile->polar();
         const SectionStates both = steady_states(at.annulus, at.motion, options, at.lags);
         CHECK(lagging_air(at.annulus, at.motion, both, options, 1.2, at.lags).rates.norm() < 1e-10);
 
         at.lags.profile = nullptr;
+        at.annulus.polar = polar;
         at.lags.wake = WakeLag::frozen;
         at.lags.velocity = DynamicInflow::velocity(steady.induction, at.motion.V_x, at.motion.V_y);
         const LaggingAir frozen = lagging_air(at.annulus, at.motion, {}, options, 1.2, at.lags);
