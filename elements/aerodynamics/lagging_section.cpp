@@ -120,8 +120,8 @@ private:
         const bool dynamic = lags_.wake == WakeLag::dynamic;
         const LagSlope axial = dynamic ? state(s_(2), 2) : LagSlope(lags_.velocity.x()),
                        tangential = dynamic ? state(s_(3), 3) : LagSlope(lags_.velocity.y());
-        const Factors<LagSlope> held{motion_.V_x == 0 ? LagSlope(0) : -axial / inflow_.V_x,
-                                     motion_.V_y == 0 ? LagSlope(0) : tangential / inflow_.V_y};
+        Factors<LagSlope> held{motion_.V_x == 0 ? LagSlope(0) : -axial / inflow_.V_x,
+                               motion_.V_y == 0 ? LagSlope(0) : tangential / inflow_.V_y};
         if (!dynamic) return held;
         return {limited<LagSlope>(held.axial, -1, 1.5), limited<LagSlope>(held.tangential, -1, 1)};
     }

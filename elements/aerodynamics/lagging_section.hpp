@@ -36,8 +36,8 @@ using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;
 
 /// What a section sees of its motion.
 struct SectionMotion {
-    double V_x, V_y;  ///< air against the section without induction, m/s
-    double rate;      ///< of the section about its span, nose up, rad/s
+    double V_x = 0, V_y = 0;  ///< air against the section without induction, m/s
+    double rate = 0;          ///< of the section about its span, nose up, rad/s
     SkewedWake wake;
 };
 

@@ -89,7 +89,7 @@ WrenchField MachineAir::field() const {
 void MachineAir::add_lags(WrenchField& field) const {
     field.states = states_of(*parts_, parts_->blade_numbers);
     field.groups = groups_of(*parts_, parts_->body_ids);
-    field.evaluate = [parts = parts_](const FieldInput& at, std::span<Wrench> out, VectorOut rates) {
+    field.evaluate = [parts = parts_](const FieldInput& at, std::span<Wrench> out, const VectorOut& rates) {
         Borrowed<AirScratch> scratch;
         const AirEvaluation air(*parts, at, *scratch);
         write_wrenches(*parts, air, out);
