@@ -165,7 +165,8 @@ std::vector<Wrench> Forces::field_wrenches(int i, const ForceInput& at) const {
     return out;
 }
 
-void Forces::evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches, VectorOut rates) {
+void Forces::evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches,
+                            const VectorOut& rates) {
     if (field.states() > 0)
         field.own.evaluate(at, wrenches, rates);
     else
@@ -174,7 +175,8 @@ void Forces::evaluate_field(const FieldInput& at, const Field& field, std::span<
 
 // The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
 // @param rates  out, of the field's states
-void Forces::add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, VectorOut rates) const {
+void Forces::add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q,
+                       const VectorOut& rates) const {
     const Workspace& ws = at.kinematics.workspace();
     Borrowed<Scratch> scratch;
     scratch->points.resize(field.own.points.size());

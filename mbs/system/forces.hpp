@@ -302,8 +302,9 @@ private:
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
     static Field bound(const WrenchField& field, const Model& model, int first);
-    static void evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches, VectorOut rates);
-    void add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, VectorOut rates) const;
+    static void evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches,
+                               const VectorOut& rates);
+    void add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, const VectorOut& rates) const;
     void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
     void state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
                                  StateDerivatives& states) const;
