@@ -5,6 +5,7 @@
 
 #include "mbs/base/error.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -42,6 +43,23 @@ inline const std::filesystem::path& folder() {
 
 inline void write(const std::filesystem::path& path, std::string_view bytes) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+/// Copies of the files of a model in folder(); the first byte says which of them the rest replaces while `action`
+/// reads.
+template <std::size_t N, class Action>
+int with_one_replaced(const std::filesystem::path& from, const std::array<const char*, N>& files,
+                      const std::uint8_t* data, std::size_t size, const Action& action) {
+    static const bool copied = [&] {
+        for (const char* file : files) std::filesystem::copy_file(from / file, folder() / file);
+        return true;
+    }();
+    if (!copied || size == 0) return 0;
+    const char* const file = files[data[0] % N];
+    write(folder() / file, text_of(data + 1, size - 1));
+    action(folder() / file);
+    std::filesystem::copy_file(from / file, folder() / file, std::filesystem::copy_options::overwrite_existing);
+    return 0;
 }
 
 }  // namespace cardan::fuzz

@@ -10,28 +10,17 @@ namespace {
 constexpr std::array<const char*, 4> files{"small_AeroDyn.dat", "small_AeroDyn_Blade.dat", "small_Polar_1.dat",
                                            "small_Polar_2.dat"};
 
-std::filesystem::path original(const char* file) {
-    return std::filesystem::path(CARDAN_SOURCE_DIR "/tests/data/aerodyn") / file;
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace cardan;
     using namespace cardan::turbines;
-    static const bool copied = [] {
-        for (const char* file : files) std::filesystem::copy_file(original(file), fuzz::folder() / file);
-        return true;
-    }();
-    if (!copied || size == 0) return 0;
-    const std::size_t which = data[0] % files.size();
-    fuzz::write(fuzz::folder() / files[which], fuzz::text_of(data + 1, size - 1));
-    fuzz::try_it([&] {
-        const AeroDynFile air = read_aerodyn(fuzz::folder() / files[0], 1.5);
-        (void)rotor_coefficients(air.blade, 3, -0.05, 7, 0.02, air.options);
-    });
-    fuzz::try_it([&] { (void)read_inflow_wind(fuzz::folder() / files[which]); });
-    std::filesystem::copy_file(original(files[which]), fuzz::folder() / files[which],
-                               std::filesystem::copy_options::overwrite_existing);
-    return 0;
+    const auto read = [](const std::filesystem::path& replaced) {
+        fuzz::try_it([] {
+            const AeroDynFile air = read_aerodyn(fuzz::folder() / files[0], 1.5);
+            (void)rotor_coefficients(air.blade, 3, -0.05, 7, 0.02, air.options);
+        });
+        fuzz::try_it([&] { (void)read_inflow_wind(replaced); });
+    };
+    return fuzz::with_one_replaced(CARDAN_SOURCE_DIR "/tests/data/aerodyn", files, data, size, read);
 }

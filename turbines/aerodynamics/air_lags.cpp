@@ -44,7 +44,6 @@ AirLags lags_of(const AirParts& parts) {
     if (parts.lags) return *parts.lags;
     AirLags out;
     out.sections.resize(parts.blades.size() * parts.profile->sections());
-    find_first_states(out);
     return out;
 }
 
@@ -88,6 +87,16 @@ std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyI
     return all;
 }
 
+MachineAir MachineAir::with(AirLags lags) const {
+    find_first_states(lags);
+    const auto parts = std::make_shared<Parts>(*parts_);
+    parts->lags = std::move(lags);
+    if (parts->lags->states > 0) parts->lags->first_name = states_of(*parts, parts->blade_numbers).front().name;
+    MachineAir other = *this;
+    other.parts_ = parts;
+    return other;
+}
+
 MachineAir MachineAir::lagging(AirLagOptions options) const {
     const AeroBlade& blade = *parts_->profile;
     if (!options.profiles.empty() && options.profiles.size() != blade.polars.size())
@@ -105,12 +114,7 @@ MachineAir MachineAir::lagging(AirLagOptions options) const {
             section.wake = WakeLag::dynamic;
             section.times = inflow_times(options.wake_time, blade.position[i] / tip);
         }
-    find_first_states(lags);
-    const auto parts = std::make_shared<Parts>(*parts_);
-    parts->lags = std::move(lags);
-    MachineAir other = *this;
-    other.parts_ = parts;
-    return other;
+    return with(std::move(lags));
 }
 
 MachineAir MachineAir::with_frozen_wake(const FieldInput& at) const {
@@ -122,12 +126,7 @@ MachineAir MachineAir::with_frozen_wake(const FieldInput& at) const {
         lags.sections[i].wake = WakeLag::frozen;
         lags.sections[i].velocity = DynamicInflow::velocity(air.induction, air.V_x, air.V_y);
     }
-    find_first_states(lags);
-    const auto parts = std::make_shared<Parts>(*parts_);
-    parts->lags = std::move(lags);
-    MachineAir other = *this;
-    other.parts_ = parts;
-    return other;
+    return with(std::move(lags));
 }
 
 int MachineAir::states() const {
@@ -136,8 +135,7 @@ int MachineAir::states() const {
 
 FieldInput MachineAir::input(const ForceInput& at, const Forces& forces) const {
     if (states() == 0) return at;
-    const std::string first = states_of(*parts_, parts_->blade_numbers).front().name;
-    return {at, at.s.segment(forces.states().index(first), states())};
+    return {at, at.s.segment(forces.states().index(parts_->lags->first_name), states())};
 }
 
 Vector MachineAir::steady_states(const FieldInput& at) const {

@@ -174,12 +174,16 @@ ChannelGroup MachineAir::channels() const {
     return group;
 }
 
-Vec3 hub_at_rest(const Turbine& turbine) {
+Vec3 place_at_rest(const Turbine& turbine, FrameId frame) {
     const Model& model = turbine.system().model;
-    if (turbine.layout().hub == FrameId{}) throw InputError("air on a machine", "rotor", "none", "one");
     Workspace workspace(model);
     const Vector q = Vector::Zero(model.size());
-    return pose(kinematics(model, q, workspace), turbine.layout().hub).p;
+    return pose(kinematics(model, q, workspace), frame).p;
+}
+
+Vec3 hub_at_rest(const Turbine& turbine) {
+    if (turbine.layout().hub == FrameId{}) throw InputError("air on a machine", "rotor", "none", "one");
+    return place_at_rest(turbine, turbine.layout().hub);
 }
 
 double MachineAir::radius() const {

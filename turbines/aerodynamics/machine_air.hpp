@@ -22,6 +22,8 @@
 
 namespace cardan::turbines {
 
+struct AirLags;
+
 /// What of the air lags behind the motion: states of first order.
 struct AirLagOptions {
     /// In the place of the blade's polars, one for each; those of cylinders and of the like lag in nothing. Empty:
@@ -97,10 +99,13 @@ public:
 private:
     struct Parts;
     void add_lags(WrenchField& field) const;
+    MachineAir with(AirLags lags) const;
 
     std::shared_ptr<const Parts> parts_;
 };
 
+/// Origin of a frame at rest, not bent, base axes, m.
+Vec3 place_at_rest(const Turbine& turbine, FrameId frame);
 /// Centre of the rotor at rest, not bent, base axes, m: the height that winds are given at.
 /// @throws InputError for a machine without a rotor
 Vec3 hub_at_rest(const Turbine& turbine);

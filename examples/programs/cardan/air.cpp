@@ -20,11 +20,8 @@ namespace {
 
 // Base axes, m.
 double tower_foot_at_rest(const turbines::Turbine& turbine) {
-    const Model& model = turbine.system().model;
-    if (turbine.layout().tower_foot == FrameId{}) return 0;
-    Workspace workspace(model);
-    const Vector q = Vector::Zero(model.size());
-    return pose(kinematics(model, q, workspace), turbine.layout().tower_foot).p.z();
+    const FrameId foot = turbine.layout().tower_foot;
+    return foot == FrameId{} ? 0 : turbines::place_at_rest(turbine, foot).z();
 }
 
 // Above the ground or the still water, m: as the files say, else as the machine stands.
@@ -41,19 +38,17 @@ void take(Air& air, File read, const MachineOptions& options) {
     air.density = read.density;
 }
 
-// What an AeroDyn file calls "default" is in the main file of OpenFAST.
-turbines::AeroDynFile aerodyn_of(const MachineFile& machine, const MachineOptions& options,
-                                 std::filesystem::path file) {
+// Of an OpenFAST model, with what it calls "default" in AeroDyn's file; none: the model has no air.
+std::optional<turbines::AeroDynFile> aerodyn_of(const MachineFile& machine, const MachineOptions& options,
+                                                std::filesystem::path file) {
     const double hub_radius = machine.file.description.hub.radius;
-    if (machine.kind != MachineKind::openfast) return turbines::read_aerodyn(file, hub_radius);
+    if (machine.kind != MachineKind::openfast)
+        return file.empty() ? std::nullopt : std::optional(turbines::read_aerodyn(file, hub_radius));
     turbines::OpenFastFile main = turbines::OpenFastFile::read(options.model);
+    if (file.empty() && !main.has("AeroFile")) return std::nullopt;
     if (file.empty()) file = main.path("AeroFile");
     return turbines::read_aerodyn(file, hub_radius, main.number_or_default("AirDens", 1.225),
                                   main.number_or_default("KinVisc", standard_viscosity));
-}
-
-bool has_aerodyn(const MachineFile& machine, const MachineOptions& options) {
-    return machine.kind == MachineKind::openfast && turbines::OpenFastFile::read(options.model).has("AeroFile");
 }
 
 }  // namespace
@@ -81,10 +76,9 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
     Air air;
     if (is_yaml(arguments.file)) {
         take(air, turbines::read_windio_air(arguments.file, hub_radius), options);
-    } else if (!arguments.file.empty() || has_aerodyn(machine, options)) {
-        turbines::AeroDynFile file = aerodyn_of(machine, options, arguments.file);
-        if (!arguments.no_tower) air.support = std::move(file.support);
-        take(air, std::move(file), options);
+    } else if (std::optional<turbines::AeroDynFile> file = aerodyn_of(machine, options, arguments.file)) {
+        if (!arguments.no_tower) air.support = std::move(file->support);
+        take(air, *std::move(file), options);
     } else if (machine.kind == MachineKind::windio) {
         take(air, turbines::read_windio_air(options.model, hub_radius, additions_of(options)), options);
     } else if (options.model.starts_with("nrel5mw")) {

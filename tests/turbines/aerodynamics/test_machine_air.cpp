@@ -4,7 +4,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
+#include "tests/turbines/aerodynamics/field_at_state.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
@@ -24,31 +24,6 @@ const SteadyWind slanted{.speed = 10,
                          .lateral = 0.001,
                          .gust = 0.4,
                          .vertical = 0.2};
-
-// A state of a machine with what evaluations need.
-class At {
-public:
-    At(const Turbine& machine, const MachineState& state)
-        : state_(state),
-          workspace_(machine.system().model),
-          kin_(kinematics(machine.system().model, state_.q, workspace_)) {}
-    ForceInput input() const { return {state_.time, state_.q, state_.qd, kin_, no_states, no_states}; }
-
-private:
-    MachineState state_;
-    Workspace workspace_;
-    Kinematics kin_;
-};
-
-Vector generalised(const Turbine& machine, const WrenchField& field, const MachineState& state) {
-    ForceSet only;
-    only.add_field(field);
-    const Forces forces(only, machine.system().model);
-    Workspace workspace(machine.system().model);
-    Vector Q(state.q.size());
-    forces.generalised_forces(kinematics(machine.system().model, state.q, workspace), state.time, state.q, state.qd, Q);
-    return Q;
-}
 
 // Turning at 1.1 rad/s, not bent.
 MachineState turning(const Turbine& machine, double azimuth) {
@@ -80,7 +55,7 @@ TEST_CASE("air on a machine: a rotor that is not bent feels what a rigid one doe
         options.skew = skew;
         const MachineAir air(machine, blade, slanted, options);
         const MachineState state = turning(machine, 0.6);
-        const At at(machine, state);
+        const FieldState at(machine, state);
         const Pose<double> hub = pose(at.input().kinematics, machine.layout().rotor_centre);
         const RotorPose rotor{.tilt = description.nacelle.tilt, .cone = description.blade.cone, .hub = hub.p};
         const RotorAir expected = rigid_rotor_air(blade, rotor, slanted, 1.1, 0.6, 0, options);
@@ -98,9 +73,9 @@ TEST_CASE("air on a machine: a rotor that is not bent feels what a rigid one doe
                 CHECK(mine.induction.axial == Approx(rigid.induction.axial).epsilon(1e-8));
                 CHECK(mine.force.normal == Approx(rigid.force.normal).epsilon(1e-8));
             }
-        CHECK(own.work_rate == Approx(generalised(machine, air.field(), state).dot(state.qd)).epsilon(1e-9));
+        CHECK(own.work_rate == Approx(generalised_forces(machine, air.field(), state).dot(state.qd)).epsilon(1e-9));
         // The channels of loads know of it: without masses in motion the blade's root carries the air alone.
-        const Vector Q = generalised(machine, air.field(), state);
+        const Vector Q = generalised_forces(machine, air.field(), state);
         CHECK(Q(machine.rotor().spin) == Approx(expected.moment.x()).epsilon(1e-9));
     }
 }
@@ -113,7 +88,7 @@ TEST_CASE("air on a machine: loads of the roots by equilibrium", "[crosscheck]")
     MachineState state = turning(machine, 0.6);
     state.qdd.setZero();
     const auto sampled = [&](const Turbine& turbine) {
-        const At at(turbine, state);
+        const FieldState at(turbine, state);
         const JointLoads loads = joint_loads(at.input(), turbine.system().forces, state.qdd);
         const Vector none = Vector::Zero(state.q.size());
         std::map<std::string, double> out;
@@ -127,7 +102,7 @@ TEST_CASE("air on a machine: loads of the roots by equilibrium", "[crosscheck]")
         return out;
     };
     auto with = sampled(windy), without = sampled(machine);
-    const At at(machine, state);
+    const FieldState at(machine, state);
     const TurbineDescription description = nrel5mw_description();
     const Pose<double> hub = pose(at.input().kinematics, machine.layout().rotor_centre);
     const RotorPose rotor{.tilt = description.nacelle.tilt, .cone = description.blade.cone, .hub = hub.p};
@@ -151,31 +126,7 @@ TEST_CASE("air on a machine: derivatives are those of the forces", "[property]")
         RotorAirOptions air_options;
         air_options.skew = skew;
         const MachineAir air(machine, blade, slanted, air_options);
-        const WrenchField field = air.field();
-        const MachineState state = shaken(machine, 5);
-        const Eigen::Index n = state.q.size();
-        Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
-        field.jacobian(At(machine, state).input(), by_q, by_qd);
-        const double h = 1e-6;
-        // 4e-9: roots of the balance are good to 1e-13 rad.
-        Matrix expected_q(n, n), expected_qd(n, n);
-        for (Eigen::Index a = 0; a < n; ++a) {
-            const auto moved = [&](double dq, double dqd) {
-                MachineState other = state;
-                other.q(a) += dq;
-                other.qd(a) += dqd;
-                return generalised(machine, field, other);
-            };
-            expected_q.col(a) = (moved(h, 0) - moved(-h, 0)) / (2 * h);
-            expected_qd.col(a) = (moved(0, h) - moved(0, -h)) / (2 * h);
-        }
-        for (Eigen::Index a = 0; a < n; ++a) {
-            CAPTURE(a, machine.system().model.coordinates()[static_cast<int>(a)].name);
-            CHECK((by_q.col(a) - expected_q.col(a)).norm() <
-                  1e-6 * expected_q.col(a).norm() + 4e-9 * expected_q.norm());
-            CHECK((by_qd.col(a) - expected_qd.col(a)).norm() <
-                  1e-6 * expected_qd.col(a).norm() + 1e-9 * expected_qd.norm());
-        }
+        const Matrix by_q = checked_derivatives(machine, air.field(), shaken(machine, 5), 4e-9, 1e-9);
         // Without a skewed wake blades do not feel each other.
         const RotorMap& rotor = machine.rotor();
         CHECK((by_q(rotor.blades[0].back(), rotor.blades[1].back()) == 0) == (skew == Skew::none));
@@ -195,7 +146,8 @@ TEST_CASE("air on a machine: a wind over time is at every instant a steady one",
         state.time = time;
         const MachineAir steady = air.in(air.wind().at(time));
         CHECK(steady.wind().is_steady());
-        CHECK(generalised(machine, air.field(), state).isApprox(generalised(machine, steady.field(), state), 1e-14));
+        CHECK(generalised_forces(machine, air.field(), state)
+                  .isApprox(generalised_forces(machine, steady.field(), state), 1e-14));
     }
 }
 
@@ -203,7 +155,7 @@ TEST_CASE("air on a machine: evaluations allocate nothing", "[memory]") {
     const Turbine machine = nrel5mw(Nrel5mwVariant::report, 4, 2);
     const MachineAir air(machine, nrel5mw_aero_blade(), slanted);
     const WrenchField field = air.field();
-    const At at(machine, shaken(machine, 2));
+    const FieldState at(machine, shaken(machine, 2));
     const ForceInput input = at.input();
     const Eigen::Index n = input.q.size();
     std::vector<Wrench> wrenches(field.points.size());

@@ -4,7 +4,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
+#include "tests/turbines/aerodynamics/field_at_state.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
@@ -52,30 +52,6 @@ Turbine machine_on(Stand stand, double tilt = 0.087, double cone = -0.044) {
     return assemble(description, nrel5mw_assembly(Nrel5mwVariant::report, 2, 2));
 }
 
-class TowerAt {
-public:
-    TowerAt(const Turbine& machine, const MachineState& state)
-        : state_(state),
-          workspace_(machine.system().model),
-          kin_(kinematics(machine.system().model, state_.q, workspace_)) {}
-    ForceInput input() const { return {state_.time, state_.q, state_.qd, kin_, no_states, no_states}; }
-
-private:
-    MachineState state_;
-    Workspace workspace_;
-    Kinematics kin_;
-};
-
-Vector forces_of(const Turbine& machine, const WrenchField& field, const MachineState& state) {
-    ForceSet only;
-    only.add_field(field);
-    const Forces forces(only, machine.system().model);
-    Workspace workspace(machine.system().model);
-    Vector Q(state.q.size());
-    forces.generalised_forces(kinematics(machine.system().model, state.q, workspace), state.time, state.q, state.qd, Q);
-    return Q;
-}
-
 // Force, and moment about the ground's origin.
 Wrench sum_of(const WrenchField& field, const ForceInput& at) {
     std::vector<Wrench> all(field.points.size());
@@ -99,31 +75,6 @@ MachineState passing(const Turbine& machine, unsigned seed) {
     return state;
 }
 
-// Derivatives of a field against central differences.
-// @param noise  of the forces that are differenced, over the step and their largest derivative
-void check_derivatives(const Turbine& machine, const WrenchField& field, const MachineState& state, double noise) {
-    const Eigen::Index n = state.q.size();
-    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n), expected_q(n, n), expected_qd(n, n);
-    field.jacobian(TowerAt(machine, state).input(), by_q, by_qd);
-    const double h = 1e-6;
-    for (Eigen::Index a = 0; a < n; ++a) {
-        const auto moved = [&](double dq, double dqd) {
-            MachineState other = state;
-            other.q(a) += dq;
-            other.qd(a) += dqd;
-            return forces_of(machine, field, other);
-        };
-        expected_q.col(a) = (moved(h, 0) - moved(-h, 0)) / (2 * h);
-        expected_qd.col(a) = (moved(0, h) - moved(0, -h)) / (2 * h);
-    }
-    for (Eigen::Index a = 0; a < n; ++a) {
-        CAPTURE(a, machine.system().model.coordinates()[static_cast<int>(a)].name);
-        CHECK((by_q.col(a) - expected_q.col(a)).norm() < 1e-6 * expected_q.col(a).norm() + noise * expected_q.norm());
-        CHECK((by_qd.col(a) - expected_qd.col(a)).norm() <
-              1e-6 * expected_qd.col(a).norm() + noise * expected_qd.norm());
-    }
-}
-
 // Integral of f up to the tower's top by Simpson's rule: exact for a cubic.
 template <class F>
 double up_to_top(double from, const F& f) {
@@ -137,7 +88,7 @@ TEST_CASE("air on a tower: force and moment are the integrals by hand", "[analyt
         const Turbine machine = machine_on(stand);
         const WrenchField field = TowerAir(machine, {.tower = table(1)}, oblique).field();
         CHECK(field.name == "air on the tower");
-        const Wrench sum = sum_of(field, TowerAt(machine, MachineState(machine)).input());
+        const Wrench sum = sum_of(field, FieldState(machine, MachineState(machine)).input());
         // Across the tower, which stands upright, the wind is level.
         const Vec3 along(std::cos(0.3), std::sin(0.3), 0);
         const double across = 11 * std::cos(0.1), pressure = 1.225 / 2 * coefficient * across * across;
@@ -158,7 +109,7 @@ TEST_CASE("air on a tower: loads of its base by equilibrium", "[crosscheck]") {
     MachineState state(machine);
     state.qdd.setZero();
     const auto sampled = [&](const Turbine& turbine) {
-        const TowerAt at(turbine, state);
+        const FieldState at(turbine, state);
         const JointLoads loads = joint_loads(at.input(), turbine.system().forces, state.qdd);
         const Vector none = Vector::Zero(state.q.size());
         std::map<std::string, double> out;
@@ -177,14 +128,14 @@ TEST_CASE("air on a tower: loads of its base by equilibrium", "[crosscheck]") {
     CHECK(with["TwrBsFxt"] - without["TwrBsFxt"] == Approx(tower + nacelle).epsilon(1e-10));
     CHECK(with["TwrBsMyt"] - without["TwrBsMyt"] ==
           Approx(pressure * coefficient * top * top * (thick / 6 + thin / 3) + nacelle * (top + 1.8)).epsilon(1e-10));
-    CHECK(air.nacelle(TowerAt(machine, state).input()).x() == Approx(nacelle));
+    CHECK(air.nacelle(FieldState(machine, state).input()).x() == Approx(nacelle));
 }
 
 TEST_CASE("air on a tower: work does not depend on how a load that is linear is cut", "[property]") {
     const Turbine machine = machine_on(Stand::elastic);
     const MachineState state(machine);
-    const Vector coarse = forces_of(machine, TowerAir(machine, {.tower = table(1)}, oblique).field(), state),
-                 fine = forces_of(machine, TowerAir(machine, {.tower = table(37)}, oblique).field(), state);
+    const Vector coarse = generalised_forces(machine, TowerAir(machine, {.tower = table(1)}, oblique).field(), state),
+                 fine = generalised_forces(machine, TowerAir(machine, {.tower = table(37)}, oblique).field(), state);
     CHECK((coarse - fine).norm() < 1e-12 * coarse.norm());
 }
 
@@ -200,7 +151,7 @@ TEST_CASE("air on a tower: in a wind that changes with height, second order in t
     for (const int intervals : {4, 8, 16}) {
         const WrenchField field =
             TowerAir(machine, {.tower = table(intervals, TowerDam::none, lowest)}, sheared).field();
-        const Wrench sum = sum_of(field, TowerAt(machine, MachineState(machine)).input());
+        const Wrench sum = sum_of(field, FieldState(machine, MachineState(machine)).input());
         errors.push_back(std::abs(sum.force.x() - exact));
     }
     // The load is a cubic: the trapezoidal rule has no other term of its error.
@@ -218,7 +169,7 @@ TEST_CASE("air on a tower: a tower that moves against the wind, a nacelle that t
     state.qd(model.index(base->coordinates[0])) = -2;  // surge
     state.qd(model.index(base->coordinates[1])) = 3;   // sway
     const Vec3 V(11, -3, 0);
-    const TowerAt moving(machine, state);
+    const FieldState moving(machine, state);
     const std::vector<Vec3> tower = air.tower(moving.input());
     REQUIRE(tower.size() == 3);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -232,7 +183,7 @@ TEST_CASE("air on a tower: a tower that moves against the wind, a nacelle that t
     const double c = std::cos(0.4), s = std::sin(0.4), pressure = 1.225 / 2 * 81;
     const Vec3 own(pressure * 30 * 1.1 * c * c, -pressure * 50 * 1.2 * s * s, 0);
     const Vec3 expected(c * own.x() - s * own.y(), s * own.x() + c * own.y(), 0);
-    CHECK((air.nacelle(TowerAt(machine, yawed).input()) - expected).norm() < 1e-12 * expected.norm());
+    CHECK((air.nacelle(FieldState(machine, yawed).input()) - expected).norm() < 1e-12 * expected.norm());
 }
 
 TEST_CASE("air on a tower: derivatives are those of the forces", "[property]") {
@@ -244,7 +195,7 @@ TEST_CASE("air on a tower: derivatives are those of the forces", "[property]") {
             const TowerAir air(machine, {.tower = tower, .nacelle = box}, twisted);
             CAPTURE(static_cast<int>(stand), loads);
             // Rounding of the forces, 1e-16 of them over the step.
-            check_derivatives(machine, air.field(), passing(machine, 4), 1e-9);
+            checked_derivatives(machine, air.field(), passing(machine, 4), 1e-9, 1e-9);
         }
     }
 }
@@ -257,7 +208,7 @@ TEST_CASE("tower dam on a machine: the wind at the sections is that of the formu
     const double azimuth = pi - 0.03;
     state.q(machine.rotor().spin) = azimuth;
     state.qd(machine.rotor().spin) = 1.1;
-    const TowerAt at(machine, state);
+    const FieldState at(machine, state);
     const MachineAir open(machine, blade, wind);
     const auto without = open.sections(at.input());
     const Vec3 hub = hub_at_rest(machine);
@@ -314,7 +265,7 @@ TEST_CASE("tower dam on a machine: derivatives are those of the forces", "[prope
                 CAPTURE(static_cast<int>(stand), static_cast<int>(dam), static_cast<int>(skew));
                 // 4e-9: roots of the balance are good to 1e-13 rad, but where the air comes along the plane of the
                 // rotor (phi = -0.003 in one section with seed 6: 8e-12), which this state has nowhere.
-                check_derivatives(machine, air.field(), passing(machine, 7), 4e-9);
+                checked_derivatives(machine, air.field(), passing(machine, 7), 4e-9, 4e-9);
             }
     }
 }
@@ -322,7 +273,7 @@ TEST_CASE("tower dam on a machine: derivatives are those of the forces", "[prope
 TEST_CASE("tower dam on a machine: the wind in and next to the tower, and without rows, is as it was", "[property]") {
     const Turbine machine = machine_on(Stand::elastic);
     const AeroBlade blade = nrel5mw_aero_blade();
-    const TowerAt at(machine, passing(machine, 6));
+    const FieldState at(machine, passing(machine, 6));
     AeroTower wide = table(1, TowerDam::potential);
     wide.diameter = {30, 30};  // around the blade
     const MachineAir in_it(machine, blade, twisted, {}, {.tower = wide}), open(machine, blade, twisted);
@@ -342,7 +293,7 @@ TEST_CASE("air on a tower: evaluations allocate nothing", "[memory]") {
     const Turbine machine = machine_on(Stand::elastic);
     const MachineAir air(machine, nrel5mw_aero_blade(), twisted, {},
                          {.tower = table(6, TowerDam::bak), .nacelle = box});
-    const TowerAt at(machine, passing(machine, 2));
+    const FieldState at(machine, passing(machine, 2));
     const ForceInput input = at.input();
     const Eigen::Index n = input.q.size();
     Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
@@ -358,7 +309,7 @@ TEST_CASE("air on a tower: evaluations allocate nothing", "[memory]") {
 TEST_CASE("air on a tower: other winds, and what is refused", "[validation]") {
     const Turbine machine = machine_on(Stand::elastic);
     const AeroSupport support{.tower = table(2), .nacelle = box};
-    const TowerAt at(machine, MachineState(machine));
+    const FieldState at(machine, MachineState(machine));
     const TowerAir air = TowerAir(machine, support, SteadyWind{.speed = 5}).in(SteadyWind{.speed = 10});
     const TowerAir same(machine, support, SteadyWind{.speed = 10});
     CHECK(air.tower(at.input())[1] == same.tower(at.input())[1]);
@@ -377,7 +328,8 @@ TEST_CASE("air on a tower: other winds, and what is refused", "[validation]") {
     check_refused([&] { TowerAir(blade, {.nacelle = box}, oblique); }, {"air on the nacelle", "nacelle = none"});
     check_refused([&] { TowerAir(machine, {.nacelle = {.area = {1, 1, -1}}}, oblique); }, {"area [m^2] = -1"});
     const Turbine tower = isolated_tower(nrel5mw_description());
-    CHECK(TowerAir(tower, {.tower = table(2)}, oblique).tower(TowerAt(tower, MachineState(tower)).input()).size() == 3);
+    CHECK(TowerAir(tower, {.tower = table(2)}, oblique).tower(FieldState(tower, MachineState(tower)).input()).size() ==
+          3);
 }
 
 }  // namespace cardan::testing::tower_air_tests

@@ -20,6 +20,7 @@ struct AirLags {
     std::vector<SectionLags> sections;
     std::vector<int> first;  ///< index of a section's first state
     int states = 0;
+    std::string first_name;  ///< of the first state; empty: there is none
 };
 
 /// What does not change with the state.
