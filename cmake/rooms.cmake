@@ -39,7 +39,7 @@ room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
 room(turbines/aerodynamics SEES turbines/model elements/aerodynamics) # air on the blades and the tower of a machine
 room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teetered, NREL 5 MW
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
-room(turbines/operation SEES turbines/aerodynamics solvers/periodic USES boost) # operating points over the wind
+room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) # operating points over the wind, and their modes
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 

@@ -102,23 +102,38 @@ enum class LinearisedAbout : std::uint8_t {
     automatic  ///< constant where there is one
 };
 
+/// About a steady state, periodic or constant but for the azimuth.
+/// @param more  inputs and outputs beside the usual ones
+template <class State>
+solvers::LinearModel linearise_about(const turbines::Turbine& turbine, const LinearModelArguments& a,
+                                     const State& state, solvers::RotorSpin spin,
+                                     const std::vector<solvers::LinearInput>& more_inputs = {},
+                                     const std::vector<ChannelGroup>& more_outputs = {}) {
+    solvers::StateSpaceOptions options;
+    options.azimuths = a.azimuths;
+    options.outputs = linear_outputs(turbine);
+    options.spin = spin;
+    std::vector<solvers::LinearInput> inputs = linear_inputs(turbine, spin == solvers::RotorSpin::free);
+    inputs.insert(inputs.end(), more_inputs.begin(), more_inputs.end());
+    std::vector<ChannelGroup> channels = channels_of(turbine, a.stations);
+    channels.insert(channels.end(), more_outputs.begin(), more_outputs.end());
+    const auto ask_for = [&](const std::vector<ChannelGroup>& groups) {
+        for (const ChannelGroup& group : groups)
+            for (const Channel& channel : group.channels) options.outputs.push_back(channel.name);
+    };
+    ask_for(station_channels(turbine, a.stations));
+    ask_for(more_outputs);
+    return solvers::state_space(turbine.system(), turbine.rotor(), state, inputs, channels, options);
+}
+
 /// At the rotor speed, rad/s.
 /// @throws InputError, NumericalError as the solvers do
 inline solvers::LinearModel linearise(const turbines::Turbine& turbine, const LinearModelArguments& a,
                                       double rotor_speed, solvers::RotorSpin spin, LinearisedAbout about) {
     // Before the equilibrium is sought, which takes long.
     solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
-    solvers::StateSpaceOptions options;
-    options.azimuths = a.azimuths;
-    options.outputs = linear_outputs(turbine);
-    options.spin = spin;
-    const auto list = linear_inputs(turbine, spin == solvers::RotorSpin::free);
-    const auto channels = channels_of(turbine, a.stations);
-    for (const ChannelGroup& group : station_channels(turbine, a.stations))
-        for (const Channel& channel : group.channels) options.outputs.push_back(channel.name);
     const auto about_periodic = [&] {
-        const solvers::PeriodicSteadyState state = steady_rotation(turbine, rotor_speed, a.harmonics);
-        return solvers::state_space(turbine.system(), turbine.rotor(), state, list, channels, options);
+        return linearise_about(turbine, a, steady_rotation(turbine, rotor_speed, a.harmonics), spin);
     };
     if (about == LinearisedAbout::periodic && rotor_speed != 0) return about_periodic();
     solvers::SteadyOptions steady;
@@ -131,7 +146,7 @@ inline solvers::LinearModel linearise(const turbines::Turbine& turbine, const Li
         if (about == LinearisedAbout::constant || rotor_speed == 0) throw;
         return about_periodic();
     }
-    return solvers::state_space(turbine.system(), turbine.rotor(), state.at, list, channels, options);
+    return linearise_about(turbine, a, state.at, spin);
 }
 
 /// The branch of a diagram whose eigenvalue at the last point is nearest to a pole, and nearly equal; null: none.

@@ -103,8 +103,13 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
 
 void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
     Vector none;
-    const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, input, Q, none); };
-    subtract(field.own.jacobian, add, field.factor, at, out.loads, out.damping);
+    const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, field.input(input), Q, none); };
+    std::function<void(const ForceInput&, MatrixOut, MatrixOut)> jacobian;
+    if (field.own.jacobian)
+        jacobian = [&](const ForceInput& input, const MatrixOut& by_q, const MatrixOut& by_qd) {
+            field.own.jacobian(field.input(input), by_q, by_qd);
+        };
+    subtract(jacobian, add, field.factor, at, out.loads, out.damping);
 }
 
 namespace {
@@ -125,7 +130,7 @@ void difference_field(const Evaluate& evaluate, const FieldInput& at, const std:
     const auto values = [&](const Vector& q, const Vector& qd, const Vector& s) {
         Vector all = Vector::Zero(n + m);
         const Kinematics kin = kinematics(at.kinematics.model(), q, workspace);
-        evaluate(FieldInput({at.time, q, qd, kin, at.s, at.u}, s), all);
+        evaluate(FieldInput({at.time, q, qd, kin, at.s, at.u}, s, at.own_inputs), all);
         return all;
     };
     const auto add = [&](const Vector& above, const Vector& below, double h, auto Q, auto f) {
@@ -174,6 +179,27 @@ void Forces::state_field_derivatives(const Field& field, const ForceInput& at, F
     states.Q_s.middleCols(first, m) += field.factor * own->Q_s;
 }
 
+// Central differences.
+void Forces::input_derivatives(const Field& field, const ForceInput& at, StateDerivatives& out) const {
+    constexpr double step = 1e-4;
+    const Eigen::Index n = at.q.size(), m = field.states();
+    Vector u = at.u;
+    const auto values = [&](int input, double change) {
+        u(input) = at.u(input) + change;
+        Vector all = Vector::Zero(n + m);
+        VectorOut Q = all.head(n);
+        add_field(field, field.factor, field.input({at.time, at.q, at.qd, at.kinematics, at.s, u}), Q, all.tail(m));
+        u(input) = at.u(input);
+        return all;
+    };
+    for (const int input : field.inputs) {
+        const double h = step * inputs()[input].scale;
+        const Vector slope = (values(input, h) - values(input, -h)) / (2 * h);
+        out.Q_u.col(input) += slope.head(n);
+        out.f_u.col(input).segment(field.first, m) += slope.tail(m);
+    }
+}
+
 void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
                          ForceDerivatives& out) const {
     require_no_states("forces");
@@ -185,6 +211,7 @@ void Forces::derivatives(const ForceInput& at, ForceDerivatives& out, StateDeriv
     states_.derivatives({at.time, at.q, at.qd, at.s, at.u}, out.loads, out.damping, states);
     for (const Field& field : fields_)
         if (field.states() > 0) state_field_derivatives(field, at, out, states);
+    for (const Field& field : fields_) input_derivatives(field, at, states);
 }
 
 void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const {

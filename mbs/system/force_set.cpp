@@ -172,8 +172,13 @@ Forces::Forces(const ForceSet& set, const Model& model)
             throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
 }
 
-Forces::Field Forces::bound(const WrenchField& field, const Model& model, int first) {
+Forces::Field Forces::bound(const WrenchField& field, const Model& model, int first) const {
     Field out{field, {}, {}, first};
+    for (const std::string& input : field.inputs) {
+        out.inputs.push_back(inputs().index(input));
+        if (out.inputs.back() < 0)
+            throw InputError(text("field '", field.name, "'"), "input", input, "an input of the system");
+    }
     for (const FieldPoint& point : field.points) {
         if (point.frame.index < 0 || point.frame.index >= std::ssize(model.frames()))
             throw InputError(text("field '", field.name, "'"), "frame", point.frame.index, "a frame of the tree");

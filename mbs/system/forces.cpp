@@ -156,6 +156,12 @@ const WrenchField& Forces::field(int i) const {
     return entry(fields_, i).own;
 }
 
+FieldInput Forces::field_input(std::string_view name, const ForceInput& at) const {
+    for (const Field& field : fields_)
+        if (field.own.name == name) return field.input(at);
+    throw InputError("forces", "field", std::string(name), "one of the system");
+}
+
 std::vector<Wrench> Forces::field_wrenches(int i, const ForceInput& at) const {
     const Field& own = (static_cast<void>(field(i)), entry(fields_, i));
     std::vector<Wrench> out(own.own.points.size());

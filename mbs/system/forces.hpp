@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace cardan {
 
@@ -57,12 +58,14 @@ struct FieldPoint {
     Vec3 place = Vec3::Zero();  ///< in the axes of the frame, m
 };
 
-/// A motion as a field sees it, with the field's own states.
+/// A motion as a field sees it, with the field's own states and inputs.
 struct FieldInput : ForceInput {
-    Eigen::Ref<const Vector> own;  ///< in the field's order; empty without
+    Eigen::Ref<const Vector> own;          ///< in the field's order; empty without
+    std::span<const int> own_inputs = {};  ///< WrenchField::inputs, as indices into `u`
 
     FieldInput(const ForceInput& at) : ForceInput(at), own(no_states) {}  // NOLINT(google-explicit-constructor)
-    FieldInput(const ForceInput& at, const Eigen::Ref<const Vector>& states) : ForceInput(at), own(states) {}
+    FieldInput(const ForceInput& at, const Eigen::Ref<const Vector>& states, std::span<const int> inputs = {})
+        : ForceInput(at), own(states), own_inputs(inputs) {}
 };
 
 /// Derivatives of a field with states, to be added to: of the generalised forces Q and of the states' rates f.
@@ -100,6 +103,9 @@ struct WrenchField {
     /// Every state in one of them. Empty: all depend on one another and on all coordinates.
     std::vector<FieldGroup> groups = {};
     ///@}
+    /// Names of inputs of the system (ForceSet::add_input()) that it depends on: FieldInput::own_inputs. Derivatives by
+    /// them are central differences with 1e-4 of their scale.
+    std::vector<std::string> inputs = {};
 };
 
 /// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint's spring).
@@ -220,6 +226,7 @@ public:
 
     /// @throws InputError if there are elements with states: for analyses that do not know them
     void require_no_states(const char* where) const;
+    /// There are states, or inputs.
     bool has_states() const { return !states_.empty(); }
     const StateTable& states() const { return states_.states(); }
     const InputTable& inputs() const { return states_.inputs(); }
@@ -231,6 +238,9 @@ public:
     /// Where fields act, and the wrenches there: force and moment about the place, base axes.
     int fields() const { return static_cast<int>(fields_.size()); }
     const WrenchField& field(int i) const;
+    /// A motion as the field of this name sees it; valid as long as these forces.
+    /// @throws InputError without such a field
+    FieldInput field_input(std::string_view name, const ForceInput& at) const;
     std::vector<Wrench> field_wrenches(int i, const ForceInput& at) const;
     /// Times, s, ascending, across which a load, a field or an element with states is not smooth.
     std::vector<double> breaks() const;
@@ -267,9 +277,10 @@ private:
         std::vector<Vec3> places;  // in body axes
         int first = 0;             // index of its first state
         double factor = 1;
+        std::vector<int> inputs = {};  // their indices
 
         Eigen::Index states() const { return std::ssize(own.states); }
-        FieldInput input(const ForceInput& at) const { return {at, at.s.segment(first, states())}; }
+        FieldInput input(const ForceInput& at) const { return {at, at.s.segment(first, states()), inputs}; }
     };
     // Coefficients of one row of a law's matrix, of consecutive coordinates.
     struct Run {
@@ -301,13 +312,14 @@ private:
     void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
     void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
     void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
-    static Field bound(const WrenchField& field, const Model& model, int first);
+    Field bound(const WrenchField& field, const Model& model, int first) const;
     static void evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches,
                                const VectorOut& rates);
     void add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, const VectorOut& rates) const;
     void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
     void state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
                                  StateDerivatives& states) const;
+    void input_derivatives(const Field& field, const ForceInput& at, StateDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
     template <class S>
     void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;

@@ -32,7 +32,7 @@ public:
     StateForces(std::vector<StateElement> elements, std::vector<InputInfo> inputs, const Model& model,
                 const std::vector<OtherStates>& others = {});
 
-    bool empty() const { return states_.empty() && elements_.empty(); }
+    bool empty() const { return states_.empty() && elements_.empty() && inputs_.empty(); }
     const StateTable& states() const { return states_; }
     const InputTable& inputs() const { return inputs_; }
     const std::vector<StateGroup>& groups() const { return groups_; }

@@ -350,6 +350,7 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
             throw InputError(one.rotor->machine, text("rows at ", name, " ", one.parameter),
                              solvers.back()->unknowns().size(), "those of the first machine");
         used.push_back(solvers.back().get());
+        solvers.back()->start_from(one.start, one.state_start);
         if (!sweep.add(*one.system, *solvers.back(), one.rotor_speed)) break;
         parameters.push_back(one.parameter);
     }

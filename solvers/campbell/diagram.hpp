@@ -227,11 +227,15 @@ struct CampbellCase {
     const RotorMap* rotor = nullptr;
     double rotor_speed = 0;  ///< rad/s
     double parameter = 0;    ///< its place on the axis
+    /// Where its steady state is looked for, and the motion of driven coordinates, such as a pitch that is prescribed,
+    /// as PeriodicOptions::start and state_start: columns are harmonics, a single one is constant. Empty: zero, and the
+    /// states as their table says.
+    Matrix start = {}, state_start = {};
 };
 
 /// Modes over a parameter other than rotor speed, such as the rigidity of the tower, or over the rotor speed where the
-/// machine changes with it, as its pitch does: modes are tracked from one machine to the next; all must have the same
-/// coordinates. Data of the machine in the diagram are those of the first.
+/// machine changes with it, as its pitch and the wind do: modes are tracked from one machine to the next; all must have
+/// the same coordinates. Data of the machine in the diagram are those of the first.
 /// @param parameter  what the parameter is, with its unit, for axes and tables (and no crossings); empty: the rotor
 /// speed
 /// @throws InputError also for parameters that are not finite or not increasing, and machines whose rows or component

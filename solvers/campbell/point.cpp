@@ -85,6 +85,12 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
     if (disc || blades) coleman_.emplace(rotor, unknowns_, system.forces.states());
 }
 
+// A constant state: from the mean of a periodic one.
+void PointSolver::start_from(const Matrix& coordinates, const Matrix& states) {
+    if (coordinates.size() > 0) steady_options_.initial = coordinates.col(0);
+    if (states.size() > 0) steady_options_.states = states.col(0);
+}
+
 void PointSolver::find_steady_state(double rotor_speed) {
     steady_options_.rotor_speed = rotor_speed;
     if (options_.balanced && rotor_speed != 0 && rotor_.spin >= 0) steady_options_.trim.emplace();

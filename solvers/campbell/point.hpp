@@ -19,6 +19,8 @@ public:
     PointMethod& operator=(const PointMethod&) = delete;
     virtual ~PointMethod() = default;
 
+    /// Of the next point: CampbellCase::start and state_start. Empty ones change nothing.
+    virtual void start_from(const Matrix& coordinates, const Matrix& states) = 0;
     /// @param rotor_speed  rad/s
     /// @param point  overwritten
     virtual void solve(double rotor_speed, CampbellPoint& point) = 0;
@@ -61,6 +63,7 @@ public:
     /// (then standstill only)
     PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
 
+    void start_from(const Matrix& coordinates, const Matrix& states) override;
     /// The steady-state iteration starts from the previous point. From the second call on with the same `point` nothing
     /// is allocated, but for the shares of blades that differ at standstill and where few of many modes are wanted
     /// (ModeSolver).

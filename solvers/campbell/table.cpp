@@ -120,8 +120,33 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
     return out.str();
 }
 
+// Of more states than fit on a screen, the motions that decay most slowly and fastest.
+std::string many_state_motions(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
+    std::ostringstream out;
+    out << "\nmotions of states rather than of the machine (all of them are in the file)\n" << std::setprecision(4);
+    const auto row = [&](const char* what, const auto& value) {
+        out << std::left << std::setw(width) << what << std::right;
+        for (const std::size_t i : shown) {
+            out << std::setw(19);
+            if (diagram.points[i].state_motions.empty())
+                out << "-";
+            else
+                out << value(diagram.points[i].state_motions);
+            out << "  ";
+        }
+        out << "\n";
+    };
+    const auto real = [](const StateMotion& motion) { return motion.mode.eigenvalue.real(); };
+    row("their number", [](const auto& all) { return all.size(); });
+    row("slowest decay, 1/s", [&](const auto& all) { return -real(*std::ranges::max_element(all, {}, real)); });
+    row("fastest decay, 1/s", [&](const auto& all) { return -real(*std::ranges::min_element(all, {}, real)); });
+    return out.str();
+}
+
 // A line for each state and each of its motions: "real part, 1/s; frequency, Hz".
 std::string state_motions(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
+    constexpr std::size_t most = 24;
+    if (diagram.states.size() > most) return many_state_motions(diagram, shown, width);
     std::vector<std::vector<std::vector<Complex>>> found(diagram.states.size());  // [state][shown]
     for (auto& of_state : found) of_state.resize(shown.size());
     for (std::size_t i = 0; i < shown.size(); ++i)

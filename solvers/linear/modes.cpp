@@ -99,6 +99,7 @@ Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
 
 ModeSolver::ModeSolver(Eigen::Index rows, Eigen::Index states)
     : eigen_(2 * rows + states, rows + states),
+      shares_(rows, states),
       rows_(rows),
       states_(states),
       d_(rows + states),
@@ -132,7 +133,8 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
         n >= least_for_few && states_ == 0 && largest < doubtful_ratio_of_modes * scale && largest < too_many_;
     if (!few || !solve_few(scale, largest)) solve_all(system, scale);
     std::erase_if(found_, [&](const Found& found) { return std::abs(found.eigenvalue) > largest; });
-    if (states_ > 0) find_shares(system);
+    for (Found& found : found_)
+        if (std::isnan(found.state_share)) found.state_share = share_by_iteration(system, found);
     std::erase_if(found_, [&](const Found& found) {
         return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale && found.state_share < 0.5;
     });
@@ -208,6 +210,10 @@ void ModeSolver::solve_all(const SecondOrderSystem& system, double scale) {
         if (states_ > 0) shape.array().colwise() *= balance_.head(n + states_).array();
         add(value.mu, scale);
     }
+    if (states_ > 0) {
+        const std::vector<double>& shares = shares_.compute(eigen_, balance_, mode_shift);
+        for (std::size_t i = 0; i < shares.size(); ++i) found_[i].state_share = shares[i];
+    }
     std::erase_if(found_, [&](const Found& found) {
         if (!std::isfinite(std::abs(found.eigenvalue))) return true;
         if (std::abs(found.eigenvalue) < doubtful_ratio_of_modes * scale) return false;
@@ -282,40 +288,33 @@ void ModeSolver::add(Complex mu, double scale) {
 // From the left null vector (y, w) of
 //   P(lambda) = [ lambda^2 M + lambda C + K, -Q_s; -(f_q + lambda f_qd), lambda - f_s ],
 // by inverse iteration next to the eigenvalue, in the units of d_.
-void ModeSolver::find_shares(const SecondOrderSystem& system) {
+double ModeSolver::share_by_iteration(const SecondOrderSystem& system, const Found& found) const {
     const Eigen::Index n = rows_, m = states_, size = n + m;
     const StateTerms& t = system.states;
-    const auto unit = d_.asDiagonal();
-    const auto assemble = [&](Complex lambda) {
-        ComplexMatrix P(size, size);
-        P.topLeftCorner(n, n) = (lambda * lambda) * system.M + lambda * system.C + system.K;
-        P.topRightCorner(n, m) = -t.Q_s;
-        P.bottomLeftCorner(m, n) = -(t.f_q + lambda * t.f_qd);
-        P.bottomRightCorner(m, m) = lambda * Matrix::Identity(m, m) - t.f_s;
-        return P;
-    };
-    for (Found& found : found_) {
-        ComplexVector right(size);
-        right.real() = shapes_.col(found.column);
-        if (found.eigenvalue.imag() != 0)
-            right.imag() = shapes_.col(found.column + 1);
-        else
-            right.imag().setZero();
-        const Complex lambda = found.eigenvalue, near = lambda + Complex(1, 1) * (1e-9 * std::abs(lambda) + 1e-12);
-        ComplexMatrix P = assemble(near);
-        P.topRows(n) = d_.head(n).asDiagonal() * P.topRows(n);
-        P.bottomRows(m) = d_.tail(m).cwiseInverse().asDiagonal() * P.bottomRows(m);
-        P = P * unit;
-        ComplexVector left = left_null_vector(P);
-        left.head(n) = d_.head(n).asDiagonal() * left.head(n);
-        left.tail(m) = d_.tail(m).cwiseInverse().asDiagonal() * left.tail(m);
-        const ComplexVector x = right.head(n);
-        const Complex states = left.tail(m).dot(right.tail(m)),
-                      motion = left.head(n).dot(2.0 * lambda * product(system.M, x) + product(system.C, x)) -
-                               left.tail(m).dot(product(t.f_qd, x));
-        const double total = std::abs(states) + std::abs(motion);
-        found.state_share = total > 0 ? std::abs(states) / total : 0.0;
-    }
+    ComplexVector right(size);
+    right.real() = shapes_.col(found.column);
+    if (found.eigenvalue.imag() != 0)
+        right.imag() = shapes_.col(found.column + 1);
+    else
+        right.imag().setZero();
+    const Complex lambda = found.eigenvalue, near = lambda + Complex(1, 1) * (1e-9 * std::abs(lambda) + 1e-12);
+    ComplexMatrix P(size, size);
+    P.topLeftCorner(n, n) = (near * near) * system.M + near * system.C + system.K;
+    P.topRightCorner(n, m) = -t.Q_s;
+    P.bottomLeftCorner(m, n) = -(t.f_q + near * t.f_qd);
+    P.bottomRightCorner(m, m) = near * Matrix::Identity(m, m) - t.f_s;
+    P.topRows(n) = d_.head(n).asDiagonal() * P.topRows(n);
+    P.bottomRows(m) = d_.tail(m).cwiseInverse().asDiagonal() * P.bottomRows(m);
+    P = P * d_.asDiagonal();
+    ComplexVector left = left_null_vector(P);
+    left.head(n) = d_.head(n).asDiagonal() * left.head(n);
+    left.tail(m) = d_.tail(m).cwiseInverse().asDiagonal() * left.tail(m);
+    const ComplexVector x = right.head(n);
+    const Complex states = left.tail(m).dot(right.tail(m)),
+                  motion = left.head(n).dot(2.0 * lambda * product(system.M, x) + product(system.C, x)) -
+                           left.tail(m).dot(product(t.f_qd, x));
+    const double total = std::abs(states) + std::abs(motion);
+    return total > 0 ? std::abs(states) / total : 0.0;
 }
 
 // To unit modal energy; motions of states, to a largest scaled state of 1.

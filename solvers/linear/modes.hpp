@@ -5,6 +5,7 @@
 #include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/real_eigen.hpp"
 #include "solvers/linear/linearise.hpp"
+#include "solvers/linear/state_shares.hpp"
 
 #include <limits>
 
@@ -76,7 +77,7 @@ private:
     };
     void shift(const SecondOrderSystem& system, double scale);
     void shift_states(const StateTerms& states, double scale);
-    void find_shares(const SecondOrderSystem& system);
+    double share_by_iteration(const SecondOrderSystem& system, const Found& found) const;
     void solve_all(const SecondOrderSystem& system, double scale);
     void balance();
     bool solve_few(double scale, double largest);
@@ -84,6 +85,7 @@ private:
     void normalise(const SecondOrderSystem& system);
 
     RealEigen eigen_;
+    StateShares shares_;
     Eigen::Index rows_, states_;
     Vector d_;                            // inverse roots of the diagonal of the mass matrix, then scales of the states
     LuFactors K_s_;                       // shifted stiffness

@@ -21,16 +21,6 @@ double damping(const Campbell& diagram, const Branch& branch, std::size_t point)
     return mode && mode->kind() != FloquetKind::aperiodic ? diagram.damping_ratio(branch, point) : nan;
 }
 
-// Colours by family in order of appearance in the whole diagram, so that all panels agree.
-std::size_t colour_index(const Campbell& diagram, const Branch& branch) {
-    std::vector<std::string> seen;
-    for (const Branch& b : diagram.branches) {
-        if (b.family == branch.family) return seen.size();
-        if (std::find(seen.begin(), seen.end(), b.family) == seen.end()) seen.push_back(b.family);
-    }
-    return seen.size();
-}
-
 // One panel pair of one diagram as a gnuplot script.
 class Panels {
 public:

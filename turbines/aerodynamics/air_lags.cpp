@@ -91,7 +91,6 @@ MachineAir MachineAir::with(AirLags lags) const {
     find_first_states(lags);
     const auto parts = std::make_shared<Parts>(*parts_);
     parts->lags = std::move(lags);
-    if (parts->lags->states > 0) parts->lags->first_name = states_of(*parts, parts->blade_numbers).front().name;
     MachineAir other = *this;
     other.parts_ = parts;
     return other;
@@ -118,13 +117,26 @@ MachineAir MachineAir::lagging(AirLagOptions options) const {
 }
 
 MachineAir MachineAir::with_frozen_wake(const FieldInput& at) const {
+    const std::array now{sections(at)};
+    return with_frozen_wake(now);
+}
+
+MachineAir MachineAir::with_frozen_wake(std::span<const std::vector<std::vector<SectionAir>>> states) const {
+    if (states.empty()) throw InputError("frozen wake", "number of states", 0, "at least 1");
     AirLags lags = lags_of(*parts_);
-    const std::vector<std::vector<SectionAir>> now = sections(at);
     const std::size_t count = parts_->profile->sections();
-    for (std::size_t i = 0; i < lags.sections.size(); ++i) {
-        const SectionAir& air = now[i / count][i % count];
-        lags.sections[i].wake = WakeLag::frozen;
-        lags.sections[i].velocity = DynamicInflow::velocity(air.induction, air.V_x, air.V_y);
+    const double share = 1 / static_cast<double>(states.size());
+    for (SectionLags& section : lags.sections) {
+        section.wake = WakeLag::frozen;
+        section.velocity.setZero();
+    }
+    for (const std::vector<std::vector<SectionAir>>& state : states) {
+        if (state.size() * count != lags.sections.size())
+            throw InputError("frozen wake", "number of blades", state.size(), text(lags.sections.size() / count));
+        for (std::size_t i = 0; i < lags.sections.size(); ++i) {
+            const SectionAir& air = state[i / count].at(i % count);
+            lags.sections[i].velocity += share * DynamicInflow::velocity(air.induction, air.V_x, air.V_y);
+        }
     }
     return with(std::move(lags));
 }
@@ -134,8 +146,17 @@ int MachineAir::states() const {
 }
 
 FieldInput MachineAir::input(const ForceInput& at, const Forces& forces) const {
-    if (states() == 0) return at;
-    return {at, at.s.segment(forces.states().index(parts_->lags->first_name), states())};
+    if (states() == 0 && parts_->wind_input.empty()) return at;
+    return forces.field_input(name_of_air, at);
+}
+
+MachineAir MachineAir::with_wind_input(const std::string& name) const {
+    if (name.empty()) throw InputError("air on a machine", "name of the wind's input", "''", "not empty");
+    const auto parts = std::make_shared<Parts>(*parts_);
+    parts->wind_input = name;
+    MachineAir other = *this;
+    other.parts_ = parts;
+    return other;
 }
 
 Vector MachineAir::steady_states(const FieldInput& at) const {

@@ -68,18 +68,20 @@ MachineAir MachineAir::in(const Wind& wind) const {
 }
 
 WrenchField MachineAir::field() const {
-    WrenchField field{.name = "air", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
+    WrenchField field{
+        .name = name_of_air, .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
+    if (!parts_->wind_input.empty()) field.inputs = {parts_->wind_input};
     for (const AirBlade& blade : parts_->blades)
         for (const AirPoint& point : blade.points) field.points.push_back(point.at);
     if (states() > 0) {
         add_lags(field);
         return field;
     }
-    field.wrenches = [parts = parts_](const ForceInput& at, std::span<Wrench> out) {
+    field.wrenches = [parts = parts_](const FieldInput& at, std::span<Wrench> out) {
         Borrowed<AirScratch> scratch;
         write_wrenches(*parts, AirEvaluation(*parts, at, *scratch), out);
     };
-    field.jacobian = [parts = parts_](const ForceInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
+    field.jacobian = [parts = parts_](const FieldInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
         Borrowed<AirScratch> scratch;
         AirEvaluation(*parts, at, *scratch).add_derivatives(by_q, by_qd);
     };
@@ -103,6 +105,7 @@ void MachineAir::add_lags(WrenchField& field) const {
 
 Turbine MachineAir::on(const Turbine& turbine) const {
     ForceSet forces = turbine.forces();
+    if (!parts_->wind_input.empty()) forces.add_input({.name = parts_->wind_input, .unit = "m/s", .scale = 1});
     forces.add_field(field());
     if (!parts_->support.is_empty()) forces.add_field(parts_->support.field());
     return turbine.with_forces(forces, text("in the air, ", in_words(parts_->wind)));

@@ -17,6 +17,7 @@
 #include "turbines/model/assembly.hpp"
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,13 @@ public:
     MachineAir lagging(AirLagOptions options) const;
     /// Likewise, the induced velocities being those of a state for ever; profiles lag as they do.
     MachineAir with_frozen_wake(const FieldInput& at) const;
+    /// The mean of several states, such as those of a revolution: sections().
+    /// @throws InputError for none, and those of another machine
+    MachineAir with_frozen_wake(std::span<const std::vector<std::vector<SectionAir>>> states) const;
+    /// Likewise, in a wind that an input of the system changes: m/s, added to the speed at the reference height, of
+    /// which the wind elsewhere is a share. on() adds the input, zero at the start. Blades see it; tower and nacelle do
+    /// not.
+    MachineAir with_wind_input(const std::string& name = "wind speed") const;
     int states() const;
     /// A motion with those of the system's states that are the air's.
     /// @param forces  of on()

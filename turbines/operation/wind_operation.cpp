@@ -80,7 +80,6 @@ WindOperation::WindOperation(TurbineDescription description, AssemblyOptions opt
       options_(std::move(wind)),
       constant_(is_isotropic(description_, options) && is_constant_in(options_.wind) &&
                 !options_.support.tower.has_dam()) {
-    options.spin = CoordinateRole::driven;
     options.pitch = 0;
     options.pitch_drives = true;
     turbine_ = assemble(description_, options);

@@ -91,8 +91,8 @@ struct WindOperationOptions {
 /// One per thread.
 class WindOperation {
 public:
-    /// The rotor turns at the speed that is asked for, and the pitch is prescribed: behind pitch bearings that are
-    /// elastic, in the place of those that are rigid.
+    /// The rotor turns at the speed that is asked for, whatever the torque of its shaft, and the pitch is prescribed:
+    /// behind pitch bearings that are elastic, in the place of those that are rigid.
     /// @throws InputError as assemble() and MachineAir
     WindOperation(TurbineDescription description, AssemblyOptions options, const AeroBlade& blade,
                   WindOperationOptions wind = {});
@@ -106,13 +106,16 @@ public:
 
     /// The machine of a point, with the air, for channels and linearisation.
     Turbine machine(const Operation& operation) const;
+    /// Its air; and the machine as it is without air.
+    MachineAir air_at(const Operation& operation) const;
+    const Turbine& machine_without_air() const { return *turbine_; }
+    const TurbineDescription& description() const { return description_; }
     double radius() const;     ///< of the rotor at rest, m
     bool is_constant() const;  ///< nothing depends on the azimuth
 
 private:
     WindPoint solve(const Operation& operation, const Matrix& start) const;
     WindPoint at_rated(double wind, const VariableSpeed& law);
-    MachineAir air_at(const Operation& operation) const;
     void evaluate(WindPoint& point, const MachineAir& air, const Turbine& windy) const;
     Matrix with_pitch(Matrix start, double pitch) const;
 

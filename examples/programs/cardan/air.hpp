@@ -4,12 +4,14 @@
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/tower.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
 #include "elements/aerodynamics/wind.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include "examples/shared/machine_file.hpp"
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cardan::program {
 
@@ -30,6 +32,8 @@ struct Air {
     RotorAirOptions options;
     double density = 1.225;
     AeroSupport support = {};  ///< heights as the file has them
+    /// Of the blade's polars, with their lags; empty: they have no such data.
+    std::vector<UnsteadyProfile> profiles = {};
 };
 /// @throws InputError for a machine without profiles; as the readers
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments);

@@ -1,4 +1,4 @@
-// Campbell diagram of any machine.
+// Campbell diagram of any machine, over the rotor speed; or in the wind, over the wind speed (campbell_wind.cpp).
 //
 // Problem: the machine's source becomes a description, blades and tower as beams; at every rotor speed it is brought to
 // its steady state and linearised, and the multi-blade transformation makes the equations constant. With gravity or an
@@ -10,6 +10,7 @@
 #include "mbs/base/units.hpp"
 
 #include "examples/programs/campbell_program.hpp"
+#include "examples/programs/cardan/campbell_wind.hpp"
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
 #include "examples/shared/words.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 struct CampbellArguments {
     MachineOptions machine;
+    VibrationArguments air;
     std::string rpm, pitch_schedule, out;
     std::optional<double> max_frequency;
 };
@@ -40,6 +42,7 @@ void declare(CommandLine& app, CampbellArguments& a) {
         "--max-frequency", a.max_frequency,
         "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
+    add_vibration_options(app, a.air);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 
@@ -123,8 +126,18 @@ solvers::Campbell diagram_of(const MachineFile& machine, const CampbellArguments
     return solvers::campbell(cases, "", options);
 }
 
+int run_in_wind(CampbellArguments& a, const MachineFile& machine, const CommandLine& command) {
+    if (!a.rpm.empty()) throw InputError("--rpm", "value", a.rpm, "none beside --wind: see --schedule");
+    if (!a.pitch_schedule.empty())
+        throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell_wind");
+    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
+    return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, command);
+}
+
 int run(CampbellArguments& a, const CommandLine& command) {
     const MachineFile machine = prepared_machine(a.machine);
+    if (!a.air.wind.speeds.empty()) return run_in_wind(a, machine, command);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell");
     const std::vector<double> speeds = speeds_of(a, machine.file), pitch = pitch_angles(a, machine, speeds);
     if (!a.pitch_schedule.empty()) a.machine.pitch = pitch.back();
@@ -152,10 +165,13 @@ int run(CampbellArguments& a, const CommandLine& command) {
 }  // namespace
 
 int campbell_command(int argc, char** argv) {
-    return run_command<CampbellArguments>("cardan campbell",
-                                          "Campbell diagram of any machine: frequencies and damping over rotor speed.\n"
-                                          "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, and prints a table.",
-                                          argc, argv, declare, run);
+    return run_command<CampbellArguments>(
+        "cardan campbell",
+        "Campbell diagram of any machine: frequencies and damping over rotor speed, or with "
+        "--wind, in the air, over the wind speed.\n"
+        "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, and prints a table; "
+        "with --wind also PREFIX_roots.svg, .png.",
+        argc, argv, declare, run);
 }
 
 }  // namespace cardan::program

@@ -11,9 +11,12 @@
 #include "mbs/model/summary.hpp"
 #include "solvers/periodic/floquet.hpp"
 
+#include "examples/programs/cardan/campbell_wind.hpp"
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
 #include "examples/programs/linear_model_program.hpp"
+#include <functional>
+#include <utility>
 
 namespace cardan::program {
 
@@ -21,6 +24,7 @@ namespace {
 
 struct LineariseArguments {
     MachineOptions machine;
+    VibrationArguments air;
     LinearModelArguments model{.azimuths = 24};
     std::optional<double> rpm, max_frequency;
     double azimuth = 0;
@@ -35,6 +39,7 @@ void declare(CommandLine& app, LineariseArguments& a) {
     app.add_option("--azimuth", a.azimuth,
                    "of a periodic model that is given as a constant one, deg; the nearest there is");
     app.add_flag("--gravity", a.machine.gravity, "about the periodic steady state under gravity");
+    add_vibration_options(app, a.air);
     add_machine_options(app, a.machine);
 }
 
@@ -179,24 +184,11 @@ void add_balanced(std::vector<solvers::NamedModel>& models, const LineariseArgum
     }
 }
 
-int run(LineariseArguments& a, const CommandLine& command) {
-    const MachineFile machine = prepared_machine(a.machine);
-    const turbines::TurbineDescription& description = machine.file.description;
-    if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, "linear");
-    const double speed = rotor_speed(a.rpm, machine);
-    a.rpm = speed * units::to_rpm;
-    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
-    a.model.max_frequency = *a.max_frequency;
-    check(a.model, *a.rpm);
-    set_pitch(machine, a.machine, speed);
-    const ReadyMachine ready = ready_machine(machine, a.machine, a.model.max_frequency, std::abs(speed));
-    const turbines::Turbine& turbine = ready.turbine;
-    std::printf("%s\n", in_words(ready.mesh).c_str());
-    check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
-
-    const solvers::RotorSpin spin = rotor_spin(machine);
-    solvers::LinearModel model = linearise(turbine, a.model, speed, spin,
-                                           a.machine.gravity ? LinearisedAbout::periodic : LinearisedAbout::automatic);
+// The constant forms of a model, its modes beside those of the Campbell diagram, and the files.
+// @param diagram  of a form; called once
+int finish(LineariseArguments& a, const CommandLine& command, const turbines::Turbine& turbine,
+           const turbines::TurbineDescription& description, solvers::LinearModel model,
+           const std::function<std::optional<solvers::Campbell>(Form)>& diagram) {
     model.description = run_text("linearise", command) + model.description;
     const Form form = form_of(model, description);
     std::vector<solvers::NamedModel> constant;
@@ -207,7 +199,7 @@ int run(LineariseArguments& a, const CommandLine& command) {
     } else {
         introduce(model, *a.rpm, nullptr);
     }
-    const std::optional<solvers::Campbell> modes = diagram(turbine, a, speed, spin, form);
+    const std::optional<solvers::Campbell> modes = diagram(form);
     if (form == Form::periodic) {
         constant.push_back({"frozen", frozen(model, a.azimuth * units::degree)});
         const std::string& about = constant.back().model.description;
@@ -227,12 +219,70 @@ int run(LineariseArguments& a, const CommandLine& command) {
     return 0;
 }
 
+// At an operating point in the wind; wind and pitch are inputs, and what the air does to the rotor an output.
+int run_in_wind(LineariseArguments& a, const MachineFile& machine, const CommandLine& command) {
+    if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
+    WindRun run = wind_run(machine, a.machine, a.air.wind, a.air.harmonics, a.model.azimuths, a.model.max_frequency);
+    if (run.speeds.size() != 1)
+        throw InputError("--wind", "number of wind speeds", run.speeds.size(), "1 for a linear model");
+    std::printf("%s\n", in_words(run.ready.mesh).c_str());
+    turbines::AeroelasticOptions air = air_that_lags(a.air, run.air);
+    find_points(run, machine, a.machine, a.air.wind);
+    if (run.points.empty()) return run.complete ? 1 : 130;
+    const turbines::Operation& operation = run.points.front().operation;
+    a.rpm = operation.rotor_speed * units::to_rpm;
+
+    const solvers::RotorSpin spin = rotor_spin(machine);
+    const auto modes = [&, air](Form form) -> std::optional<solvers::Campbell> {
+        if (form != Form::multi_blade) return std::nullopt;
+        solvers::CampbellOptions options;
+        options.spin = spin;
+        options.max_frequency_hz = a.model.max_frequency;
+        options.keep_shapes = false;
+        options.floquet.harmonics = a.air.harmonics;
+        return turbines::aeroelastic_campbell(run.operation, run.points, air, options);
+    };
+    air.wind_input = true;
+    const turbines::AeroelasticPoint point = turbines::aeroelastic(run.operation, run.points.front(), air);
+    const turbines::Turbine& turbine = point.machine;
+    solvers::LinearInput::Coordinates toward_feather;
+    for (const BodyId drive : turbine.layout().pitch_drives)
+        toward_feather.emplace_back(turbine.system().model.index(drive), -1.0);
+    solvers::LinearModel model =
+        linearise_about(turbine, a.model, turbines::steady_state(point, operation.rotor_speed, a.air.harmonics), spin,
+                        {solvers::LinearInput::system_input(turbines::wind_input),
+                         solvers::LinearInput::motion("collective pitch", toward_feather)},
+                        {point.air.channels()});
+    return finish(a, command, turbine, machine.file.description, std::move(model), modes);
+}
+
+int run(LineariseArguments& a, const CommandLine& command) {
+    const bool windy = !a.air.wind.speeds.empty();
+    const MachineFile machine = prepared_machine(a.machine);
+    if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
+    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
+    a.model.max_frequency = *a.max_frequency;
+    check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
+    check(a.model, a.rpm.value_or(0));
+    if (windy) return run_in_wind(a, machine, command);
+    const double speed = rotor_speed(a.rpm, machine);
+    a.rpm = speed * units::to_rpm;
+    set_pitch(machine, a.machine, speed);
+    const ReadyMachine ready = ready_machine(machine, a.machine, a.model.max_frequency, std::abs(speed));
+    std::printf("%s\n", in_words(ready.mesh).c_str());
+    const solvers::RotorSpin spin = rotor_spin(machine);
+    solvers::LinearModel model = linearise(ready.turbine, a.model, speed, spin,
+                                           a.machine.gravity ? LinearisedAbout::periodic : LinearisedAbout::automatic);
+    return finish(a, command, ready.turbine, machine.file.description, std::move(model),
+                  [&](Form form) { return diagram(ready.turbine, a, speed, spin, form); });
+}
+
 }  // namespace
 
 int linearise_command(int argc, char** argv) {
     return run_command<LineariseArguments>(
         "cardan linearise",
-        "Linear model of any machine at a rotor speed, for control design.\n"
+        "Linear model of any machine at a rotor speed, or with --wind at an operating point, for control design.\n"
         "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.\n"
         "Three and more equal blades: in multi-blade coordinates, averaged over the azimuth, and reduced. Two blades "
         "or blades that differ: the model is periodic, and is given at all azimuths.",

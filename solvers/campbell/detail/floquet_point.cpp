@@ -94,6 +94,13 @@ void PeriodicPointSolver::warn(const std::string& what) {
     if (warning_.empty() && !what.empty()) warning_ = what;
 }
 
+void PeriodicPointSolver::start_from(const Matrix& coordinates, const Matrix& states) {
+    standstill_.start_from(coordinates, states);
+    start_ = coordinates;
+    state_start_ = states;
+    state_.reset();
+}
+
 void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     if (rotor_speed == 0) {
         standstill_.solve(0, point);
@@ -127,6 +134,8 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     options.harmonics = options_.floquet.harmonics;
     options.held = options_.floquet.held;
     options.rotor = &rotor_;
+    options.start = start_;
+    options.state_start = state_start_;
     // The known state first: from it the next one is approached in parts if it has to be.
     std::vector<double> speeds{rotor_speed};
     if (state_) {

@@ -15,6 +15,7 @@ public:
     /// @throws InputError without a rotor, for two blades unless the method is Floquet's, and as ColemanTransform
     PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options);
 
+    void start_from(const Matrix& coordinates, const Matrix& states) override;
     /// @throws InputError for options out of range; NumericalError where no periodic steady state is found (for example
     /// if a mean load acts on an unrestrained coordinate), and as floquet(); the solver can be used again
     void solve(double rotor_speed, CampbellPoint& point) override;
@@ -48,7 +49,8 @@ private:
     const System& system_;
     const RotorMap& rotor_;
     CampbellOptions options_;
-    PointSolver standstill_;  // also: rows, names, energy shares
+    PointSolver standstill_;      // also: rows, names, energy shares
+    Matrix start_, state_start_;  // of the first point
     std::optional<PeriodicSteadyState> state_;
     BladeSymmetry symmetry_;  // of the last point; none if the blades differ
     double difference_ = 0;   // of the blades

@@ -22,11 +22,13 @@ bool blades_differ(const System& system, const RotorMap& rotor) {
 }
 
 // Empty: constant in multi-blade coordinates, and there is a constant steady state.
-std::string periodic_because(const System& system, const RotorMap& rotor, double rotor_speed, CampbellOptions options) {
+std::string periodic_because(const CampbellCase& machine, double rotor_speed, CampbellOptions options) {
+    const RotorMap& rotor = *machine.rotor;
     options.method = CampbellMethod::coleman;
     std::string why = "there is no constant steady state";
     try {
-        PointSolver solver(system, rotor, options);
+        PointSolver solver(*machine.system, rotor, options);
+        solver.start_from(machine.start, machine.state_start);
         if (solver.periodic_remainder(rotor_speed) < negligible_remainder) return {};
         why = text("the equations are not constant in ", rotor.blades.empty()       ? "the fixed frame"
                                                          : rotor.blades.size() == 1 ? "the rotating frame"
@@ -34,7 +36,7 @@ std::string periodic_because(const System& system, const RotorMap& rotor, double
     } catch (const NumericalError&) {
     }
     if (rotor.blades.size() == 1) return "one blade: " + why;
-    return blades_differ(system, rotor) ? "the blades differ" : why;
+    return blades_differ(*machine.system, rotor) ? "the blades differ" : why;
 }
 
 // Empty: three or more blades in multi-blade coordinates, or none to transform.
@@ -44,10 +46,9 @@ std::string without_rows(const System& system, const RotorMap& rotor) {
     return without_multi_blade_coordinates(rotor, system.model.coordinates().free());
 }
 
-}  // namespace
-
-MethodChoice choose_method(const System& system, const RotorMap& rotor, std::span<const double> rotor_speeds,
-                           const CampbellOptions& options) {
+MethodChoice choose(const CampbellCase& machine, std::span<const double> rotor_speeds, const CampbellOptions& options) {
+    const System& system = *machine.system;
+    const RotorMap& rotor = *machine.rotor;
     if (options.method != CampbellMethod::automatic) return {options.method};
     if (rotor.spin < 0) return {CampbellMethod::coleman};
     const bool standstill = std::ranges::any_of(rotor_speeds, [](double speed) { return speed == 0; });
@@ -65,15 +66,22 @@ MethodChoice choose_method(const System& system, const RotorMap& rotor, std::spa
         return {CampbellMethod::coleman,
                 blades_differ(system, rotor) ? text("the blades differ, but nothing turns", at_standstill) : ""};
     for (const double speed : {fastest, slowest})
-        if (const std::string why = periodic_because(system, rotor, speed, options); !why.empty()) return floquet(why);
+        if (const std::string why = periodic_because(machine, speed, options); !why.empty()) return floquet(why);
     return {CampbellMethod::coleman};
+}
+
+}  // namespace
+
+MethodChoice choose_method(const System& system, const RotorMap& rotor, std::span<const double> rotor_speeds,
+                           const CampbellOptions& options) {
+    return choose({.system = &system, .rotor = &rotor}, rotor_speeds, options);
 }
 
 MethodChoice choose_method(std::span<const CampbellCase> cases, const std::string& parameter,
                            const CampbellOptions& options) {
     for (const CampbellCase& one : cases) {
         const std::array speed{one.rotor_speed};
-        MethodChoice choice = choose_method(*one.system, *one.rotor, speed, options);
+        MethodChoice choice = choose(one, speed, options);
         if (options.method != CampbellMethod::automatic) return choice;
         if (choice.method == CampbellMethod::coleman) continue;
         if (&one != &cases[0]) choice.reason += text(" (at ", parameter, " ", one.parameter, ")");

@@ -2,6 +2,8 @@
 
 #include "mbs/base/units.hpp"
 
+#include <algorithm>
+
 namespace cardan::solvers {
 
 int dash(RotorPattern pattern) {
@@ -16,6 +18,15 @@ int dash(RotorPattern pattern) {
         default:
             return 1;
     }
+}
+
+std::size_t colour_index(const Campbell& diagram, const Branch& branch) {
+    std::vector<std::string> seen;
+    for (const Branch& b : diagram.branches) {
+        if (b.family == branch.family) return seen.size();
+        if (std::find(seen.begin(), seen.end(), b.family) == seen.end()) seen.push_back(b.family);
+    }
+    return seen.size();
 }
 
 std::vector<double> abscissae(const Campbell& diagram) {

@@ -12,6 +12,9 @@ namespace cardan::solvers {
 /// gnuplot dash type that distinguishes rotor patterns of the same family.
 int dash(RotorPattern pattern);
 
+/// Colours by family in order of appearance in the whole diagram, so that all panels and pictures agree.
+std::size_t colour_index(const Campbell& diagram, const Branch& branch);
+
 /// Rotor speeds in rev/min, or the values of another parameter.
 std::vector<double> abscissae(const Campbell& diagram);
 

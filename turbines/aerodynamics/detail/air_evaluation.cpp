@@ -14,6 +14,7 @@ AirEvaluation::AirEvaluation(const AirParts& parts, const FieldInput& at, AirScr
       scratch_(scratch),
       motion_(at, parts.bodies, scratch.rates),
       wind_(parts.wind.at(at.time)) {
+    if (!at.own_inputs.empty()) wind_.speed += at.u(at.own_inputs.front());
     shaft_ = motion_.rotation(parts.hub_body) * parts.hub_axis;
     hub_ = motion_.place(parts.hub_body, parts.hub_place);
     place_sections();

@@ -20,7 +20,6 @@ struct AirLags {
     std::vector<SectionLags> sections;
     std::vector<int> first;  ///< index of a section's first state
     int states = 0;
-    std::string first_name;  ///< of the first state; empty: there is none
 };
 
 /// What does not change with the state.
@@ -36,6 +35,7 @@ struct AirParts {
     std::vector<int> bodies;             ///< all that move a section, ascending
     std::optional<DamParts> dam;         ///< the tower changes the wind at the sections
     std::optional<AirLags> lags;
+    std::string wind_input;  ///< that changes the wind's speed; empty: none
 };
 
 /// A section at a state, base axes.

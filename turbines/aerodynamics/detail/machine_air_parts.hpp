@@ -11,6 +11,8 @@
 
 namespace cardan::turbines {
 
+inline constexpr const char* name_of_air = "air";  ///< MachineAir::field()
+
 struct MachineAir::Parts : AirParts {
     TowerAir support;
     std::vector<int> blade_numbers;

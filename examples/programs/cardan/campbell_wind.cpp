@@ -1,0 +1,85 @@
+// Aeroelastic Campbell diagram of any machine over the wind speed.
+//
+// Problem: at every wind speed the machine is brought to its operating point as `cardan steady --wind` does; about the
+// steady state in the air the motion is linearised with air that is frozen, in equilibrium, or lags behind it, and
+// modes are followed from one wind speed to the next. Where the state depends on the azimuth (gravity, tilt, shear) the
+// modes are those of the mean over the azimuth in multi-blade coordinates, with two blades or on demand Floquet's.
+// Motions of the air alone are apart: no vibrations of the machine.
+#include "examples/programs/cardan/campbell_wind.hpp"
+
+#include "solvers/pictures/roots.hpp"
+
+#include "examples/programs/campbell_program.hpp"
+#include "examples/programs/cardan/operation.hpp"
+#include <cstdio>
+
+namespace cardan::program {
+
+namespace {
+
+constexpr int azimuths = 24;
+
+std::string in_words(const turbines::AeroelasticOptions& air, const VibrationArguments& a) {
+    return text("wake ", name_of(air.wake), ", profiles ", air.profiles.empty() ? "steady" : "unsteady", "; ",
+                in_words(a.wind.air));
+}
+
+void write(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
+    solvers::CampbellPlotOptions picture;
+    picture.max_frequency_hz = max_frequency;
+    picture.title = title_of(diagram);
+    write_files(diagram, prefix, picture);
+    for (const char* kind : {".svg", ".png"})
+        solvers::plot_roots(diagram, prefix + "_roots" + kind,
+                            {.title = picture.title, .max_frequency_hz = max_frequency});
+    std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
+}
+
+}  // namespace
+
+turbines::AeroelasticOptions air_that_lags(const VibrationArguments& a, const Air& air) {
+    turbines::AeroelasticOptions options;
+    options.wake = turbines::wake_named(a.wake, "--wake");
+    if (!a.steady_profiles) options.profiles = air.profiles;
+    return options;
+}
+
+void add_vibration_options(CommandLine& app, VibrationArguments& a) {
+    add_wind_options(app, a.wind);
+    app.add_option("--wake", a.wake,
+                   "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
+                   "dynamic");
+    app.add_flag("--steady-profiles", a.steady_profiles,
+                 "lift, drag and moment follow the angle of attack at once, also where the profiles' data have lags");
+    app.add_flag("--floquet", a.floquet,
+                 "campbell: Floquet's theory about the periodic state in the place of the mean over the azimuth");
+    app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
+        .range(1, 200);
+}
+
+int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& a,
+                     double max_frequency, const std::string& prefix, const CommandLine& command) {
+    WindRun run = wind_run(machine, options, a.wind, a.harmonics, azimuths, max_frequency);
+    const turbines::AeroelasticOptions air = air_that_lags(a, run.air);
+    check_outputs(prefix, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
+    find_points(run, machine, options, a.wind);
+    if (run.points.empty()) return run.complete ? 1 : 130;
+
+    solvers::CampbellOptions modes = campbell_options(max_frequency);
+    modes.progress = [](int done, int total) {
+        progress(text("\rmodes at wind speed ", done, " of ", total, done == total ? "\n" : ""));
+    };
+    modes.spin = solvers::RotorSpin::prescribed;
+    modes.floquet.harmonics = a.harmonics;
+    if (a.floquet) modes.method = solvers::CampbellMethod::floquet;
+    solvers::Campbell diagram = turbines::aeroelastic_campbell(run.operation, run.points, air, modes);
+    stop_at_once();
+    diagram.remark = in_words(air, a);
+    tell_origin(diagram, machine, run.ready, run_text("campbell", command));
+    print_table(diagram);
+    if (diagram.points.empty()) return 130;
+    write(diagram, prefix, max_frequency);
+    return diagram.complete ? run.exit_code() : 130;
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,29 @@
+/// @file
+/// Campbell diagram over the wind speed: the part of `cardan campbell` that has air.
+#pragma once
+
+#include "turbines/operation/aeroelastic.hpp"
+
+#include "examples/programs/cardan/wind_run.hpp"
+#include <string>
+
+namespace cardan::program {
+
+/// What the air does to a vibration.
+struct VibrationArguments {
+    WindArguments wind;
+    std::string wake = "dynamic";
+    bool steady_profiles = false, floquet = false;
+    int harmonics = 4;
+};
+
+void add_vibration_options(CommandLine& app, VibrationArguments& arguments);
+/// As asked for, with the lags that the profiles have.
+turbines::AeroelasticOptions air_that_lags(const VibrationArguments& arguments, const Air& air);
+
+/// @param prefix  of the files
+/// @return exit code
+int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& air,
+                     double max_frequency, const std::string& prefix, const CommandLine& command);
+
+}  // namespace cardan::program

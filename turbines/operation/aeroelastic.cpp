@@ -1,0 +1,131 @@
+#include "turbines/operation/aeroelastic.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
+
+#include <array>
+#include <utility>
+
+namespace cardan::turbines {
+
+namespace {
+
+constexpr std::array wake_names{std::pair{Wake::frozen, "frozen"}, std::pair{Wake::quasi_steady, "quasi-steady"},
+                                std::pair{Wake::dynamic, "dynamic"}};
+
+// Means over the revolution of what functions of the air say at its states.
+class Revolution {
+public:
+    Revolution(const WindPoint& point, const MachineAir& air, const Model& model)
+        : point_(point), air_(air), model_(model) {}
+
+    std::vector<std::vector<std::vector<SectionAir>>> sections() const {
+        std::vector<std::vector<std::vector<SectionAir>>> all;
+        all.reserve(point_.revolution.size());
+        each([&](const FieldInput& at) { all.push_back(air_.sections(at)); });
+        return all;
+    }
+    double wake_time() const {
+        double sum = 0;
+        each([&](const FieldInput& at) { sum += air_.wake_time(at); });
+        return sum / static_cast<double>(point_.revolution.size());
+    }
+    /// @param air  that lags
+    Vector steady_states(const MachineAir& air) const {
+        Vector sum = Vector::Zero(air.states());
+        each([&](const FieldInput& at) { sum += air.steady_states(at); });
+        return sum / static_cast<double>(point_.revolution.size());
+    }
+
+private:
+    template <class F>
+    void each(const F& f) const {
+        Workspace workspace(model_);
+        for (const solvers::OperatingPoint& state : point_.revolution) {
+            const Kinematics kin = kinematics(model_, state.q, workspace);
+            f(FieldInput(ForceInput{state.time, state.q, state.qd, kin, no_states, no_states}));
+        }
+    }
+
+    const WindPoint& point_;
+    const MachineAir& air_;
+    const Model& model_;
+};
+
+solvers::CampbellMethod method_for(const WindOperation& operation) {
+    if (operation.is_constant()) return solvers::CampbellMethod::coleman;
+    const TurbineDescription& d = operation.description();
+    const bool alike = d.has_equal_blades() && d.blades > 2;
+    return alike ? solvers::CampbellMethod::averaged : solvers::CampbellMethod::floquet;
+}
+
+}  // namespace
+
+std::string_view name_of(Wake wake) {
+    for (const auto& [value, name] : wake_names)
+        if (value == wake) return name;
+    return {};
+}
+
+Wake wake_named(std::string_view name, const char* option) {
+    for (const auto& [value, known] : wake_names)
+        if (name == known) return value;
+    throw InputError(option, "value", std::string(name), "frozen, quasi-steady or dynamic");
+}
+
+AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& point,
+                             const AeroelasticOptions& options) {
+    if (!point.converged || point.revolution.empty())
+        throw InputError(text("operation at ", point.operation.wind, " m/s"), "states of a revolution",
+                         point.converged ? "none" : "not converged", "those of a point that converged");
+    const Turbine& still = operation.machine_without_air();
+    const Model& model = still.system().model;
+    const MachineAir steady = operation.air_at(point.operation);
+    const Revolution revolution(point, steady, model);
+    AirLagOptions lags{.profiles = options.profiles, .dynamic_wake = options.wake == Wake::dynamic};
+    if (lags.dynamic_wake) lags.wake_time = revolution.wake_time();
+    const bool nothing_lags = !lags.dynamic_wake && lags.profiles.empty();
+    const double wake_time = lags.wake_time;
+    MachineAir air = nothing_lags ? steady : steady.lagging(std::move(lags));
+    if (options.wake == Wake::frozen) air = air.with_frozen_wake(revolution.sections());
+    if (options.wind_input) air = air.with_wind_input(wind_input);
+    AeroelasticPoint out{.machine = air.on(still), .air = air, .start = {}, .state_start = {}, .wake_time = wake_time};
+    out.start = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
+    if (air.states() > 0) out.state_start = revolution.steady_states(air);
+    return out;
+}
+
+solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span<const WindPoint> points,
+                                       const AeroelasticOptions& air, solvers::CampbellOptions options) {
+    if (options.method == solvers::CampbellMethod::automatic) options.method = method_for(operation);
+    std::vector<AeroelasticPoint> machines;
+    machines.reserve(points.size());
+    std::vector<solvers::CampbellCase> cases;
+    for (const WindPoint& point : points) {
+        if (!point.converged) continue;
+        const AeroelasticPoint& one = machines.emplace_back(aeroelastic(operation, point, air));
+        cases.push_back({.system = &one.machine.system(),
+                         .rotor = &one.machine.rotor(),
+                         .rotor_speed = point.operation.rotor_speed,
+                         .parameter = point.operation.wind,
+                         .start = one.start,
+                         .state_start = one.state_start});
+    }
+    if (cases.empty()) throw InputError("aeroelastic modes", "operating points that converged", 0, "at least 1");
+    return solvers::campbell(cases, wind_parameter, options);
+}
+
+solvers::PeriodicSteadyState steady_state(const AeroelasticPoint& point, double rotor_speed, int harmonics) {
+    const RotorMap& rotor = point.machine.rotor();
+    solvers::PeriodicOptions options;
+    options.rotor_speed = rotor_speed;
+    options.harmonics = harmonics;
+    options.start = point.start;
+    options.state_start = point.state_start;
+    options.rotor = &rotor;
+    solvers::PeriodicSteadyState state = solvers::harmonic_balance(point.machine.system(), rotor.spin, options);
+    require_result(state, [&] { return text(rotor.machine, " in the wind"); });
+    return state;
+}
+
+}  // namespace cardan::turbines
