@@ -12,7 +12,7 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double alike = 1e-7;
+constexpr double same_within = 1e-7;
 
 // Joints in hub axes.
 struct HubView {
@@ -26,7 +26,7 @@ struct HubView {
 
 bool same_blocks(const Matrix& all, const std::vector<int>& a, const std::vector<int>& b) {
     const Matrix A = all(a, a), B = all(b, b);
-    return (A - B).norm() <= alike * std::max(A.norm(), B.norm());
+    return (A - B).norm() <= same_within * std::max(A.norm(), B.norm());
 }
 
 // @param angle  of blade b, seen from blade a
@@ -36,7 +36,7 @@ bool same_place(const HubView& hub, const std::vector<int>& a, const std::vector
     for (const int k : a) size = std::max(size, hub.origin(k).norm());
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Vec3 origin = back * hub.origin(b[i]) - hub.origin(a[i]), axis = back * hub.axis(b[i]) - hub.axis(a[i]);
-        if (origin.norm() > alike * size || axis.norm() > alike) return false;
+        if (origin.norm() > same_within * size || axis.norm() > same_within) return false;
     }
     return true;
 }
@@ -54,7 +54,7 @@ std::vector<double> blade_angles(const Kinematics& kin, const RotorMap& rotor) {
             size = std::max(size, origin.norm());
             if (origin.head<2>().norm() > farthest.head<2>().norm()) farthest = origin;
         }
-        const bool on_axis = farthest.head<2>().norm() < alike * size;
+        const bool on_axis = farthest.head<2>().norm() < same_within * size;
         angles.push_back(on_axis ? 2 * pi * static_cast<double>(k) / static_cast<double>(rotor.blades.size())
                                  : std::atan2(farthest.y(), farthest.x()));
     }

@@ -1,11 +1,10 @@
-// Frequencies and damping in the wind against ElastoDyn with AeroDyn.
+// Frequencies and damping in the wind against ElastoDyn with AeroDyn; what the limits of a dynamic wake are.
 #include "mbs/base/units.hpp"
-#include "solvers/campbell/diagram.hpp"
-#include "solvers/periodic/steady_state.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/aerodynamics/machine_air.hpp"
+#include "tests/support/refusal.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/csv.hpp"
 
 #include <array>
@@ -27,65 +26,79 @@ struct Frequencies {
     std::map<std::string, double> natural, damping;  // Hz
 };
 
-// The machine of the reference at one operating point: level, no gravity, speed and pitch prescribed.
+Frequencies frequencies(const solvers::Campbell& diagram) {
+    Frequencies out;
+    for (const solvers::Branch& branch : diagram.branches) {
+        if (diagram.mode(branch, 0) == nullptr) continue;
+        out.natural[branch.name] = diagram.natural_hz(branch, 0);
+        out.damping[branch.name] = diagram.damping_ratio(branch, 0);
+    }
+    return out;
+}
+
+solvers::CampbellOptions low_modes() {
+    solvers::CampbellOptions options;
+    options.spin = solvers::RotorSpin::prescribed;
+    options.max_frequency_hz = 3.5;
+    options.keep_shapes = false;
+    options.floquet.harmonics = 2;
+    return options;
+}
+
+TurbineDescription level_machine() {
+    TurbineDescription d = nrel5mw_description(nrel5mw_options(Nrel5mwVariant::fast));
+    d.nacelle.tilt = 0;
+    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
+    return d;
+}
+
+// The machine of the reference: level, no gravity, speed and pitch prescribed. Its tower bends, which tilts the rotor a
+// little: states have two harmonics.
 class LevelMachine {
 public:
-    LevelMachine(double wind, double speed, double pitch)
-        : speed_(speed), machine_(assembled(pitch)), air_(machine_, nrel5mw_aero_blade(), {.speed = wind}, no_skew()) {}
+    explicit LevelMachine(int blade_elements = 8, int tower_elements = 4)
+        : machine_(level_machine(), nrel5mw_assembly(Nrel5mwVariant::fast, blade_elements, tower_elements),
+                   nrel5mw_aero_blade(), options()) {}
 
-    Frequencies in_vacuo() const { return modes(machine_); }
-    Frequencies quasi_steady() const { return modes(air_.on(machine_)); }
-    // The tower bends, which tilts the rotor a little: the wake is that of azimuth 0.
-    Frequencies frozen() const {
-        const Turbine windy = air_.on(machine_);
-        solvers::PeriodicOptions options;
-        options.rotor_speed = speed_;
-        options.harmonics = 2;
-        options.rotor = &windy.rotor();
-        const auto state = solvers::harmonic_balance(windy.system(), windy.rotor().spin, options);
-        REQUIRE(state.converged);
-        const solvers::OperatingPoint at = state.at(0);
-        Workspace workspace(machine_.system().model);
-        const Kinematics kin = kinematics(machine_.system().model, at.q, workspace);
-        return modes(air_.with_frozen_wake(ForceInput{0, at.q, at.qd, kin, no_states, no_states}).on(machine_));
+    const WindOperation& operation() const { return machine_; }
+    WindPoint at(const Operation& operation) {
+        WindPoint point = machine_.at(operation);
+        CAPTURE(point.message);
+        REQUIRE(point.converged);
+        return point;
+    }
+    Frequencies modes(const Operation& operation, Wake wake) {
+        const std::array points{at(operation)};
+        return frequencies(aeroelastic_campbell(machine_, points, {.wake = wake}, low_modes()));
+    }
+    Frequencies in_vacuo(double speed) const {
+        solvers::CampbellOptions options = low_modes();
+        options.method = solvers::CampbellMethod::averaged;
+        const Turbine& machine = machine_.machine_without_air();
+        return frequencies(solvers::campbell(machine.system(), machine.rotor(), {speed}, options));
     }
 
 private:
-    static RotorAirOptions no_skew() {
-        RotorAirOptions options;
-        options.skew = Skew::none;
+    static WindOperationOptions options() {
+        WindOperationOptions options;
+        options.air.skew = Skew::none;
+        options.harmonics = 2;
         return options;
     }
-    static Turbine assembled(double pitch) {
-        TurbineDescription d = nrel5mw_description(nrel5mw_options(Nrel5mwVariant::fast));
-        d.nacelle.tilt = 0;
-        d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
-        AssemblyOptions options = nrel5mw_assembly(Nrel5mwVariant::fast, 8, 4);
-        options.spin = CoordinateRole::driven;
-        options.pitch = pitch;
-        return assemble(d, options);
-    }
-    Frequencies modes(const Turbine& turbine) const {
-        solvers::CampbellOptions options;
-        options.spin = solvers::RotorSpin::prescribed;
-        options.max_frequency_hz = 3.5;
-        options.keep_shapes = false;
-        options.method = solvers::CampbellMethod::averaged;
-        options.floquet.harmonics = 2;
-        const solvers::Campbell d = solvers::campbell(turbine.system(), turbine.rotor(), {speed_}, options);
-        Frequencies out;
-        for (const solvers::Branch& branch : d.branches) {
-            if (d.mode(branch, 0) == nullptr) continue;
-            out.natural[branch.name] = d.natural_hz(branch, 0);
-            out.damping[branch.name] = d.damping_ratio(branch, 0);
-        }
-        return out;
-    }
 
-    double speed_;
-    Turbine machine_;
-    MachineAir air_;
+    WindOperation machine_;
 };
+
+// The same modes, to a part of their eigenvalues.
+void check_alike(const Frequencies& a, const Frequencies& b, double tolerance) {
+    REQUIRE(a.natural.size() > 10);
+    for (const auto& [name, hz] : a.natural) {
+        CAPTURE(name, hz);
+        REQUIRE(b.natural.contains(name));
+        CHECK(b.natural.at(name) == Approx(hz).epsilon(tolerance));
+        CHECK(std::abs(b.damping.at(name) - a.damping.at(name)) < tolerance);
+    }
+}
 
 }  // namespace
 
@@ -99,14 +112,15 @@ TEST_CASE("aeroelastic modes: what the air makes of frequencies and damping, wak
         CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/elastodyn_modes.csv");
     std::map<double, Frequencies> vacuo;
     std::map<std::pair<double, bool>, Frequencies> windy;
+    LevelMachine machine;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
         const bool frozen = at("frozen") != 0;
         const std::pair key(at("wind"), frozen);
         if (!windy.contains(key)) {
-            const LevelMachine machine(at("wind"), at("speed") * units::rpm, at("pitch") * units::degree);
-            vacuo[at("wind")] = LevelMachine(at("wind"), at("speed") * units::rpm, 0).in_vacuo();  // as the table's
-            windy[key] = frozen ? machine.frozen() : machine.quasi_steady();
+            const Operation operation{at("wind"), at("speed") * units::rpm, at("pitch") * units::degree};
+            vacuo[at("wind")] = machine.in_vacuo(operation.rotor_speed);  // pitch zero, as the table's
+            windy[key] = machine.modes(operation, frozen ? Wake::frozen : Wake::quasi_steady);
         }
         const std::string name = mode_names.at(static_cast<std::size_t>(at("mode")) - 1);
         const double own = windy[key].natural.at(name) / vacuo[at("wind")].natural.at(name),
@@ -118,6 +132,41 @@ TEST_CASE("aeroelastic modes: what the air makes of frequencies and damping, wak
         CHECK(std::abs(damping - at("damping")) < 0.1 * at("damping") + 0.001);
     }
     CHECK(windy.size() > 5);
+}
+
+TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and quasi-steady if it is short",
+          "[property]") {
+    LevelMachine machine(3, 2);
+    const Operation operation{8, 9.156 * units::rpm, 0};
+    const WindPoint point = machine.at(operation);
+    const Turbine& still = machine.operation().machine_without_air();
+    const AeroelasticPoint start = aeroelastic(machine.operation(), point, {.wake = Wake::dynamic});
+    const auto with_time = [&](double time) {
+        const MachineAir air = machine.operation().air_at(operation).lagging({.dynamic_wake = true, .wake_time = time});
+        const Turbine turbine = air.on(still);
+        solvers::CampbellOptions options = low_modes();
+        options.method = solvers::CampbellMethod::averaged;
+        const std::array one{solvers::CampbellCase{.system = &turbine.system(),
+                                                   .rotor = &turbine.rotor(),
+                                                   .rotor_speed = operation.rotor_speed,
+                                                   .parameter = 1,
+                                                   .start = start.start,
+                                                   .state_start = start.state_start}};
+        return frequencies(solvers::campbell(one, "case", options));
+    };
+    check_alike(machine.modes(operation, Wake::frozen), with_time(1e5), 1e-3);
+    check_alike(machine.modes(operation, Wake::quasi_steady), with_time(1e-5), 1e-3);
+    CHECK(start.wake_time > 1);
+    CHECK(start.wake_time < 100);
+}
+
+TEST_CASE("aeroelastic modes: names of wakes, points without a state", "[validation]") {
+    for (const Wake wake : {Wake::frozen, Wake::quasi_steady, Wake::dynamic})
+        CHECK(wake_named(name_of(wake), "--wake") == wake);
+    check_refused([] { wake_named("frosty", "--wake"); }, {"--wake", "frosty", "quasi-steady"});
+    const LevelMachine machine(2, 1);
+    check_refused([&] { aeroelastic(machine.operation(), {}, {}); }, {"states of a revolution", "not converged"});
+    check_refused([&] { aeroelastic_campbell(machine.operation(), {}, {}, {}); }, {"operating points"});
 }
 
 }  // namespace cardan::testing::aeroelastic_tests
