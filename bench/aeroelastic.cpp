@@ -1,0 +1,73 @@
+// A point of the aeroelastic Campbell diagram of the NREL 5 MW machine beside one without air: steady state,
+// linearisation at the azimuths of a revolution, modes. Level, without gravity; 17 sections a blade.
+#include "turbines/operation/aeroelastic.hpp"
+
+#include "bench/pairs.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+
+namespace cardan {
+
+namespace {
+
+turbines::WindOperation level_operation() {
+    turbines::TurbineDescription d =
+        turbines::nrel5mw_description(turbines::nrel5mw_options(turbines::Nrel5mwVariant::fast));
+    d.nacelle.tilt = 0;
+    turbines::WindOperationOptions options;
+    options.harmonics = 2;
+    options.air.skew = Skew::none;
+    return {d, turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::fast, 8, 4), turbines::nrel5mw_aero_blade(),
+            options};
+}
+
+void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_profiles) {
+    turbines::WindOperation operation = level_operation();
+    const std::array points{operation.at({15, 12.1 * units::rpm, 10.45 * units::degree})};
+    turbines::AeroelasticOptions air{.wake = wake};
+    if (unsteady_profiles) air.profiles = turbines::nrel5mw_unsteady_profiles();
+    solvers::CampbellOptions options;
+    options.spin = solvers::RotorSpin::prescribed;
+    options.method = solvers::CampbellMethod::averaged;
+    options.max_frequency_hz = 3.5;
+    options.keep_shapes = false;
+    options.floquet.harmonics = 2;
+    const turbines::Turbine& still = operation.machine_without_air();
+    bench::Pairs times;
+    for (auto _ : state) {
+        const double with_air = bench::cpu_time_of(
+            [&] { benchmark::DoNotOptimize(turbines::aeroelastic_campbell(operation, points, air, options)); });
+        times.add(with_air, bench::cpu_time_of([&] {
+                      benchmark::DoNotOptimize(
+                          solvers::campbell(still.system(), still.rotor(), {12.1 * units::rpm}, options));
+                  }));
+        state.SetIterationTime(with_air);
+    }
+    state.counters["with air over without"] = times.ratio();
+}
+
+BENCHMARK_CAPTURE(diagram_point, frozen, turbines::Wake::frozen, false)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(diagram_point, quasi_steady, turbines::Wake::quasi_steady, false)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(diagram_point, dynamic, turbines::Wake::dynamic, false)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(diagram_point, dynamic_with_profiles, turbines::Wake::dynamic, true)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+}  // namespace cardan
