@@ -83,6 +83,7 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
         take(air, turbines::read_windio_air(options.model, hub_radius, additions_of(options)), options);
     } else if (options.model.starts_with("nrel5mw")) {
         air.blade = turbines::nrel5mw_aero_blade();
+        air.profiles = turbines::nrel5mw_unsteady_profiles();
     } else {
         throw InputError("--air", "value", "none, and the machine has no profiles",
                          "FILE, the main file of AeroDyn, or windIO");
