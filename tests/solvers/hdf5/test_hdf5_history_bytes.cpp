@@ -134,7 +134,7 @@ TEST_CASE("history: one changed byte is noticed or does not matter", "[property]
 }
 
 // All bits at once and one bit at every place of a file; and every fifth place of one whose index has two levels.
-TEST_CASE("history: one changed byte is noticed or does not matter, everywhere", "[property][slow]") {
+TEST_CASE("history: one changed byte is noticed or does not matter, everywhere", "[property][slow][long]") {
     const Folder folder;
     const auto [rows, chunk] = GENERATE(std::pair<std::size_t, int>{40, 16}, std::pair<std::size_t, int>{150, 2});
     write_small(folder / "a.h5", rows, chunk);
