@@ -40,14 +40,14 @@ Locus state_roots(const Campbell& diagram) {
 }
 
 // Ends of a locus that are there.
-std::pair<std::size_t, std::size_t> ends(const Locus& of) {
+std::pair<std::size_t, std::size_t> ends_of(const Locus& of) {
     std::size_t first = 0, last = of.hz.size();
     while (first < last && std::isnan(of.hz[first])) ++first;
     while (last > first && std::isnan(of.hz[last - 1])) --last;
     return {first, last};
 }
 
-struct Window {
+struct RootWindow {
     double left = 0, right = 0, top = 0;
     void take(const Locus& of, double limit) {
         for (std::size_t i = 0; i < of.hz.size(); ++i) {
@@ -59,7 +59,7 @@ struct Window {
     }
 };
 
-std::string data(const std::string& name, const Locus& of) {
+std::string locus_data(const std::string& name, const Locus& of) {
     const std::vector<std::span<const double>> columns{of.rate, of.hz};
     return gnuplot_data(name, columns);
 }
@@ -73,15 +73,15 @@ void plot_roots(const Campbell& diagram, const std::filesystem::path& path, cons
     const double limit =
         options.max_frequency_hz > 0 ? options.max_frequency_hz : std::numeric_limits<double>::infinity();
     std::string script, plots;
-    Window window;
+    RootWindow window;
     for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
         const Branch& branch = diagram.branches[b];
         const Locus own = locus(diagram, branch);
-        const auto [first, last] = ends(own);
+        const auto [first, last] = ends_of(own);
         if (first == last) continue;
         window.take(own, limit);
         const std::string name = text("r", b), hex(colour(colour_index(diagram, branch)).hex);
-        script += data(name, own);
+        script += locus_data(name, own);
         plots +=
             text(", $", name, " using 1:2 with lines lc rgb '", hex, "' dt ", dash(branch.pattern), " lw 1.8 title ",
                  gnuplot_text(branch.name), ", $", name, " using 1:2 every ::", first, "::", first,
@@ -90,7 +90,7 @@ void plot_roots(const Campbell& diagram, const std::filesystem::path& path, cons
     }
     const Locus states = state_roots(diagram);
     if (!states.hz.empty()) {
-        script += data("states", states);
+        script += locus_data("states", states);
         plots += ", $states using 1:2 with points lc rgb '#aaaaaa' pt 2 ps 0.4 title 'motions of states'";
     }
     const double width = std::max(window.right - window.left, 1e-6), right = std::max(window.right, 0.0) + 0.06 * width;
