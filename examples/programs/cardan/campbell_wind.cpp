@@ -17,14 +17,14 @@ namespace cardan::program {
 
 namespace {
 
-constexpr int azimuths = 24;
+constexpr int azimuths_of_states = 24;
 
-std::string in_words(const turbines::AeroelasticOptions& air, const VibrationArguments& a) {
+std::string vibration_in_words(const turbines::AeroelasticOptions& air, const VibrationArguments& a) {
     return text("wake ", name_of(air.wake), ", profiles ", air.profiles.empty() ? "steady" : "unsteady", "; ",
                 in_words(a.wind.air));
 }
 
-void write(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
+void write_wind_diagram(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = max_frequency;
     picture.title = title_of(diagram);
@@ -59,7 +59,7 @@ void add_vibration_options(CommandLine& app, VibrationArguments& a) {
 
 int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& a,
                      double max_frequency, const std::string& prefix, const CommandLine& command) {
-    WindRun run = wind_run(machine, options, a.wind, a.harmonics, azimuths, max_frequency);
+    WindRun run = wind_run(machine, options, a.wind, a.harmonics, azimuths_of_states, max_frequency);
     const turbines::AeroelasticOptions air = air_that_lags(a, run.air);
     check_outputs(prefix, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
     find_points(run, machine, options, a.wind);
@@ -74,11 +74,11 @@ int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const 
     if (a.floquet) modes.method = solvers::CampbellMethod::floquet;
     solvers::Campbell diagram = turbines::aeroelastic_campbell(run.operation, run.points, air, modes);
     stop_at_once();
-    diagram.remark = in_words(air, a);
+    diagram.remark = vibration_in_words(air, a);
     tell_origin(diagram, machine, run.ready, run_text("campbell", command));
     print_table(diagram);
     if (diagram.points.empty()) return 130;
-    write(diagram, prefix, max_frequency);
+    write_wind_diagram(diagram, prefix, max_frequency);
     return diagram.complete ? run.exit_code() : 130;
 }
 
