@@ -44,6 +44,7 @@ private:
     bool search(const Matrix& dx);
     bool advance();
     bool mean_step();
+    bool accelerated_steps();
     void finish(PeriodicSteadyState& result, bool small);
 
     PeriodicOptions options_;
@@ -282,9 +283,44 @@ bool Balance::mean_step() {
     return !fresh && mean_step();
 }
 
+// Steps with the mean Jacobian that learn from one another, where the equations change so much with the azimuth that a
+// single one is no use: of the last steps those combined that cancel the present one best.
+//                                                                              [Anderson 1965; Walker and Ni 2011]
+bool Balance::accelerated_steps() {
+    constexpr int most = 60;
+    constexpr Index depth = 10;
+    const double start = norm(R_);
+    Matrix x = x_, R = R_, dx, dX(x_.size(), depth), dF(x_.size(), depth);
+    Vector last_x, last_f;
+    double best = start;
+    for (int k = 0; k < most && largest(R) > options_.tolerance; ++k) {
+        if (!mean_->step(R, 0, dx, true)) break;
+        const Vector f = dx.reshaped();
+        Vector next = x.reshaped() + f;
+        if (k > 0) {
+            const Index column = (k - 1) % depth, known = std::min<Index>(k, depth);
+            dX.col(column) = x.reshaped() - last_x;
+            dF.col(column) = f - last_f;
+            const Vector part = dF.leftCols(known).colPivHouseholderQr().solve(f);
+            next -= (dX.leftCols(known) + dF.leftCols(known)) * part;
+        }
+        last_x = x.reshaped();
+        last_f = f;
+        x = next.reshaped(x.rows(), x.cols());
+        if (!evaluate(x, R) || !(norm(R) < 1e3 * start)) break;
+        if (!(norm(R) < best)) continue;
+        best = norm(R);
+        x_ = x;
+        R_ = R;
+    }
+    stale_ = true;
+    return best < least_reduction * start;
+}
+
 // False if nothing makes the residual smaller.
 bool Balance::advance() {
     if (mean_ && mean_step()) return true;
+    if (mean_ && accelerated_steps()) return true;
     Matrix dx;
     return step(dx) && search(dx);
 }

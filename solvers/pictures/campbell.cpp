@@ -34,6 +34,7 @@ public:
                 const double f = diagram.damped_hz(*branch, i), zeta = damping(diagram, *branch, i);
                 if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
                 if (std::isfinite(zeta)) {
+                    zeta_least_ = std::min(zeta_least_, 100 * zeta);
                     zeta_min_ = std::min(zeta_min_, 100 * zeta);
                     zeta_max_ = std::max(zeta_max_, 100 * zeta);
                 }
@@ -76,12 +77,15 @@ public:
 
     std::string damping_panel() const {
         const double low = std::min(0.0, 1.1 * zeta_min_), high = zeta_max_ > 1e-6 ? 1.1 * zeta_max_ : 1.0;
-        std::string s =
-            text("unset title\n", x_range(), "set yrange [", low, ":", high,
-                 "]\nset format y '%g'\nset ylabel 'damping ratio, %'\n", x_label_command(true), "unset key\n");
+        const bool decades = options_.log_damping && zeta_least_ > 0 && zeta_max_ > 30 * zeta_least_;
+        const std::string range = decades
+                                      ? text("set logscale y\nset yrange [", 0.8 * zeta_least_, ":", 1.3 * zeta_max_)
+                                      : text("set yrange [", low, ":", high);
+        std::string s = text("unset title\n", x_range(), range, "]\nset format y '%g'\nset ylabel 'damping ratio, %'\n",
+                             x_label_command(true), "unset key\n");
         std::string plots;
         for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 3, 5, false);
-        return s + "plot 0 with lines lc rgb '#999999' lw 1 notitle" + plots + "\n";
+        return s + "plot " + (decades ? plots.substr(2) : "0 with lines lc rgb '#999999' lw 1 notitle" + plots) + "\n";
     }
 
 private:
@@ -177,6 +181,7 @@ private:
     std::vector<const Branch*> branches_;
     std::vector<double> rpm_;
     double f_max_ = 0, zeta_min_ = 0, zeta_max_ = 0;
+    double zeta_least_ = std::numeric_limits<double>::infinity();
 };
 
 void require_points(const Campbell& diagram) {

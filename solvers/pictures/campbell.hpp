@@ -18,6 +18,9 @@ struct CampbellPlotOptions {
     bool damping_panel = true;
     /// A diagram of one blade, drawn beside the machine's (thin black lines).
     const Campbell* isolated_blade = nullptr;
+    /// Damping over decades, where no mode grows and the most damped one has 30 times the damping of the least: what
+    /// the air does to blades that flap and that move in the plane of the rotor.
+    bool log_damping = false;
 };
 
 /// Frequency panel over damping panel; nP lines dashed; colour by family, line style by rotor pattern, doubtful points

@@ -19,15 +19,15 @@ namespace {
 
 constexpr int azimuths_of_states = 24;
 
-std::string vibration_in_words(const turbines::AeroelasticOptions& air, const VibrationArguments& a) {
-    return text("wake ", name_of(air.wake), ", profiles ", air.profiles.empty() ? "steady" : "unsteady", "; ",
-                in_words(a.wind.air));
+std::string vibration_in_words(const turbines::AeroelasticOptions& air) {
+    return text("wake ", name_of(air.wake), ", profiles ", air.profiles.empty() ? "steady" : "unsteady");
 }
 
 void write_wind_diagram(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = max_frequency;
     picture.title = title_of(diagram);
+    picture.log_damping = true;
     write_files(diagram, prefix, picture);
     for (const char* kind : {".svg", ".png"})
         solvers::plot_roots(diagram, prefix + "_roots" + kind,
@@ -69,12 +69,12 @@ int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const 
     modes.progress = [](int done, int total) {
         progress(text("\rmodes at wind speed ", done, " of ", total, done == total ? "\n" : ""));
     };
-    modes.spin = solvers::RotorSpin::prescribed;
+    modes.spin = rotor_spin(machine);
     modes.floquet.harmonics = a.harmonics;
     if (a.floquet) modes.method = solvers::CampbellMethod::floquet;
     solvers::Campbell diagram = turbines::aeroelastic_campbell(run.operation, run.points, air, modes);
     stop_at_once();
-    diagram.remark = vibration_in_words(air, a);
+    diagram.remark = vibration_in_words(air);
     tell_origin(diagram, machine, run.ready, run_text("campbell", command));
     print_table(diagram);
     if (diagram.points.empty()) return 130;

@@ -153,14 +153,14 @@ const MeanJacobian::Factors* MeanJacobian::factors(int harmonic) {
     return found.rcond() > least_rcond ? &found : nullptr;
 }
 
-bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx) {
+bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx, bool all) {
     Matrix r = to_multi_blade(R);
     for (Index row : held_) r(row, 0) = 0;
     const Index n = r.rows();
     const auto part = [&](int j) { return j == 0 ? r.leftCols(1) : r.middleCols(2 * j - 1, 2); };
     Vector size(z_harmonics_ + 1);
     for (int j = 0; j <= z_harmonics_; ++j) size(j) = (part(j).array().colwise() / scale(j).array()).abs().maxCoeff();
-    const double small = std::max(small_share * size.maxCoeff(), negligible);
+    const double small = all ? 0 : std::max(small_share * size.maxCoeff(), negligible);
     for (int j = 0; j <= z_harmonics_; ++j) {
         auto own = part(j);
         if (!(size(j) > small)) {

@@ -31,8 +31,9 @@ public:
     /// largest, or smaller than `negligible`, are left for the next step. Most are, and the factors of a harmonic are
     /// computed when they are first needed.
     /// @param negligible  residual / stiffness
+    /// @param all  nothing is left for the next step: the step is a linear function of R
     /// @returns false if a matrix is singular (something that nothing holds) or not finite
-    bool step(const Matrix& R, double negligible, Matrix& dx);
+    bool step(const Matrix& R, double negligible, Matrix& dx, bool all = false);
 
 private:
     using Factors = Eigen::PartialPivLU<Matrix>;
