@@ -343,7 +343,7 @@ void Balance::finish(PeriodicSteadyState& result, bool small) {
     result.converged = small;
     equations_.finish(x_, result);
     result.residual = largest(R_);
-    result.remainder = equations_.largest_residual(x_, samples(), scale_);
+    equations_.set_remainders(x_, samples(), scale_, result);
     for (std::size_t i = 0; i < options_.held.size(); ++i) result.held.push_back({options_.held[i], R_(held_[i], 0)});
     for (const std::string& words : open_) result.note += (result.note.empty() ? "" : "; ") + words;
     if (small) return;

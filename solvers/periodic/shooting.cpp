@@ -209,7 +209,7 @@ void Shooting::finish(PeriodicSteadyState& result, bool small) {
     result.converged = small;
     equations_.finish(own, result);
     result.residual = miss();
-    result.remainder = equations_.largest_residual(own, 4 * (options_.harmonics + 1), scale_);
+    equations_.set_remainders(own, 4 * (options_.harmonics + 1), scale_, result);
     result.note = note_;
     if (!small)
         result.message =

@@ -59,6 +59,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     double remainder = 0;
     std::vector<HeldMean> held;
     std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
+    double state_remainder = 0;  ///< likewise of the states, over their scales
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
     /// All coordinates with rates and accelerations, and states; time = psi / rotor_speed.

@@ -24,6 +24,8 @@ using Index = Eigen::Index;
 constexpr double elastic_limit = 0.05;
 // Residual over stiffness of the harmonics that a steady state leaves out.
 constexpr double small_remainder = 1e-5;
+// Likewise of states, over their scales. Those of profiles follow curves with kinks, of which no series makes less.
+constexpr double small_state_remainder = 2e-3;
 // Asymmetry of the blades relative to the diagonals; more is not rounding.
 constexpr double small_difference = 1e-4;
 // Outer harmonics with less energy are left out.
@@ -145,7 +147,10 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     }
     PeriodicSteadyState found = periodic_sweep(system_, rotor_.spin, speeds, options).back();
     const int most = 4 * options.harmonics;
-    while (found.converged && found.remainder > small_remainder && options.harmonics < most) {
+    const auto leaves_much = [&] {
+        return found.remainder > small_remainder || found.state_remainder > small_state_remainder;
+    };
+    while (found.converged && leaves_much() && options.harmonics < most) {
         options.harmonics = std::min(most, options.harmonics + (options.harmonics + 1) / 2);
         options.start = found.coefficients;
         options.state_start = found.state_coefficients;
@@ -154,9 +159,10 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     }
     require_result(found, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     if (!found.note.empty()) warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
-    if (found.remainder > small_remainder)
+    if (leaves_much())
         warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.harmonics(),
                   " harmonics leave a residual over stiffness of ", found.remainder,
+                  " and of states over their scales of ", found.state_remainder,
                   " in the periodic steady state: take more"));
     state_ = std::move(found);
 }

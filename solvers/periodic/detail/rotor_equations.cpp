@@ -176,16 +176,21 @@ Vector RotorEquations::scale(const Matrix& own) {
     return scale;
 }
 
-double RotorEquations::largest_residual(const Matrix& own, int count, const Vector& scale) {
-    double largest = 0;
+void RotorEquations::set_remainders(const Matrix& own, int count, const Vector& scale, PeriodicSteadyState& result) {
+    const Eigen::Index n = std::ssize(unknowns());
     Vector r(size());
+    result.remainder = result.state_remainder = 0;
     for (int s = 0; s < count; ++s) {
         set_on(own, 2 * pi * (s + 0.5) / count);
         residual(r);
-        if (!r.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-        if (size() > 0) largest = std::max(largest, r.cwiseQuotient(scale).cwiseAbs().maxCoeff());
+        if (!r.allFinite()) {
+            result.remainder = std::numeric_limits<double>::quiet_NaN();
+            return;
+        }
+        const Vector over = r.cwiseQuotient(scale).cwiseAbs();
+        if (n > 0) result.remainder = std::max(result.remainder, over.head(n).maxCoeff());
+        if (size() > n) result.state_remainder = std::max(result.state_remainder, over.tail(size() - n).maxCoeff());
     }
-    return largest;
 }
 
 }  // namespace cardan::solvers
