@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "turbines/aerodynamics/detail/machine_air_parts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -146,8 +147,12 @@ int MachineAir::states() const {
 }
 
 FieldInput MachineAir::input(const ForceInput& at, const Forces& forces) const {
-    if (states() == 0 && parts_->wind_input.empty()) return at;
-    return forces.field_input(name_of_air, at);
+    for (int i = 0; i < forces.fields(); ++i)
+        if (forces.field(i).name == name_of_air) return forces.field_input(name_of_air, at);
+    // A linear model varies a load in forces that have nothing else: the air is as it was. States of fields come last.
+    if (states() == 0) return at;
+    require_size("air on a machine", "states", at.s.tail(std::min<Eigen::Index>(at.s.size(), states())), states());
+    return {at, at.s.tail(states())};
 }
 
 MachineAir MachineAir::with_wind_input(const std::string& name) const {
