@@ -56,9 +56,9 @@ TurbineDescription level_machine() {
 // little: states have two harmonics.
 class LevelMachine {
 public:
-    explicit LevelMachine(int blade_elements = 8, int tower_elements = 4)
+    explicit LevelMachine(int blade_elements = 8, int tower_elements = 4, bool losses = true)
         : machine_(level_machine(), nrel5mw_assembly(Nrel5mwVariant::fast, blade_elements, tower_elements),
-                   nrel5mw_aero_blade(), options()) {}
+                   nrel5mw_aero_blade(), options(losses)) {}
 
     const WindOperation& operation() const { return machine_; }
     WindPoint at(const Operation& operation) {
@@ -79,8 +79,9 @@ public:
     }
 
 private:
-    static WindOperationOptions options() {
+    static WindOperationOptions options(bool losses) {
         WindOperationOptions options;
+        options.air.momentum.tip_loss = options.air.momentum.hub_loss = losses;
         options.air.skew = Skew::none;
         options.harmonics = 2;
         return options;
@@ -134,9 +135,11 @@ TEST_CASE("aeroelastic modes: what the air makes of frequencies and damping, wak
     CHECK(windy.size() > 5);
 }
 
+// Without losses: where Prandtl's factor vanishes, in the last and the first section, a dynamic wake does not lag (no
+// load is there whatever the motion), while with a frozen one the induced velocity stays and a motion makes a load.
 TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and quasi-steady if it is short",
           "[property]") {
-    LevelMachine machine(3, 2);
+    LevelMachine machine(3, 2, false);
     const Operation operation{8, 9.156 * units::rpm, 0};
     const WindPoint point = machine.at(operation);
     const Turbine& still = machine.operation().machine_without_air();
