@@ -49,8 +49,8 @@ public:
     /// the larger of 1 / its time constant and the rotor speed), averaged over a revolution of the series; at least a
     /// small part of the largest.
     Vector scale(const Matrix& own);
-    /// Remainders of the result: largest scaled residuals of the series at `count` azimuths half way between equidistant
-    /// ones; NaN if they cannot be evaluated.
+    /// Remainders of the result: largest scaled residuals of the series at `count` azimuths half way between
+    /// equidistant ones; NaN if they cannot be evaluated.
     void set_remainders(const Matrix& own, int count, const Vector& scale, PeriodicSteadyState& result);
 
 private:
