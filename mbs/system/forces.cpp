@@ -300,6 +300,7 @@ Vec3 place_of(const Kinematics& kin, const FieldPoint& point) {
     return frame.p + frame.R * point.place;
 }
 
+template void Forces::require_state<double>(const KinematicsT<double>&, VectorInT<double>, VectorInT<double>) const;
 template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,
                                                              VectorInT<double>, VectorOutT<double>, double) const;
 template void Forces::generalised_forces_of_elements<Complex>(const KinematicsT<Complex>&, VectorInT<Complex>,
