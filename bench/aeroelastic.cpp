@@ -51,22 +51,14 @@ void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_p
     state.counters["with air over without"] = times.ratio();
 }
 
-BENCHMARK_CAPTURE(diagram_point, frozen, turbines::Wake::frozen, false)
-    ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(diagram_point, quasi_steady, turbines::Wake::quasi_steady, false)
-    ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(diagram_point, dynamic, turbines::Wake::dynamic, false)
-    ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(diagram_point, dynamic_with_profiles, turbines::Wake::dynamic, true)
-    ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
-    ->Unit(benchmark::kMillisecond);
+void in_pairs(benchmark::internal::Benchmark* one) {
+    one->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK_CAPTURE(diagram_point, frozen, turbines::Wake::frozen, false)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, quasi_steady, turbines::Wake::quasi_steady, false)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, dynamic, turbines::Wake::dynamic, false)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, dynamic_with_profiles, turbines::Wake::dynamic, true)->Apply(in_pairs);
 
 }  // namespace
 

@@ -34,8 +34,9 @@ struct Derivatives {
 
 // Subtracts factor times the derivatives of a force; its own, or central differences.
 // @param add  the force: add(at, Q)
-template <class Jacobian, class Add>
-void subtract(const Jacobian& jacobian, const Add& add, double factor, const ForceInput& at, Matrix& stiffness,
+// @param at   as the derivatives take it
+template <class Jacobian, class Add, class Input>
+void subtract(const Jacobian& jacobian, const Add& add, double factor, const Input& at, Matrix& stiffness,
               Matrix& damping) {
     if (jacobian && factor == 1) {
         // It adds dQ/dq where -dQ/dq is gathered; changes of sign are exact.
@@ -104,12 +105,7 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
 void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
     Vector none;
     const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, field.input(input), Q, none); };
-    std::function<void(const ForceInput&, MatrixOut, MatrixOut)> jacobian;
-    if (field.own.jacobian)
-        jacobian = [&](const ForceInput& input, const MatrixOut& by_q, const MatrixOut& by_qd) {
-            field.own.jacobian(field.input(input), by_q, by_qd);
-        };
-    subtract(jacobian, add, field.factor, at, out.loads, out.damping);
+    subtract(field.own.jacobian, add, field.factor, field.input(at), out.loads, out.damping);
 }
 
 namespace {

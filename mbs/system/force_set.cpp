@@ -117,6 +117,11 @@ void ForceSet::set_gravity(const Vec3& g) {
 
 namespace {
 
+void require_frame(const FrameLoad& load, const Model& model) {
+    if (load.frame.index < 0 || load.frame.index >= static_cast<int>(model.frames().size()))
+        throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
+}
+
 // Those of fields, behind those of the elements.
 std::vector<OtherStates> states_of_fields(const ForceSet& set, const Model& model) {
     std::vector<OtherStates> all;
@@ -167,9 +172,7 @@ Forces::Forces(const ForceSet& set, const Model& model)
     }
     springs_ = runs_of(&Law::K);
     dampers_ = runs_of(&Law::D);
-    for (const FrameLoad& load : loads_)
-        if (load.frame.index < 0 || load.frame.index >= static_cast<int>(model.frames().size()))
-            throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
+    for (const FrameLoad& load : loads_) require_frame(load, model);
 }
 
 Forces::Field Forces::bound(const WrenchField& field, const Model& model, int first) const {
@@ -249,6 +252,14 @@ Forces Forces::with_gravity(const Vec3& g) const {
     if (!g.allFinite()) throw InputError("gravity", "vector [m/s^2]", g.transpose(), "finite");
     Forces other = *this;
     other.gravity_ = g;
+    return other;
+}
+
+Forces Forces::with_load(FrameLoad load, const Model& model) const {
+    require_model("forces", "model", model.serial(), model_);
+    require_frame(load, model);
+    Forces other = *this;
+    other.loads_.push_back(std::move(load));
     return other;
 }
 

@@ -259,6 +259,9 @@ public:
     /// dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.
     Forces with_load_factor(double factor, bool gravity_too) const;
+    /// With a load more.
+    /// @throws InputError for a frame that the model does not have
+    Forces with_load(FrameLoad load, const Model& model) const;
 
 private:
     struct Law {

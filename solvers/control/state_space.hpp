@@ -71,8 +71,7 @@ struct StateSpaceOptions {
 /// among `inputs` are held. A and B are exact (solvers/linear/linearise.hpp). C and D come from
 /// central differences of the channels with two steps, extrapolated; positions, rates, accelerations and drive forces
 /// follow the linear model, so that accelerations and loads have the correct feedthrough, and wrenches among the inputs
-/// count as loads. A channel in rad may jump by 2 pi. Channels see the forces of the system, but only gravity and
-/// wrenches while a wrench is varied.
+/// count as loads. A channel in rad may jump by 2 pi. Channels see the forces of the system.
 ///
 /// Cost per azimuth O(n^3), and 4 evaluations of the channels per state and input.
 /// @param rotor  its spin, number of blades and name are used; a machine without spin is linearised at one instant

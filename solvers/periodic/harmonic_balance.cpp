@@ -56,6 +56,7 @@ private:
     std::optional<MeanJacobian> mean_;  // none: Newton's steps only
     std::optional<HalfTurn> half_;      // of two alike blades, as long as the residual has no other harmonics
     bool stale_ = true;                 // it belongs to another state
+    bool accelerates_ = true;           // its steps together are of use where single ones are not
     Vector scale_, unit_;               // of residuals, per unknown; of entries for the linear system
     Matrix x_, R_;
     std::string why_ = "the limit of iterations was reached";
@@ -314,13 +315,14 @@ bool Balance::accelerated_steps() {
         R_ = R;
     }
     stale_ = true;
-    return best < least_reduction * start;
+    accelerates_ = best < least_reduction * start;
+    return accelerates_;
 }
 
 // False if nothing makes the residual smaller.
 bool Balance::advance() {
     if (mean_ && mean_step()) return true;
-    if (mean_ && accelerated_steps()) return true;
+    if (mean_ && accelerates_ && accelerated_steps()) return true;
     Matrix dx;
     return step(dx) && search(dx);
 }

@@ -184,12 +184,6 @@ private:
     double zeta_least_ = std::numeric_limits<double>::infinity();
 };
 
-void require_points(const Campbell& diagram) {
-    if (diagram.points.empty() || diagram.branches.empty())
-        throw InputError(diagram.machine, "rotor speeds in the diagram", diagram.points.size(),
-                         "at least one, with modes");
-}
-
 }  // namespace
 
 void plot(const Campbell& diagram, const std::filesystem::path& path, const CampbellPlotOptions& options) {

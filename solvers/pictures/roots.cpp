@@ -67,9 +67,7 @@ std::string locus_data(const std::string& name, const Locus& of) {
 }  // namespace
 
 void plot_roots(const Campbell& diagram, const std::filesystem::path& path, const RootPlotOptions& options) {
-    if (diagram.points.empty() || diagram.branches.empty())
-        throw InputError(diagram.machine, "points of the root locus", diagram.points.size(),
-                         "at least one, with modes");
+    require_points(diagram);
     const double limit =
         options.max_frequency_hz > 0 ? options.max_frequency_hz : std::numeric_limits<double>::infinity();
     std::string script, plots;
@@ -95,18 +93,17 @@ void plot_roots(const Campbell& diagram, const std::filesystem::path& path, cons
     }
     const double width = std::max(window.right - window.left, 1e-6), right = std::max(window.right, 0.0) + 0.06 * width;
     const std::string title = options.title.empty() ? diagram.machine : options.title;
-    script += text(
-        "set title ", gnuplot_text(title), title.size() > 75 ? " font ',10'\n" : "\n", "set xrange [",
-        window.left - 0.04 * width, ":", right,
-        "]\nset yrange [0:", options.max_frequency_hz > 0 ? options.max_frequency_hz : 1.05 * window.top,
-        "]\nset xlabel 'growth rate, 1/s (negative: decay)'\nset ylabel 'damped frequency, Hz'\n"
-        "set lmargin at screen 0.07\nset rmargin at screen 0.665\n"
-        "set key at screen 0.685,0.945 left top Left reverse font ',9'\n"
-        "set object 1 rectangle from 0, graph 0 to ",
-        right, ", graph 1 behind fillcolor rgb '#fbe3d6' fillstyle solid noborder\n", "set label 1 ",
-        gnuplot_text(text(diagram.parameter.empty() ? std::string("rotor speed, rpm") : diagram.parameter, ": from ",
-                          abscissae(diagram).front(), " (circle) to ", abscissae(diagram).back(), " (dot)")),
-        " at graph 0.01, 0.03 font ',9'\n");
+    script += text("set title ", gnuplot_text(title), title.size() > 75 ? " font ',10'\n" : "\n", "set xrange [",
+                   window.left - 0.04 * width, ":", right,
+                   "]\nset yrange [0:", options.max_frequency_hz > 0 ? options.max_frequency_hz : 1.05 * window.top,
+                   "]\nset xlabel 'growth rate, 1/s (negative: decay)'\nset ylabel 'damped frequency, Hz'\n"
+                   "set lmargin at screen 0.07\nset rmargin at screen 0.665\n"
+                   "set key at screen 0.685,0.945 left top Left reverse font ',9'\n"
+                   "set object 1 rectangle from 0, graph 0 to ",
+                   right, ", graph 1 behind fillcolor rgb '#fbe3d6' fillstyle solid noborder\n", "set label 1 ",
+                   gnuplot_text(text(abscissa_label(diagram), ": from ", abscissae(diagram).front(), " (circle) to ",
+                                     abscissae(diagram).back(), " (dot)")),
+                   " at graph 0.01, 0.03 font ',9'\n");
     script += "plot 0 with lines lc rgb '#999999' lw 1 notitle" + plots + "\n";
     static_cast<void>(Gnuplot::of_this_thread().write_picture(path, script, {1200, 800}));
 }

@@ -4,7 +4,6 @@
 #include "mbs/base/error.hpp"
 #include "turbines/aerodynamics/detail/machine_air_parts.hpp"
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -92,9 +91,7 @@ MachineAir MachineAir::with(AirLags lags) const {
     find_first_states(lags);
     const auto parts = std::make_shared<Parts>(*parts_);
     parts->lags = std::move(lags);
-    MachineAir other = *this;
-    other.parts_ = parts;
-    return other;
+    return MachineAir(parts);
 }
 
 MachineAir MachineAir::lagging(AirLagOptions options) const {
@@ -147,21 +144,15 @@ int MachineAir::states() const {
 }
 
 FieldInput MachineAir::input(const ForceInput& at, const Forces& forces) const {
-    for (int i = 0; i < forces.fields(); ++i)
-        if (forces.field(i).name == name_of_air) return forces.field_input(name_of_air, at);
-    // A linear model varies a load in forces that have nothing else: the air is as it was. States of fields come last.
-    if (states() == 0) return at;
-    require_size("air on a machine", "states", at.s.tail(std::min<Eigen::Index>(at.s.size(), states())), states());
-    return {at, at.s.tail(states())};
+    if (states() == 0 && parts_->wind_input.empty()) return at;
+    return forces.field_input(name_of_air, at);
 }
 
 MachineAir MachineAir::with_wind_input(const std::string& name) const {
     if (name.empty()) throw InputError("air on a machine", "name of the wind's input", "''", "not empty");
     const auto parts = std::make_shared<Parts>(*parts_);
     parts->wind_input = name;
-    MachineAir other = *this;
-    other.parts_ = parts;
-    return other;
+    return MachineAir(parts);
 }
 
 Vector MachineAir::steady_states(const FieldInput& at) const {

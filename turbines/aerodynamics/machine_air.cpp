@@ -59,12 +59,10 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind
 }
 
 MachineAir MachineAir::in(const Wind& wind) const {
-    MachineAir other = *this;
     const auto parts = std::make_shared<Parts>(*parts_);
     parts->wind = wind;
     parts->support = parts->support.in(wind);
-    other.parts_ = parts;
-    return other;
+    return MachineAir(parts);
 }
 
 WrenchField MachineAir::field() const {

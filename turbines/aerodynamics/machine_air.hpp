@@ -106,6 +106,7 @@ public:
 
 private:
     struct Parts;
+    explicit MachineAir(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
     void add_lags(WrenchField& field) const;
     MachineAir with(AirLags lags) const;
 

@@ -43,6 +43,8 @@ void declare(CommandLine& app, CampbellArguments& a) {
         "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
     add_vibration_options(app, a.air);
+    app.add_flag("--floquet", a.air.floquet,
+                 "with --wind, Floquet's theory about the periodic state in the place of the mean over the azimuth");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 

@@ -51,8 +51,6 @@ void add_vibration_options(CommandLine& app, VibrationArguments& a) {
                    "dynamic");
     app.add_flag("--steady-profiles", a.steady_profiles,
                  "lift, drag and moment follow the angle of attack at once, also where the profiles' data have lags");
-    app.add_flag("--floquet", a.floquet,
-                 "campbell: Floquet's theory about the periodic state in the place of the mean over the azimuth");
     app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
         .range(1, 200);
 }

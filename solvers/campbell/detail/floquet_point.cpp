@@ -22,10 +22,11 @@ using Index = Eigen::Index;
 // Share of the energy that a vibration named after its springs has in them: half where no other stiffness acts, less
 // where the centrifugal force holds the blades.
 constexpr double elastic_limit = 0.05;
-// Residual over stiffness of the harmonics that a steady state leaves out.
+// Residual over stiffness of the harmonics that a steady state leaves out, and of states over their scales.
 constexpr double small_remainder = 1e-5;
-// Likewise of states, over their scales. Those of profiles follow curves with kinks, of which no series makes less.
-constexpr double small_state_remainder = 2e-3;
+// States that follow curves with kinks, as those of profiles do: further harmonics leave hardly less than before, and
+// as long as it is no more than this nothing is said.
+constexpr double remainder_of_kinks = 2e-3, worth_more_harmonics = 0.5;
 // Asymmetry of the blades relative to the diagonals; more is not rounding.
 constexpr double small_difference = 1e-4;
 // Outer harmonics with less energy are left out.
@@ -147,10 +148,14 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     }
     PeriodicSteadyState found = periodic_sweep(system_, rotor_.spin, speeds, options).back();
     const int most = 4 * options.harmonics;
+    double before = std::numeric_limits<double>::infinity();
     const auto leaves_much = [&] {
-        return found.remainder > small_remainder || found.state_remainder > small_state_remainder;
+        const bool kinks = found.state_remainder > worth_more_harmonics * before;
+        return found.remainder > small_remainder ||
+               found.state_remainder > (kinks ? remainder_of_kinks : small_remainder);
     };
     while (found.converged && leaves_much() && options.harmonics < most) {
+        before = found.state_remainder;
         options.harmonics = std::min(most, options.harmonics + (options.harmonics + 1) / 2);
         options.start = found.coefficients;
         options.state_start = found.state_coefficients;

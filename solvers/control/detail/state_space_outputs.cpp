@@ -10,15 +10,10 @@ namespace cardan::solvers::detail {
 
 namespace {
 
-// Wrenches and gravity of a system, and one wrench more.
 Forces with_wrench(const System& system, FrameLoad load, double factor) {
-    ForceSet set;
-    set.set_gravity(system.forces.gravity());
-    for (const FrameLoad& own : system.forces.loads()) set.add_wrench(own);
     load.wrench.force *= factor;
     load.wrench.moment *= factor;
-    set.add_wrench(std::move(load));
-    return Forces(set, system.model);
+    return system.forces.with_load(std::move(load), system.model);
 }
 
 // Of the one entry that a direction has.

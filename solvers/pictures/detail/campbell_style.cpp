@@ -1,5 +1,6 @@
 #include "solvers/pictures/detail/campbell_style.hpp"
 
+#include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 
 #include <algorithm>
@@ -34,6 +35,12 @@ std::vector<double> abscissae(const Campbell& diagram) {
     std::vector<double> rpm;
     for (const CampbellPoint& p : diagram.points) rpm.push_back(p.rotor_speed * units::to_rpm);
     return rpm;
+}
+
+void require_points(const Campbell& diagram) {
+    if (diagram.points.empty() || diagram.branches.empty())
+        throw InputError(diagram.machine, "rotor speeds in the diagram", diagram.points.size(),
+                         "at least one, with modes");
 }
 
 std::string abscissa_label(const Campbell& diagram) {

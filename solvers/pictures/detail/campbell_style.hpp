@@ -18,6 +18,9 @@ std::size_t colour_index(const Campbell& diagram, const Branch& branch);
 /// Rotor speeds in rev/min, or the values of another parameter.
 std::vector<double> abscissae(const Campbell& diagram);
 
+/// @throws InputError for a diagram without points or branches
+void require_points(const Campbell& diagram);
+
 /// What `abscissae` are, with the unit.
 std::string abscissa_label(const Campbell& diagram);
 

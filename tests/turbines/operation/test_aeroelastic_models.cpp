@@ -5,7 +5,7 @@
 #include "solvers/control/state_space.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "tests/turbines/operation/level_machine.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 
@@ -27,13 +27,10 @@ RotorAirOptions no_skew() {
 }
 
 WindOperation coarse_machine() {
-    TurbineDescription d = nrel5mw_description(nrel5mw_options(Nrel5mwVariant::fast));
-    d.nacelle.tilt = 0;
-    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
     WindOperationOptions options;
     options.air = no_skew();
     options.harmonics = 2;
-    return {d, nrel5mw_assembly(Nrel5mwVariant::fast, 3, 2), nrel5mw_aero_blade(), options};
+    return {level_machine(), nrel5mw_assembly(Nrel5mwVariant::fast, 3, 2), nrel5mw_aero_blade(), options};
 }
 
 const Operation operation{8, 9.156 * units::rpm, 0};

@@ -2,7 +2,7 @@
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "tests/turbines/operation/level_machine.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/csv.hpp"
@@ -43,13 +43,6 @@ solvers::CampbellOptions low_modes() {
     options.keep_shapes = false;
     options.floquet.harmonics = 2;
     return options;
-}
-
-TurbineDescription level_machine() {
-    TurbineDescription d = nrel5mw_description(nrel5mw_options(Nrel5mwVariant::fast));
-    d.nacelle.tilt = 0;
-    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
-    return d;
 }
 
 // The machine of the reference: level, no gravity, speed and pitch prescribed. Its tower bends, which tilts the rotor a

@@ -3,7 +3,7 @@
 #include "solvers/linear/channel_values.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "tests/turbines/operation/level_machine.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/model/channels.hpp"
 #include "turbines/operation/wind_operation.hpp"
@@ -20,14 +20,6 @@ namespace cardan::testing::wind_operation_tests {
 namespace {
 
 using namespace turbines;
-
-// Turning without gravity about a level shaft; drive train and yaw bearing locked, as in the runs of OpenFAST.
-TurbineDescription level_machine() {
-    TurbineDescription d = nrel5mw_description(nrel5mw_options(Nrel5mwVariant::fast));
-    d.nacelle.tilt = 0;
-    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
-    return d;
-}
 
 // Static deflection of the tower's top by the thrust at the hub, as a beam: int M (L - z) / EI dz, closed form of
 // nothing but the table.
