@@ -84,6 +84,7 @@ public:
 
     bool is_unsteady() const { return flow_.slope > 0; }
     const AttachedFlow& flow() const { return flow_; }
+    const ProfileLags& lags() const { return lags_; }
     const Polar& polar() const { return polar_; }
 
 private:

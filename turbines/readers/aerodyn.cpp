@@ -3,8 +3,10 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/readers/detail/aerodyn_polars.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -12,84 +14,6 @@
 namespace cardan::turbines {
 
 namespace {
-
-// Which column of the polars holds what, from 1; 0: none.
-struct PolarColumns {
-    int angle, lift, drag, moment;
-};
-
-Polar::Table polar_table(OpenFastFile& file, const PolarColumns& columns, std::size_t part) {
-    const std::vector<OpenFastFile::Row> rows = file.rows_after("NumAlf", part);
-    Polar::Table out;
-    for (auto* column : {&out.angles, &out.lift, &out.drag, &out.moment}) column->reserve(rows.size());
-    for (const OpenFastFile::Row& row : rows) {
-        const auto value = [&](int column) {
-            if (column == 0) return 0.0;
-            if (static_cast<std::size_t>(column) > row.values.size())
-                throw ParseError(file.name(), row.line, 0,
-                                 text(column, " numbers expected, found ", row.values.size()));
-            return row.values[static_cast<std::size_t>(column) - 1];
-        };
-        const double degrees = value(columns.angle);
-        if (!out.angles.empty() && !(degrees * units::degree > out.angles.back()))
-            throw ParseError(file.name(), row.line, 0,
-                             text("angle of attack = ", degrees, " deg after ", out.angles.back() * units::to_degrees,
-                                  "; allowed: ascending"));
-        out.angles.push_back(degrees * units::degree);
-        out.lift.push_back(value(columns.lift));
-        out.drag.push_back(value(columns.drag));
-        out.moment.push_back(value(columns.moment));
-    }
-    return out;
-}
-
-// Of several tables, all are at one setting of what a controller may change (UserProp, before that Ctrl).
-void check_user_property(OpenFastFile& file, std::size_t part) {
-    for (const char* keyword : {"UserProp", "Ctrl"}) {
-        if (file.count(keyword) <= part) continue;
-        const double first = file.number_of(keyword, 0), own = file.number_of(keyword, part);
-        if (own != first)
-            file.fail_in(keyword, part, text(keyword, " = ", own, "; allowed: ", first, ", as in the first table"));
-    }
-}
-
-// In files in millions.
-double reynolds_number(OpenFastFile& file, std::size_t part, double before) {
-    const double given = file.number_of("Re", part), number = given * 1e6;
-    if (!(number > before))
-        file.fail_in("Re", part, text("Re = ", given, "; allowed: above ", before / 1e6, ", that of the table before"));
-    return number;
-}
-
-std::size_t number_of_tables(OpenFastFile& file) {
-    if (!file.has("NumTabs")) return 1;
-    const auto tables = static_cast<std::size_t>(file.integer("NumTabs", 1, 1000));
-    for (const char* keyword : {"NumAlf", "Re"})
-        if (tables > 1 && file.count(keyword) != tables)
-            file.fail("NumTabs",
-                      text("NumTabs = ", tables, ", but there are ", file.count(keyword), " lines with ", keyword));
-    return tables;
-}
-
-// @param all  tables, not the first one alone
-Polar read_polar(const std::filesystem::path& path, const PolarColumns& columns, bool all) {
-    OpenFastFile file = OpenFastFile::read(path);
-    const std::size_t count = all ? number_of_tables(file) : 1;
-    std::vector<Polar::Table> tables;
-    tables.reserve(count);
-    for (std::size_t part = 0; part < count; ++part) {
-        const double before = tables.empty() ? 0 : tables.back().reynolds;
-        tables.push_back(polar_table(file, columns, part));
-        if (count == 1) break;
-        check_user_property(file, part);
-        tables.back().reynolds = reynolds_number(file, part, before);
-    }
-    try {
-        return {path.filename().string(), std::move(tables)};
-    } catch (const InputError& error) {
-        file.fail("NumAlf", error.what());
-    }
-}
 
 AeroBlade read_blade(const std::filesystem::path& path, double hub_radius, std::vector<Polar> polars,
                      std::string& source) {
@@ -187,12 +111,6 @@ AeroNacelle read_nacelle(OpenFastFile& file) {
     return nacelle;
 }
 
-void note_rest(OpenFastFile& file) {
-    if (choice(file, "UA_Mod", "UAMod", 0) != 0 && file.number_or_default("AFAeroMod", 2) != 1)
-        file.note(present(file, "UA_Mod", "UAMod"), "profiles are steady here");
-    if (file.number_or_default("TwrShadow", 0) != 0) file.note("TwrShadow", "the tower has no shadow here");
-}
-
 // Are polars to be taken over the Reynolds number?
 bool over_reynolds(OpenFastFile& file) {
     const double mode = file.number_or_default("AFTabMod", 1);
@@ -201,10 +119,66 @@ bool over_reynolds(OpenFastFile& file) {
     return mode == 2;
 }
 
+// Do the files ask for profiles that lag? The models of UA_Mod are several, here is one.
+bool read_unsteady(OpenFastFile& file) {
+    const int model = choice(file, "UA_Mod", "UAMod", 0);
+    if (model == 0 || file.number_or_default("AFAeroMod", 2) == 1) return false;
+    const bool same = model == 4;
+    file.note(present(file, "UA_Mod", "UAMod"),
+              same ? "profiles lag where that is asked for; else they are steady here"
+                   : "where that is asked for profiles lag as with UA_Mod = 4; else they are steady here");
+    return true;
+}
+
+double part_of_radius(OpenFastFile& file, const char* keyword, double otherwise) {
+    const double part = file.number_or_default(keyword, otherwise);
+    if (!(part >= 0 && part <= 1)) file.fail(keyword, text(keyword, " = ", part, "; allowed: 0 ... 1"));
+    return part;
+}
+
+std::vector<UnsteadyProfile> read_profiles(OpenFastFile& file, std::vector<FileNote>& notes) {
+    const auto column = [&](const char* keyword, int least) { return file.integer(keyword, least, 100); };
+    PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};
+    if (!file.flag("UseBlCm")) columns.moment = 0;
+    const auto paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));
+    const bool all_tables = over_reynolds(file);
+    std::vector<UnsteadyProfile> profiles;
+    profiles.reserve(paths.size());
+    for (const std::filesystem::path& one : paths)
+        profiles.push_back(
+            file.follow("AFNames", [&] { return read_aerodyn_profile(one, columns, all_tables, notes); }));
+    return profiles;
+}
+
+std::vector<Polar> polars_of(const std::vector<UnsteadyProfile>& profiles) {
+    std::vector<Polar> polars;
+    polars.reserve(profiles.size());
+    for (const UnsteadyProfile& profile : profiles) polars.push_back(profile.polar());
+    return polars;
+}
+
+// Sections out of the range are steady: a profile with sections within and out of it is there twice then.
+void keep_steady(OpenFastFile& file, AeroDynFile& out) {
+    const double from = part_of_radius(file, "UAStartRad", 0), to = part_of_radius(file, "UAEndRad", 1);
+    AeroBlade& blade = out.blade;
+    constexpr std::size_t none = 0;  // no twin is the first of all profiles
+    std::vector<std::size_t> twin(blade.polars.size(), none);
+    for (std::size_t i = 0; i < blade.sections(); ++i) {
+        const double part = blade.position[i] / blade.position.back();
+        std::size_t& profile = blade.profile[i];
+        if ((part >= from && part <= to) || !out.profiles[profile].is_unsteady()) continue;
+        if (twin[profile] == none) {
+            twin[profile] = blade.polars.size();
+            blade.polars.push_back(Polar(blade.polars[profile]));
+            out.profiles.emplace_back(blade.polars.back(), AttachedFlow{});
+        }
+        profile = twin[profile];
+    }
+}
+
 const std::vector<KeywordGroup>& ignored_by_aerodyn() {
-    static const std::vector<KeywordGroup> all{{{"*"},
-                                                "numerical settings, output, unsteady profiles, shadow of the tower: "
-                                                "without meaning for the steady air on blades"}};
+    static const std::vector<KeywordGroup> all{
+        {{"*"}, "numerical settings, output, shadow of the tower: without meaning for the air on blades here"}};
     return all;
 }
 
@@ -227,25 +201,22 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
                             .rotation = file.flag("TanInd"),
                             .tangential_drag = file.flag("TIDrag")};
     out.support = {read_tower(file), read_nacelle(file)};
-    note_rest(file);
-    const auto column = [&](const char* keyword, int least) { return file.integer(keyword, least, 100); };
-    PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};
-    if (!file.flag("UseBlCm")) columns.moment = 0;
-    const auto polar_paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));
-    const bool all_tables = over_reynolds(file);
-    std::vector<Polar> polars;
-    polars.reserve(polar_paths.size());
-    for (const std::filesystem::path& one : polar_paths)
-        polars.push_back(file.follow("AFNames", [&] { return read_polar(one, columns, all_tables); }));
+    if (file.number_or_default("TwrShadow", 0) != 0) file.note("TwrShadow", "the tower has no shadow here");
+    out.unsteady = read_unsteady(file);
+    out.profiles = read_profiles(file, out.notes);
+    if (out.unsteady && std::ranges::any_of(out.profiles, [](const auto& one) { return one.polar().over_reynolds(); }))
+        file.note("AFTabMod", "profiles that lag are those of the first Reynolds number here");
     const auto blade = [](int k) { return text("ADBlFile(", k, ")"); };
     out.source = text("# ", path.string(), "\n", file.text());
-    out.blade = file.follow(blade(1),
-                            [&] { return read_blade(file.path(blade(1)), hub_radius, std::move(polars), out.source); });
+    out.blade = file.follow(
+        blade(1), [&] { return read_blade(file.path(blade(1)), hub_radius, polars_of(out.profiles), out.source); });
     out.blade.viscosity = kinematic;
+    keep_steady(file, out);
     for (int k = 2; k <= 3; ++k)
         if (file.has(blade(k)) && file.word(blade(k)) != file.word(blade(1)))
             file.note(blade(k), "all blades have the sections of the first one here");
-    out.notes = file.notes(ignored_by_aerodyn());
+    const std::vector<FileNote> main_notes = file.notes(ignored_by_aerodyn());
+    out.notes.insert(out.notes.begin(), main_notes.begin(), main_notes.end());
     return out;
 }
 

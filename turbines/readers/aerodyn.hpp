@@ -4,6 +4,7 @@
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/tower.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
 #include "turbines/readers/turbine_file.hpp"
 
 #include <filesystem>
@@ -20,13 +21,19 @@ struct AeroDynFile {
     /// Tower and nacelle; nothing where the file switches them off. Heights of the tower are those above the ground or
     /// the still water: AeroTower::foot is for the caller to set (TurbineFile::tower_foot).
     AeroSupport support = {};
+    /// In the place of the polars of the blade, one for each, where air is to lag: AirLagOptions::profiles. Those of
+    /// cylinders and of sections out of UAStartRad ... UAEndRad lag in nothing.
+    std::vector<UnsteadyProfile> profiles = {};
+    bool unsteady = false;  ///< do the files ask for them (UA_Mod, AFAeroMod)?
 };
 
 /// The main file, all versions of AeroDyn 15, with the files it names. Taken as they are: induction, tip and hub
 /// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments, polars over the Reynolds number
-/// (AFTabMod 2, KinVisc), drag of tower and nacelle, potential flow around the tower. Noted: unsteady airfoils, dynamic
-/// wake, free vortices, shadow of the tower, polars over UserProp (AFTabMod 3: the first table of each is used), blades
-/// that differ.
+/// (AFTabMod 2, KinVisc), drag of tower and nacelle, potential flow around the tower, data of unsteady profiles for
+/// four states (UA_Mod 4), of the first table of each polar; what they leave out is found as AeroDyn does
+/// (attached_flow()). Noted: other unsteady profiles, unsteady data that do not fit their polar, dynamic wake, free
+/// vortices, shadow of the tower, polars over UserProp (AFTabMod 3: the first table of each is used), blades that
+/// differ.
 /// @param hub_radius  places of the sections are given from the blade's root, m
 /// @param density     where the file says "default", kg/m^3
 /// @param viscosity   likewise, kinematic, m^2/s

@@ -210,13 +210,17 @@ int OpenFastFile::integer(std::string_view keyword, int least, int most) {
     return static_cast<int>(value);
 }
 
-bool OpenFastFile::flag(std::string_view keyword) {
-    const Token& token = single(keyword);
+bool OpenFastFile::truth_of(const Token& token, int line, std::string_view keyword) const {
     const std::optional<bool> value = truth(token.text);
     if (!value)
-        throw ParseError(file_, known(keyword).number, token.column,
+        throw ParseError(file_, line, token.column,
                          cardan::text(keyword, ": '", token.text, "' is neither True nor False"));
     return *value;
+}
+
+bool OpenFastFile::flag(std::string_view keyword) {
+    const Token& token = single(keyword);
+    return truth_of(token, known(keyword).number, keyword);
 }
 
 bool OpenFastFile::flag_or(std::string_view keyword, bool otherwise) {
@@ -253,6 +257,19 @@ const OpenFastFile::Token& OpenFastFile::token_of(std::string_view keyword, std:
 double OpenFastFile::number_of(std::string_view keyword, std::size_t part) {
     const Token& token = token_of(keyword, part);
     return parsed(token, line_of(keyword, part).number, keyword);
+}
+
+bool OpenFastFile::flag_of(std::string_view keyword, std::size_t part) {
+    const Token& token = token_of(keyword, part);
+    return truth_of(token, line_of(keyword, part).number, keyword);
+}
+
+std::optional<double> OpenFastFile::number_before(std::string_view end, std::string_view keyword) {
+    const Line *const line = find(keyword), *const last = find(end);
+    if (line == nullptr || (last != nullptr && line->number > last->number)) return std::nullopt;
+    const Token& token = token_of(keyword, 0);
+    if (lower_case(token.text) == "default") return std::nullopt;
+    return parsed(token, line->number, keyword);
 }
 
 std::filesystem::path OpenFastFile::path_of(std::string_view keyword, std::size_t part) {
@@ -311,11 +328,19 @@ void OpenFastFile::pass_over(std::string_view keyword, std::size_t lines) {
     for (std::size_t i = first; i < std::min(first + lines, lines_.size()); ++i) lines_[i].used = true;
 }
 
-void OpenFastFile::note(std::string_view keyword, std::string why) {
-    Line& line = known(keyword);
+void OpenFastFile::add_note(const Line& line, std::string why) {
     std::string value;
     for (const Token& token : line.tokens) value += (value.empty() ? "" : ", ") + token.text;
     notes_.push_back({file_, line.number, line.keyword, value, std::move(why)});
+}
+
+void OpenFastFile::note(std::string_view keyword, std::string why) {
+    add_note(known(keyword), std::move(why));
+}
+
+void OpenFastFile::note_of(std::string_view keyword, std::size_t part, std::string why) {
+    static_cast<void>(token_of(keyword, part));  // counts as used
+    add_note(line_of(keyword, part), std::move(why));
 }
 
 void OpenFastFile::note_unless(std::string_view keyword, double neutral, std::string why) {

@@ -92,7 +92,11 @@ public:
     std::size_t count(std::string_view keyword) const;
     /// Of a keyword that several parts have, that of one part, the first one being 0. All count as used.
     double number_of(std::string_view keyword, std::size_t part);
+    bool flag_of(std::string_view keyword, std::size_t part);
     std::filesystem::path path_of(std::string_view keyword, std::size_t part);
+    /// Of the first part alone, which ends at the first line with the keyword `end`: none if the keyword is not there,
+    /// or with the word "default".
+    std::optional<double> number_before(std::string_view end, std::string_view keyword);
     /// The rows of numbers after the line with the keyword, as many as it says; headings are passed over.
     std::vector<Row> rows_after(std::string_view keyword, std::size_t part = 0);
     [[noreturn]] void fail_in(std::string_view keyword, std::size_t part, std::string_view what) const;
@@ -102,8 +106,12 @@ public:
 
     /// Adds a note on the entry, which then counts as used.
     void note(std::string_view keyword, std::string why);
+    /// As note(), of a keyword that several parts have.
+    void note_of(std::string_view keyword, std::size_t part, std::string why);
     /// As note(), if the entry exists and its number differs from the one without effect.
     void note_unless(std::string_view keyword, double neutral, std::string why);
+    /// Those of the three functions above.
+    const std::vector<FileNote>& added_notes() const { return notes_; }
     /// Notes on unused entries: by groups, then one by one.
     std::vector<FileNote> notes(const std::vector<KeywordGroup>& groups) const;
 
@@ -130,6 +138,8 @@ private:
     const Line* find(std::string_view keyword) const;
     Line& known(std::string_view keyword);
     const Line& line_of(std::string_view keyword, std::size_t part) const;
+    void add_note(const Line& line, std::string why);
+    bool truth_of(const Token& token, int line, std::string_view keyword) const;
     const Token& token_of(std::string_view keyword, std::size_t part);
     const Token& single(std::string_view keyword);
     std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;

@@ -1,5 +1,6 @@
 #include "turbines/yaml/windio_air.hpp"
 
+#include "elements/aerodynamics/attached_flow.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/monotone_cubic.hpp"
 #include "mbs/base/stations.hpp"
@@ -110,6 +111,7 @@ public:
         try {
             read_sections();
             out_.blade.check();
+            out_.profiles = unsteady_profiles(out_.blade.polars);
         } catch (const InputError& error) {
             file_.root().fail(error.what());
         }

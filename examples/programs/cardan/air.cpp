@@ -34,6 +34,7 @@ template <class File>
 void take(Air& air, File read, const MachineOptions& options) {
     print_notes(read.notes, options.notes);
     air.blade = std::move(read.blade);
+    air.profiles = std::move(read.profiles);
     air.options = read.options;
     air.density = read.density;
 }

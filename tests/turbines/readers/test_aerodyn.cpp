@@ -101,7 +101,7 @@ TEST_CASE("aerodyn: sections, polars and options of newer files", "[analytic]") 
     CHECK(blade.polars[0].at(10 * units::degree).moment == Approx(-0.1));
     CHECK(blade.polars[1].at(1).drag == Approx(0.5));
     CHECK_NOTHROW(blade.check());
-    CHECK(test::has_note(file.notes, "UA_Mod", "profiles are steady here"));
+    CHECK(test::has_note(file.notes, "UA_Mod", "profiles lag where that is asked for"));
     CHECK(test::has_note(file.notes, "ADBlFile(3)", "the sections of the first one"));
     CHECK(!test::has_note(file.notes, "ADBlFile(2)", "the sections of the first one"));
 }
@@ -113,7 +113,7 @@ TEST_CASE("aerodyn: older files, and what is left out", "[analytic]") {
     CHECK(file.options.skew == Skew::none);
     CHECK(file.options.momentum.axial_drag);
     CHECK(!file.options.momentum.tangential_drag);
-    CHECK(test::has_note(file.notes, "UAMod", "profiles are steady here"));
+    CHECK(test::has_note(file.notes, "UAMod", "profiles lag as with UA_Mod = 4"));
     model.replace("main.dat", "1 WakeMod", "0 WakeMod");
     model.replace("main.dat", "1 SkewMod", "2 SkewMod");
     model.replace("main.dat", "True UseBlCm", "False UseBlCm");

@@ -97,6 +97,20 @@ TEST_CASE("windio air: sections, centres and profiles", "[analytic]") {
     CHECK(polar_at(blade, 6).name() == "thin");
 }
 
+TEST_CASE("windio air: unsteady profiles from the polars alone", "[analytic]") {
+    const WindioAir air = small("v2");
+    REQUIRE(air.profiles.size() == air.blade.polars.size());
+    CHECK(!air.profiles[air.blade.profile.front()].is_unsteady());
+    // Of the first table: the lift rises by 0.1, then by 0.09 per degree, its zero is at -4 deg.
+    const UnsteadyProfile& thin = air.profiles[air.blade.profile.back()];
+    CHECK(thin.polar().name() == "thin");
+    CHECK(thin.flow().slope == Approx(0.09 / degree));
+    CHECK(thin.flow().zero_lift == Approx(-4 * degree));
+    CHECK(thin.flow().upper == Approx(5 * degree));
+    CHECK(thin.flow().lower == Approx(-5 * degree));
+    CHECK(thin.flow().least_drag == Approx(0.011));
+}
+
 TEST_CASE("windio air: an offset across the chord goes to the suction side, downwind", "[analytic]") {
     const AeroBlade before = small("v2").blade,
                     after =

@@ -1,0 +1,28 @@
+/// @file
+/// Profiles from AeroDyn's files of polars: their tables, and how their flow lags.
+#pragma once
+
+#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "turbines/readers/turbine_file.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// Which column of the polars holds what, from 1; 0: none.
+struct PolarColumns {
+    int angle, lift, drag, moment;
+};
+
+/// A polar and, from its first table, what AeroDyn's four states (UA_Mod 4) need: C_lalpha, alpha0, alphaUpper,
+/// alphaLower, Cd0, A1, A2, b1, b2, T_p, T_f0. What is missing, or "default", is found as AeroDyn does
+/// (attached_flow(), ProfileLags). The flow begins to separate at alphaUpper and alphaLower; without them at the ends
+/// of the range found, or at alpha1 and alpha2 (f = 0.7) where these lie beyond.
+/// @param all    tables, not the first one alone
+/// @param notes  is added to: what is different here
+/// @throws ParseError, FileError
+UnsteadyProfile read_aerodyn_profile(const std::filesystem::path& path, const PolarColumns& columns, bool all,
+                                     std::vector<FileNote>& notes);
+
+}  // namespace cardan::turbines
