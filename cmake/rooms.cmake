@@ -23,7 +23,7 @@ room(solvers/algebra SEES mbs/base USES sundials fft) # eigenvalues, Schur forms
 room(solvers/linear SEES solvers/algebra mbs/system) # operating point, linearisation, modes, Coleman transformation
 room(solvers/equilibrium SEES solvers/linear USES sundials) # steady states, load paths, buckling
 room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Floquet, Hill, forced response
-room(solvers/campbell SEES solvers/periodic) # Campbell diagrams: points, names, tracking, tables
+room(solvers/campbell SEES solvers/periodic USES boost) # Campbell diagrams: points, names, tracking, tables
 room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
 room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
 room(solvers/time SEES solvers/signals USES sundials) # time integration

@@ -40,6 +40,8 @@ public:
     virtual const ColemanTransform* coleman() const = 0;
     /// A warning about the results so far; usually empty.
     virtual const std::string& warning() const = 0;
+    /// Which modes the next point has, where the equations are constant.
+    virtual ModeRange& mode_range() = 0;
 };
 
 /// PointSolver::periodic_remainder() that counts as none: rounding.
@@ -91,8 +93,7 @@ public:
     bool blades_stand_out() const;
     /// Defines the components from this linearisation instead of that of the first point; call before the first point.
     void define_components(const Linearisation& lin);
-    /// Which modes the next point has.
-    ModeRange& mode_range() { return range_; }
+    ModeRange& mode_range() override { return range_; }
 
 private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }

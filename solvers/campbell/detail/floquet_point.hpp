@@ -28,6 +28,7 @@ public:
     Matrix rotating_coordinates() const override { return standstill_.rotating_coordinates(); }
     const ColemanTransform* coleman() const override { return standstill_.coleman(); }
     const std::string& warning() const override { return warning_; }
+    ModeRange& mode_range() override { return standstill_.mode_range(); }
 
 private:
     void find_steady_state(double rotor_speed);

@@ -87,33 +87,62 @@ std::vector<const CampbellMode*> Tracker::last() const {
 }
 
 void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
+    const Matrix likeness = mac(system, point);
+    add(likeness, likeness, point);
+}
+
+Matrix Tracker::mac(const SecondOrderSystem& system, const CampbellPoint& point) const {
     const auto count = std::ssize(point.modes);
-    Matrix mac = Matrix::Zero(std::ssize(tracks_), count);
-    if (mac.size() > 0) {
-        const Eigen::Index n = system.M.rows();
-        const Matrix X = states(last_, n), Y = states(point.modes, n);
-        Matrix Z(4 * n, count), turned(4 * n, count);  // K_e y, lambda_y M y; -i times as much
-        for (Eigen::Index part = 0; part < 4; ++part)
-            Z.middleRows(part * n, n).noalias() = (part < 2 ? system.K_elastic : system.M) * Y.middleRows(part * n, n);
-        for (Eigen::Index part = 0; part < 4; part += 2) {
-            turned.middleRows(part * n, n) = Z.middleRows((part + 1) * n, n);
-            turned.middleRows((part + 1) * n, n) = -Z.middleRows(part * n, n);
-        }
-        // Modes have energy norm 2 (their own at their own speed), so |product|^2 / 4 is the MAC up to the change of M.
-        ComplexMatrix products(mac.rows(), count);
-        products.real() = X.transpose() * Z;
-        products.imag() = X.transpose() * turned;
-        mac = (products.cwiseAbs2() / 4).cwiseMin(1.0);
-        take_spaces(system, point.modes, products, mac);
+    Matrix likeness = Matrix::Zero(std::ssize(tracks_), count);
+    if (likeness.size() == 0) return likeness;
+    const Eigen::Index n = system.M.rows();
+    const Matrix X = states(last_, n), Y = states(point.modes, n);
+    Matrix Z(4 * n, count), turned(4 * n, count);  // K_e y, lambda_y M y; -i times as much
+    for (Eigen::Index part = 0; part < 4; ++part)
+        Z.middleRows(part * n, n).noalias() = (part < 2 ? system.K_elastic : system.M) * Y.middleRows(part * n, n);
+    for (Eigen::Index part = 0; part < 4; part += 2) {
+        turned.middleRows(part * n, n) = Z.middleRows((part + 1) * n, n);
+        turned.middleRows((part + 1) * n, n) = -Z.middleRows(part * n, n);
     }
-    add(mac, mac, point);
+    // Modes have energy norm 2 (their own at their own speed), so |product|^2 / 4 is the MAC up to the change of M.
+    ComplexMatrix products(likeness.rows(), count);
+    products.real() = X.transpose() * Z;
+    products.imag() = X.transpose() * turned;
+    likeness = (products.cwiseAbs2() / 4).cwiseMin(1.0);
+    take_spaces(system, point.modes, products, likeness);
+    return likeness;
+}
+
+void Tracker::require_size(const Matrix& matrix, const CampbellPoint& point) const {
+    if (matrix.rows() != std::ssize(tracks_) || matrix.cols() != std::ssize(point.modes))
+        throw InputError("tracking", "size of a matrix of likenesses", text(matrix.rows(), " x ", matrix.cols()),
+                         text(tracks_.size(), " x ", point.modes.size(), ", tracks by modes"));
+}
+
+bool Tracker::continues(const Matrix& score, const Matrix& mac, const CampbellPoint& point, double largest_hz) const {
+    constexpr double competes = 0.8;
+    for (const Matrix* m : {&score, &mac}) require_size(*m, point);
+    if (score.rows() == 0) return true;
+    const auto alone = [&](Eigen::Index t, Eigen::Index own) {
+        const Complex before = entry(last_, t).mode.eigenvalue;
+        const auto distance = [&](Eigen::Index m) { return std::abs(entry(point.modes, m).mode.eigenvalue - before); };
+        for (Eigen::Index m = 0; m < mac.cols(); ++m)
+            if (m != own && mac(t, m) >= competes * mac(t, own) && distance(m) < distance(own)) return false;
+        return true;
+    };
+    const std::vector<int> mode_of_track = score.cols() > 0 ? assign(score) : std::vector<int>(tracks_.size(), -1);
+    for (Eigen::Index t = 0; t < score.rows(); ++t) {
+        const Mode& last = entry(last_, t).mode;
+        const bool followed = entry(tracks_, t).mode.back() >= 0 && last.oscillates() && !last.is_state_motion();
+        if (!followed || last.natural_hz() > largest_hz) continue;
+        const int mode = entry(mode_of_track, t);
+        if (mode < 0 || mac(t, mode) < min_reliable_mac || !alone(t, mode)) return false;
+    }
+    return true;
 }
 
 void Tracker::add(const Matrix& score, const Matrix& mac, const CampbellPoint& point) {
-    for (const Matrix* m : {&score, &mac})
-        if (m->rows() != std::ssize(tracks_) || m->cols() != std::ssize(point.modes))
-            throw InputError("tracking", "size of a matrix of likenesses", text(m->rows(), " x ", m->cols()),
-                             text(tracks_.size(), " x ", point.modes.size(), ", tracks by modes"));
+    for (const Matrix* m : {&score, &mac}) require_size(*m, point);
     std::vector<int> mode_of_track(tracks_.size(), -1);
     std::vector<bool> taken(point.modes.size(), false);
     if (score.size() > 0) mode_of_track = assign(score);

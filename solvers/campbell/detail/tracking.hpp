@@ -16,6 +16,8 @@ class Tracker {
 public:
     /// @param system  the (transformed) system of the point: its energy product weighs the MAC
     void add(const SecondOrderSystem& system, const CampbellPoint& point);
+    /// Complex energy MAC of the last known mode of every track (rows) with the modes of a point (columns).
+    Matrix mac(const SecondOrderSystem& system, const CampbellPoint& point) const;
     /// With a score and MAC supplied by the caller, e.g. from periodic_mac(): one row per track (see last()), one
     /// column per mode.
     /// @param score  the assignment maximises its sum; below min_score a track ends
@@ -24,6 +26,10 @@ public:
     void add(const Matrix& score, const Matrix& mac, const CampbellPoint& point);
     /// Last known mode of every track.
     std::vector<const CampbellMode*> last() const;
+    /// True if add() would continue all vibrations of the last point up to a frequency beyond doubt: with a MAC of
+    /// `min_reliable_mac` at least, and with no other mode whose MAC is four fifths of that and whose eigenvalue is
+    /// nearer. Both hold for a point that is near enough, whatever the modes. Motions of states need not be certain.
+    bool continues(const Matrix& score, const Matrix& mac, const CampbellPoint& point, double largest_hz) const;
 
     /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
     /// the sweep, or the coordinate that moves most, no name twice (assignment again).
@@ -39,6 +45,8 @@ private:
         std::vector<int> mode;
         std::vector<double> mac;
     };
+    void require_size(const Matrix& matrix, const CampbellPoint& point) const;
+
     std::vector<Track> tracks_;
     std::vector<CampbellMode> last_;
     std::size_t points_ = 0;
