@@ -26,6 +26,7 @@ constexpr std::array commands{
     Command{"steady", "steady state at one rotor speed: deflections and loads over a revolution", steady_command},
     Command{"simulate", "motion in time", simulate_command},
     Command{"linearise", "linear model for the design of controllers", linearise_command},
+    Command{"flutter", "rotor speeds at which a blade flutters or diverges", flutter_command},
     Command{"convert", "a machine to our own YAML, a time history to CSV", convert_command},
     Command{"plot", "pictures of a time history: channels, spectra, energies", plot_command},
     Command{"info", "what is in a machine or a result", info_command},

@@ -54,13 +54,17 @@ std::optional<turbines::AeroDynFile> aerodyn_of(const MachineFile& machine, cons
 
 }  // namespace
 
-void add_air_options(CommandLine& app, AirArguments& a) {
+void add_profile_options(CommandLine& app, AirArguments& a) {
     app.add_option("--air", a.file, "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
         .type_name("FILE");
+    app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
+}
+
+void add_air_options(CommandLine& app, AirArguments& a) {
+    add_profile_options(app, a);
     app.add_option("--shear", a.shear, "exponent of the wind's profile over the height");
     app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
     app.add_option("--upflow", a.upflow, "of the wind, deg");
-    app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
     app.add_flag("--no-tower", a.no_tower,
                  "without the wind that the tower dams, and the air's drag on tower and nacelle");
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");

@@ -22,6 +22,8 @@ struct AirArguments {
     std::optional<double> density;
     bool no_skew = false, no_tower = false;
 };
+/// Of these, file and density alone.
+void add_profile_options(CommandLine& app, AirArguments& arguments);
 void add_air_options(CommandLine& app, AirArguments& arguments);
 /// For the file of a run.
 std::string in_words(const AirArguments& arguments);

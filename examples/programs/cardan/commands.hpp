@@ -9,6 +9,7 @@ int modes_command(int argc, char** argv);
 int steady_command(int argc, char** argv);
 int simulate_command(int argc, char** argv);
 int linearise_command(int argc, char** argv);
+int flutter_command(int argc, char** argv);
 int convert_command(int argc, char** argv);
 int plot_command(int argc, char** argv);
 int info_command(int argc, char** argv);
