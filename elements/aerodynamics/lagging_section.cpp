@@ -10,8 +10,11 @@ namespace {
 
 using LagSlope = Dual<LaggingSlopes::columns>;
 
+// Those that a profile does not have are zero.
 UnsteadyProfile::States profile_states(const SectionStates& s, const SectionLags& lags) {
-    return s.segment<UnsteadyProfile::states>(lags.inflow_states());
+    UnsteadyProfile::States x = UnsteadyProfile::States::Zero();
+    x.tail(lags.profile_states()) = s.segment(lags.inflow_states(), lags.profile_states());
+    return x;
 }
 
 // What is left of the inflow when the wake has taken its share.
@@ -47,10 +50,11 @@ Induction skewed(Induction induction, bool solved, const SectionMotion& motion) 
     return induction;
 }
 
+// @param first, count  of the profile's states
 LagSlope profile_value(double value, const Eigen::Matrix<double, 1, UnsteadyProfile::Slopes::columns>& slopes,
-                       const LagSlope& attack, const LagSlope& speed, const LagSlope& rate, int first) {
+                       const LagSlope& attack, const LagSlope& speed, const LagSlope& rate, int first, int count) {
     LagSlope out(value);
-    for (int i = 0; i < UnsteadyProfile::states; ++i) out.slopes(first + i) += slopes(i);
+    for (int i = 0; i < count; ++i) out.slopes(first + i) += slopes(UnsteadyProfile::states - count + i);
     using Column = UnsteadyProfile::Slopes;
     out.slopes += slopes(Column::attack) * attack.slopes + slopes(Column::speed) * speed.slopes +
                   slopes(Column::rate) * rate.slopes;
@@ -140,12 +144,12 @@ private:
         const UnsteadyProfile::States x = profile_states(s_, lags_);
         const UnsteadyProfile::Slopes slopes = lags_.profile->slopes(x, motion);
         const UnsteadyProfile::Coefficients c = lags_.profile->coefficients(x, motion);
-        const int first = LaggingSlopes::first_state + lags_.inflow_states();
+        const int first = LaggingSlopes::first_state + lags_.inflow_states(), count = lags_.profile_states();
         const auto value = [&](double of, const auto& row) {
-            return profile_value(of, row, attack, speed, rate_, first);
+            return profile_value(of, row, attack, speed, rate_, first, count);
         };
-        for (int i = 0; i < UnsteadyProfile::states; ++i)
-            set(3 + lags_.inflow_states() + i, value(0, slopes.rates.row(i)));
+        for (int i = 0; i < count; ++i)
+            set(3 + lags_.inflow_states() + i, value(0, slopes.rates.row(UnsteadyProfile::states - count + i)));
         const LagSlope lift = value(c.lift, slopes.coefficients.row(0)),
                        drag = value(c.drag, slopes.coefficients.row(1)),
                        moment = value(c.moment, slopes.coefficients.row(2)),
@@ -194,7 +198,8 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
         const Reaching u = reaching(motion, now);
         const ProfileMotion moving = u.motion(annulus, motion.rate);
         const UnsteadyProfile::States x = profile_states(s, lags);
-        out.rates.segment<UnsteadyProfile::states>(lags.inflow_states()) = lags.profile->rates(x, moving);
+        out.rates.segment(lags.inflow_states(), lags.profile_states()) =
+            lags.profile->rates(x, moving).tail(lags.profile_states());
         out.air.force = force_of(annulus, u, lags.profile->coefficients(x, moving), density);
     } else {
         out.air.force = section_force(annulus, V_x, V_y, now, density);
@@ -211,8 +216,9 @@ SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion,
     SectionStates out = SectionStates::Zero();
     if (lags.wake == WakeLag::dynamic) out.head<DynamicInflow::states>() = DynamicInflow::steady(at.velocity);
     if (lags.has_profile())
-        out.segment<UnsteadyProfile::states>(lags.inflow_states()) =
-            lags.profile->steady(reaching(motion, at.air.induction).motion(annulus, motion.rate));
+        out.segment(lags.inflow_states(), lags.profile_states()) =
+            lags.profile->steady(reaching(motion, at.air.induction).motion(annulus, motion.rate))
+                .tail(lags.profile_states());
     return out;
 }
 

@@ -29,7 +29,8 @@ struct SectionLags {
     static constexpr int most = int{DynamicInflow::states} + int{UnsteadyProfile::states};
     bool has_profile() const { return profile != nullptr && profile->is_unsteady(); }
     int inflow_states() const { return wake == WakeLag::dynamic ? DynamicInflow::states : 0; }
-    int states() const { return inflow_states() + (has_profile() ? UnsteadyProfile::states : 0); }
+    int profile_states() const { return has_profile() ? profile->own_states() : 0; }
+    int states() const { return inflow_states() + profile_states(); }
 };
 /// Of a section; only the first SectionLags::states() count.
 using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;

@@ -136,8 +136,9 @@ UnsteadyProfile::Flow<S> UnsteadyProfile::flow_at(const Values<S>& at) const {
     Flow<S> out{};
     out.T = limited<S>(at.chord / 2 / at.speed, least_lag, largest_lag);
     out.attack_34 = atan2(at.speed * sin(at.attack) + at.rate * (at.chord / 2), at.speed * cos(at.attack));
-    out.effective = (1 - lags_.A1 - lags_.A2) * out.attack_34 + at.x[wake_1] + at.x[wake_2];
-    out.lift_34 = pi * out.T * at.rate;
+    const bool alone = follows_separation_alone();
+    out.effective = alone ? out.attack_34 : (1 - lags_.A1 - lags_.A2) * out.attack_34 + at.x[wake_1] + at.x[wake_2];
+    out.lift_34 = alone ? S(0) : pi * out.T * at.rate;
     out.attached = flow_.slope * (out.effective - flow_.zero_lift);
     return out;
 }
@@ -146,10 +147,13 @@ template <class S>
 std::array<S, UnsteadyProfile::states> UnsteadyProfile::rates_of(const Values<S>& at) const {
     const Flow<S> flow = flow_at(at);
     std::array<S, states> out{};
-    out[wake_1] = lags_.b1 * (lags_.A1 * flow.attack_34 - at.x[wake_1]) / flow.T;
-    out[wake_2] = lags_.b2 * (lags_.A2 * flow.attack_34 - at.x[wake_2]) / flow.T;
-    out[lagging_lift] = (flow.attached + flow.lift_34 - at.x[lagging_lift]) / (lags_.pressure * flow.T);
-    const S lagging = at.x[lagging_lift] / flow_.slope + flow_.zero_lift;
+    S lagging = flow.attack_34;
+    if (!follows_separation_alone()) {
+        out[wake_1] = lags_.b1 * (lags_.A1 * flow.attack_34 - at.x[wake_1]) / flow.T;
+        out[wake_2] = lags_.b2 * (lags_.A2 * flow.attack_34 - at.x[wake_2]) / flow.T;
+        out[lagging_lift] = (flow.attached + flow.lift_34 - at.x[lagging_lift]) / (lags_.pressure * flow.T);
+        lagging = at.x[lagging_lift] / flow_.slope + flow_.zero_lift;
+    }
     const Separation here = separation(value_of(lagging));
     out[separation_point] =
         (on_curve(here.f, here.f_slope, lagging) - at.x[separation_point]) / (lags_.boundary_layer * flow.T);
@@ -168,9 +172,13 @@ std::array<S, 3> UnsteadyProfile::coefficients_of(const Values<S>& at) const {
     const S lagging_drag = (root(f) - root(x4)) / 2 - (f - x4) / 4;
     std::array<S, 3> out{};
     out[0] = circulation + flow.lift_34;
-    out[1] = drag + (flow.attack_34 - flow.effective + flow.T * at.rate) * circulation +
-             (drag - flow_.least_drag) * lagging_drag;
-    out[2] = on_curve(table.moment, table.moment_slope, flow.effective) - pi / 2 * flow.T * at.rate;
+    out[1] = drag;
+    out[2] = on_curve(table.moment, table.moment_slope, flow.effective);
+    if (!follows_separation_alone()) {
+        out[1] = out[1] + (flow.attack_34 - flow.effective + flow.T * at.rate) * circulation +
+                 (drag - flow_.least_drag) * lagging_drag;
+        out[2] = out[2] - pi / 2 * flow.T * at.rate;
+    }
     const S share = share_of(at.attack);
     if (value_of(share) == 1) return out;
     const Polar::Point apart = polar_.at(value_of(at.attack));
@@ -182,6 +190,7 @@ std::array<S, 3> UnsteadyProfile::coefficients_of(const Values<S>& at) const {
 
 UnsteadyProfile::States UnsteadyProfile::steady(const ProfileMotion& motion) const {
     const Flow<double> flow = flow_at<double>({{}, motion.attack, motion.speed, motion.rate, motion.chord});
+    if (follows_separation_alone()) return {0, 0, 0, separation(flow.attack_34).f};
     const double effective = flow.attack_34, lift = flow_.slope * (effective - flow_.zero_lift) + flow.lift_34,
                  lagging = flow_.slope > 0 ? lift / flow_.slope + flow_.zero_lift : effective;
     return {lags_.A1 * effective, lags_.A2 * effective, lift, separation(lagging).f};

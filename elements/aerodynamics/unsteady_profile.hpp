@@ -1,7 +1,8 @@
 /// @file
 /// A profile whose flow lags behind its motion: four states for the wake's shed vorticity, the pressure and the point
 /// of separation [M. H. Hansen, M. Gaunaa, H. Aa. Madsen, A Beddoes-Leishman type dynamic stall model in state-space
-/// and indicial formulations, Riso-R-1354, 2004].
+/// and indicial formulations, Riso-R-1354, 2004], or the last of them alone [S. Oye, Dynamic stall simulated as time
+/// lag of separation, Fourth IEA Symposium on the Aerodynamics of Wind Turbines, 1991].
 #pragma once
 
 #include "elements/aerodynamics/polar.hpp"
@@ -21,11 +22,20 @@ struct AttachedFlow {
     double least_drag = 0;        ///< drag coefficient without lift
 };
 
+/// What of a profile lags.
+enum class ProfileModel : std::uint8_t {
+    four_states,  ///< all of it [Hansen, Gaunaa and Madsen]
+    separation    ///< the point of separation [Oye]: for stall; attached flow does not lag, so that flutter comes early
+};
+
 /// Of a thin profile, indicial response by two exponentials; lags in half chords travelled.
 struct ProfileLags {
     double A1 = 0.3, A2 = 0.7, b1 = 0.14, b2 = 0.53;
     double pressure = 1.7, boundary_layer = 3.0;
+    ProfileModel model = ProfileModel::four_states;
 };
+/// Oye's model has a single lag, usually of 6 half chords.
+inline constexpr ProfileLags oye_lags{.boundary_layer = 6, .model = ProfileModel::separation};
 
 /// How a section moves through the air, at its aerodynamic centre, a quarter of the chord behind the leading edge.
 struct ProfileMotion {
@@ -46,6 +56,9 @@ struct ProfileMotion {
 ///     c_d = c_d(alpha_E) + (alpha_34 - alpha_E + T rate) (c_l - pi T rate)
 ///           + [c_d(alpha_E) - least drag] [(sqrt f(alpha_E) - sqrt x4) / 2 - (f(alpha_E) - x4) / 4],
 ///     c_m = c_m(alpha_E) - pi/2 T rate.
+///
+/// With ProfileModel::separation alpha_E = alpha_F = alpha_34, the terms with the rate are not there, and c_d is that
+/// of the table: x1 to x3 stay zero and are no states.
 ///
 /// The speed is taken as constant in the lags. Beyond 40 degrees of attack the coefficients go over to those of the
 /// table, which they are from 45 degrees on (by a cosine; a choice as in AeroDyn).
@@ -83,11 +96,14 @@ public:
     Separation separation(double attack) const;
 
     bool is_unsteady() const { return flow_.slope > 0; }
+    /// How many states there are: the last ones of State.
+    int own_states() const { return follows_separation_alone() ? 1 : int{states}; }
     const AttachedFlow& flow() const { return flow_; }
     const ProfileLags& lags() const { return lags_; }
     const Polar& polar() const { return polar_; }
 
 private:
+    bool follows_separation_alone() const { return lags_.model == ProfileModel::separation; }
     template <class S>
     struct Flow;
     template <class S>

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <numeric>
+#include <span>
 
 namespace cardan::turbines {
 
@@ -64,8 +65,9 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
         };
         if (lags.inflow_states() > 0)
             for (const StateKindOfAir& kind : inflow_states) add(kind);
-        if (lags.has_profile())
-            for (const StateKindOfAir& kind : profile_states) add(kind);
+        for (const StateKindOfAir& kind :
+             std::span(profile_states).last(static_cast<std::size_t>(lags.profile_states())))
+            add(kind);
     }
     return all;
 }

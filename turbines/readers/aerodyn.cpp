@@ -119,11 +119,17 @@ bool over_reynolds(OpenFastFile& file) {
     return mode == 2;
 }
 
-// Do the files ask for profiles that lag? The models of UA_Mod are several, here is one.
+constexpr int hansen = 4, oye = 6;  // UA_Mod
+
+ProfileModel profile_model(OpenFastFile& file) {
+    return choice(file, "UA_Mod", "UAMod", 0) == oye ? ProfileModel::separation : ProfileModel::four_states;
+}
+
+// Do the files ask for profiles that lag? The models of UA_Mod are several, here are two.
 bool read_unsteady(OpenFastFile& file) {
     const int model = choice(file, "UA_Mod", "UAMod", 0);
     if (model == 0 || file.number_or_default("AFAeroMod", 2) == 1) return false;
-    const bool same = model == 4;
+    const bool same = model == hansen || model == oye;
     file.note(present(file, "UA_Mod", "UAMod"),
               same ? "profiles lag where that is asked for; else they are steady here"
                    : "where that is asked for profiles lag as with UA_Mod = 4; else they are steady here");
@@ -142,11 +148,12 @@ std::vector<UnsteadyProfile> read_profiles(OpenFastFile& file, std::vector<FileN
     if (!file.flag("UseBlCm")) columns.moment = 0;
     const auto paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));
     const bool all_tables = over_reynolds(file);
+    const ProfileModel model = profile_model(file);
     std::vector<UnsteadyProfile> profiles;
     profiles.reserve(paths.size());
     for (const std::filesystem::path& one : paths)
         profiles.push_back(
-            file.follow("AFNames", [&] { return read_aerodyn_profile(one, columns, all_tables, notes); }));
+            file.follow("AFNames", [&] { return read_aerodyn_profile(one, columns, all_tables, model, notes); }));
     return profiles;
 }
 

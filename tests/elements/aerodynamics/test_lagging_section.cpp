@@ -39,8 +39,16 @@ struct LaggingCase {
     }
 };
 
+// Six profiles with four states, then the same with one.
+std::vector<UnsteadyProfile> profiles_of_both_models() {
+    std::vector<UnsteadyProfile> all = turbines::nrel5mw_unsteady_profiles();
+    all.erase(all.begin(), all.begin() + 2);  // cylinders
+    for (std::size_t i = 0; i < 6; ++i) all.emplace_back(all[i].polar(), all[i].flow(), oye_lags);
+    return all;
+}
+
 LaggingCase random_lagging(Random& random, const std::vector<UnsteadyProfile>& profiles, int i) {
-    const UnsteadyProfile& profile = profiles[static_cast<std::size_t>(2 + i % 6)];
+    const UnsteadyProfile& profile = profiles[static_cast<std::size_t>(i % 6 + i / 6 % 2 * 6)];
     LaggingCase out{{.radius = uniform(random, 5, 60),
                      .chord = uniform(random, 1, 5),
                      .angle = uniform(random, -0.1, 0.3),
@@ -63,7 +71,7 @@ LaggingCase random_lagging(Random& random, const std::vector<UnsteadyProfile>& p
 }  // namespace
 
 TEST_CASE("lagging section: derivatives are those of loads and rates", "[property]") {
-    const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
+    const std::vector<UnsteadyProfile> profiles = profiles_of_both_models();
     Random random(17);
     int compared = 0;
     for (int i = 0; i < 1200; ++i) {
@@ -95,7 +103,7 @@ TEST_CASE("lagging section: derivatives are those of loads and rates", "[propert
 }
 
 TEST_CASE("lagging section: at rest the wake is in equilibrium, and profiles are steady", "[crosscheck]") {
-    const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
+    const std::vector<UnsteadyProfile> profiles = profiles_of_both_models();
     Random random(5);
     for (int i = 0; i < 300; ++i) {
         const RotorAirOptions options;
@@ -108,7 +116,7 @@ TEST_CASE("lagging section: at rest the wake is in equilibrium, and profiles are
         CHECK(air.air.force.driving == Approx(steady.force.driving).epsilon(1e-9).margin(1e-6));
 
         const Polar* const polar = at.annulus.polar;
-        at.lags.profile = &profiles[static_cast<std::size_t>(2 + i % 6)];
+        at.lags.profile = &profiles[static_cast<std::size_t>(i % 12)];
         at.annulus.polar = &at.lags.profile->polar();
         const SectionStates both = steady_states(at.annulus, at.motion, options, at.lags);
         CHECK(lagging_air(at.annulus, at.motion, both, options, 1.2, at.lags).rates.norm() < 1e-10);

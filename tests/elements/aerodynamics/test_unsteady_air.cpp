@@ -35,6 +35,10 @@ State integrated(State x, double from, double to, double step, const Rates& f) {
     return x;
 }
 
+UnsteadyProfile by_oye(const UnsteadyProfile& profile) {
+    return {profile.polar(), profile.flow(), oye_lags};
+}
+
 }  // namespace
 
 TEST_CASE("unsteady profiles: separation at the points of the polars", "[discrete]") {
@@ -83,27 +87,56 @@ TEST_CASE("unsteady profiles: loops of pitching profiles, attached and stalled",
 
 TEST_CASE("unsteady profiles: at rest they are steady, and their table's where f makes up its lift", "[property]") {
     const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
-    const UnsteadyProfile& profile = profiles.back();
-    for (const double degrees : {-4.0, 0.0, 5.0, 9.0, 14.0, 20.0}) {
-        const ProfileMotion motion{degrees * units::degree, 60, 0, 2};
-        const auto x = profile.steady(motion);
-        CHECK(profile.rates(x, motion).norm() < 1e-12);
-        const auto own = profile.coefficients(x, motion);
-        const Polar::Point table = profile.polar().at(motion.attack);
-        CHECK(own.lift == Approx(table.lift).margin(1e-12));
-        CHECK(own.drag == Approx(table.drag).margin(1e-12));
-        CHECK(own.moment == Approx(table.moment).margin(1e-12));
+    for (const UnsteadyProfile& profile : {profiles.back(), by_oye(profiles.back())}) {
+        for (const double degrees : {-4.0, 0.0, 5.0, 9.0, 14.0, 20.0}) {
+            const ProfileMotion motion{degrees * units::degree, 60, 0, 2};
+            const auto x = profile.steady(motion);
+            CHECK(profile.rates(x, motion).norm() < 1e-12);
+            const auto own = profile.coefficients(x, motion);
+            const Polar::Point table = profile.polar().at(motion.attack);
+            CHECK(own.lift == Approx(table.lift).margin(1e-12));
+            CHECK(own.drag == Approx(table.drag).margin(1e-12));
+            CHECK(own.moment == Approx(table.moment).margin(1e-12));
+        }
+        // In steady rotation about the span too.
+        const ProfileMotion turning{0.1, 60, 0.4, 2};
+        CHECK(profile.rates(profile.steady(turning), turning).norm() < 1e-12);
     }
-    // In steady rotation about the span too.
-    const ProfileMotion turning{0.1, 60, 0.4, 2};
-    CHECK(profile.rates(profile.steady(turning), turning).norm() < 1e-12);
+}
+
+TEST_CASE("unsteady profiles: by Oye the point of separation follows a step of the angle exponentially", "[analytic]") {
+    const UnsteadyProfile profile = by_oye(turbines::nrel5mw_unsteady_profiles()[6]);
+    CHECK(profile.own_states() == 1);
+    constexpr double speed = 60, chord = 2.4, lag = 6 * chord / (2 * speed);
+    const ProfileMotion before{6 * units::degree, speed, 0, chord}, after{16 * units::degree, speed, 0, chord};
+    const double from = profile.separation(before.attack).f, to = profile.separation(after.attack).f;
+    REQUIRE(from - to > 0.3);
+    UnsteadyProfile::States x = profile.steady(before);
+    double time = 0;
+    for (const double next : {0.05, 0.12, 0.3, 0.8}) {
+        x = integrated(x, time, next, 1e-3,
+                       [&](double, const UnsteadyProfile::States& now) { return profile.rates(now, after); });
+        time = next;
+        const double f = to + (from - to) * std::exp(-time / lag);
+        CHECK(x(UnsteadyProfile::separation_point) == Approx(f).margin(1e-9));
+        CHECK(x.head<3>().norm() == 0);
+        const double attached = profile.flow().slope * (after.attack - profile.flow().zero_lift);
+        const auto own = profile.coefficients(x, after);
+        CHECK(own.lift == Approx(f * attached + (1 - f) * profile.separation(after.attack).lift).margin(1e-9));
+        CHECK(own.drag == profile.polar().at(after.attack).drag);
+    }
+    // The angle is that at three quarters of the chord, and the rate acts in no other way.
+    const double rate = 0.7, beside = std::atan2(speed * std::sin(0.1) + rate * chord / 2, speed * std::cos(0.1));
+    const ProfileMotion turning{0.1, speed, rate, chord}, still{beside, speed, 0, chord};
+    CHECK(profile.coefficients(x, turning).lift == Approx(profile.coefficients(x, still).lift).margin(1e-12));
+    CHECK(profile.coefficients(x, turning).moment == Approx(profile.coefficients(x, still).moment).margin(1e-12));
 }
 
 TEST_CASE("unsteady profiles: derivatives are those of rates and coefficients", "[property]") {
     const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
-    const UnsteadyProfile& profile = profiles[6];
     Random random(3);
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 400; ++i) {
+        const UnsteadyProfile profile = i % 2 == 0 ? profiles[6] : by_oye(profiles[6]);
         const ProfileMotion motion{uniform(random, -0.9, 0.9), uniform(random, 20, 80), uniform(random, -1, 1), 2.5};
         UnsteadyProfile::States x = profile.steady(motion);
         for (int k = 0; k < 3; ++k) x(k) += uniform(random, -0.05, 0.05);

@@ -153,6 +153,13 @@ TEST_CASE("lagging air on a machine: names and groups of the states; what is ref
     CHECK(states.find("blade 1 section 2 point of separation") < 0);  // a cylinder
     CHECK(air.forces().state_groups().size() == 3 * 18);              // the tip's profile lags
     const MachineAir plain(machine, nrel5mw_aero_blade(), sheared);
+    std::vector<UnsteadyProfile> one_state;
+    for (const UnsteadyProfile& profile : nrel5mw_unsteady_profiles())
+        one_state.emplace_back(profile.polar(), profile.flow(), oye_lags);
+    CHECK(plain.lagging({.profiles = nrel5mw_unsteady_profiles()}).states() ==
+          4 * plain.lagging({.profiles = one_state}).states());
+    const Lagging oye(machine, plain.lagging({.profiles = one_state}));
+    CHECK(oye.forces().states()[0].name == "blade 1 section 5 point of separation");
     check_refused([&] { static_cast<void>(plain.lagging({.dynamic_wake = true})); }, {"time of the wake [s] = 0"});
     std::vector<UnsteadyProfile> few = nrel5mw_unsteady_profiles();
     few.pop_back();

@@ -129,7 +129,13 @@ TEST_CASE("aerodyn profiles: where files ask for them, and sections that stay st
     CHECK(file.unsteady);
     CHECK(test::has_note(file.notes, "UA_Mod", "profiles lag where that is asked for"));
     CHECK(test::has_note(file.notes, "AFTabMod", "those of the first Reynolds number"));
-    model.replace("small_AeroDyn.dat", "4 UA_Mod", "3 UA_Mod");
+    CHECK(file.profiles[1].own_states() == 4);
+    model.replace("small_AeroDyn.dat", "4 UA_Mod", "6 UA_Mod");
+    file = model.read();
+    CHECK(test::has_note(file.notes, "UA_Mod", "profiles lag where that is asked for"));
+    CHECK(file.profiles[1].own_states() == 1);
+    CHECK(file.profiles[1].lags().boundary_layer == 3);  // AeroDyn's default, not the usual 6
+    model.replace("small_AeroDyn.dat", "6 UA_Mod", "3 UA_Mod");
     file = model.read();
     CHECK(file.unsteady);
     CHECK(test::has_note(file.notes, "UA_Mod", "as with UA_Mod = 4"));

@@ -121,14 +121,15 @@ private:
     bool included_;
 };
 
-ProfileLags lags_of(UnsteadyData& data) {
+ProfileLags lags_of(UnsteadyData& data, ProfileModel model) {
     const ProfileLags thin;
     return {.A1 = data.number("A1", 0).value_or(thin.A1),
             .A2 = data.number("A2", 0).value_or(thin.A2),
             .b1 = data.lag("b1", thin.b1),
             .b2 = data.lag("b2", thin.b2),
             .pressure = data.lag("T_p", thin.pressure),
-            .boundary_layer = data.lag("T_f0", thin.boundary_layer)};
+            .boundary_layer = data.lag("T_f0", thin.boundary_layer),
+            .model = model};
 }
 
 AttachedFlow flow_of(OpenFastFile& file, UnsteadyData& data, const Polar& polar) {
@@ -174,9 +175,9 @@ void note_cut_out(OpenFastFile& file, UnsteadyData& data) {
     check("UACutout_delta", cut_out_range, "unsteady profiles fade from 40 to 45 deg here");
 }
 
-UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyData& data) {
+UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyData& data, ProfileModel model) {
     try {
-        return {polar, flow_of(file, data, polar), lags_of(data)};
+        return {polar, flow_of(file, data, polar), lags_of(data, model)};
     } catch (const InputError& error) {  // numbers beyond all measure
         file.fail("NumAlf", error.what());
     }
@@ -185,11 +186,11 @@ UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyDat
 }  // namespace
 
 UnsteadyProfile read_aerodyn_profile(const std::filesystem::path& path, const PolarColumns& columns, bool all,
-                                     std::vector<FileNote>& notes) {
+                                     ProfileModel model, std::vector<FileNote>& notes) {
     OpenFastFile file = OpenFastFile::read(path);
     const Polar polar = read_polar(file, path.filename().string(), columns, all);
     UnsteadyData data(file);
-    UnsteadyProfile profile = made_profile(file, polar, data);
+    UnsteadyProfile profile = made_profile(file, polar, data, model);
     if (profile.is_unsteady() && data.is_included()) {
         note_misfit(file, profile);
         note_cut_out(file, data);

@@ -15,14 +15,15 @@ struct PolarColumns {
     int angle, lift, drag, moment;
 };
 
-/// A polar and, from its first table, what AeroDyn's four states (UA_Mod 4) need: C_lalpha, alpha0, alphaUpper,
-/// alphaLower, Cd0, A1, A2, b1, b2, T_p, T_f0. What is missing, or "default", is found as AeroDyn does
+/// A polar and, from its first table, what AeroDyn's four states (UA_Mod 4) and Oye's one (6) need: C_lalpha, alpha0,
+/// alphaUpper, alphaLower, Cd0, A1, A2, b1, b2, T_p, T_f0. What is missing, or "default", is found as AeroDyn does
 /// (attached_flow(), ProfileLags). The flow begins to separate at alphaUpper and alphaLower; without them at the ends
 /// of the range found, or at alpha1 and alpha2 (f = 0.7) where these lie beyond.
+/// @param model  of the lags
 /// @param all    tables, not the first one alone
 /// @param notes  is added to: what is different here
 /// @throws ParseError, FileError
 UnsteadyProfile read_aerodyn_profile(const std::filesystem::path& path, const PolarColumns& columns, bool all,
-                                     std::vector<FileNote>& notes);
+                                     ProfileModel model, std::vector<FileNote>& notes);
 
 }  // namespace cardan::turbines
