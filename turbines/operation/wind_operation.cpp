@@ -18,6 +18,7 @@ namespace {
 constexpr double pitch_step = 2 * units::degree;  // in search of a bracket
 constexpr double largest_pitch = pi / 2;
 constexpr double power_error = 1e-6;  // of rated power
+constexpr int most_secants = 6;
 
 bool is_constant_in(const SteadyWind& wind) {
     return wind.is_uniform() && wind.direction == 0 && wind.upflow == 0 && wind.vertical == 0;
@@ -220,13 +221,50 @@ WindPoint WindOperation::at(const Operation& operation) {
     return point;
 }
 
+void WindOperation::keep_rated(const RatedPitch& found) {
+    if (rated_.size() == 2) rated_.erase(rated_.begin());
+    rated_.push_back(found);
+}
+
+// From the pitch that the last two winds point to. Nothing where that is out of range or does not settle at once: the
+// search of a bracket is slower and finds it anyway.
+std::optional<WindPoint> WindOperation::at_rated_by_secants(double wind, const VariableSpeed& law) {
+    if (rated_.empty()) return std::nullopt;
+    const RatedPitch &before = rated_.front(), &last = rated_.back();
+    const double rise = last.wind == before.wind ? 0 : (last.pitch - before.pitch) / (last.wind - before.wind);
+    double pitch = last.pitch + rise * (wind - last.wind), slope = last.slope, pitch_before = pitch, excess_before = 0;
+    for (int i = 0; i < most_secants; ++i) {
+        if (!(pitch >= law.least_pitch_at(wind) && pitch <= largest_pitch)) return std::nullopt;
+        WindPoint point = at({wind, law.rated_speed, pitch});
+        if (!point.converged) return std::nullopt;
+        const double excess = point.power / law.rated_power - 1;
+        if (i > 0 && pitch != pitch_before) slope = (excess - excess_before) / (pitch - pitch_before);
+        if (!(slope < 0)) return std::nullopt;
+        if (std::abs(excess) < power_error) {
+            keep_rated({wind, pitch, slope});
+            return point;
+        }
+        pitch_before = pitch;
+        excess_before = excess;
+        pitch -= excess / slope;
+    }
+    return std::nullopt;
+}
+
 // The power falls as the blades turn to feather: from the pitch before, on either side, until it has changed its sign.
 WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
+    if (std::optional<WindPoint> found = at_rated_by_secants(wind, law)) return *std::move(found);
     WindPoint point;
+    RatedPitch last{.wind = wind, .pitch = 0, .slope = 0};
+    double excess_before = 0;
     const auto excess = [&](double pitch) {
         point = at({wind, law.rated_speed, pitch});
         require_result(point);
-        return point.power / law.rated_power - 1;
+        const double own = point.power / law.rated_power - 1;
+        if (pitch != last.pitch) last.slope = (own - excess_before) / (pitch - last.pitch);
+        last.pitch = pitch;
+        excess_before = own;
+        return own;
     };
     const double least = law.least_pitch_at(wind);
     double low = std::max(least, last_operation_ ? last_operation_->pitch : least), at_low = excess(low), high = low,
@@ -249,6 +287,7 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
     std::uintmax_t iterations = 50;
     const auto close = [&](double, double) { return std::abs(point.power / law.rated_power - 1) < power_error; };
     boost::math::tools::toms748_solve(excess, low, high, at_low, at_high, close, iterations);
+    keep_rated(last);
     return point;
 }
 

@@ -116,6 +116,7 @@ public:
 private:
     WindPoint solve(const Operation& operation, const Matrix& start) const;
     WindPoint at_rated(double wind, const VariableSpeed& law);
+    std::optional<WindPoint> at_rated_by_secants(double wind, const VariableSpeed& law);
     void evaluate(WindPoint& point, const MachineAir& air, const Turbine& windy) const;
     Matrix with_pitch(Matrix start, double pitch) const;
 
@@ -127,6 +128,12 @@ private:
     // The last state that was found: coefficients of a revolution, and how the machine ran.
     Matrix last_;
     std::optional<Operation> last_operation_;
+    // The last pitch angles that were found for rated power, two at most.
+    struct RatedPitch {
+        double wind, pitch, slope;  // of the power over the rated one by the pitch, 1/rad
+    };
+    std::vector<RatedPitch> rated_;
+    void keep_rated(const RatedPitch& found);
 };
 
 }  // namespace cardan::turbines
