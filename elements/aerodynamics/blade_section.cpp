@@ -12,9 +12,15 @@ using Slope = Dual<SectionSlopes::columns>;
 
 SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake,
                        const RotorAirOptions& options, double density) {
-    SectionAir out{.V_x = V_x, .V_y = V_y, .induction = {.phi = std::atan2(V_x, V_y)}, .force = {}};
+    const Induction balance = options.induction ? solve_induction(annulus, V_x, V_y, options.momentum)
+                                                : Induction{.phi = std::atan2(V_x, V_y)};
+    return section_air(annulus, V_x, V_y, wake, balance, density);
+}
+
+SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake, const Induction& balance,
+                       double density) {
+    SectionAir out{.V_x = V_x, .V_y = V_y, .induction = balance, .force = {}};
     Induction& found = out.induction;
-    if (options.induction) found = solve_induction(annulus, V_x, V_y, options.momentum);
     if (found.solved && wake.lever != 0) {
         found.axial *= redistribution(found.axial, wake.angle, wake.lever);
         found.phi = std::atan2(V_x * (1 - found.axial), V_y * (1 + found.tangential));

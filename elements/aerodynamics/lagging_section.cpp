@@ -175,21 +175,26 @@ private:
 
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
                        const RotorAirOptions& options, double density, const SectionLags& lags) {
-    const double V_x = motion.V_x, V_y = motion.V_y;
-    Induction steady{.phi = std::atan2(V_x, V_y)};
-    // A frozen wake asks for no balance.
     const bool balanced = options.induction && lags.wake != WakeLag::frozen;
-    if (balanced) steady = solve_induction(annulus, V_x, V_y, options.momentum);
-    LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = steady, .force = {}},
-                   .velocity = balanced ? DynamicInflow::velocity(steady, V_x, V_y) : lags.velocity,
-                   .root = steady.root,
-                   .solved = steady.solved};
+    const Induction balance = balanced ? solve_induction(annulus, motion.V_x, motion.V_y, options.momentum)
+                                       : Induction{.phi = std::atan2(motion.V_x, motion.V_y)};
+    return lagging_air(annulus, motion, s, balance, density, lags);
+}
+
+LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
+                       const Induction& balance, double density, const SectionLags& lags) {
+    const double V_x = motion.V_x, V_y = motion.V_y;
+    const bool frozen = lags.wake == WakeLag::frozen;
+    LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = balance, .force = {}},
+                   .velocity = frozen ? lags.velocity : DynamicInflow::velocity(balance, V_x, V_y),
+                   .root = frozen ? 0 : balance.root,
+                   .solved = !frozen && balance.solved};
     Induction& now = out.air.induction;
     if (lags.wake == WakeLag::dynamic) {
         const DynamicInflow::States inflow = s.head<DynamicInflow::states>();
         out.rates.head<DynamicInflow::states>() = DynamicInflow::rates(inflow, out.velocity, lags.times);
         now = DynamicInflow::induction(inflow, V_x, V_y);
-    } else if (lags.wake == WakeLag::frozen) {
+    } else if (frozen) {
         now = frozen_induction(lags.velocity, V_x, V_y);
     }
     now.solved = out.solved;

@@ -51,6 +51,10 @@ struct LaggingAir {
 };
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
                        const RotorAirOptions& options, double density, const SectionLags& lags);
+/// @param balance  the induction in equilibrium with the loads, solve_induction(), or none; of no meaning to a frozen
+/// wake
+LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
+                       const Induction& balance, double density, const SectionLags& lags);
 /// States that stay as they are.
 SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
                             const SectionLags& lags);

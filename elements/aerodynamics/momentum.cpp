@@ -117,10 +117,14 @@ Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y
     });
 }
 
+// loads_of(), without sines: speed times sine and cosine of phi are the velocities.
 SectionForce section_force(const Annulus& annulus, double V_x, double V_y, const Induction& induction, double density) {
-    const Loads<double> loads = loads_of<double>(annulus, {V_x, V_y, annulus.angle, annulus.radius},
-                                                 {induction.axial, induction.tangential}, density);
-    return {loads.normal, loads.driving, loads.moment, loads.attack};
+    const double u_x = V_x * (1 - induction.axial), u_y = V_y * (1 + induction.tangential),
+                 speed = std::sqrt(u_x * u_x + u_y * u_y), pressure = density / 2 * annulus.chord * speed,
+                 attack = induction.phi - annulus.angle;
+    const Polar::Point polar = point_of(*annulus.polar, attack, reynolds_of<double>(annulus, u_x, u_y));
+    return {pressure * (polar.lift * u_y + polar.drag * u_x), pressure * (polar.lift * u_x - polar.drag * u_y),
+            pressure * speed * annulus.chord * polar.moment, attack};
 }
 
 }  // namespace cardan

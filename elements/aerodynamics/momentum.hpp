@@ -4,6 +4,8 @@
 
 #include "elements/aerodynamics/polar.hpp"
 
+#include <span>
+
 namespace cardan {
 
 /// What the balance of momentum takes into account.
@@ -50,6 +52,20 @@ struct Induction {
 /// a sign change, a = a' = 0.
 Induction solve_induction(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
 
+/// A section, and the velocity of the air relative to it without induction, m/s.
+struct SectionInflow {
+    const Annulus* annulus = nullptr;
+    double V_x = 0, V_y = 0;
+};
+/// solve_induction() for each, the same but for rounding, in a third of the time: Newton's method for eight of them
+/// side by side, in the usual bracket, 0 ... pi/2. What it does not find there, and sections without a balance, are
+/// left to that function. Each search begins where the one before ended, so sections along a blade need the fewest
+/// steps; and where a section has several solutions, as one in deep stall may, which of them is found depends on its
+/// neighbours.
+/// @param out  as many; nothing is allocated
+void solve_inductions(std::span<const SectionInflow> sections, const MomentumOptions& options,
+                      std::span<Induction> out);
+
 /// The same by plain bisection.
 Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
 
@@ -58,6 +74,7 @@ struct SectionForce {
     double normal = 0, driving = 0, moment = 0;
     double attack = 0;  ///< rad
 };
+/// @param induction  its phi is that of its a and a'
 SectionForce section_force(const Annulus& annulus, double V_x, double V_y, const Induction& induction, double density);
 
 }  // namespace cardan

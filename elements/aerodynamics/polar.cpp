@@ -59,22 +59,29 @@ Polar::IndexedTable::IndexedTable(Table of) : table(std::move(of)) {
         const auto next = std::upper_bound(angles.begin() + 1, angles.end() - 1, from);
         first[cell] = static_cast<std::uint16_t>(next - angles.begin() - 1);
     }
+    intervals.reserve(angles.size() - 1);
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+        const auto slope = [&](const std::vector<double>& y) {
+            return (y[i + 1] - y[i]) / (angles[i + 1] - angles[i]);
+        };
+        intervals.push_back({angles[i], table.lift[i], table.drag[i], table.moment[i], slope(table.lift),
+                             slope(table.drag), slope(table.moment)});
+    }
 }
 
 // @param x  from -pi to pi
 Polar::Point Polar::IndexedTable::at(double x) const {
-    const std::vector<double>& angles = table.angles;
     const auto cell = std::min(static_cast<std::size_t>(std::max(0.0, (x + pi) / (2 * pi) * cells)), cells - 1);
     std::size_t i = first[cell];
-    while (i + 2 < angles.size() && x >= angles[i + 1]) ++i;
-    const double width = angles[i + 1] - angles[i], t = (x - angles[i]) / width;
-    const auto line = [&](const std::vector<double>& y) {
-        return std::pair((1 - t) * y[i] + t * y[i + 1], (y[i + 1] - y[i]) / width);
-    };
-    const auto [lift, lift_slope] = line(table.lift);
-    const auto [drag, drag_slope] = line(table.drag);
-    const auto [moment, moment_slope] = line(table.moment);
-    return {lift, drag, moment, lift_slope, drag_slope, moment_slope};
+    while (i + 1 < intervals.size() && x >= intervals[i + 1].from) ++i;
+    const Interval& own = intervals[i];
+    const double t = x - own.from;
+    return {own.lift + own.lift_slope * t,
+            own.drag + own.drag_slope * t,
+            own.moment + own.moment_slope * t,
+            own.lift_slope,
+            own.drag_slope,
+            own.moment_slope};
 }
 
 Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name)) {

@@ -46,7 +46,11 @@ public:
 private:
     static constexpr std::size_t cells = 512;
     struct IndexedTable {
+        struct Interval {
+            double from, lift, drag, moment, lift_slope, drag_slope, moment_slope;
+        };
         Table table;
+        std::vector<Interval> intervals;
         std::array<std::uint16_t, cells> first{};  ///< interval in which a cell of the circle begins
 
         explicit IndexedTable(Table of);

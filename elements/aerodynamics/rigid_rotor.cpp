@@ -56,17 +56,30 @@ private:
         blades_.push_back(std::move(own));
     }
 
+    std::vector<Induction> inductions_of(const PlacedBlade& own) const {
+        std::vector<Induction> out(own.sections.size());
+        std::vector<SectionInflow> inflows;
+        inflows.reserve(out.size());
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            inflows.push_back({&own.annuli[i], own.sections[i].V_x, own.sections[i].V_y});
+            out[i].phi = std::atan2(inflows[i].V_x, inflows[i].V_y);
+        }
+        if (options_.induction) solve_inductions(inflows, options_.momentum, out);
+        return out;
+    }
+
     // @param side  the mean wind in the plane of the rotor
     void find_inductions(PlacedBlade& own, double skew, const Vec3& side) const {
         const Vec3 span = own.axes.col(2) - own.axes.col(2).dot(shaft_.col(0)) * shaft_.col(0);
         const double sine = side.norm() > 0 ? span.dot(side) / (span.norm() * side.norm()) : 0,
                      largest = own.annuli.back().radius;
+        const std::vector<Induction> balances = inductions_of(own);
         for (std::size_t i = 0; i < own.sections.size(); ++i) {
             const Annulus& annulus = own.annuli[i];
             SkewedWake wake;
             if (options_.skew == Skew::pitt_peters) wake = {skew, annulus.radius / largest * sine * std::sin(skew)};
             SectionAir& section = own.sections[i];
-            section = section_air(annulus, section.V_x, section.V_y, wake, options_, wind_.density);
+            section = section_air(annulus, section.V_x, section.V_y, wake, balances[i], wind_.density);
         }
     }
 

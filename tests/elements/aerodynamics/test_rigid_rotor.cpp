@@ -118,16 +118,24 @@ TEST_CASE("blade-element momentum: a solution by bisection is the same, for any 
     const auto number = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(random);
     };
-    int solved = 0;
-    for (int i = 0; i < 20000; ++i) {
-        Annulus annulus{.radius = number(2, 60),
-                        .chord = number(0.5, 5),
-                        .angle = number(-0.3, 1.6),
-                        .tip = std::pow(10.0, number(-3, 2)),
-                        .hub = std::pow(10.0, number(-3, 2)),
-                        .polar = &blade.polars[static_cast<std::size_t>(number(0, 8))]};
+    constexpr std::size_t count = 20000;
+    int solved = 0, same = 0;
+    std::vector<Annulus> annuli;
+    std::vector<SectionInflow> inflows;
+    std::vector<Induction> found;
+    annuli.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Annulus& annulus =
+            annuli.emplace_back(Annulus{.radius = number(2, 60),
+                                        .chord = number(0.5, 5),
+                                        .angle = number(-0.3, 1.6),
+                                        .tip = std::pow(10.0, number(-3, 2)),
+                                        .hub = std::pow(10.0, number(-3, 2)),
+                                        .polar = &blade.polars[static_cast<std::size_t>(number(0, 8))]});
         const double V_x = number(-5, 25), V_y = number(-2, 90);
-        const Induction fast = solve_induction(annulus, V_x, V_y), plain = solve_induction_plainly(annulus, V_x, V_y);
+        inflows.push_back({&annulus, V_x, V_y});
+        found.push_back(solve_induction(annulus, V_x, V_y));
+        const Induction &fast = found.back(), plain = solve_induction_plainly(annulus, V_x, V_y);
         CAPTURE(V_x, V_y, annulus.angle, annulus.chord, annulus.radius, annulus.tip, annulus.hub, annulus.polar->name(),
                 fast.phi, plain.phi);
         CHECK(fast.solved == plain.solved);
@@ -137,6 +145,19 @@ TEST_CASE("blade-element momentum: a solution by bisection is the same, for any 
         CHECK(std::abs(fast.tangential) <= 1);
     }
     CHECK(solved > 19000);
+    // Many at once: the same, but where a section has several solutions.
+    std::vector<Induction> many(count);
+    solve_inductions(inflows, {}, many);
+    for (std::size_t i = 0; i < count; ++i) {
+        CAPTURE(i, inflows[i].V_x, inflows[i].V_y, annuli[i].angle, many[i].root, found[i].root);
+        CHECK(many[i].solved == found[i].solved);
+        if (std::abs(many[i].root - found[i].root) > 1e-9) continue;
+        ++same;
+        CHECK(many[i].axial == Approx(found[i].axial).margin(1e-10));
+        CHECK(many[i].tangential == Approx(found[i].tangential).margin(1e-9));
+        CHECK(many[i].phi == Approx(found[i].phi).margin(1e-10));
+    }
+    CHECK(same > 19900);
 }
 
 TEST_CASE("polar: interpolation around the circle, its slopes, what is refused", "[property]") {

@@ -54,6 +54,7 @@ public:
         memory_.movers.resize(static_cast<std::size_t>(n));
         if (parts_.lags) memory_.lagging.resize(air.scratch_.sections.size());
         for (const int a : parts_.bodies) entry(memory_.movers, a) = air.motion_.mover(a);
+        for (SectionState& s : air.scratch_.sections) s.wind_gradient = air.wind_.gradient_at(s.place);
         if (parts_.dam) find_dam();
     }
 

@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cardan::turbines {
@@ -50,7 +51,6 @@ void AirEvaluation::place_sections() {
         s.x = cross<double>(s.y, s.span);
         s.velocity = motion_.velocity(own.body, s.place);
         s.relative = wind_.at(s.place) - s.velocity;
-        s.wind_gradient = wind_.gradient_at(s.place);
         s.radial = across(s.place - hub_, shaft_);
         s.annulus = own.annulus;
         s.annulus.radius = s.radial.norm();
@@ -118,7 +118,30 @@ void AirEvaluation::steady_states(VectorOut out) const {
     }
 }
 
+// In equilibrium with the loads.
+void AirEvaluation::find_inductions() {
+    const std::size_t count = scratch_.sections.size();
+    scratch_.inflows.resize(count);
+    scratch_.inductions.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const SectionState& s = scratch_.sections[i];
+        scratch_.inflows[i] = {&s.annulus, s.relative.dot(s.x), s.relative.dot(s.y)};
+    }
+    const auto is_frozen = [](const SectionLags& lags) { return lags.wake == WakeLag::frozen; };
+    if (!parts_.options.induction || (parts_.lags && std::ranges::all_of(parts_.lags->sections, is_frozen))) {
+        for (std::size_t i = 0; i < count; ++i)
+            scratch_.inductions[i] = {.phi = std::atan2(scratch_.inflows[i].V_x, scratch_.inflows[i].V_y)};
+        return;
+    }
+    // Blade by blade, so that equal blades have the same to the last digit.
+    const std::size_t own = parts_.profile->sections();
+    for (std::size_t first = 0; first < count; first += own)
+        solve_inductions(std::span(scratch_.inflows).subspan(first, own), parts_.options.momentum,
+                         std::span(scratch_.inductions).subspan(first, own));
+}
+
 void AirEvaluation::find_loads() {
+    find_inductions();
     const std::size_t count = parts_.profile->sections();
     if (parts_.lags) scratch_.lagging.resize(scratch_.sections.size());
     for (std::size_t blade = 0; blade < parts_.blades.size(); ++blade) {
@@ -127,12 +150,12 @@ void AirEvaluation::find_loads() {
             SectionState& s = scratch_.sections[i];
             s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
             if (parts_.lags) {
-                scratch_.lagging[i] = lagging_air(s.annulus, motion_of(i), states_of(i), parts_.options, wind_.density,
-                                                  parts_.lags->sections[i]);
+                scratch_.lagging[i] = lagging_air(s.annulus, motion_of(i), states_of(i), scratch_.inductions[i],
+                                                  wind_.density, parts_.lags->sections[i]);
                 s.air = scratch_.lagging[i].air;
             } else {
-                s.air = section_air(s.annulus, s.relative.dot(s.x), s.relative.dot(s.y), s.wake, parts_.options,
-                                    wind_.density);
+                s.air = section_air(s.annulus, scratch_.inflows[i].V_x, scratch_.inflows[i].V_y, s.wake,
+                                    scratch_.inductions[i], wind_.density);
             }
             s.force = s.air.force.normal * s.x - s.air.force.driving * s.y;
             s.moment = s.air.force.moment * s.span;

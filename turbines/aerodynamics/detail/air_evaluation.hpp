@@ -42,7 +42,7 @@ struct AirParts {
 struct SectionState {
     Vec3 place, span, x, y;   ///< axes of the section: x downwind, y against the motion
     Vec3 velocity, relative;  ///< of the section; of the air against it, m/s
-    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s, of the wind that no tower dams
+    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s, of the wind that no tower dams; for derivatives only
     Vec3 radial;              ///< unit, from the shaft
     SkewedWake wake;
     Annulus annulus;
@@ -69,6 +69,8 @@ struct AirScratch {
     std::vector<SectionState> sections;  ///< of all blades, one after the other
     std::vector<DamState> dam;           ///< at them, if there is one
     std::vector<LaggingAir> lagging;     ///< likewise, if something lags
+    std::vector<SectionInflow> inflows;  ///< of all sections
+    std::vector<Induction> inductions;   ///< in equilibrium with the loads
     AirDerivativeScratch derivatives;
 };
 
@@ -103,6 +105,7 @@ private:
     void place_sections();
     void dam_wind();
     void find_mean_wind();
+    void find_inductions();
     void find_loads();
     SectionMotion motion_of(std::size_t section) const;
     SectionStates states_of(std::size_t section) const;
