@@ -29,7 +29,7 @@ public:
           derivatives_(model()) {
         const Eigen::Index n = model().size();
         q_ = Vector::LinSpaced(n, -0.005, 0.005);
-        qd_ = Vector::LinSpaced(n, -0.02, 0.02);
+        qd_ = Vector::LinSpaced(n, -0.002, 0.002);  // the hub moves at 1 m/s by it
         qd_(turbine_.rotor().spin) = 1.1;
         Q_ = qdd_ = actuator_ = Vector::Zero(n);
         by_q_ = by_qd_ = Matrix::Zero(n, n);

@@ -35,30 +35,44 @@ double SteadyWind::law(double z) const {
     return 1;
 }
 
-double SteadyWind::size(const Vec3& place, double z) const {
-    return speed * (law(z) + gradient * (z - reference_height) + lateral * place.dot(left_of(direction))) + gust;
+double SteadyWind::size(const Vec3& place, double z, const Vec3& left) const {
+    return speed * (law(z) + gradient * (z - reference_height) + lateral * place.dot(left)) + gust;
+}
+
+Vec3 SteadyWind::along(double to) const {
+    const double level = std::cos(upflow);
+    return {level * std::cos(to), level * std::sin(to), std::sin(upflow)};
 }
 
 Vec3 SteadyWind::at(const Vec3& place) const {
-    const double z = height(place), all = size(place, z), to = direction + veer * (z - reference_height),
-                 level = all * std::cos(upflow);
-    return {level * std::cos(to), level * std::sin(to), all * std::sin(upflow) + vertical};
+    return WindAtPlaces(*this).at(place);
+}
+
+WindAtPlaces::WindAtPlaces(const SteadyWind& wind)
+    : wind_(wind), along_(wind.along(wind.direction)), left_(left_of(wind.direction)) {}
+
+Vec3 WindAtPlaces::at(const Vec3& place) const {
+    const double z = wind_.height(place);
+    Vec3 out = wind_.size(place, z, left_) *
+               (wind_.veer == 0 ? along_ : wind_.along(wind_.direction + wind_.veer * (z - wind_.reference_height)));
+    out.z() += wind_.vertical;
+    return out;
 }
 
 Mat3 SteadyWind::gradient_at(const Vec3& place) const {
     if (is_uniform()) return Mat3::Zero();
-    const double z = height(place), to = direction + veer * (z - reference_height), level = std::cos(upflow);
-    const Vec3 along(level * std::cos(to), level * std::sin(to), std::sin(upflow));
-    Vec3 slope = lateral * left_of(direction);
+    const double z = height(place), to = direction + veer * (z - reference_height);
+    const Vec3 left = left_of(direction);
+    Vec3 slope = lateral * left;
     double turning = 0;
     if (place.z() - ground >= z) {
         slope.z() = gradient;
         if (shear == Shear::power) slope.z() += exponent * law(z) / z;
         if (shear == Shear::logarithmic && z > roughness) slope.z() += 1 / (z * std::log(reference_height / roughness));
-        turning = veer * size(place, z);
+        turning = veer * size(place, z, left);
     }
-    Mat3 out = speed * along * slope.transpose();
-    out.col(2) += turning * level * left_of(to);
+    Mat3 out = speed * along(to) * slope.transpose();
+    out.col(2) += turning * std::cos(upflow) * left_of(to);
     return out;
 }
 

@@ -47,9 +47,22 @@ struct SteadyWind {
     void check() const;
 
 private:
+    friend class WindAtPlaces;
     double height(const Vec3& place) const;
     double law(double z) const;
-    double size(const Vec3& place, double z) const;
+    double size(const Vec3& place, double z, const Vec3& left) const;
+    Vec3 along(double to) const;  // unit
+};
+
+/// SteadyWind::at() for many places: what does not depend on the place is computed once.
+class WindAtPlaces {
+public:
+    explicit WindAtPlaces(const SteadyWind& wind);
+    Vec3 at(const Vec3& place) const;
+
+private:
+    SteadyWind wind_;
+    Vec3 along_, left_;  // of its direction
 };
 
 /// A wind that changes with time: between the rows of a table every value changes linearly, before and after them

@@ -39,6 +39,7 @@ double AirEvaluation::speed() const {
 
 void AirEvaluation::place_sections() {
     const std::size_t count = parts_.profile->sections();
+    const WindAtPlaces wind(wind_);
     scratch_.sections.resize(parts_.blades.size() * count);
     for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
         const AirSection& own = parts_.blades[i / count].sections[i % count];
@@ -50,7 +51,7 @@ void AirEvaluation::place_sections() {
         s.y = cross<double>(s.span, shaft_).normalized();
         s.x = cross<double>(s.y, s.span);
         s.velocity = motion_.velocity(own.body, s.place);
-        s.relative = wind_.at(s.place) - s.velocity;
+        s.relative = wind.at(s.place) - s.velocity;
         s.radial = across(s.place - hub_, shaft_);
         s.annulus = own.annulus;
         s.annulus.radius = s.radial.norm();
