@@ -92,7 +92,9 @@ void MeanJacobian::set(RotorEquations& equations, const Matrix& x) {
     };
     set_at(0, mean_);
     average(count, set_at, mean_, at_);
+    const Index n = mean_.K.rows();
     solvers::append_states(mean_);
+    groups_ = coupled_groups(mean_.K, n);
     factors_.clear();
 }
 
@@ -129,14 +131,11 @@ Vector MeanJacobian::scale(int harmonic) const {
     return scale;
 }
 
-// The complex matrix as a real one on (Re, -Im), the coefficients of cosine and sine:
-// (A + i B)(c - i s) = (A c + B s) - i (A s - B c).
-const MeanJacobian::Factors* MeanJacobian::factors(int harmonic) {
+const HarmonicFactors* MeanJacobian::factors(int harmonic) {
     if (const auto known = factors_.find(harmonic); known != factors_.end()) return &known->second;
     const double omega = harmonic * rotor_speed_;
     const Vector unit = scale(harmonic).cwiseSqrt().cwiseInverse();
-    Matrix A = unit.asDiagonal() * (mean_.K - omega * omega * mean_.M) * unit.asDiagonal();
-    const Index n = A.rows();
+    Matrix A = unit.asDiagonal() * (mean_.K - omega * omega * mean_.M) * unit.asDiagonal(), B;
     if (harmonic == 0) {
         for (Index row : held_) {
             A.row(row).setZero();
@@ -144,19 +143,16 @@ const MeanJacobian::Factors* MeanJacobian::factors(int harmonic) {
             A(row, row) = 1;
         }
     } else {
-        const Matrix B = omega * (unit.asDiagonal() * mean_.C * unit.asDiagonal()), real = A;
-        A.resize(2 * n, 2 * n);
-        A << real, B, -B, real;
+        B = omega * (unit.asDiagonal() * mean_.C * unit.asDiagonal());
     }
-    if (!A.allFinite()) return nullptr;
-    const Factors& found = factors_.emplace(harmonic, A).first->second;
+    if (!A.allFinite() || !B.allFinite()) return nullptr;
+    const HarmonicFactors& found = factors_.try_emplace(harmonic, A, B, groups_).first->second;
     return found.rcond() > least_rcond ? &found : nullptr;
 }
 
 bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx, bool all) {
     Matrix r = to_multi_blade(R);
     for (Index row : held_) r(row, 0) = 0;
-    const Index n = r.rows();
     const auto part = [&](int j) { return j == 0 ? r.leftCols(1) : r.middleCols(2 * j - 1, 2); };
     Vector size(z_harmonics_ + 1);
     for (int j = 0; j <= z_harmonics_; ++j) size(j) = (part(j).array().colwise() / scale(j).array()).abs().maxCoeff();
@@ -167,10 +163,12 @@ bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx, bool all
             own.setZero();
             continue;
         }
-        const Factors* const lu = factors(j);
+        const HarmonicFactors* const lu = factors(j);
         if (!lu) return false;
-        const Vector unit = scale(j).cwiseSqrt().cwiseInverse().replicate(j == 0 ? 1 : 2, 1);
-        own = -unit.cwiseProduct(lu->solve(unit.cwiseProduct(own.reshaped()))).reshaped(n, own.cols());
+        const Vector unit = scale(j).cwiseSqrt().cwiseInverse();
+        Matrix z = unit.asDiagonal() * own;
+        lu->solve(z);
+        own = -(unit.asDiagonal() * z);
     }
     dx = from_multi_blade(r);
     return dx.allFinite();

@@ -2,8 +2,8 @@
 /// Steps toward a periodic steady state with a Jacobian that is constant over the revolution.
 #pragma once
 
-#include "mbs/base/decompositions.hpp"
 #include "solvers/linear/coleman.hpp"
+#include "solvers/periodic/detail/harmonic_factors.hpp"
 #include "solvers/periodic/detail/rotor_equations.hpp"
 
 #include <map>
@@ -14,7 +14,7 @@ namespace cardan::solvers {
 /// Newton's step for harmonic balance with M, C and K replaced by their means over the revolution in multi-blade
 /// coordinates z. Where three or more blades are alike, these matrices hardly depend on the azimuth, so the step is
 /// nearly the exact one, and the linear system of n (2 harmonics + 1) rows falls apart into one of n complex rows per
-/// harmonic (states are further rows, see append_states()):
+/// harmonic (states are further rows, see append_states(), and are eliminated by HarmonicFactors):
 ///
 ///     (K - (j Omega)^2 M + i j Omega C) dz_j = -(T^T r)_j,    dx = T dz.
 class MeanJacobian {
@@ -36,15 +36,13 @@ public:
     bool step(const Matrix& R, double negligible, Matrix& dx, bool all = false);
 
 private:
-    using Factors = Eigen::PartialPivLU<Matrix>;
-
     MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics);
     void append_states();
     void turn(Matrix& values, double sense) const;
     Matrix to_multi_blade(const Matrix& R) const;
     Matrix from_multi_blade(const Matrix& z) const;
     Vector scale(int harmonic) const;
-    const Factors* factors(int harmonic);
+    const HarmonicFactors* factors(int harmonic);
 
     ColemanTransform transform_;
     double rotor_speed_;
@@ -55,7 +53,8 @@ private:
     Matrix basis_, z_basis_;  ///< at the azimuths, by column
     std::vector<Eigen::Index> held_;
     SecondOrderSystem mean_, at_;
-    std::map<int, Factors> factors_;  ///< by harmonic
+    std::vector<std::vector<Eigen::Index>> groups_;  ///< of states
+    std::map<int, HarmonicFactors> factors_;         ///< by harmonic
 };
 
 }  // namespace cardan::solvers
