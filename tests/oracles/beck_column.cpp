@@ -1,8 +1,7 @@
 #include "tests/oracles/beck_column.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/root_finding.hpp"
-
-#include <Eigen/LU>
 
 #include <cmath>
 

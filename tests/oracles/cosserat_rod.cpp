@@ -238,7 +238,7 @@ std::complex<double> RodSolution::determinant(double omega) const {
             slope(5, Y + 9017. / 3168 * k1 - 355. / 33 * k2 + 46732. / 5247 * k3 + 49. / 176 * k4 - 5103. / 18656 * k5);
         Y += 35. / 384 * k1 + 500. / 1113 * k3 + 125. / 192 * k4 - 2187. / 6784 * k5 + 11. / 84 * k6;
     }
-    return Y.bottomRows<6>().determinant();
+    return Eigen::MatrixXcd(Y.bottomRows<6>()).partialPivLu().determinant();
 }
 
 std::vector<double> RodSolution::frequencies(int count, double start, double step) const {
@@ -274,7 +274,7 @@ std::vector<double> VibratingArc::frequencies(int count) const {
         Matrix12 E = Matrix12::Identity();
         for (int n = 16; n >= 1; --n) E = Matrix12::Identity() + A * E / n;
         for (int i = 0; i < squarings; ++i) E = Matrix12(E * E);
-        return E.bottomRightCorner<6, 6>().determinant();
+        return Eigen::MatrixXd(E.bottomRightCorner<6, 6>()).partialPivLu().determinant();
     };
     const double unit = std::sqrt(std::min({EI_y, EI_z, GJ}) / mass) / (L * L);
     return first_zeros(determinant, 1e-3 * unit, 0.05 * unit, count);

@@ -1,9 +1,7 @@
 #include "tests/oracles/planar_rod.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/quadrature.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <cmath>
 #include <stdexcept>

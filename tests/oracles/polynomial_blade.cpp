@@ -1,6 +1,6 @@
 #include "tests/oracles/polynomial_blade.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "mbs/base/decompositions.hpp"
 
 #include <array>
 #include <cmath>

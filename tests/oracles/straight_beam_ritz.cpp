@@ -1,8 +1,7 @@
 #include "tests/oracles/straight_beam_ritz.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/hierarchical_basis.hpp"
-
-#include <Eigen/Dense>
 
 #include <cmath>
 #include <stdexcept>

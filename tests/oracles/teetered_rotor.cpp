@@ -1,8 +1,7 @@
 #include "tests/oracles/teetered_rotor.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/hierarchical_basis.hpp"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>

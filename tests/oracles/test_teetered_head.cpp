@@ -1,10 +1,9 @@
 // Appendix A of D. Lee, D. H. Hodges and M. J. Patil, Wind Energy 5 (2002): the linearised equations of nacelle, shaft
 // and hub, term by term.
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/teetered_head.hpp"
 #include "tests/oracles/teetered_rotor.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <vector>

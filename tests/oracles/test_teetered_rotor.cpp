@@ -1,8 +1,7 @@
+#include "mbs/base/decompositions.hpp"
 #include "tests/oracles/rotating_beam_series.hpp"
 #include "tests/oracles/teetered_rotor.hpp"
 #include "tests/support/catch.hpp"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 // Travel of a drive within limits of rate and acceleration: closed forms, limits, turning back.
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/travel.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
