@@ -1,0 +1,93 @@
+// Aeroelastic modes of a rotor alone, made from its public files: the band that two other programs span.
+#include "mbs/base/units.hpp"
+#include "tests/support/catch.hpp"
+#include "turbines/operation/aeroelastic.hpp"
+#include "turbines/readers/aerodyn.hpp"
+#include "turbines/readers/csv.hpp"
+#include "turbines/readers/openfast.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace cardan::testing::rotor_mode_tests {
+
+namespace {
+
+using namespace turbines;
+
+constexpr int first_mode = 4;  // of the table; those before are mixtures with the air's states
+constexpr std::array mode_names{
+    "1st blade edge (backward)",   "1st blade edge (forward)",    "1st blade edge (collective)",
+    "2nd blade flap (backward)",   "2nd blade flap (collective)", "2nd blade flap (forward)",
+    "2nd blade edge (backward)",   "2nd blade edge (forward)",    "3rd blade flap (backward)",
+    "3rd blade flap (collective)", "3rd blade flap (forward)",    "2nd blade edge (collective)"};
+
+// Without tilt and gravity, on a shaft that turns freely with the generator's inertia.
+struct Rotor {
+    AeroDynFile air;
+    WindOperation operation;
+};
+Rotor rotor_of(const std::filesystem::path& folder) {
+    TurbineDescription d = read_openfast(folder / "IEA-22-280-RWT-Monopile.fst").description;
+    d.nacelle.tilt = 0;
+    d.tower.rigid = true;
+    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
+    AeroDynFile air = read_aerodyn(folder / "IEA-22-280-RWT_AeroDyn15.dat", d.hub.radius);
+    AssemblyOptions assembly;
+    assembly.blade_beam = CardanBeamOptions{.elements = 8, .partition = Partition::mean_difference};
+    assembly.spin = CoordinateRole::free;
+    WindOperationOptions options;
+    options.air = air.options;
+    options.wind.density = air.density;
+    return {air, WindOperation(d, assembly, air.blade, options)};
+}
+
+}  // namespace
+
+// The collective edge mode is one of blades against generator; what the two programs have for the drive train is not
+// published, and its damping leaves the band at 20 and 24 m/s by 0.003.
+TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", "[discrete][.models]") {
+    const char* const models = std::getenv("CARDAN_MODELS");
+    if (models == nullptr) return;
+    Rotor rotor = rotor_of(std::filesystem::path(models) / "IEA-22-280-RWT" / "IEA-22-280-RWT-Monopile");
+    REQUIRE(rotor.operation.is_constant());
+    const auto table_of = [](const char* name) {
+        return CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/" + name);
+    };
+    const CsvTable schedule = table_of("iea22_steady.csv"), table = table_of("iea22_rotor_modes.csv");
+    solvers::CampbellOptions options;
+    options.max_frequency_hz = 4;
+    options.keep_shapes = false;
+    int compared = 0, in_band = 0;
+    for (std::size_t k = 0; k < schedule.rows(); ++k) {
+        const auto own = [&](const char* name) { return schedule.column(name)[k]; };
+        const bool in_table = std::ranges::count(table.column("wind"), own("wind")) > 0;
+        if (own("program") != 1 || !in_table) continue;  // OpenFAST's operation
+        const std::array points{
+            rotor.operation.at({own("wind"), own("rotor_speed") * units::rpm, own("pitch") * units::degree})};
+        REQUIRE(points[0].converged);
+        const solvers::Campbell diagram = aeroelastic_campbell(
+            rotor.operation, points, {.wake = Wake::frozen, .profiles = rotor.air.profiles}, options);
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            const auto at = [&](const char* name) { return table.column(name)[i]; };
+            if (at("wind") != own("wind")) continue;
+            const char* const name = mode_names.at(static_cast<std::size_t>(at("mode")) - first_mode);
+            const solvers::Branch& branch = diagram.branch(name);
+            const double hz = diagram.natural_hz(branch, 0), damping = diagram.damping_ratio(branch, 0);
+            const auto [lowest, highest] = std::minmax({at("frequency_hawc2"), at("frequency_openfast")});
+            const auto [least, most] = std::minmax({at("damping_hawc2"), at("damping_openfast")});
+            CAPTURE(at("wind"), name, hz, lowest, highest, damping, least, most);
+            CHECK(hz > 0.98 * lowest);
+            CHECK(hz < 1.02 * highest);
+            const bool inside = damping > 0.85 * least && damping < 1.15 * most;
+            CHECK((inside || (damping > 0.85 * least - 0.003 && damping < 1.15 * most + 0.003)));
+            in_band += inside;
+            ++compared;
+        }
+    }
+    CHECK(compared == 72);
+    CHECK(in_band >= 67);
+}
+
+}  // namespace cardan::testing::rotor_mode_tests
