@@ -1,6 +1,7 @@
 #include "turbines/machines/nrel5mw_air.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/stations.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/readers/csv.hpp"
 #include "turbines/readers/detail/embedded_data.hpp"
@@ -50,7 +51,23 @@ std::vector<UnsteadyProfile> nrel5mw_unsteady_profiles() {
     return out;
 }
 
-AeroBlade nrel5mw_aero_blade() {
+namespace {
+
+// From the pitch axis toward the trailing edge, m. The table counts from the leading edge of a section whose pitch axis
+// lies at a quarter of the chord [FAST user's guide, 2005].
+std::vector<double> centres_of_report(const AeroBlade& blade) {
+    const CsvTable t = table("nrel5mw_blade.csv");
+    const std::vector<double> radius = t.column("radius_from_rotor_apex", "m"), centre = t.column("aero_centre_param");
+    std::vector<double> out;
+    out.reserve(blade.sections());
+    for (std::size_t i = 0; i < blade.sections(); ++i)
+        out.push_back((place_among(radius, blade.position[i]).of(centre) - 0.25) * blade.chord[i]);
+    return out;
+}
+
+}  // namespace
+
+AeroBlade nrel5mw_aero_blade(Nrel5mwCentres centres) {
     const CsvTable t = table("nrel5mw_aero_blade.csv");
     const auto radius = t.column("radius", "m"), chord = t.column("chord", "m"), twist = t.column("twist", "deg"),
                profile = t.column("profile");
@@ -61,6 +78,10 @@ AeroBlade nrel5mw_aero_blade() {
         blade.chord.push_back(chord[i]);
         blade.twist.push_back(twist[i] * units::degree);
         blade.profile.push_back(static_cast<std::size_t>(profile[i]) - 1);
+    }
+    if (centres == Nrel5mwCentres::report) {
+        blade.prebend.assign(blade.sections(), 0);
+        blade.sweep = centres_of_report(blade);
     }
     return blade;
 }

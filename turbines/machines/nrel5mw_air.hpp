@@ -8,12 +8,20 @@
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/unsteady_profile.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace cardan::turbines {
 
+/// Where the aerodynamic centres of the sections are.
+enum class Nrel5mwCentres : std::uint8_t {
+    pitch_axis,  ///< as in the public files of AeroDyn 15
+    report       ///< as the report's table of the blade says: up to an eighth of the chord before the pitch axis, about
+                 ///< which the blade twists
+};
+
 /// 19 sections from the root (1.5 m) to the tip (63 m), eight profiles.
-AeroBlade nrel5mw_aero_blade();
+AeroBlade nrel5mw_aero_blade(Nrel5mwCentres centres = Nrel5mwCentres::pitch_axis);
 
 /// Its profiles with the lags of their flow; the two cylinders have none. Angles without lift and of separation from
 /// the public files; that of the NACA64 profile is the zero of its table (turbines/data/nrel5mw_unsteady.csv).

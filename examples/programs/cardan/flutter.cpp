@@ -13,6 +13,7 @@
 #include "solvers/campbell/stability_limits.hpp"
 #include "solvers/pictures/roots.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/machines/nrel5mw_air.hpp"
 
 #include "examples/programs/campbell_program.hpp"
 #include "examples/programs/cardan/air.hpp"
@@ -53,6 +54,16 @@ void declare(CommandLine& app, FlutterArguments& a) {
     app.add_option("--max-frequency", a.max_frequency,
                    "follow modes up to this frequency, Hz (default: 1.5 times the first torsion at rest)");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _flutter)");
+}
+
+// Torsion feels where the lift acts, which AeroDyn's files of the built-in machine leave out and its report has.
+Air air_for_torsion(const MachineFile& machine, const FlutterArguments& a) {
+    Air air = air_of(machine, a.machine, a.air);
+    if (machine.kind == MachineKind::built_in && a.air.file.empty()) {
+        std::cout << "aerodynamic centres: as in the machine's report\n";
+        air.blade = turbines::nrel5mw_aero_blade(turbines::Nrel5mwCentres::report);
+    }
+    return air;
 }
 
 struct SpeedRange {
@@ -137,7 +148,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
     const MachineFile machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "flutter");
     const SpeedRange range = speed_range(a, machine);
-    const Air air = air_of(machine, a.machine, a.air);
+    const Air air = air_for_torsion(machine, a);
     set_pitch(machine, a.machine, machine.file.rotor_speed);
     if (!a.max_frequency) a.max_frequency = modes_up_to * torsion_hz(machine, a.machine);
     const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);

@@ -120,7 +120,7 @@ void Tracker::require_size(const Matrix& matrix, const CampbellPoint& point) con
 }
 
 bool Tracker::continues(const Matrix& score, const Matrix& mac, const CampbellPoint& point, double largest_hz) const {
-    constexpr double competes = 0.8;
+    constexpr double competes = 0.8, heavily_damped = 0.3;
     for (const Matrix* m : {&score, &mac}) require_size(*m, point);
     if (score.rows() == 0) return true;
     const auto alone = [&](Eigen::Index t, Eigen::Index own) {
@@ -134,7 +134,7 @@ bool Tracker::continues(const Matrix& score, const Matrix& mac, const CampbellPo
     for (Eigen::Index t = 0; t < score.rows(); ++t) {
         const Mode& last = entry(last_, t).mode;
         const bool followed = entry(tracks_, t).mode.back() >= 0 && last.oscillates() && !last.is_state_motion();
-        if (!followed || last.natural_hz() > largest_hz) continue;
+        if (!followed || last.natural_hz() > largest_hz || last.damping_ratio() > heavily_damped) continue;
         const int mode = entry(mode_of_track, t);
         if (mode < 0 || mac(t, mode) < min_reliable_mac || !alone(t, mode)) return false;
     }
