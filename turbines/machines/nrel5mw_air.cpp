@@ -59,11 +59,9 @@ namespace {
 // lies at a quarter of the chord [FAST user's guide, 2005].
 std::vector<double> centres_of_report(const AeroBlade& blade) {
     const CsvTable t = table("nrel5mw_blade.csv");
-    const auto column = [&t](const char* name, const char* unit) {
-        const std::span<const double> values = t.column(name, unit);
-        return std::vector<double>(values.begin(), values.end());
-    };
-    const std::vector<double> radius = column("radius_from_rotor_apex", "m"), centre = column("aero_centre_param", "-");
+    const auto list = [](std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); };
+    const std::vector<double> radius = list(t.column("radius_from_rotor_apex", "m")),
+                              centre = list(t.column("aero_centre_param"));
     std::vector<double> out;
     out.reserve(blade.sections());
     for (std::size_t i = 0; i < blade.sections(); ++i)
