@@ -208,4 +208,14 @@ TEST_CASE("air on a machine: what is refused", "[validation]") {
                   {"number of blades", "0"});
 }
 
+TEST_CASE("NREL 5 MW machine: aerodynamic centres on the pitch axis, or as its report has them", "[published]") {
+    CHECK(nrel5mw_aero_blade().sweep.empty());
+    const AeroBlade blade = nrel5mw_aero_blade(Nrel5mwCentres::report);
+    REQUIRE(blade.sweep.size() == blade.sections());
+    // AeroCent of NREL/TP-500-38060, table 2-1: 0.25 at the root, 0.125 from 15.7 m on.
+    CHECK(blade.sweep.front() == Approx(0).margin(1e-12));
+    for (std::size_t i = 0; i < blade.sections(); ++i)
+        if (blade.position[i] > 15.7) CHECK(blade.sweep[i] == Approx(-blade.chord[i] / 8));
+}
+
 }  // namespace cardan::testing::machine_air_tests
