@@ -130,7 +130,7 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& ai
     return found;
 }
 
-void print(const solvers::StabilityLimits& found, double own_speed, double radius) {
+void print_limits(const solvers::StabilityLimits& found, double own_speed, double radius) {
     for (const solvers::StabilityLimit& limit : found.limits) {
         const bool flutter = limit.kind == solvers::Instability::flutter;
         std::printf("%s of %s %s %.3f rpm", flutter ? "flutter" : "divergence", limit.name.c_str(),
@@ -163,7 +163,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
     if (diagram.points.empty()) return 130;
     print_table(diagram);
     std::printf("\n");
-    print(found, machine.file.rotor_speed, air.blade.position.back());
+    print_limits(found, machine.file.rotor_speed, air.blade.position.back());
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = *a.max_frequency;
     picture.title = title_of(diagram);
