@@ -14,10 +14,10 @@ SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const Ske
                        const RotorAirOptions& options, double density) {
     const Induction balance = options.induction ? solve_induction(annulus, V_x, V_y, options.momentum)
                                                 : Induction{.phi = std::atan2(V_x, V_y)};
-    return section_air(annulus, V_x, V_y, wake, balance, density);
+    return section_air(balance, annulus, V_x, V_y, wake, density);
 }
 
-SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake, const Induction& balance,
+SectionAir section_air(const Induction& balance, const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake,
                        double density) {
     SectionAir out{.V_x = V_x, .V_y = V_y, .induction = balance, .force = {}};
     Induction& found = out.induction;

@@ -37,7 +37,7 @@ struct SectionAir {
 SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake,
                        const RotorAirOptions& options, double density);
 /// @param balance  the induction in equilibrium with the loads, solve_induction(), or none
-SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake, const Induction& balance,
+SectionAir section_air(const Induction& balance, const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake,
                        double density);
 
 /// Derivatives of normal, driving and moment (rows), exact: the balance of momentum by implicit differentiation.

@@ -178,11 +178,11 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
     const bool balanced = options.induction && lags.wake != WakeLag::frozen;
     const Induction balance = balanced ? solve_induction(annulus, motion.V_x, motion.V_y, options.momentum)
                                        : Induction{.phi = std::atan2(motion.V_x, motion.V_y)};
-    return lagging_air(annulus, motion, s, balance, density, lags);
+    return lagging_air(balance, annulus, motion, s, density, lags);
 }
 
-LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
-                       const Induction& balance, double density, const SectionLags& lags) {
+LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const SectionMotion& motion,
+                       const SectionStates& s, double density, const SectionLags& lags) {
     const double V_x = motion.V_x, V_y = motion.V_y;
     const bool frozen = lags.wake == WakeLag::frozen;
     LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = balance, .force = {}},

@@ -53,8 +53,8 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
                        const RotorAirOptions& options, double density, const SectionLags& lags);
 /// @param balance  the induction in equilibrium with the loads, solve_induction(), or none; of no meaning to a frozen
 /// wake
-LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
-                       const Induction& balance, double density, const SectionLags& lags);
+LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const SectionMotion& motion,
+                       const SectionStates& s, double density, const SectionLags& lags);
 /// States that stay as they are.
 SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
                             const SectionLags& lags);

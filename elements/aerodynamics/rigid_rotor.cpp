@@ -79,7 +79,7 @@ private:
             SkewedWake wake;
             if (options_.skew == Skew::pitt_peters) wake = {skew, annulus.radius / largest * sine * std::sin(skew)};
             SectionAir& section = own.sections[i];
-            section = section_air(annulus, section.V_x, section.V_y, wake, balances[i], wind_.density);
+            section = section_air(balances[i], annulus, section.V_x, section.V_y, wake, wind_.density);
         }
     }
 

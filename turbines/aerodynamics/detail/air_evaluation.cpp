@@ -151,12 +151,12 @@ void AirEvaluation::find_loads() {
             SectionState& s = scratch_.sections[i];
             s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
             if (parts_.lags) {
-                scratch_.lagging[i] = lagging_air(s.annulus, motion_of(i), states_of(i), scratch_.inductions[i],
+                scratch_.lagging[i] = lagging_air(scratch_.inductions[i], s.annulus, motion_of(i), states_of(i),
                                                   wind_.density, parts_.lags->sections[i]);
                 s.air = scratch_.lagging[i].air;
             } else {
-                s.air = section_air(s.annulus, scratch_.inflows[i].V_x, scratch_.inflows[i].V_y, s.wake,
-                                    scratch_.inductions[i], wind_.density);
+                s.air = section_air(scratch_.inductions[i], s.annulus, scratch_.inflows[i].V_x, scratch_.inflows[i].V_y,
+                                    s.wake, wind_.density);
             }
             s.force = s.air.force.normal * s.x - s.air.force.driving * s.y;
             s.moment = s.air.force.moment * s.span;
