@@ -31,6 +31,7 @@ SectionAir section_air(const Induction& balance, const Annulus& annulus, double 
 
 SectionSlopes section_slopes(const Annulus& annulus, const SectionAir& at, const SkewedWake& wake,
                              const RotorAirOptions& options, double density) {
+    if (at.V_x == 0 && at.V_y == 0) return {};
     const Inflow<Slope> inflow{Slope::variable(at.V_x, SectionSlopes::V_x), Slope::variable(at.V_y, SectionSlopes::V_y),
                                Slope::variable(annulus.angle, SectionSlopes::angle),
                                Slope::variable(annulus.radius, SectionSlopes::radius)};

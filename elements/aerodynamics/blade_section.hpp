@@ -40,7 +40,8 @@ SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const Ske
 SectionAir section_air(const Induction& balance, const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake,
                        double density);
 
-/// Derivatives of normal, driving and moment (rows), exact: the balance of momentum by implicit differentiation.
+/// Derivatives of normal, driving and moment (rows), exact: the balance of momentum by implicit differentiation. Zero
+/// where there is no air speed at all.
 struct SectionSlopes {
     enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, columns };
     Eigen::Matrix<double, 3, columns> by = Eigen::Matrix<double, 3, columns>::Zero();

@@ -73,8 +73,7 @@ public:
           options_(options),
           density_(density),
           lags_(lags),
-          inflow_{LagSlope::variable(motion.V_x, LaggingSlopes::V_x),
-                  LagSlope::variable(motion.V_y, LaggingSlopes::V_y),
+          inflow_{velocity(motion.V_x, LaggingSlopes::V_x), velocity(motion.V_y, LaggingSlopes::V_y),
                   LagSlope::variable(annulus.angle, LaggingSlopes::angle),
                   LagSlope::variable(annulus.radius, LaggingSlopes::radius)},
           rate_(LagSlope::variable(motion.rate, LaggingSlopes::rate)) {}
@@ -97,6 +96,12 @@ public:
     }
 
 private:
+    // Without any air speed nothing depends on it to first order but the angle of attack, which has no meaning then.
+    LagSlope velocity(double value, int column) const {
+        constexpr double still = 1e-9;  // m/s
+        const bool moves = motion_.V_x != 0 || motion_.V_y != 0;
+        return moves ? LagSlope::variable(value, column) : LagSlope(still);
+    }
     static LagSlope state(double value, int i) { return LagSlope::variable(value, LaggingSlopes::first_state + i); }
     void set(int row, const LagSlope& value) { out_.by.row(row) = value.slopes.matrix().transpose(); }
 

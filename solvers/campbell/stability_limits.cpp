@@ -123,6 +123,8 @@ private:
     void find_limits();
     void find_flutter(const Branch& branch, std::size_t i);
     void find_divergence(std::size_t i);
+    bool is_continuous(int k, double parameter, std::size_t i);
+    void add_divergence(double parameter, bool begins);
     template <class F>
     double root(const F& f, std::size_t i, double first, double second) const;
     double excess(const Mode& mode) const {
@@ -277,17 +279,44 @@ void LimitSearch::find_flutter(const Branch& branch, std::size_t i) {
     found_.limits.push_back(std::move(limit));
 }
 
+// A pair of complex roots may become two real ones, of which both are negative, or the other way round: nothing passes
+// through zero then.
+bool LimitSearch::is_continuous(int k, double parameter, std::size_t i) {
+    constexpr double small = 1e-5;
+    const double beside = 10 * options_.tolerance * width_;
+    const double low = std::max(parameter - beside, parameters_[i]),
+                 high = std::min(parameter + beside, parameters_[i + 1]);
+    return std::abs(static_root(certain_probe(high).roots, k) - static_root(certain_probe(low).roots, k)) < small;
+}
+
+void LimitSearch::add_divergence(double parameter, bool begins) {
+    const Probe there = certain_probe(parameter);
+    StabilityLimit limit{.kind = Instability::divergence,
+                         .begins = begins,
+                         .parameter = parameter,
+                         .rotor_speed = there.point.rotor_speed};
+    const auto nearest = std::ranges::min_element(there.roots.values, {}, [](double value) { return std::abs(value); });
+    if (nearest != there.roots.values.end())
+        limit.name =
+            static_name(*there.solver, there.roots, static_cast<int>(nearest - there.roots.values.begin()), rows_);
+    found_.limits.push_back(std::move(limit));
+}
+
 void LimitSearch::find_divergence(std::size_t i) {
     const int before = number_below_zero(roots_[i]), after = number_below_zero(roots_[i + 1]);
+    int found = 0;
     for (int k = std::min(before, after); k < std::max(before, after); ++k) {
-        StabilityLimit limit{.kind = Instability::divergence, .begins = after > before};
-        limit.parameter = root([&](double parameter) { return static_root(certain_probe(parameter).roots, k); }, i,
-                               static_root(roots_[i], k), static_root(roots_[i + 1], k));
-        const Probe there = certain_probe(limit.parameter);
-        if (k < there.roots.shapes.cols()) limit.name = static_name(*there.solver, there.roots, k, rows_);
-        limit.rotor_speed = there.point.rotor_speed;
-        found_.limits.push_back(std::move(limit));
+        const double parameter = root([&](double at) { return static_root(certain_probe(at).roots, k); }, i,
+                                      static_root(roots_[i], k), static_root(roots_[i + 1], k));
+        if (!is_continuous(k, parameter, i)) continue;
+        add_divergence(parameter, after > before);
+        ++found;
     }
+    const double first = roots_[i].product, second = roots_[i + 1].product;
+    const bool another = (first > 0) != (second > 0) && found % 2 == 0;
+    if (another)
+        add_divergence(root([&](double at) { return certain_probe(at).roots.product; }, i, first, second),
+                       after == before ? first > 0 : after > before);
 }
 
 // What has no limit of its own in the range.

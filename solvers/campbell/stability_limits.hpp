@@ -28,7 +28,7 @@ struct StabilityOptions {
     CampbellOptions modes = {};
     int steps = 20;  ///< equal ones, over the range. A motion that grows within less than a step only is missed
     /// How often a step is halved where it is doubtful which mode is which (a MAC below `min_reliable_mac`, or another
-    /// mode as like and nearer in its eigenvalue; of modes with a damping ratio up to 0.3), or where no steady state is
+    /// mode as like and nearer in its eigenvalue; of modes with a damping ratio up to 0.5), or where no steady state is
     /// found. What is doubtful then is marked.
     int halvings = 6;
     double tolerance = 1e-9;  ///< of the parameter, over the width of the range

@@ -39,6 +39,8 @@ StaticRoots static_roots(const SecondOrderSystem& system) {
     factor.matrixU().solveInPlace<Eigen::OnTheRight>(scaled);
     RealEigen eigen(scaled.rows(), scaled.rows());
     if (!eigen.compute(scaled)) throw NumericalError("static stability: the eigenvalue iteration did not converge");
+    for (const RealEigen::Value& value : eigen.values())
+        out.product *= value.mu.imag() == 0 ? value.mu.real() : std::norm(value.mu);
     std::vector<RealEigen::Value> real = eigen.values();
     std::erase_if(real, [](const RealEigen::Value& value) { return value.mu.imag() != 0; });
     std::ranges::sort(real, {}, [](const RealEigen::Value& value) { return value.mu.real(); });

@@ -20,6 +20,8 @@ struct StaticRoots {
     double sigma = 0;                 ///< near the lowest frequency, rad/s
     std::vector<double> values = {};  ///< ascending
     Matrix shapes = {};               ///< their vectors, by column, over the rows of the system
+    /// Of all roots, complex ones included: of those of K_static, it changes its sign where one of them is zero.
+    double product = 1;
 };
 
 /// A free spin, on which nothing depends, is left out.

@@ -120,7 +120,7 @@ void Tracker::require_size(const Matrix& matrix, const CampbellPoint& point) con
 }
 
 bool Tracker::continues(const Matrix& score, const Matrix& mac, const CampbellPoint& point, double largest_hz) const {
-    constexpr double competes = 0.8, heavily_damped = 0.3;
+    constexpr double competes = 0.8, heavily_damped = 0.5;
     for (const Matrix* m : {&score, &mac}) require_size(*m, point);
     if (score.rows() == 0) return true;
     const auto alone = [&](Eigen::Index t, Eigen::Index own) {

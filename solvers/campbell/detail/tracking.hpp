@@ -29,7 +29,7 @@ public:
     /// True if add() would continue all vibrations of the last point up to a frequency beyond doubt: with a MAC of
     /// `min_reliable_mac` at least, and with no other mode whose MAC is four fifths of that and whose eigenvalue is
     /// nearer. Both hold for a point that is near enough, whatever the modes. Motions of states need not be certain,
-    /// nor modes with a damping ratio above 0.3, which mix with them and are far from growing.
+    /// nor modes with a damping ratio above 0.5, which mix with them and are far from growing.
     bool continues(const Matrix& score, const Matrix& mac, const CampbellPoint& point, double largest_hz) const;
 
     /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
