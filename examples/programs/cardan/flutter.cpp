@@ -161,7 +161,6 @@ int run(FlutterArguments& a, const CommandLine& command) {
     diagram.accuracy = in_words(ready.mesh);
     diagram.source = run_text("flutter", command) + diagram.source;
     if (diagram.points.empty()) return 130;
-    print_table(diagram);
     std::printf("\n");
     print_limits(found, machine.file.rotor_speed, air.blade.position.back());
     solvers::CampbellPlotOptions picture;
@@ -183,7 +182,8 @@ int flutter_command(int argc, char** argv) {
         "cardan flutter",
         "Rotor speeds at which a blade of a machine begins to flutter or diverges: one blade that turns in still air, "
         "its modes followed over the rotor speed.\n"
-        "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, PREFIX_roots.svg, PREFIX_roots.png, and prints a table.",
+        "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, PREFIX_roots.svg, PREFIX_roots.png, and prints the "
+        "limits.",
         argc, argv, declare, run);
 }
 
