@@ -29,9 +29,10 @@ namespace cardan::program {
 namespace {
 
 // Of the machine's rotor speed.
-constexpr double slowest = 0.25, fastest = 3;
+constexpr double slowest = 0.25, fastest = 2.5;
 // Of the first torsion at rest: what flutters lies below it, what it becomes is still seen.
 constexpr double modes_up_to = 1.5;
+constexpr int most_halvings = 3;
 
 struct FlutterArguments {
     MachineOptions machine;
@@ -44,7 +45,7 @@ struct FlutterArguments {
 
 void declare(CommandLine& app, FlutterArguments& a) {
     add_machine(app, a.machine);
-    app.add_option("--rpm", a.rpm, "FIRST:LAST, rotor speeds, rev/min (default: 0.25 to 3 times the machine's)");
+    app.add_option("--rpm", a.rpm, "FIRST:LAST, rotor speeds, rev/min (default: 0.25 to 2.5 times the machine's)");
     app.add_option("--steps", a.steps, "of the search; they are halved where it is doubtful which mode is which")
         .range(1, 10000);
     add_machine_options(app, a.machine);
@@ -120,6 +121,7 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& ai
 
     solvers::StabilityOptions options;
     options.steps = a.steps;
+    options.halvings = most_halvings;
     options.modes = campbell_options(*a.max_frequency);
     options.modes.spin = solvers::RotorSpin::prescribed;
     const auto same = [&](double) {
@@ -128,6 +130,33 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& ai
     solvers::StabilityLimits found = solvers::stability_limits(same, "", range.first, range.last, options);
     found.diagram.remark = text("blade alone in still air, profiles ", lags ? "unsteady" : "steady");
     return found;
+}
+
+// Without what is heavily damped everywhere: mixtures with the air's states.
+solvers::Campbell lightly_damped(const solvers::Campbell& diagram) {
+    constexpr double heavily = 0.5;
+    solvers::Campbell out = diagram;
+    std::erase_if(out.branches, [&](const solvers::Branch& branch) {
+        for (std::size_t i = 0; i < diagram.points.size(); ++i)
+            if (diagram.damping_ratio(branch, i) < heavily) return false;
+        return true;
+    });
+    return out;
+}
+
+void write_limits(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
+    const solvers::Campbell shown = lightly_damped(diagram);
+    solvers::CampbellPlotOptions picture;
+    picture.max_frequency_hz = max_frequency;
+    picture.title = title_of(diagram);
+    solvers::write_hdf5(diagram, prefix + ".h5");
+    solvers::write_csv(diagram, prefix + ".csv");
+    for (const char* kind : {".svg", ".png"}) {
+        solvers::plot(shown, prefix + kind, picture);
+        solvers::plot_roots(shown, prefix + "_roots" + kind,
+                            {.title = picture.title, .max_frequency_hz = max_frequency});
+    }
+    std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
 }
 
 void print_limits(const solvers::StabilityLimits& found, double own_speed, double radius) {
@@ -163,14 +192,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
     if (diagram.points.empty()) return 130;
     std::printf("\n");
     print_limits(found, machine.file.rotor_speed, air.blade.position.back());
-    solvers::CampbellPlotOptions picture;
-    picture.max_frequency_hz = *a.max_frequency;
-    picture.title = title_of(diagram);
-    write_files(diagram, a.out, picture);
-    for (const char* kind : {".svg", ".png"})
-        solvers::plot_roots(diagram, a.out + "_roots" + kind,
-                            {.title = picture.title, .max_frequency_hz = *a.max_frequency});
-    std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", a.out.c_str());
+    write_limits(diagram, a.out, *a.max_frequency);
     if (diagram.complete) return 0;
     return interrupted() ? 130 : 1;
 }
