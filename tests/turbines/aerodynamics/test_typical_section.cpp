@@ -106,7 +106,6 @@ TEST_CASE("typical section: flutter as in Theodorsen's equations with the same l
     const oracles::FlutterPoint expected = theory().flutter(oracles::jones_lags, 10);
     CHECK(flutter.kind == Instability::flutter);
     CHECK(flutter.begins);
-    CHECK_FALSE(flutter.doubtful);
     CHECK(flutter.parameter == Approx(expected.speed).epsilon(1e-7));
     CHECK(flutter.eigenvalue.imag() == Approx(expected.frequency).epsilon(1e-7));
     CHECK(std::abs(flutter.eigenvalue.real()) < 1e-7);
