@@ -13,7 +13,7 @@ if(CARDAN_PEER_PYTHON)
     add_example_test(read_back_write_floquet teetered_floquet 0 "read_back_floquet.h5" --gravity --max 20 ${coarse} --no-pictures
                      --no-teeter --harmonics 4 --out read_back_floquet)
     add_example_test(read_back_write_model wt600_linear_model 0 "read_back_model.h5" ${coarse} --azimuths 7 --out read_back_model)
-    add_example_test(read_back_write_run wt600_time_history 0 "read_back_run.h5" ${coarse} --duration 1 --out read_back_run)
+    add_example_test(read_back_write_run wt600_time_history 0 "read_back_run.h5" ${coarse} --duration 5 --out read_back_run)
     add_example_test(read_back_write_table cardan 0 "rows of" convert read_back_run.h5 read_back_run.csv)
     set_tests_properties(read_back_write_campbell PROPERTIES FIXTURES_SETUP read_back_campbell)
     set_tests_properties(read_back_write_floquet PROPERTIES FIXTURES_SETUP read_back_floquet)
