@@ -13,6 +13,6 @@ add_example_test(example_own_force own_force 0 "1.00 +0.482578[0-9]+ +0.48257800
 add_example_test(example_robot_arm robot_arm 0 "shoulder +-302.84 +-302.84.*modes, Hz +14.60 ")
 add_example_test(example_unequal_shaft unequal_shaft 0 "2000 +0.2253 +11.5461 +11.5461 +67.1217 +67.1217")
 add_example_test(example_free_yaw free_yaw 0 "chosen: two blades.*yaw .rigid. +0.0000 .* 0.0000 .* 0.0000 .*45.0 +[-0.]+[0-9]+ .0.000000 i  yaw .rigid.")
-add_example_test(example_wing_flutter wing_flutter 0 "flutter from 13[678][.].*divergence from 25[0-4][.].*torsion.*137.335 m/s")
+add_example_test(example_wing_flutter wing_flutter 0 "flutter +from 13[678][.].*divergence +from 25[0-4][.].*torsion.*137.335 m/s")
 add_example_test(example_own_turbine own_turbine 0 "at rest: 1.22[0-9] Hz.*1st blade flap .backward.")
 add_example_test(example_own_turbine_no_file own_turbine 1 "no/such.yaml: cannot be read" no/such.yaml)
