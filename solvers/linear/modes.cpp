@@ -136,7 +136,8 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
     for (Found& found : found_)
         if (std::isnan(found.state_share)) found.state_share = share_by_iteration(system, found);
     std::erase_if(found_, [&](const Found& found) {
-        return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale && found.state_share < 0.5;
+        return std::abs(found.eigenvalue) < rigid_ratio_of_modes * scale &&
+               (found.state_share < 0.5 || moves_no_state(found));
     });
     std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
         const bool first = a.eigenvalue.imag() > 0, second = b.eigenvalue.imag() > 0;
@@ -315,6 +316,14 @@ double ModeSolver::share_by_iteration(const SecondOrderSystem& system, const Fou
                            left.tail(m).dot(product(t.f_qd, x));
     const double total = std::abs(states) + std::abs(motion);
     return total > 0 ? std::abs(states) / total : 0.0;
+}
+
+// Where zero is nearly a double eigenvalue, left and right vector are nearly orthogonal and the share is rounding.
+bool ModeSolver::moves_no_state(const Found& found) const {
+    constexpr double rounding = 1e-4;
+    const Eigen::Index columns = found.eigenvalue.imag() == 0 ? 1 : 2;
+    const Matrix scaled = d_.cwiseInverse().asDiagonal() * shapes_.middleCols(found.column, columns);
+    return scaled.bottomRows(states_).norm() < rounding * scaled.topRows(rows_).norm();
 }
 
 // To unit modal energy; motions of states, to a largest scaled state of 1.

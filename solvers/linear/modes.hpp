@@ -82,6 +82,7 @@ private:
     void balance();
     bool solve_few(double scale, double largest);
     void add(Complex mu, double scale);
+    bool moves_no_state(const Found& found) const;
     void normalise(const SecondOrderSystem& system);
 
     RealEigen eigen_;
