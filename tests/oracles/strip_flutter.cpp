@@ -102,8 +102,8 @@ Eigen::VectorXcd StripFlutter::at_reduced_frequency(const Deficiency& C, double 
 
 FlutterPoint StripFlutter::flutter(const Deficiency& C, double largest_frequency, double least_k) const {
     constexpr double step = 0.002;
-    const auto nearest = [](const Eigen::VectorXcd& all, Complex wanted) {
-        return *std::min_element(all.begin(), all.end(),
+    const auto nearest = [](const Eigen::VectorXcd& values, Complex wanted) {
+        return *std::min_element(values.begin(), values.end(),
                                  [&](Complex x, Complex y) { return std::abs(x - wanted) < std::abs(y - wanted); });
     };
     std::vector<FlutterPoint> found;
@@ -178,8 +178,8 @@ FlutterPoint StripFlutter::steady_flutter(double largest_speed) const {
         return Eigen::VectorXcd(Eigen::EigenSolver<Eigen::MatrixXd>(inverse.solve(K), false).eigenvalues());
     };
     const auto flutters = [&](double speed) {
-        const Eigen::VectorXcd all = squares(speed);
-        return all.imag().cwiseAbs().maxCoeff() > 0;
+        const Eigen::VectorXcd values = squares(speed);
+        return values.imag().cwiseAbs().maxCoeff() > 0;
     };
     const double step = largest_speed / 1000;
     double high = step;
@@ -190,10 +190,10 @@ FlutterPoint StripFlutter::steady_flutter(double largest_speed) const {
         const double middle = (low + high) / 2;
         (flutters(middle) ? high : low) = middle;
     }
-    const Eigen::VectorXcd all = squares(high);
+    const Eigen::VectorXcd values = squares(high);
     Eigen::Index which = 0;
-    all.imag().cwiseAbs().maxCoeff(&which);
-    return {high, std::sqrt(all(which)).real()};
+    values.imag().cwiseAbs().maxCoeff(&which);
+    return {high, std::sqrt(values(which)).real()};
 }
 
 }  // namespace cardan::oracles
