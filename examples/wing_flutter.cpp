@@ -47,11 +47,11 @@ int main() try {
         windy = air.in(SteadyWind{.speed = speed, .density = density}).on(wing);
         return solvers::CampbellCase{.system = &windy->system(), .rotor = &windy->rotor()};
     };
-    const auto found =
-        solvers::stability_limits(at_wind, "wind speed, m/s", 20, 300, {.modes = {.max_frequency_hz = 24}});
+    const auto found = solvers::stability_limits(at_wind, "wind, m/s", 20, 300, {.modes = {.max_frequency_hz = 24}});
     for (const solvers::StabilityLimit& limit : found.limits)
-        std::printf("%-10s from %7.3f m/s on, %6.3f rad/s: %s\n", limit.eigenvalue == 0.0 ? "divergence" : "flutter",
-                    limit.parameter, limit.eigenvalue.imag(), limit.name.c_str());
+        std::printf("%-10s from %7.3f m/s on, %6.3f rad/s: %s\n",
+                    limit.kind == solvers::Instability::flutter ? "flutter" : "divergence", limit.parameter,
+                    limit.eigenvalue.imag(), limit.name.c_str());
     std::printf("continuous wing: flutter 137.335 m/s, 69.346 rad/s; divergence 252.278 m/s\n");
     return 0;
 } catch (const Error& error) {

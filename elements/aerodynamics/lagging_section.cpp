@@ -29,14 +29,6 @@ Reaching reaching(const SectionMotion& motion, const Induction& induction) {
     return {motion.V_x * (1 - induction.axial), motion.V_y * (1 + induction.tangential)};
 }
 
-SectionForce force_of(const Annulus& annulus, const Reaching& u, const UnsteadyProfile::Coefficients& c,
-                      double density) {
-    const double pressure = density / 2 * annulus.chord, size = std::hypot(u.u_x, u.u_y);
-    // Speed times sine and cosine of the inflow's angle are the velocities.
-    return {pressure * size * (c.lift * u.u_y + c.drag * u.u_x), pressure * size * (c.lift * u.u_x - c.drag * u.u_y),
-            pressure * size * size * annulus.chord * c.moment, u.attack(annulus)};
-}
-
 // Without limits: what the wake's skew has made of an induction may be beyond them.
 Induction frozen_induction(const Eigen::Vector2d& velocity, double V_x, double V_y) {
     const double axial = V_x == 0 ? 0 : -velocity.x() / V_x, tangential = V_y == 0 ? 0 : velocity.y() / V_y;
@@ -210,7 +202,8 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
         const UnsteadyProfile::States x = profile_states(s, lags);
         out.rates.segment(lags.inflow_states(), lags.profile_states()) =
             lags.profile->rates(x, moving).tail(lags.profile_states());
-        out.air.force = force_of(annulus, u, lags.profile->coefficients(x, moving), density);
+        const UnsteadyProfile::Coefficients c = lags.profile->coefficients(x, moving);
+        out.air.force = force_of(annulus, u.u_x, u.u_y, moving.attack, {c.lift, c.drag, c.moment}, density);
     } else {
         out.air.force = section_force(annulus, V_x, V_y, now, density);
     }

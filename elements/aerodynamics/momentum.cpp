@@ -117,14 +117,11 @@ Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y
     });
 }
 
-// loads_of(), without sines: speed times sine and cosine of phi are the velocities.
 SectionForce section_force(const Annulus& annulus, double V_x, double V_y, const Induction& induction, double density) {
     const double u_x = V_x * (1 - induction.axial), u_y = V_y * (1 + induction.tangential),
-                 speed = std::sqrt(u_x * u_x + u_y * u_y), pressure = density / 2 * annulus.chord * speed,
                  attack = induction.phi - annulus.angle;
-    const Polar::Point polar = point_of(*annulus.polar, attack, reynolds_of<double>(annulus, u_x, u_y));
-    return {pressure * (polar.lift * u_y + polar.drag * u_x), pressure * (polar.lift * u_x - polar.drag * u_y),
-            pressure * speed * annulus.chord * polar.moment, attack};
+    const Polar::Point c = point_of(*annulus.polar, attack, reynolds_of<double>(annulus, u_x, u_y));
+    return force_of(annulus, u_x, u_y, attack, {c.lift, c.drag, c.moment}, density);
 }
 
 }  // namespace cardan

@@ -6,10 +6,12 @@
 #include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/pictures/campbell.hpp"
+#include "solvers/pictures/roots.hpp"
 
 #include "examples/shared/program.hpp"
 #include "examples/shared/words.hpp"
 #include <cctype>
+#include <cstdio>
 #include <vector>
 
 namespace cardan::program {
@@ -50,6 +52,20 @@ inline void write_files(const solvers::Campbell& diagram, const std::string& pre
     solvers::write_hdf5(diagram, prefix + ".h5");
     solvers::write_csv(diagram, prefix + ".csv");
     for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, prefix + kind, picture);
+}
+
+/// The same, and PREFIX_roots.svg, PREFIX_roots.png.
+/// @param shown  of the diagram, in pictures
+inline void write_files_and_roots(const solvers::Campbell& diagram, const solvers::Campbell& shown,
+                                  const std::string& prefix, const solvers::CampbellPlotOptions& picture) {
+    solvers::write_hdf5(diagram, prefix + ".h5");
+    solvers::write_csv(diagram, prefix + ".csv");
+    for (const char* kind : {".svg", ".png"}) {
+        solvers::plot(shown, prefix + kind, picture);
+        solvers::plot_roots(shown, prefix + "_roots" + kind,
+                            {.title = picture.title, .max_frequency_hz = picture.max_frequency_hz});
+    }
+    std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
 }
 
 /// One of several panels: modes of some families (empty: all) with one ordinal (0: all) up to a frequency (0: all).

@@ -320,10 +320,15 @@ MachineOptions with_elements(MachineOptions options, int blade, int tower) {
 
 }  // namespace
 
+int first_blade(const turbines::TurbineDescription& description) {
+    int first = 1;
+    while (first <= description.blades && description.blade_at(first) == nullptr) ++first;
+    return first;
+}
+
 double usual_frequency(const MachineFile& machine, const MachineOptions& options) {
     const turbines::TurbineDescription& d = machine.file.description;
-    int first = 1;
-    while (first <= d.blades && d.blade_at(first) == nullptr) ++first;
+    const int first = first_blade(d);
     if (first > d.blades || !machine.file.dofs.blades) return 5;
     const std::vector<double> hz = turbines::clamped_blade_hz(
         d, assembly_options(machine, with_elements(options, 12, 1)), std::numeric_limits<double>::infinity(), first);

@@ -95,6 +95,9 @@ ReadyMachine ready_machine(const MachineFile& machine, MachineOptions& options, 
 /// Beams, pitch, gravity and damping.
 turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options);
 
+/// The first blade that is there, from 1; beyond the number of blades: there is none.
+int first_blade(const turbines::TurbineDescription& description);
+
 /// A frequency that suits the machine: 1.3 times the third of its first blade, clamped and at rest (second flap, as a
 /// rule), rounded up to two digits, Hz; 5 if the blade does not bend.
 double usual_frequency(const MachineFile& machine, const MachineOptions& options);

@@ -1,11 +1,11 @@
 #include "mbs/system/state_forces.hpp"
 
+#include "mbs/base/disjoint_sets.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -144,12 +144,7 @@ void StateForces::add_groups(const OtherStates& others, int first, const std::st
 
 // Elements belong together that own or read the same states.
 void StateForces::find_groups() {
-    std::vector<int> leader(static_cast<std::size_t>(own_));  // of every state: a state of its group
-    std::iota(leader.begin(), leader.end(), 0);
-    const auto find = [&](int state) {
-        while (entry(leader, state) != state) state = entry(leader, state);
-        return state;
-    };
+    DisjointSets sets(own_);
     const auto states_of = [](const Bound& element) {
         std::vector<int> all = element.reads;
         for (int i = 0; i < static_cast<int>(element.own.states.size()); ++i) all.push_back(element.first + i);
@@ -157,17 +152,17 @@ void StateForces::find_groups() {
     };
     for (const Bound& element : elements_) {
         const std::vector<int> all = states_of(element);
-        for (const int state : all) entry(leader, find(state)) = find(all.front());
+        for (const int state : all) sets.join(state, all.front());
     }
-    std::map<int, StateGroup> groups;
-    for (int i = 0; i < own_; ++i) groups[find(i)].states.push_back(i);
+    std::map<std::ptrdiff_t, StateGroup> groups;  // by leader
+    for (int i = 0; i < own_; ++i) groups[sets.leader(i)].states.push_back(i);
     for (const Bound& element : elements_) {
         const std::vector<int> all = states_of(element);
         if (all.empty()) continue;
-        std::vector<int>& coordinates = groups[find(all.front())].coordinates;
+        std::vector<int>& coordinates = groups[sets.leader(all.front())].coordinates;
         coordinates.insert(coordinates.end(), element.at.begin(), element.at.end());
     }
-    for (auto& [state, group] : groups) {
+    for (auto& [leader, group] : groups) {
         std::ranges::sort(group.coordinates);
         group.coordinates.erase(std::unique(group.coordinates.begin(), group.coordinates.end()),
                                 group.coordinates.end());

@@ -8,9 +8,6 @@ namespace {
 
 // An error of the inverse adds to a left vector parts of others: rounding times the lengths of both.
 constexpr double largest_error = 1e-4;
-// Parts of states and of motion that cancel belong to an eigenvalue that is nearly double, its two vectors nearly
-// parallel: which of them is which takes more than this inverse.
-constexpr double largest_part = 100;
 
 bool is_pair(const RealEigen::Value& value) {
     return value.mu.imag() != 0;
@@ -67,8 +64,7 @@ const std::vector<double>& StateShares::compute(const RealEigen& eigen, const Ve
             states = Complex(states.real() + q.dot(b.transpose()), y.dot(b.transpose()) - q.dot(v.transpose())) / 2.0;
             length = std::hypot(length, left_.row(j + 1).norm());
         }
-        const bool certain = std::numeric_limits<double>::epsilon() * longest * length < largest_error &&
-                             std::abs(states) < largest_part;
+        const bool certain = std::numeric_limits<double>::epsilon() * longest * length < largest_error;
         shares_.push_back(certain ? std::abs(states) / (std::abs(states) + std::abs(1.0 - states))
                                   : std::numeric_limits<double>::quiet_NaN());
     }

@@ -156,4 +156,16 @@ Loads<S> loads_of(const Annulus& annulus, const Inflow<S>& inflow, const Factors
             attack};
 }
 
+/// The same from what reaches a section, u, without sines: speed times sine and cosine of the inflow's angle are the
+/// velocities.
+struct SectionCoefficients {
+    double lift, drag, moment;
+};
+inline SectionForce force_of(const Annulus& annulus, double u_x, double u_y, double attack,
+                             const SectionCoefficients& c, double density) {
+    const double speed = std::sqrt(u_x * u_x + u_y * u_y), pressure = density / 2 * annulus.chord * speed;
+    return {pressure * (c.lift * u_y + c.drag * u_x), pressure * (c.lift * u_x - c.drag * u_y),
+            pressure * speed * annulus.chord * c.moment, attack};
+}
+
 }  // namespace cardan

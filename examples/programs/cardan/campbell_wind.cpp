@@ -7,8 +7,6 @@
 // Motions of the air alone are apart: no vibrations of the machine.
 #include "examples/programs/cardan/campbell_wind.hpp"
 
-#include "solvers/pictures/roots.hpp"
-
 #include "examples/programs/campbell_program.hpp"
 #include "examples/programs/cardan/operation.hpp"
 #include <cstdio>
@@ -28,11 +26,7 @@ void write_wind_diagram(const solvers::Campbell& diagram, const std::string& pre
     picture.max_frequency_hz = max_frequency;
     picture.title = title_of(diagram);
     picture.log_damping = true;
-    write_files(diagram, prefix, picture);
-    for (const char* kind : {".svg", ".png"})
-        solvers::plot_roots(diagram, prefix + "_roots" + kind,
-                            {.title = picture.title, .max_frequency_hz = max_frequency});
-    std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
+    write_files_and_roots(diagram, diagram, prefix, picture);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/stability_limits.hpp"
-#include "solvers/pictures/roots.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
 
@@ -19,9 +18,9 @@
 #include "examples/programs/cardan/air.hpp"
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
-#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 namespace cardan::program {
@@ -88,9 +87,7 @@ SpeedRange speed_range(FlutterArguments& a, const MachineFile& machine) {
 
 turbines::Turbine blade_of(const MachineFile& machine, const MachineOptions& options) {
     const turbines::TurbineDescription& d = machine.file.description;
-    int first = 1;
-    while (first < d.blades && d.blade_at(first) == nullptr) ++first;
-    return turbines::isolated_blade(d, assembly_options(machine, options), first);
+    return turbines::isolated_blade(d, assembly_options(machine, options), first_blade(d));
 }
 
 // The first torsion of the blade at rest, without air, Hz.
@@ -124,6 +121,7 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& ai
     options.halvings = most_halvings;
     options.modes = campbell_options(*a.max_frequency);
     options.modes.spin = solvers::RotorSpin::prescribed;
+    options.modes.method = solvers::CampbellMethod::coleman;  // nothing depends on the azimuth
     const auto same = [&](double) {
         return solvers::CampbellCase{.system = &in_air.system(), .rotor = &in_air.rotor()};
     };
@@ -142,21 +140,6 @@ solvers::Campbell lightly_damped(const solvers::Campbell& diagram) {
         return true;
     });
     return out;
-}
-
-void write_limits(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
-    const solvers::Campbell shown = lightly_damped(diagram);
-    solvers::CampbellPlotOptions picture;
-    picture.max_frequency_hz = max_frequency;
-    picture.title = title_of(diagram);
-    solvers::write_hdf5(diagram, prefix + ".h5");
-    solvers::write_csv(diagram, prefix + ".csv");
-    for (const char* kind : {".svg", ".png"}) {
-        solvers::plot(shown, prefix + kind, picture);
-        solvers::plot_roots(shown, prefix + "_roots" + kind,
-                            {.title = picture.title, .max_frequency_hz = max_frequency});
-    }
-    std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
 }
 
 void print_limits(const solvers::StabilityLimits& found, double own_speed, double radius) {
@@ -192,7 +175,10 @@ int run(FlutterArguments& a, const CommandLine& command) {
     if (diagram.points.empty()) return 130;
     std::printf("\n");
     print_limits(found, machine.file.rotor_speed, air.blade.position.back());
-    write_limits(diagram, a.out, *a.max_frequency);
+    solvers::CampbellPlotOptions picture;
+    picture.max_frequency_hz = *a.max_frequency;
+    picture.title = title_of(diagram);
+    write_files_and_roots(diagram, lightly_damped(diagram), a.out, picture);
     if (diagram.complete) return 0;
     return interrupted() ? 130 : 1;
 }

@@ -1,39 +1,22 @@
 #include "solvers/periodic/detail/harmonic_factors.hpp"
 
+#include "mbs/base/disjoint_sets.hpp"
 #include "mbs/base/entry.hpp"
-
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace cardan::solvers {
 
-namespace {
-
 using Index = Eigen::Index;
-
-// The representative of a set, by path halving.
-Index root_of(std::vector<Index>& parents, Index i) {
-    while (entry(parents, i) != i) {
-        entry(parents, i) = entry(parents, entry(parents, i));
-        i = entry(parents, i);
-    }
-    return i;
-}
-
-}  // namespace
 
 std::vector<std::vector<Index>> coupled_groups(const Matrix& A, Index first) {
     const Index count = A.rows() - first;
-    std::vector<Index> parents(static_cast<std::size_t>(count));
-    std::iota(parents.begin(), parents.end(), 0);
+    DisjointSets sets(count);
     for (Index j = 0; j < count; ++j)
         for (Index i = 0; i < count; ++i)
-            if (A(first + i, first + j) != 0) entry(parents, root_of(parents, i)) = root_of(parents, j);
+            if (A(first + i, first + j) != 0) sets.join(i, j);
     std::vector<std::vector<Index>> groups;
-    std::vector<Index> place(parents.size(), -1);
+    std::vector<Index> place(static_cast<std::size_t>(count), -1);
     for (Index i = 0; i < count; ++i) {
-        Index& own = entry(place, root_of(parents, i));
+        Index& own = entry(place, sets.leader(i));
         if (own < 0) {
             own = std::ssize(groups);
             groups.emplace_back();

@@ -10,18 +10,14 @@ namespace {
 using namespace solvers;
 using Index = Eigen::Index;
 
-Matrix random_entries(Random& random, Index rows, Index columns) {
-    return Matrix::NullaryExpr(rows, columns, [&] { return uniform(random, -1, 1); });
-}
-
 // Of states that couple in the groups 0, 3, 5 | 1 | 2, 4, 6, 7 behind n coordinates.
 const std::vector<std::vector<Index>> groups_of_states{{0, 3, 5}, {1}, {2, 4, 6, 7}};
 constexpr Index states = 8;
 
 Matrix random_equations(Random& random, Index n) {
     Matrix A = Matrix::Zero(n + states, n + states);
-    A.topRows(n) = random_entries(random, n, n + states);
-    A.bottomLeftCorner(states, n) = random_entries(random, states, n);
+    A.topRows(n) = random_matrix(random, n, n + states);
+    A.bottomLeftCorner(states, n) = random_matrix(random, states, n);
     A.topLeftCorner(n, n).diagonal().array() += 4;
     for (const std::vector<Index>& group : groups_of_states)
         for (const Index i : group) {
@@ -57,7 +53,7 @@ TEST_CASE("factors of a harmonic: solutions satisfy the equations, with states, 
             for (const Matrix& imaginary : {B, Matrix()}) {
                 const HarmonicFactors factors(A, imaginary, behind(n));
                 CHECK(factors.rcond() > 1e-4);
-                const Matrix r = random_entries(random, n + states, imaginary.size() > 0 ? 2 : 1);
+                const Matrix r = random_matrix(random, n + states, imaginary.size() > 0 ? 2 : 1);
                 Matrix z = r;
                 factors.solve(z);
                 CAPTURE(n, forces_at_once, imaginary.size());
@@ -65,7 +61,7 @@ TEST_CASE("factors of a harmonic: solutions satisfy the equations, with states, 
             }
         }
         if (n == 0) continue;
-        const Matrix A_qq = A.topLeftCorner(n, n), B_qq = B.topLeftCorner(n, n), r = random_entries(random, n, 2);
+        const Matrix A_qq = A.topLeftCorner(n, n), B_qq = B.topLeftCorner(n, n), r = random_matrix(random, n, 2);
         Matrix z = r;
         HarmonicFactors(A_qq, B_qq, {}).solve(z);
         CHECK(rest(A_qq, B_qq, z, r) < 1e-12);

@@ -1,14 +1,12 @@
 // Aeroelastic modes of a rotor alone, made from its public files: the band that two other programs span.
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/turbines/iea22_rotor.hpp"
 #include "turbines/operation/aeroelastic.hpp"
-#include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/csv.hpp"
-#include "turbines/readers/openfast.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 namespace cardan::testing::rotor_mode_tests {
 
@@ -23,24 +21,15 @@ constexpr std::array mode_names{
     "2nd blade edge (backward)",   "2nd blade edge (forward)",    "3rd blade flap (backward)",
     "3rd blade flap (collective)", "3rd blade flap (forward)",    "2nd blade edge (collective)"};
 
-// Without tilt and gravity, on a shaft that turns freely with the generator's inertia.
-struct Rotor {
-    AeroDynFile air;
-    WindOperation operation;
-};
-Rotor rotor_of(const std::filesystem::path& folder) {
-    TurbineDescription d = read_openfast(folder / "IEA-22-280-RWT-Monopile.fst").description;
-    d.nacelle.tilt = 0;
-    d.tower.rigid = true;
-    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
-    AeroDynFile air = read_aerodyn(folder / "IEA-22-280-RWT_AeroDyn15.dat", d.hub.radius);
+// On a shaft that turns freely with the generator's inertia.
+WindOperation operation_of(const Iea22Rotor& rotor) {
     AssemblyOptions assembly;
     assembly.blade_beam = CardanBeamOptions{.elements = 8, .partition = Partition::mean_difference};
     assembly.spin = CoordinateRole::free;
     WindOperationOptions options;
-    options.air = air.options;
-    options.wind.density = air.density;
-    return {air, WindOperation(d, assembly, air.blade, options)};
+    options.air = rotor.air.options;
+    options.wind.density = rotor.air.density;
+    return {rotor.description, assembly, rotor.air.blade, options};
 }
 
 }  // namespace
@@ -48,10 +37,10 @@ Rotor rotor_of(const std::filesystem::path& folder) {
 // The collective edge mode is one of blades against generator; what the two programs have for the drive train is not
 // published, and its damping leaves the band at 20 and 24 m/s by 0.003.
 TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", "[discrete][.models]") {
-    const char* const models = std::getenv("CARDAN_MODELS");
-    if (models == nullptr) return;
-    Rotor rotor = rotor_of(std::filesystem::path(models) / "IEA-22-280-RWT" / "IEA-22-280-RWT-Monopile");
-    REQUIRE(rotor.operation.is_constant());
+    const std::optional<Iea22Rotor> rotor = iea22_rotor();
+    if (!rotor) return;
+    WindOperation operation = operation_of(*rotor);
+    REQUIRE(operation.is_constant());
     const auto table_of = [](const char* name) {
         return CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/" + name);
     };
@@ -65,10 +54,10 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
         const bool in_table = std::ranges::count(table.column("wind"), own("wind")) > 0;
         if (own("program") != 1 || !in_table) continue;  // OpenFAST's operation
         const std::array points{
-            rotor.operation.at({own("wind"), own("rotor_speed") * units::rpm, own("pitch") * units::degree})};
+            operation.at({own("wind"), own("rotor_speed") * units::rpm, own("pitch") * units::degree})};
         REQUIRE(points[0].converged);
-        const solvers::Campbell diagram = aeroelastic_campbell(
-            rotor.operation, points, {.wake = Wake::frozen, .profiles = rotor.air.profiles}, options);
+        const solvers::Campbell diagram =
+            aeroelastic_campbell(operation, points, {.wake = Wake::frozen, .profiles = rotor->air.profiles}, options);
         for (std::size_t i = 0; i < table.rows(); ++i) {
             const auto at = [&](const char* name) { return table.column(name)[i]; };
             if (at("wind") != own("wind")) continue;

@@ -3,16 +3,13 @@
 #include "solvers/linear/channel_values.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/turbines/iea22_rotor.hpp"
 #include "tests/turbines/operation/level_machine.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/model/channels.hpp"
 #include "turbines/operation/wind_operation.hpp"
-#include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/csv.hpp"
-#include "turbines/readers/openfast.hpp"
 
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 
 namespace cardan::testing::wind_operation_tests {
@@ -214,20 +211,15 @@ TEST_CASE("operation in the wind: tilt and gravity against ElastoDyn and AeroDyn
 
 // The public model itself is not part of these sources: CARDAN_MODELS names a folder that holds its repository.
 TEST_CASE("operation in the wind: IEA 22 MW machine from its files against OpenFAST and HAWC2", "[discrete][.models]") {
-    const char* const models = std::getenv("CARDAN_MODELS");
-    if (models == nullptr) return;
-    const std::filesystem::path folder = std::filesystem::path(models) / "IEA-22-280-RWT" / "IEA-22-280-RWT-Monopile";
-    TurbineDescription d = read_openfast(folder / "IEA-22-280-RWT-Monopile.fst").description;
-    d.nacelle.tilt = 0;
-    d.tower.rigid = true;
-    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
-    const AeroDynFile air = read_aerodyn(folder / "IEA-22-280-RWT_AeroDyn15.dat", d.hub.radius);
+    const std::optional<Iea22Rotor> rotor = iea22_rotor();
+    if (!rotor) return;
+    const AeroDynFile& air = rotor->air;
     AssemblyOptions assembly;
     assembly.blade_beam = CardanBeamOptions{.elements = 10, .partition = Partition::mean_difference, .extension = true};
     WindOperationOptions options;
     options.air = air.options;
     options.wind.density = air.density;
-    WindOperation machine(d, assembly, air.blade, options);
+    WindOperation machine(rotor->description, assembly, air.blade, options);
     const CsvTable table =
         CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/iea22_steady.csv");
     for (std::size_t i = 0; i < table.rows(); ++i) {

@@ -3,6 +3,7 @@
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/turbines/iea22_rotor.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/readers/aerodyn.hpp"
@@ -250,14 +251,9 @@ TEST_CASE("aerodyn profiles: polars of the IEA 22 MW and 3.4 MW machines against
 // AeroDyn.f90): its profiles are steady then. Here they see Omega sin(cone + slope) about the bent blade, and lose lift
 // by it.
 TEST_CASE("aerodyn profiles: IEA 22 MW rotor with and without lags against OpenFAST", "[discrete][.models]") {
-    const char* const models = std::getenv("CARDAN_MODELS");
-    if (models == nullptr) return;
-    const std::filesystem::path folder = std::filesystem::path(models) / "IEA-22-280-RWT" / "IEA-22-280-RWT-Monopile";
-    TurbineDescription d = read_openfast(folder / "IEA-22-280-RWT-Monopile.fst").description;
-    d.nacelle.tilt = 0;
-    d.tower.rigid = true;
-    d.yaw.rotation = d.drive_train.main_shaft = rigid_joint;
-    const AeroDynFile file = read_aerodyn(folder / "IEA-22-280-RWT_AeroDyn15.dat", d.hub.radius);
+    const std::optional<Iea22Rotor> rotor = iea22_rotor();
+    if (!rotor) return;
+    const AeroDynFile& file = rotor->air;
     REQUIRE(file.unsteady);
     CHECK(!test::has_note(file.notes, "InclUAdata", "do not fit"));
     const CsvTable table =
@@ -271,7 +267,7 @@ TEST_CASE("aerodyn profiles: IEA 22 MW rotor with and without lags against OpenF
             CardanBeamOptions{.elements = 40, .partition = Partition::mean_difference, .extension = true};
         options.spin = CoordinateRole::driven;
         options.pitch = at("pitch") * units::degree;
-        const Turbine machine = assemble(d, options);
+        const Turbine machine = assemble(rotor->description, options);
         const MachineAir air(machine, file.blade, {.speed = at("wind"), .density = file.density}, file.options);
         const IeaState steady = iea_state(machine, air, at("rotor_speed") * units::rpm),
                        lagging =

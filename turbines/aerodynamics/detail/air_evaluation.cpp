@@ -92,7 +92,8 @@ SectionMotion AirEvaluation::motion_of(std::size_t section) const {
     const std::size_t count = parts_.profile->sections();
     const SectionState& s = scratch_.sections[section];
     const int body = parts_.blades[section / count].sections[section % count].body;
-    return {s.relative.dot(s.x), s.relative.dot(s.y), motion_.angular(body).dot(s.span), s.wake};
+    const SectionInflow& inflow = scratch_.inflows[section];
+    return {inflow.V_x, inflow.V_y, motion_.angular(body).dot(s.span), s.wake};
 }
 
 SectionStates AirEvaluation::states_of(std::size_t section) const {
