@@ -241,15 +241,15 @@ private:
         return out;
     }
 
+    Group g_{};  // first: the others fill what its alignment leaves
     const MomentumOptions& options_;
+    double share_ = usual_share;
     Terms terms_;
-    Group g_{};
     const Annulus* annulus_[at_once]{};
     double reynolds_[at_once]{}, moved_[at_once]{};
-    State state_[at_once]{};
     int count_ = 0;
     bool has_tip_ = false, has_hub_ = false;
-    double share_ = usual_share;
+    State state_[at_once]{};
 };
 
 }  // namespace
