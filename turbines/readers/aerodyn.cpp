@@ -176,7 +176,7 @@ void keep_steady(OpenFastFile& file, AeroDynFile& out) {
         if ((part >= from && part <= to) || !out.profiles[profile].is_unsteady()) continue;
         if (twin[profile] == none) {
             twin[profile] = blade.polars.size();
-            blade.polars.push_back(Polar(blade.polars[profile]));
+            blade.polars.push_back(blade.polars[profile]);
             out.profiles.emplace_back(blade.polars.back(), AttachedFlow{});
         }
         profile = twin[profile];
