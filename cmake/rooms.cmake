@@ -6,7 +6,8 @@
 room(mbs/base USES decompositions) # errors, files, units, numbers and small vectors
 room(mbs/model SEES mbs/base) # the tree: bodies, joints, coordinates
 room(mbs/kernels SEES mbs/model USES inverses) # kinematics, metric, Christoffel symbols, recursions
-room(mbs/system SEES mbs/kernels) # a model and the forces on it, what its joints carry, channels
+room(mbs/loops SEES mbs/kernels) # closed loops: cut joints, projection in the metric, assembly
+room(mbs/system SEES mbs/loops) # a model, its forces and loops, what its joints carry, channels
 room(mbs/geometry SEES mbs/kernels) # curvature, embedding, change of chart
 room(mbs/batch SEES mbs/kernels USES tbb) # many states at once
 room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files

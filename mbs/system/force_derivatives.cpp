@@ -105,7 +105,8 @@ void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDeriv
 void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
     Vector none;
     const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, field.input(input), Q, none); };
-    subtract(field.own.jacobian, add, field.factor, field.input(at), out.loads, out.damping);
+    subtract(field.own.jacobian, add, field.factor, field.input(at), field.own.elastic ? out.elastic : out.loads,
+             out.damping);
 }
 
 namespace {

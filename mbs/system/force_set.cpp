@@ -95,6 +95,8 @@ void ForceSet::add_field(WrenchField field) {
     if (has_states ? !field.evaluate : !field.wrenches)
         throw InputError(
             text("field '", field.name, "': the function `", has_states ? "evaluate" : "wrenches", "` is missing"));
+    if (has_states && (field.energy || field.elastic))
+        throw InputError(text("field '", field.name, "'"), "energy, or elastic", "given", "not beside states");
     for (const FieldPoint& point : field.points)
         if (!point.place.allFinite())
             throw InputError(text("field '", field.name, "'"), "place [m]", point.place.transpose(), "finite");
@@ -269,7 +271,8 @@ Forces Forces::with_load_factor(double factor, bool gravity_too) const {
     for (FrameLoad& load : other.loads_) scale(load, factor);
     for (User& user : other.users_)
         if (!user.own.elastic) user.factor *= factor;
-    for (Field& field : other.fields_) field.factor *= factor;
+    for (Field& field : other.fields_)
+        if (!field.own.elastic) field.factor *= factor;
     other.states_.scale(factor);
     if (gravity_too) other.gravity_ *= factor;
     return other;

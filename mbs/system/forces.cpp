@@ -275,7 +275,9 @@ std::vector<ForceReport> Forces::report(const ForceInput& at) const {
         Vector rates(field.states());
         VectorOut sum = Q;
         add_field(field, field.factor, field.input(at), sum, rates);
-        reports.push_back({field.own.name, std::nullopt, power()});
+        std::optional<double> energy;
+        if (field.own.energy) energy = field.factor * field.own.energy(field.input(at));
+        reports.push_back({field.own.name, energy, power()});
     }
     return reports;
 }

@@ -106,6 +106,13 @@ struct WrenchField {
     /// Names of inputs of the system (ForceSet::add_input()) that it depends on: FieldInput::own_inputs. Derivatives by
     /// them are central differences with 1e-4 of their scale.
     std::vector<std::string> inputs = {};
+
+    /// @name Springs between places; only without states
+    ///@{
+    std::function<double(const FieldInput&)> energy = {};  ///< potential energy, J, if there is one
+    /// A spring rather than a load: -dQ/dq counts as elastic stiffness, and load factors leave it as it is.
+    bool elastic = false;
+    ///@}
 };
 
 /// Linear law Q = -K (q - q0) - D qd over a few coordinates (the six of a beam element, or one joint's spring).
@@ -181,9 +188,9 @@ struct ForceReport {
 
 /// Stiffness and damping of the force elements at a state: -dQ/dq and -dQ/dqd, n x n, by origin.
 struct ForceDerivatives {
-    Matrix elastic;  ///< -dQ/dq of linear laws and elastic user forces
+    Matrix elastic;  ///< -dQ/dq of linear laws, elastic user forces and elastic fields
     Matrix gravity;  ///< -dQ/dq of gravity
-    Matrix loads;    ///< -dQ/dq of wrenches, fields, other user forces and elements with states
+    Matrix loads;    ///< -dQ/dq of wrenches, other fields, other user forces and elements with states
     Matrix damping;  ///< -dQ/dqd of all
 };
 
@@ -254,9 +261,9 @@ public:
     double dissipation(const Vector& qd) const;
     /// A copy with another gravity.  @throws InputError if it is not finite
     Forces with_gravity(const Vec3& g) const;
-    /// A copy with the loads multiplied by `factor`: wrenches, fields, user forces but elastic ones (force, jacobian
-    /// and energy), forces of elements with states (not the rates of these) and, if `gravity_too`, gravity. Springs and
-    /// dampers stay. Factors of repeated calls multiply.
+    /// A copy with the loads multiplied by `factor`: wrenches, fields and user forces but elastic ones (force,
+    /// jacobian and energy), forces of elements with states (not the rates of these) and, if `gravity_too`, gravity.
+    /// Springs and dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.
     Forces with_load_factor(double factor, bool gravity_too) const;
     /// With a load more.

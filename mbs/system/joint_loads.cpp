@@ -11,7 +11,7 @@ namespace {
 
 // @param fields  of each, its wrenches
 JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time,
-                      std::vector<std::vector<Wrench>> fields) {
+                      std::vector<std::vector<Wrench>> fields, std::vector<LoopLoad> loops) {
     const Model& model = kin.model();
     require_model("joint loads", "set of forces", forces.model_serial(), model.serial());
     const Workspace& ws = kin.workspace();
@@ -40,6 +40,10 @@ JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, 
         const int body = model.frame(point.frame).body;
         if (body >= 0) add_moved(entry(applied, body), wrench, place_of(kin, point), kin.origin(body));
     });
+    t.loops = std::move(loops);
+    for (const LoopLoad& load : t.loops)
+        if (load.body >= 0)
+            add_moved(entry(applied, load.body), {load.force, load.moment}, load.point, kin.origin(load.body));
     for (int k = model.size() - 1; k >= 0; --k) {
         add_moved(entry(t.joint, k), entry(applied, k), kin.origin(k), kin.origin(k), -1);
         if (const int parent = model.body(k).parent; parent >= 0)
@@ -50,18 +54,18 @@ JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, 
 
 }  // namespace
 
-JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd) {
+JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd, std::vector<LoopLoad> loops) {
     std::vector<std::vector<Wrench>> fields;
     fields.reserve(static_cast<std::size_t>(forces.fields()));
     for (int f = 0; f < forces.fields(); ++f) fields.push_back(forces.field_wrenches(f, at));
-    return loads_with(at.kinematics, forces, at.qd, qdd, at.time, std::move(fields));
+    return loads_with(at.kinematics, forces, at.qd, qdd, at.time, std::move(fields), std::move(loops));
 }
 
 JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time) {
     if (forces.fields() > 0)
         throw InputError("joint loads", "number of fields", forces.fields(),
                          "0: what they depend on is told by a ForceInput");
-    return loads_with(kin, forces, qd, qdd, time, {});
+    return loads_with(kin, forces, qd, qdd, time, {}, {});
 }
 
 }  // namespace cardan

@@ -3,7 +3,11 @@
 #pragma once
 
 #include "mbs/kernels/dynamics.hpp"
+#include "mbs/loops/loops.hpp"
 #include "mbs/system/forces.hpp"
+
+#include <span>
+#include <vector>
 
 namespace cardan {
 
@@ -25,10 +29,11 @@ struct JointLoads {
     double time = 0;                 ///< s: wrenches are those of this time
     std::vector<BodyMotion> motion;  ///< one per body
     /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
-    /// inertial forces of the subtree minus gravity, wrenches and fields on it, base axes. User forces are left out,
-    /// since they are not given as wrenches; armatures have no reaction.
+    /// inertial forces of the subtree minus gravity, wrenches, fields and loops on it, base axes. User forces are left
+    /// out, since they are not given as wrenches; armatures have no reaction.
     std::vector<Wrench> joint;
     std::vector<std::vector<Wrench>> fields;  ///< Forces::field_wrenches() of each
+    std::vector<LoopLoad> loops = {};         ///< Loops::add_loads()
 };
 
 /// Calls visit(point, wrench) for all points of all fields.
@@ -39,8 +44,9 @@ void for_each_point(const Forces& forces, const JointLoads& loads, const Visit& 
             visit(forces.field(static_cast<int>(f)).points[i], loads.fields[f][i]);
 }
 
-/// @param qdd  accelerations, size n
-JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd);
+/// @param qdd    accelerations, size n
+/// @param loops  what loops exert, Loops::add_loads()
+JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd, std::vector<LoopLoad> loops = {});
 /// The same without fields.
 /// @param qd, qdd  rates and accelerations, size n
 /// @param time     s, if wrenches change with time

@@ -26,6 +26,7 @@ AtlasIntegrator::AtlasIntegrator(std::vector<Chart> charts, std::string frame, d
         throw InputError(in_atlas, "minimum quality", min_quality, "between 0 and 1");
     for (std::size_t k = 0; k < charts_.size(); ++k)
         if (!charts_[k].system) throw InputError(in_atlas, text("system of chart ", k), "none", "one");
+    for (const Chart& chart : charts_) chart.system->require_no_loops(in_atlas);
     for (std::size_t k = 0; k < charts_.size(); ++k) {
         const Model& model = charts_[k].system->model;
         own_.emplace_back();

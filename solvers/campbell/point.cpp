@@ -33,6 +33,7 @@ void require_constant_rows(const RotorMap& rotor, const std::vector<int>& unknow
 std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
     check(rotor, system.model);
     const bool spin_is_unknown = options.spin == RotorSpin::free && !rotor.hub_is_driven;
+    system.require_no_loops("Campbell diagram");
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
     check_number_of_unknowns(rotor.machine, unknowns.size());
     if (rotor.spin >= 0 && options.method != CampbellMethod::floquet) require_constant_rows(rotor, unknowns);

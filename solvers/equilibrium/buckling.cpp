@@ -98,7 +98,9 @@ void check(const LoadStabilityOptions& options) {
 class Scan {
 public:
     Scan(const System& system, const LoadStabilityOptions& options)
-        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
+        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {
+        system.require_no_loops("linear buckling");
+    }
 
     // None if there is no equilibrium; then `message` says why. `q` is the start and becomes the equilibrium.
     std::optional<LoadStabilityPoint> at(double factor, Vector& q) {

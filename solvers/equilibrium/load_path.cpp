@@ -44,7 +44,9 @@ struct Attempt {
 class Path {
 public:
     Path(const System& system, const LoadPathOptions& options)
-        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
+        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {
+        system.require_no_loops("load path");
+    }
 
     Attempt solve(double factor, const Vector& start) const {
         const System loaded = under_load(system_, factor, options_.gravity);

@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
+#include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/problem_size.hpp"
 
 namespace cardan::solvers {
@@ -11,7 +12,10 @@ NaturalModes natural_modes(const System& system, int spin, double rotor_speed) {
     require_result(state);
     NaturalModes result{std::move(state.at), system.model.coordinates().free_without(spin), {}};
     check_number_of_unknowns("natural modes", result.unknowns.size());
-    result.modes = modes(restrict_to(linearise(system, result.at), result.unknowns));
+    const ReducedSystem reduced = reduce_loops(linearise(system, result.at), result.unknowns);
+    result.modes = modes(reduced.system);
+    if (!system.loops.empty())
+        for (Mode& mode : result.modes) mode.shape = (reduced.shape * mode.shape).eval();
     return result;
 }
 

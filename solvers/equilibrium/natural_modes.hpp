@@ -14,6 +14,7 @@ struct NaturalModes {
 };
 
 /// Small vibrations about the equilibrium at rest, or about steady rotation in the rotating frame.
+/// With loops they are those of the closed machine; shapes are those of all coordinates all the same.
 /// @param spin         model index of the coordinate that rotates, its rotation prescribed; -1: none
 /// @param rotor_speed  its rate, rad/s
 /// @throws InputError if there is no such coordinate or nothing can move; NumericalError if no steady state is found,

@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "solvers/algebra/detail/sundials_memory.hpp"
+#include "solvers/equilibrium/detail/closed_start.hpp"
 #include "solvers/equilibrium/detail/stiffness_solver.hpp"
 
 #include <kinsol/kinsol.h>
@@ -14,6 +15,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -23,12 +26,14 @@ void free_kinsol(void* memory) {
     KINFree(&memory);
 }
 
-// Residual and Jacobian on the unknowns: free coordinates without the spin, then states that settle, then what a trim
-// finds, with the torque on the spin as its equation.
+// Residual and Jacobian on the unknowns: free coordinates without the spin, then states that settle, multipliers of the
+// loops' independent equations with these as their own, then what a trim finds, with the torque on the spin as its
+// equation.
 class Residual {
 public:
-    Residual(const System& system, int spin, bool with_trim)
+    Residual(const System& system, int spin, bool with_trim, std::vector<int> equations)
         : trimmed(with_trim),
+          loops(std::move(equations)),
           unknowns(system.model.coordinates().free_without(spin)),
           system_(system),
           spin_(spin),
@@ -42,8 +47,12 @@ public:
             if (table[i].kind != StateKind::angle) states.push_back(i);
         f_.setZero(table.size());
         at.u = system.forces.inputs().initial();
+        if (system.loops.empty()) return;
+        phi_.setZero(system.loops.size());
+        at.lambda = phi_;
+        gradients_.setZero(phi_.size(), n);
     }
-    std::size_t size() const { return unknowns.size() + states.size() + (trimmed ? 1 : 0); }
+    std::size_t size() const { return unknowns.size() + states.size() + loops.size() + (trimmed ? 1 : 0); }
 
     void start(const SteadyOptions& options) {
         if (options.initial.size() > 0)
@@ -62,11 +71,13 @@ public:
     void set(const double* x) {
         for (const int i : unknowns) at.q(i) = *x++;
         for (const int i : states) at.s(i) = *x++;
+        for (const int i : loops) at.lambda(i) = *x++;
         if (trimmed) (input_ < 0 ? at.qd(spin_) : at.u(input_)) = *x;
     }
     void get(double* x) const {
         for (const int i : unknowns) *x++ = at.q(i);
         for (const int i : states) *x++ = at.s(i);
+        for (const int i : loops) *x++ = at.lambda(i);
         if (trimmed) *x = input_ < 0 ? at.qd(spin_) : at.u(input_);
     }
     void turn_to(double azimuth) { at.q(spin_) = azimuth; }
@@ -77,8 +88,14 @@ public:
             system_.forces.evaluate({at.time, at.q, at.qd, kin, at.s, at.u}, Q_, f_);
         else
             system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
+        if (phi_.size() > 0) {
+            system_.loops.residual<double>(kin, at.time, at.q, phi_);
+            system_.loops.gradient<double>(kin, at.time, at.q, gradients_);
+            Q_.noalias() += gradients_.transpose() * at.lambda;
+        }
         for (const int i : unknowns) *r++ = tau_(i) - Q_(i);
         for (const int i : states) *r++ = -f_(i);
+        for (const int i : loops) *r++ = phi_(i);
         if (trimmed) *r = tau_(spin_) - Q_(spin_);
     }
     /// @param J  out, over the unknowns, column-major
@@ -90,20 +107,53 @@ public:
         else
             system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
         by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
+        if (phi_.size() > 0) {
+            system_.loops.gradient<double>(kin, at.time, at.q, gradients_);
+            system_.loops.add_second_gradient(kin, at.time, at.q, -at.lambda, by_q_);
+        }
         for (int b : unknowns) {
             for (int a : unknowns) *J++ = by_q_(a, b);
             for (int a : states) *J++ = -by_states_.f_q(a, b);
+            for (int k : loops) *J++ = gradients_(k, b);
             if (trimmed) *J++ = by_q_(spin_, b);
         }
         for (int b : states) {
             for (int a : unknowns) *J++ = -by_states_.Q_s(a, b);
             for (int a : states) *J++ = -by_states_.f_s(a, b);
+            J = std::fill_n(J, loops.size(), 0.0);
             if (trimmed) *J++ = -by_states_.Q_s(spin_, b);
+        }
+        for (int k : loops) {
+            for (int a : unknowns) *J++ = -gradients_(k, a);
+            J = std::fill_n(J, states.size() + loops.size(), 0.0);
+            if (trimmed) *J++ = -gradients_(k, spin_);
         }
         if (trimmed) by_trim(J);
     }
     // Stiffness of the springs alone, at the state of the last call of jacobian().
     double elastic_diagonal(Eigen::Index i) const { return forces_.elastic(entry(unknowns, i), entry(unknowns, i)); }
+
+    // With loops, where there may be no stiffness: the largest of the forces that balance in an equation.
+    double load(Eigen::Index i) const {
+        const int a = entry(unknowns, i);
+        return std::abs(tau_(a)) + gradients_.col(a).cwiseAbs().dot(at.lambda.cwiseAbs());
+    }
+    // At a closed position, the multipliers that come nearest to carry the loads; of all equations.
+    LoopStart start_of_loops() {
+        Vector r(size());
+        at.lambda.setZero();
+        evaluate(r.data());
+        return loop_start(system_, spin_, at.time, at.q, tau_ - Q_);
+    }
+    // What is left open of all equations, per metre of the loops' extent, and the loop it is.
+    std::pair<double, std::string> gap() {
+        const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+        system_.loops.residual<double>(kin, at.time, at.q, phi_);
+        Eigen::Index worst = 0;
+        const double largest = phi_.cwiseAbs().maxCoeff(&worst);
+        return {largest / system_.loops.extent(kin),
+                system_.loops.describe(entry(system_.loops.equations(), worst).loop)};
+    }
 
     const StateTable& table() const { return system_.forces.states(); }
     double scale_of(std::size_t state) const { return table()[states[state]].scale; }
@@ -113,6 +163,7 @@ public:
     const InputTable& inputs() const { return system_.forces.inputs(); }
 
     bool trimmed;
+    std::vector<int> loops;  ///< independent equations
     std::vector<int> unknowns, states;
     OperatingPoint at;
     std::exception_ptr thrown;
@@ -125,14 +176,15 @@ private:
         };
         for (int a : unknowns) *J++ = of_force(a);
         for (int a : states) *J++ = input_ < 0 ? -by_states_.f_qd(a, spin_) : -by_states_.f_u(a, input_);
+        J = std::fill_n(J, loops.size(), 0.0);
         *J = of_force(spin_);
     }
 
     const System& system_;
     int spin_, input_ = -1;
     Workspace workspace_;
-    Vector tau_, Q_, f_;
-    Matrix by_q_, by_qd_;
+    Vector tau_, Q_, f_, phi_;
+    Matrix by_q_, by_qd_, gradients_;
     ForceDerivatives forces_;
     StateDerivatives by_states_;
 };
@@ -190,15 +242,20 @@ const char* reason(int flag) {
 
 class SteadySolver::Memory {
 public:
-    Memory(const System& system, int spin, bool trimmed);
-    void solve(const SteadyOptions& options, SteadyState& result);
+    Memory(const System& system, int spin, bool trimmed, std::vector<int> loops = {});
+    /// @param lambda  multipliers at the start
+    void solve(const SteadyOptions& options, SteadyState& result, const Vector& lambda = {});
+    /// The loops' independent equations at a start that is closed, and their multipliers there.
+    LoopStart loops_at(const SteadyOptions& options);
     bool trimmed() const { return residual_.trimmed; }
 
 private:
     void check(const SteadyOptions& options) const;
     void set_scale();
+    void set_loop_scales();
     double largest_residual();
     void check_constant(const SteadyOptions& options);
+    bool check_closed(SteadyState& result);
 
     int spin_, coordinates_;
     Residual residual_;
@@ -211,8 +268,8 @@ private:
     std::unique_ptr<void, SundialsDeleter<free_kinsol>> kinsol_;
 };
 
-SteadySolver::Memory::Memory(const System& system, int spin, bool trimmed)
-    : spin_(spin), coordinates_(system.model.size()), residual_(system, spin, trimmed) {
+SteadySolver::Memory::Memory(const System& system, int spin, bool trimmed, std::vector<int> loops)
+    : spin_(spin), coordinates_(system.model.size()), residual_(system, spin, trimmed, std::move(loops)) {
     const auto n = static_cast<sunindextype>(residual_.size());
     if (n == 0) return;
     scale_.resize(n);
@@ -278,13 +335,30 @@ void SteadySolver::Memory::set_scale() {
         const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
     }
+    if (!residual_.loops.empty()) set_loop_scales();
     // Of states and a trim, by how much rate or torque changes with what counts as much of everything it depends on:
     // 1 rad, 1 m, the scales of the states.
     const Eigen::Map<const Matrix> J(SUNDenseMatrix_Data(J_.get()), size, size);
     const Eigen::Map<const Vector> units(N_VGetArrayPointer(x_scale_.get()), size);
+    const Eigen::Index first_loop = n + std::ssize(residual_.states), end = first_loop + std::ssize(residual_.loops);
     for (Eigen::Index i = n; i < size; ++i) {
+        if (i >= first_loop && i < end) continue;
         const double sensitivity = J.row(i).cwiseAbs().dot(units.cwiseInverse());
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = 1 / std::max(sensitivity, 1e-280);
+    }
+}
+
+// Mechanisms may have no stiffness: there the loads that balance one another are what a residual is measured by, so
+// that it reads as an angle or a length all the same. Equations of loops are lengths already.
+void SteadySolver::Memory::set_loop_scales() {
+    const Eigen::Index n = std::ssize(residual_.unknowns), first = n + std::ssize(residual_.states);
+    for (Eigen::Index i = 0; i < n; ++i)
+        if (const double load = residual_.load(i); load > 0)
+            scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = std::min(scale_(i), 1 / load);
+    const double largest = residual_.at.lambda.size() > 0 ? residual_.at.lambda.lpNorm<Eigen::Infinity>() : 0;
+    for (Eigen::Index i = 0; i < std::ssize(residual_.loops); ++i) {
+        scale_(first + i) = N_VGetArrayPointer(f_scale_.get())[first + i] = 1;
+        N_VGetArrayPointer(x_scale_.get())[first + i] = largest > 0 ? 1 / largest : 1 / scale_.head(n).minCoeff();
     }
 }
 
@@ -310,11 +384,28 @@ void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
     residual_.turn_to(options.azimuth);
 }
 
-void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& result) {
+LoopStart SteadySolver::Memory::loops_at(const SteadyOptions& options) {
+    check(options);
+    residual_.start(options);
+    return residual_.start_of_loops();
+}
+
+// Also of the equations that were left out as redundant.
+bool SteadySolver::Memory::check_closed(SteadyState& result) {
+    if (residual_.at.lambda.size() == 0) return true;
+    const auto [gap, loop] = residual_.gap();
+    if (gap < 1e-8) return true;
+    result.message = text("steady state with an open loop: ", loop, " leaves ", gap,
+                          " of the loops' extent; its equations contradict those of others");
+    return false;
+}
+
+void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& result, const Vector& lambda) {
     result.converged = false;  // until it is known to be, also if something throws
     result.message.clear();
     check(options);
     residual_.start(options);
+    if (lambda.size() > 0) residual_.at.lambda = lambda;
     if (residual_.size() == 0) {
         result.converged = true;
         result.at = residual_.at;
@@ -343,7 +434,7 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
                               result.residual, ", wanted ", options.tolerance, "): ", reason(flag),
                               "; start from a neighbouring state or approach the load in steps");
     if (converged && residual_.speed() != 0) check_constant(options);
-    result.converged = converged;
+    result.converged = converged && check_closed(result);
 }
 
 SteadySolver::SteadySolver(const System& system, int spin) : system_(system), spin_(spin) {
@@ -356,9 +447,22 @@ SteadySolver::SteadySolver(const System& system, int spin) : system_(system), sp
 SteadySolver::~SteadySolver() = default;
 
 void SteadySolver::solve(const SteadyOptions& options, SteadyState& result) {
+    if (!system_.loops.empty()) return solve_closed(options, result);
     if (memory_->trimmed() != options.trim.has_value())
         memory_ = std::make_unique<Memory>(system_, spin_, options.trim.has_value());
     memory_->solve(options, result);
+}
+
+// Which equations are independent is seen at the closed position next to the start.
+void SteadySolver::solve_closed(const SteadyOptions& options, SteadyState& result) {
+    SteadyOptions closed = options;
+    Vector& q = closed.initial;
+    if (q.size() == 0) q.setZero(system_.model.size());
+    if (spin_ >= 0 && spin_ < q.size()) q(spin_) = options.azimuth;
+    q = closed_position(system_, spin_, 0, q);
+    const LoopStart loops = memory_->loops_at(closed);
+    memory_ = std::make_unique<Memory>(system_, spin_, options.trim.has_value(), loops.equations);
+    memory_->solve(closed, result, loops.lambda);
 }
 
 SteadyState steady_state(const System& system, int spin, const SteadyOptions& options) {

@@ -42,6 +42,9 @@ struct [[nodiscard]] SteadyState : Outcome {
 /// the free coordinates, the spin being prescribed, and f = 0 of the states; with a trim, r = 0 on the spin too.
 /// KINSOL's Newton iteration with line search and the exact Jacobian.
 ///
+/// With loops, their multipliers are unknowns as well, OperatingPoint::lambda, and phi = 0 their equations; the start
+/// is closed first, the spin held. Redundant equations are left out, their multipliers zero.
+///
 /// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady
 /// state periodic, there is no constant solution and a NumericalError says so.
 ///
@@ -63,9 +66,10 @@ public:
 
 private:
     class Memory;
+    void solve_closed(const SteadyOptions& options, SteadyState& result);
     const System& system_;
     int spin_;
-    std::unique_ptr<Memory> memory_;  ///< of systems with, or without, a trim
+    std::unique_ptr<Memory> memory_;  ///< of systems with, or without, a trim; with loops, of these equations
 };
 
 /// A single solution with a temporary SteadySolver.

@@ -24,7 +24,10 @@ const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const 
         s_rate_.resize(s_.size());
         system_->forces.evaluate({state.time, state.q, state.qd, kin, s_, u_}, Q_, s_rate_);
     }
-    const JointLoads loads = joint_loads({state.time, state.q, state.qd, kin, s_, u_}, forces, state.qdd);
+    std::vector<LoopLoad> loops;
+    if (state.lambda.size() > 0) system_->loops.add_loads(kin, state.lambda, loops);
+    const JointLoads loads =
+        joint_loads({state.time, state.q, state.qd, kin, s_, u_}, forces, state.qdd, std::move(loops));
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads, s_, s_rate_, u_};
     double* next = values_.data();
     for (const ChannelGroup& group : groups_) {

@@ -84,6 +84,32 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
     std::swap(out.gravity, forces_.gravity);
     std::swap(out.loads, forces_.loads);
     std::swap(out.damping, forces_.damping);
+    if (system_.loops.empty())
+        out.constraints = out.reactions = {};
+    else
+        add_loops(kin, out);
+}
+
+void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) const {
+    const Loops& loops = system_.loops;
+    const OperatingPoint& at = out.at;
+    const Eigen::Index n = system_.model.size();
+    for (int i = 0; i < n; ++i)
+        if (loops.involves(i) && at.qd(i) != 0)
+            throw InputError(text(in_linearisation, ": coordinate '", out.coordinates[i].name, "' of a loop"), "rate",
+                             at.qd(i), "0: a loop in motion has no constant linearisation");
+    if (at.lambda.size() == 0) out.at.lambda.setZero(loops.size());
+    require_size(in_linearisation, "multipliers of loops", at.lambda, loops.size());
+    Vector phi(loops.size());
+    loops.residual<double>(kin, at.time, at.q, phi);
+    Eigen::Index worst = 0;
+    if (const double gap = phi.cwiseAbs().maxCoeff(&worst); !(gap < 1e-6 * loops.extent(kin)))
+        throw InputError(text(in_linearisation, ": ", loops.describe(entry(loops.equations(), worst).loop)), "gap", gap,
+                         "less than 1e-6 of the loops' extent: see close_loops()");
+    out.constraints.resize(loops.size(), n);
+    loops.gradient<double>(kin, at.time, at.q, out.constraints);
+    out.reactions.setZero(n, n);
+    loops.add_second_gradient(kin, at.time, at.q, -at.lambda, out.reactions);
 }
 
 Linearisation linearise(const System& system, const OperatingPoint& at) {
@@ -96,6 +122,9 @@ Linearisation linearise(const System& system, const OperatingPoint& at) {
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out) {
     const auto n = std::ssize(coordinates);
     const Eigen::Index all = lin.mass.rows();
+    if (lin.constraints.rows() > 0)
+        throw InputError("restriction", "equations of loops", lin.constraints.rows(),
+                         "0: this analysis knows trees only; reduce_loops() takes them into account");
     for (const Matrix* m :
          {&lin.mass, &lin.damping, &lin.gyroscopic, &lin.elastic, &lin.gravity, &lin.loads, &lin.inertial})
         require_size("restriction", "matrix of a linearisation", *m, all, all);
@@ -110,6 +139,7 @@ void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, 
             out.M(i, j) = lin.mass(a, b);
             out.C(i, j) = lin.damping(a, b) + lin.gyroscopic(a, b);
             out.K(i, j) = lin.elastic(a, b) + (lin.gravity(a, b) + lin.loads(a, b) + lin.inertial(a, b));
+            if (lin.reactions.size() > 0) out.K(i, j) += lin.reactions(a, b);
             out.K_elastic(i, j) = lin.elastic(a, b);
         }
     }

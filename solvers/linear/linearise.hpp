@@ -27,9 +27,16 @@ struct Linearisation {
     /// With states s: Q_s ds stands on the right, and ds' = f_q dq + f_qd dq' + f_s ds. Inputs are held.
     StateDerivatives state_derivatives = {};
     StateTable states = {};
+    /// With loops the equations hold for motions with constraints dx = 0 (reduce_loops()); `reactions` is the stiffness
+    /// that the loops' forces have as they turn, -lambda_i phi_i,ab. Empty without.
+    Matrix constraints = {}, reactions = {};
 
     Matrix velocity() const { return damping + gyroscopic; }
-    Matrix geometric() const { return gravity + loads + inertial; }
+    Matrix geometric() const {
+        Matrix sum = gravity + loads + inertial;
+        if (reactions.size() > 0) sum += reactions;
+        return sum;
+    }
     Matrix stiffness() const { return elastic + geometric(); }
 };
 
@@ -42,10 +49,13 @@ public:
 
     /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
     ///             allocates or is differenced.  Cost O(n^2).
-    /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's name
+    /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's
+    /// name; for loops that are open, or in motion: their gradients would change with time
     void linearise(const OperatingPoint& at, Linearisation& out);
 
 private:
+    void add_loops(const Kinematics& kin, Linearisation& out) const;
+
     const System& system_;
     Workspace workspace_;
     ForceDerivatives forces_;
@@ -112,7 +122,7 @@ Matrix static_stiffness(const SecondOrderSystem& system);
 /// The rows and columns of `coordinates`, with all states. The spin is cyclic if it is among them and no force depends
 /// on it.
 /// @param out  overwritten; allocates nothing if it has the right size already.  Cost O(n^2).
-/// @throws InputError for coordinates out of range and matrices of different sizes
+/// @throws InputError for coordinates out of range, matrices of different sizes, and loops: reduce_loops()
 void restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin, SecondOrderSystem& out);
 SecondOrderSystem restrict_to(const Linearisation& lin, const std::vector<int>& coordinates, int spin = -1);
 

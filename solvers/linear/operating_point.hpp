@@ -10,8 +10,9 @@ namespace cardan::solvers {
 struct OperatingPoint {
     Vector q, qd, qdd;
     double time = 0;
-    Vector s = {};  ///< Forces::states(); empty: as their table says
-    Vector u = {};  ///< Forces::inputs(); empty: as their table says
+    Vector s = {};       ///< Forces::states(); empty: as their table says
+    Vector u = {};       ///< Forces::inputs(); empty: as their table says
+    Vector lambda = {};  ///< multipliers of the loops, Loops::equations(); empty: zero
 };
 
 }  // namespace cardan::solvers

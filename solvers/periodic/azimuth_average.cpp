@@ -38,6 +38,7 @@ AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, cons
     if (!rotor.evenly_spaced)
         throw InputError(rotor.machine, "spacing of the blades", uneven_spacing(rotor),
                          "equal angles, for a mean over the azimuth");
+    system.require_no_loops("azimuth average");
     const std::vector<int> unknowns = system.model.coordinates().free_without(rotor.spin);
     const ColemanTransform coleman(rotor, unknowns, system.forces.states());
     AzimuthAverage mean;

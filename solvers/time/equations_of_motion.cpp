@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "mbs/kernels/metric.hpp"
+#include "solvers/time/detail/constrained_motion.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -73,6 +74,22 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
     for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_, &all_, &product_}) v->setZero(n);
     s_ = f_ = Vector::Zero(system.forces.states().size());
     u_ = system.forces.inputs().initial();
+    if (system.loops.empty()) return;
+    loops_ = std::make_unique<ConstrainedMotion>(system, driven_);
+    q_ = q;
+    require_closed();
+}
+
+EquationsOfMotion::~EquationsOfMotion() = default;
+
+// At the first time and position.
+void EquationsOfMotion::require_closed() {
+    drive_at(inside_);
+    int loop = 0;
+    const double gap = loops_->gap(inside_, q_, workspace_, loop);
+    if (!(gap < 1e-6))
+        throw InputError(text(in_integration, ": ", loops_->loops().describe(loop)),
+                         "gap at the start, per metre of the loops' extent", gap, "< 1e-6: see close_loops()");
 }
 
 void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
@@ -173,7 +190,26 @@ bool EquationsOfMotion::solve(double time, const double* x) {
     evaluate_forces();
     if (!all_finite(Q_, "generalised force") || !states_finite(f_, "rate of the state")) return false;
     forward_.solve(kin, qd_, Q_, qdd_, actuator_);
+    if (loops_ && !loops_->constrain(kin, time_, q_, qd_, Q_, forward_, qdd_, actuator_)) {
+        problem_ = loops_->problem();
+        return false;
+    }
     return all_finite(qdd_, "acceleration");
+}
+
+bool EquationsOfMotion::project(double time, double* x) {
+    if (!loops_) return true;
+    expand(time, x);
+    if (!loops_->project(time, q_, qd_, workspace_)) {
+        problem_ = loops_->problem();
+        return false;
+    }
+    const std::size_t m = free_.size();
+    for (std::size_t i = 0; i < m; ++i) {
+        x[i] = q_(free_[i]);
+        x[m + i] = qd_(free_[i]);
+    }
+    return true;
 }
 
 bool EquationsOfMotion::accelerations(double time, const double* x, double* xdd) {
@@ -223,6 +259,12 @@ void EquationsOfMotion::differentiate() {
     on_branches_ = damping_.add(forces.damping);
     for (const Matrix* part : {&forces.elastic, &forces.gravity, &forces.loads})
         on_branches_ = stiffness_.add(*part) && on_branches_;
+    if (!loops_) return;
+    // Of the stiffness that the loops' forces have as they turn, what fits on the branches: the rest would only speed
+    // up the iteration, at the cost of a full matrix.
+    loop_stiffness_.setZero(model().size(), model().size());
+    loops_->loops().add_second_gradient(kin, time_, q_, -loops_->lambda(), loop_stiffness_);
+    stiffness_.add(loop_stiffness_);
 }
 
 void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) const {
@@ -280,6 +322,7 @@ bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out
     out.s = s_;
     out.s_rate = f_;
     out.u = u_;
+    if (loops_) out.lambda = loops_->lambda();
     return true;
 }
 
@@ -294,6 +337,7 @@ void EquationsOfMotion::positions(double time, const double* x, DynamicState& ou
 bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
     if (!solve(time, x)) return false;
     out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_), {}};
+    if (loops_) out.drives += loops_->power(time_, q_);
     if (forces_->has_states()) out.states = forces_->state_energy(input());
     return true;
 }

@@ -9,10 +9,13 @@
 #include "mbs/system/system.hpp"
 #include "solvers/time/motion.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace cardan::solvers {
+
+class ConstrainedMotion;
 
 /// The context named in errors of these equations and their integration.
 inline constexpr const char* in_integration = "time integration";
@@ -31,13 +34,14 @@ struct DynamicState {
     Vector s = {};       ///< Forces::states()
     Vector s_rate = {};  ///< ds/dt
     Vector u = {};       ///< Forces::inputs()
+    Vector lambda = {};  ///< multipliers of the loops, Loops::equations()
 };
 
 /// Rates of work at a state, W.
 struct Powers {
-    double forces = 0;        ///< Q . qd of all force elements
-    double dissipation = 0;   ///< power dissipated by the dampers of the linear laws, >= 0
-    double drives = 0;        ///< power of the drives, positive if they supply energy
+    double forces = 0;       ///< Q . qd of all force elements
+    double dissipation = 0;  ///< power dissipated by the dampers of the linear laws, >= 0
+    double drives = 0;  ///< of the drives and of constraints that move by themselves, positive if they supply energy
     StateEnergy states = {};  ///< of elements with states that tell it
 };
 
@@ -50,13 +54,17 @@ struct Powers {
 ///
 ///     r_f = g qdd + Gamma qd qd - Q,   r_s = ds/dt - f
 ///
-/// for second-order methods. Nothing allocates after construction except user forces and motions. Keeps a reference to
+/// for second-order methods. With loops phi_i(q, t) = 0 their forces phi_ia lambda_i are among the rates; the residual
+/// does not know them. Nothing allocates after construction except user forces and motions. Keeps a reference to
 /// the system; one object per thread.
 class EquationsOfMotion {
 public:
     /// @param q, qd  size n: initial values, for the coordinates that are driven without a motion
     /// @throws InputError: wrong sizes or coordinates, two motions for one coordinate, values not finite
     EquationsOfMotion(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd);
+    ~EquationsOfMotion();
+    EquationsOfMotion(const EquationsOfMotion&) = delete;
+    EquationsOfMotion& operator=(const EquationsOfMotion&) = delete;
 
     const Model& model() const { return system_->model; }
     /// Indices of the unknown coordinates, and their number.
@@ -119,6 +127,13 @@ public:
     void spread(VectorIn unknowns, Vector& all) const;
     void gather(const Vector& all, VectorOut unknowns) const;
 
+    /// Moves a state onto the constraints of the loops, if there are any.
+    /// @return false if they stay open; problem() says which
+    bool project(double time, double* x);
+    /// What the loops do; nullptr: there are none.
+    const ConstrainedMotion* loops() const { return loops_.get(); }
+    const Loops& system_loops() const { return system_->loops; }
+
     /// All coordinates, accelerations and drive forces at a state. @return false, with `out` unchanged, if a number is
     /// not finite; problem() says which
     bool complete(double time, const double* x, DynamicState& out);
@@ -143,6 +158,7 @@ private:
     ForceInput input() const { return {time_, q_, qd_, *kin_, s_, u_}; }
     void evaluate_forces();
     void expand(double time, const double* x);
+    void require_closed();
     bool solve(double time, const double* x);
     void differentiate();
     bool all_finite(const Vector& values, const char* quantity);
@@ -157,11 +173,13 @@ private:
     Workspace workspace_;
     std::optional<Kinematics> kin_;  ///< at the last state
     ForwardDynamics forward_;
+    std::unique_ptr<ConstrainedMotion> loops_;
     MetricFactor factor_;
     ForceDerivatives force_derivatives_;
     BranchMatrix g_, tau_q_, tau_qd_;   ///< of the inertial forces
     BranchMatrix stiffness_, damping_;  ///< with what the forces add on the branches
-    bool on_branches_ = true;           ///< and that is all of it
+    Matrix loop_stiffness_;
+    bool on_branches_ = true;  ///< and that is all of it
     double inside_, time_ = 0;
     Vector q_, qd_, qdd_, Q_, tau_, actuator_, all_, product_;
     Vector s_, f_, u_;  ///< states, their rates, inputs

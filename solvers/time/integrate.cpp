@@ -68,6 +68,8 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
         x_(i) = q(entry(equations_.unknowns(), i));
         x_(m + i) = qd(entry(equations_.unknowns(), i));
     }
+    if (!equations_.project(time, x_.data()))
+        throw InputError(in_integration, "start", equations_.problem(), "one that the loops allow: see close_rates()");
     stepper_ = make_stepper(equations_, options_);
     values_.resize(options_.events.size());
     sides_.resize(options_.events.size());
@@ -104,6 +106,12 @@ void Integrator::begin_piece() {
     equations_.set_piece(next == breaks_.end() ? now + 1 : (now + break_) / 2);
     start_pending_ = true;
     go_on_pending_ = repeat_pending_ = false;
+}
+
+// Within the last step, with loops closed: interpolation leaves them open by the error of the method.
+void Integrator::state_at(double time, Vector& x) {
+    stepper_->state_at(time, x.data());
+    if (!equations_.project(time, x.data())) throw NumericalError(text(in_integration, ": ", equations_.problem()));
 }
 
 bool Integrator::sample_due() const {
@@ -155,13 +163,13 @@ void Integrator::set_sides(int happened) {
 // Where the function has just changed its sign, by halving and false position in turn.
 double Integrator::root(std::size_t event, double to) {
     double a = state_.time, b = to, value_b = values_[event];
-    stepper_->state_at(a, x_between_.data());
+    state_at(a, x_between_);
     double value_a = event_value(event, a);
     if (sign(value_a) == sign(value_b)) return a;  // it was due at the start already
     for (int i = 0; i < 200 && b - a > resolution(b); ++i) {
         const double secant = a + (b - a) * value_a / (value_a - value_b);
         const double trial = i % 3 != 2 && secant > a && secant < b ? secant : a + (b - a) / 2;
-        stepper_->state_at(trial, x_between_.data());
+        state_at(trial, x_between_);
         const double value = event_value(event, trial);
         if (sign(value) == sides_[event]) {
             a = trial;
@@ -178,7 +186,7 @@ double Integrator::root(std::size_t event, double to) {
 int Integrator::first_event(double to, double& at) {
     int first = -1;
     at = to;
-    stepper_->state_at(to, x_between_.data());
+    state_at(to, x_between_);
     for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, to);
     for (std::size_t i = 0; i < sides_.size(); ++i) {
         if (!due(i)) continue;
@@ -205,7 +213,7 @@ bool Integrator::accumulate(double to) {
     Work sum = work_;  // kept as it was if a user force throws
     for (const Node& node : long_steps ? std::span<const Node>(three) : std::span<const Node>(two)) {
         const double time = middle + node.at * half, weight = node.weight * half;
-        stepper_->state_at(time, x_between_.data());
+        state_at(time, x_between_);
         Powers power;
         if (!equations_.powers(time, x_between_.data(), power)) return false;
         sum.forces += weight * power.forces;
@@ -244,7 +252,7 @@ bool Integrator::process(double to, Advance& result) {
         result.message = text("no forces within the last step: ", equations_.problem());
         return false;
     }
-    stepper_->state_at(at, x_.data());
+    state_at(at, x_);
     equations_.positions(at, x_.data(), state_);
     if (sides_.empty()) return true;
     if (event >= 0 && at < to) {
@@ -267,7 +275,7 @@ bool Integrator::process(double to, Advance& result) {
 void Integrator::note_accelerations() {
     const double end = stepper_->time();
     if (start_pending_ || go_on_pending_ || !(end > state_.time) || end == seen_at_) return;
-    stepper_->state_at(end, x_between_.data());
+    state_at(end, x_between_);
     if (equations_.accelerations(end, x_between_.data(), seen_end_.data())) seen_at_ = end;
 }
 
@@ -280,7 +288,7 @@ bool Integrator::accelerations_changed() {
         if (now_(i) != state_.qdd(entry(equations_.unknowns(), i))) return true;
     if (now_.tail(equations_.states()) != state_.s_rate) return true;
     if (seen_at_ != stepper_->time() || seen_at_ <= state_.time) return false;
-    stepper_->state_at(seen_at_, x_between_.data());
+    state_at(seen_at_, x_between_);
     return !equations_.accelerations(seen_at_, x_between_.data(), now_.data()) || now_ != seen_end_;
 }
 

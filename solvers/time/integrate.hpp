@@ -204,6 +204,7 @@ public:
     /// The present state; at a break, accelerations and drive forces are those just before it.
     const DynamicState& state() const { return state_; }
     const Work& work() const { return work_; }
+    const Loops& loops() const { return equations_.system_loops(); }
     /// The forces in effect now.
     const Forces& forces() const { return equations_.forces(); }
     /// Energies at the present state. Allocates.  @throws InputError if the work is not integrated
@@ -241,6 +242,7 @@ private:
     void check_options(double time) const;
     Vector states_at_start() const;
     void check_allowed(const char* what, Doing latest) const;
+    void state_at(double time, Vector& x);
     bool accelerations_changed();
     bool take_step(double horizon, Advance& result);
     void note_accelerations();

@@ -24,6 +24,10 @@ void Integrator::check_options(double time) const {
     if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
         throw InputError(in_integration, "fixed step [s]", options_.fixed_step,
                          text("at most the largest step, ", options_.max_step));
+    const bool projects = options_.method != Method::adams && options_.method != Method::generalised_alpha;
+    if (equations_.loops() && !projects)
+        throw InputError(in_integration, "method for a system with loops",
+                         options_.method == Method::adams ? "adams" : "generalised_alpha", "dirk, bdf or erk");
     const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
     if (options_.max_order < 0 || options_.max_order > highest)
         throw InputError(in_integration, "highest order", options_.max_order,

@@ -85,7 +85,7 @@ void Integrator::repeat_steps() {
     const double stop = sample_due() ? std::numeric_limits<double>::infinity() : piece_end_;
     bool same = stepper_->repeat(from_, stop) && stepper_->time() >= state_.time;
     if (same) {
-        stepper_->state_at(state_.time, x_between_.data());
+        state_at(state_.time, x_between_);
         same = x_between_ == x_;
     }
     const IntegrationStatistics repeated = stepper_->statistics(), before = earlier_;

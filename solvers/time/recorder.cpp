@@ -146,7 +146,10 @@ void Recorder::sample(Integrator& integrator, double* values) {
     if (more_.empty()) return;
     const Kinematics kin = kinematics(*model_, state.q, workspace_);
     const Forces& forces = integrator.forces();
-    const JointLoads loads = joint_loads({state.time, state.q, state.qd, kin, state.s, state.u}, forces, state.qdd);
+    std::vector<LoopLoad> loops;
+    if (state.lambda.size() > 0) integrator.loops().add_loads(kin, state.lambda, loops);
+    const JointLoads loads =
+        joint_loads({state.time, state.q, state.qd, kin, state.s, state.u}, forces, state.qdd, std::move(loops));
     const ChannelInput input{state.time, state.q, state.qd, state.qdd,    state.actuator, kin,
                              forces,     loads,   state.s,  state.s_rate, state.u};
     for (const ChannelGroup& group : more_) {

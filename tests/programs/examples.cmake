@@ -2,6 +2,8 @@
 add_example_test(example_first_script first_script 0 "1st tower fore-aft")
 add_example_test(example_double_pendulum double_pendulum 0
               "g_11 +3.946707 +3.946707.*Gamma_211 +0.358678 +0.358678.*Q_2 +-4.724639 +-4.724639.*qdd_2 +-13.991535")
+add_example_test(example_slider_crank slider_crank 0
+              "slider +0[.]353200 +0[.]353200.*acceleration +-1166[.]22548[0-9] +-1166[.]22548[0-9].*pin along x +-87[.]466911 +-87[.]466911")
 add_example_test(example_cantilever cantilever 0 "1 +7.0255 +7.0255.*3 +123.27[0-9]+ +123.2790")
 add_example_test(example_rotating_blade rotating_blade 0 "12 +20.83[0-9]+ +20.8239 +8.5973 +8.5973")
 add_example_test(example_decay_test decay_test 0 "decrement +0.06283[0-9], of the damping ratio 0.062835.*frequency +1.1351")

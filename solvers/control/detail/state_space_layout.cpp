@@ -96,6 +96,7 @@ struct Moved {
 Layout::Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
                const StateSpaceOptions& options)
     : system_(system), inputs_(inputs) {
+    system.require_no_loops("linear model");
     const CoordinateTable& table = system.model.coordinates();
     if (rotor.spin >= table.size())
         throw InputError("linear model", "index of the spin coordinate", rotor.spin, text("-1 ... ", table.size() - 1));

@@ -49,6 +49,7 @@ RotorEquations::RotorEquations(const System& system, int spin, const PeriodicOpt
     const int n = system.model.size();
     given_ = options.start.size() > 0 ? options.start : Matrix(Matrix::Zero(n, 1));
     given_.row(spin).setZero();
+    system.require_no_loops("periodic steady state");
     unknowns_ = system.model.coordinates().free_without(spin);
     given_states_ = options.state_start.size() > 0 ? options.state_start : Matrix(states().initial());
     at_ = {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0, states().initial(), system.forces.inputs().initial()};

@@ -73,7 +73,7 @@ void NewtonMatrix::solve(const double* b, double* x) {
         right = Eigen::Map<const Vector>(b + 2 * m, states);
         right.noalias() += c_ * equations_.state_derivatives().f_q * all_;
     }
-    reduced_.solve(rates_);
+    reduced_.solve(rates_, change_);
     for (Eigen::Index i = 0; i < m; ++i) x[i] = start_(i) + c_ * rates_(i);
     std::copy_n(rates_.data(), rates_.size(), x + m);
 }

@@ -18,6 +18,8 @@ namespace cardan::solvers {
 ///   (g + c C + c^2 S) x_2 - c Q_s x_3 = g b_2 - c S b_1,
 ///   -(c f_qd + c^2 f_q) x_2 + (1 - c f_s) x_3 = b_3 + c f_q b_1.
 ///
+/// With loops the accelerations are held to their constraints, G x_2 = G b_2.
+///
 /// Cost O(n d^2) to form, O(n d) to solve, d the depth of the tree; allocates nothing.
 class NewtonMatrix {
 public:

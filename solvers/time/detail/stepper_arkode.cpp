@@ -81,6 +81,7 @@ void ArkodeStepper::set_up(const IntegrationOptions& options) {
               ARKStepSetMaxHnilWarns(ark, -1) == 0 && ARKStepSetMaxStep(ark, options.max_step) == 0;
     if (fixed_step_ > 0) ok = ok && ARKStepSetFixedStep(ark, fixed_step_) == 0;
     if (implicit_) ok = ok && set_up_newton(ark);
+    if (equations_.loops()) ok = ok && ARKStepSetPostprocessStepFn(ark, project) == 0;
     if (!ok) throw NumericalError("SUNDIALS: ARKODE could not be set up");
 }
 

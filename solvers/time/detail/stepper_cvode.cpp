@@ -28,6 +28,7 @@ private:
         return static_cast<CvodeStepper*>(static_cast<SundialsStepper*>(user))
             ->form_matrix(t, x, c, old_will_do, is_new);
     }
+    static int correct(realtype t, N_Vector x, N_Vector correction, realtype, N_Vector, void* user);
     void set_up(const IntegrationOptions& options);
     IntegrationStatistics since_start() const override;
     bool local_errors() override;
@@ -63,7 +64,15 @@ void CvodeStepper::set_up(const IntegrationOptions& options) {
         fixed_point_.reset(SUNNonlinSol_FixedPoint(vector(), 0, context()));
         ok = ok && CVodeSetNonlinearSolver(cv, fixed_point_.get()) == 0;
     }
+    if (equations_.loops()) ok = ok && CVodeSetProjFn(cv, correct) == 0 && CVodeSetProjErrEst(cv, SUNFALSE) == 0;
     if (!ok) throw NumericalError("SUNDIALS: CVODE could not be set up");
+}
+
+int CvodeStepper::correct(realtype t, N_Vector x, N_Vector correction, realtype, N_Vector, void* user) {
+    N_VScale(1, x, correction);
+    const int flag = project(t, correction, user);
+    N_VLinearSum(1, correction, -1, x, correction);
+    return flag;
 }
 
 void CvodeStepper::do_start(double time, const double* x, double stop) {

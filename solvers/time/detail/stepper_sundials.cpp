@@ -42,6 +42,17 @@ int SundialsStepper::weights(N_Vector x, N_Vector w, void* user) {
     return 0;
 }
 
+// Onto the constraints of loops.
+int SundialsStepper::project(realtype t, N_Vector x, void* user) {
+    auto& self = *static_cast<SundialsStepper*>(user);
+    try {
+        return self.equations_.project(t, N_VGetArrayPointer(x)) ? 0 : 1;
+    } catch (...) {
+        self.thrown_ = std::current_exception();
+        return -1;
+    }
+}
+
 int SundialsStepper::form_matrix(realtype t, N_Vector x, realtype c, booleantype old_will_do, booleantype* is_new) {
     *is_new = old_will_do ? SUNFALSE : SUNTRUE;
     try {

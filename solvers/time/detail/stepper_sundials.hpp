@@ -23,6 +23,7 @@ protected:
     // a shorter step may be tried.
     static int rates(realtype t, N_Vector x, N_Vector xd, void* user);
     static int weights(N_Vector x, N_Vector w, void* user);
+    static int project(realtype t, N_Vector x, void* user);
     int form_matrix(realtype t, N_Vector x, realtype c, booleantype old_will_do, booleantype* is_new);
     void rethrow();
 

@@ -1,5 +1,7 @@
 #include "solvers/time/detail/tangent_factors.hpp"
 
+#include "solvers/time/detail/constrained_motion.hpp"
+
 #include <algorithm>
 
 namespace cardan::solvers {
@@ -9,6 +11,13 @@ using Index = Eigen::Index;
 TangentFactors::TangentFactors(const EquationsOfMotion& equations)
     : equations_(equations), branches_(equations.model()), all_(Vector::Zero(equations.model().size())) {
     if (equations.states() > 0) set_groups();
+    if (!equations.loops()) return;
+    const Index n = equations.size(), m = equations.loops()->loops().size();
+    gradients_.resize(m, n);
+    loop_columns_.resize(equations.rates(), m);
+    loop_corner_.emplace(m);
+    multipliers_.resize(m);
+    column_.resize(equations.rates());
 }
 
 void TangentFactors::set_groups() {
@@ -56,6 +65,36 @@ void TangentFactors::form(const Factors& c) {
         full_->factorise();
     }
     if (!bordering_.empty()) form_border(c);
+    if (loop_corner_) form_loops();
+}
+
+void TangentFactors::form_loops() {
+    const ConstrainedMotion& loops = *equations_.loops();
+    const Index n = equations_.size(), m = gradients_.rows();
+    independent_ = std::ssize(loops.independent());
+    for (Index k = 0; k < independent_; ++k) {
+        for (Index i = 0; i < n; ++i)
+            gradients_(k, i) = loops.gradient()(entry(loops.independent(), k), entry(equations_.unknowns(), i));
+        column_.setZero();
+        column_.head(n) = gradients_.row(k).transpose();
+        solve(column_);
+        loop_columns_.col(k) = column_;
+    }
+    Matrix& corner = loop_corner_->matrix();
+    corner.setIdentity(m, m);
+    corner.topLeftCorner(independent_, independent_).noalias() =
+        gradients_.topRows(independent_) * loop_columns_.topLeftCorner(n, independent_);
+    loop_corner_->factorise();
+}
+
+void TangentFactors::solve(Vector& r, const Vector& v) {
+    solve(r);
+    if (!loop_corner_) return;
+    const Index n = equations_.size();
+    multipliers_.setZero();
+    for (Index k = 0; k < independent_; ++k) multipliers_(k) = gradients_.row(k).dot(v - r.head(n));
+    loop_corner_->solve(multipliers_);
+    for (Index k = 0; k < independent_; ++k) r += multipliers_(k) * loop_columns_.col(k);
 }
 
 void TangentFactors::form_local(const Factors& c) {

@@ -20,6 +20,13 @@ namespace cardan::solvers {
 /// Groups of states (StateGroup) whose coordinates lie on one path from the base, such as those of the air at a section
 /// of a blade, are eliminated first, each by itself: what they add to K has the pattern of the tree. The other m states
 /// are eliminated by m solutions with K, which keeps its sparsity whatever they couple.
+///
+/// With loops a further border holds the accelerations to their constraints,
+///
+///     [ K  -G^T ] [x]   [r]
+///     [ G    0  ] [.] = [y],
+///
+/// with the independent rows of the gradients G; it is eliminated in the same way.
 class TangentFactors {
 public:
     explicit TangentFactors(const EquationsOfMotion& equations);
@@ -33,6 +40,9 @@ public:
     void form(const Factors& c);
     /// r := K^-1 r, by unknowns, then states.  Cost O(n d) or O(n^2)
     void solve(Vector& r);
+    /// With loops, y = G v.
+    /// @param v  by unknowns
+    void solve(Vector& r, const Vector& v);
 
 private:
     // A group that is eliminated first: s = C^-1 (r - R x), and K -= column C^-1 R.
@@ -50,6 +60,7 @@ private:
     template <class Add>
     void subtract_local(const Add& add) const;
     void form_border(const Factors& c);
+    void form_loops();
     void solve_coordinates(VectorOut r);
 
     const EquationsOfMotion& equations_;
@@ -65,6 +76,12 @@ private:
     Matrix columns_, rows_;            ///< K^-1 times the border's columns; its rows
     std::optional<LuFactors> corner_;  ///< what is left of it
     Vector states_;
+    // With loops:
+    Matrix gradients_;     ///< independent ones in the first rows, by unknowns
+    Matrix loop_columns_;  ///< K^-1 of their transposes
+    std::optional<LuFactors> loop_corner_;
+    Vector multipliers_, column_;
+    Eigen::Index independent_ = 0;
 };
 
 }  // namespace cardan::solvers

@@ -1,0 +1,207 @@
+#include "mbs/loops/closure.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/loops/constraint_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cardan {
+
+namespace {
+
+constexpr const char* in_closure = "closing of loops";
+// Gradients less independent than this are taken for dependent.
+constexpr double dependent_below = 1e-9;
+
+std::vector<bool> kept(const Model& model, const std::vector<int>& held) {
+    std::vector<bool> flags = model.coordinates().driven();
+    for (const int coordinate : held) {
+        require_index(in_closure, "held coordinate", coordinate, model.size());
+        flags[static_cast<std::size_t>(coordinate)] = true;
+    }
+    return flags;
+}
+
+void require_finite_entries(const Model& model, const char* what, const Vector& values) {
+    require_size(in_closure, what, values, model.size());
+    for (int i = 0; i < model.size(); ++i)
+        if (!std::isfinite(values(i)))
+            throw InputError(text(in_closure, ": '", model.coordinates()[i].name, "'"), what, values(i), "finite");
+}
+
+// Everything at one position.
+class Place {
+public:
+    Place(const Model& model, const Loops& loops, const std::vector<int>& held, double time)
+        : phi(Vector::Zero(loops.size())),
+          G(loops.size(), model.size()),
+          model_(model),
+          loops_(loops),
+          time_(time),
+          magnitudes_(loops.size(), model.size()),
+          workspace_(model),
+          metric_(model, kept(model, held)),
+          factor_(model, loops.size()) {}
+
+    double gap_at(const Vector& q) {
+        const Kinematics kin = kinematics(model_, q, workspace_);
+        loops_.residual<double>(kin, time_, q, phi);
+        return phi.allFinite() ? phi.lpNorm<Eigen::Infinity>() : std::numeric_limits<double>::infinity();
+    }
+    void factorise(const Vector& q) {
+        const Kinematics kin = kinematics(model_, q, workspace_);
+        extent = loops_.extent(kin);
+        loops_.gradient(kin, time_, q, G, magnitudes_);
+        if (const PivotStatus status = metric_.factorise(kin); !status)
+            throw NumericalError(text(in_closure, ": ", status.message()));
+        factor_.factorise(metric_, G, magnitudes_, dependent_below);
+    }
+    int turned_over(const Vector& q) { return loops_.turned_over(kinematics(model_, q, workspace_)); }
+    Vector shortest(const Vector& y) {
+        Vector x(model_.size());
+        factor_.shortest(y, x);
+        return x;
+    }
+    // Of displacements of the free coordinates.
+    double product(Vector x, Vector y) {
+        for (Vector* v : {&x, &y}) {
+            for (int i = 0; i < model_.size(); ++i)
+                if (metric_.is_driven(i)) (*v)(i) = 0;
+            metric_.multiply_L(*v);
+        }
+        return x.dot(y);
+    }
+    double length(const Vector& x) { return std::sqrt(product(x, x)); }
+    const ConstraintFactor& factor() const { return factor_; }
+
+    Vector phi;
+    Matrix G;
+    double extent = 1;
+
+private:
+    const Model& model_;
+    const Loops& loops_;
+    double time_;
+    Matrix magnitudes_;
+    Workspace workspace_;
+    MetricFactor metric_;
+    ConstraintFactor factor_;
+};
+
+int widest(const Vector& phi) {
+    Eigen::Index worst = 0;
+    phi.cwiseAbs().maxCoeff(&worst);
+    return static_cast<int>(worst);
+}
+
+// Newton's method; steps that open the loops further are halved. True: closed.
+bool close(Place& place, Closure& state, const ClosureOptions& options) {
+    state.gap = place.gap_at(state.q);
+    bool polished = false;
+    for (; state.iterations < options.iterations; ++state.iterations) {
+        place.factorise(state.q);
+        const bool closed = state.gap <= options.tolerance * place.extent;
+        if (closed && (polished || state.gap == 0)) return true;
+        place.gap_at(state.q);
+        const Vector step = place.shortest(place.phi);
+        double fraction = 1, gap = 0;
+        Vector trial;
+        for (int halving = 0; halving < 12; ++halving, fraction /= 2) {
+            trial = state.q - fraction * step;
+            gap = place.gap_at(trial);
+            if (gap < state.gap) break;
+        }
+        polished = closed;  // one step more than needed, for quadratic convergence makes it the last
+        if (!(gap < state.gap)) return closed;
+        state.q = trial;
+        state.gap = gap;
+    }
+    return state.gap <= options.tolerance * place.extent;
+}
+
+// From one closed position to another that is nearer to the start, along the part of the way back that lies in the
+// tangent space. How far: as the change of that part over the last step tells.                 [Barzilai and Borwein
+// 1988]
+void approach(Place& place, const Vector& start, Closure& state, const ClosureOptions& options) {
+    const auto way_back = [&](const Vector& q) {
+        place.factorise(q);
+        const Vector back = start - q;
+        return Vector(back - place.shortest(place.G * back));
+    };
+    Vector back = way_back(state.q);
+    state.distance = place.length(state.q - start);
+    double fraction = 1;
+    for (int i = 0; i < 60 && fraction > 1e-3 && place.length(back) > 1e-9 * state.distance; ++i) {
+        Closure next;
+        next.q = state.q + fraction * back;
+        next.converged = close(place, next, options);
+        const Vector next_back = way_back(next.q);
+        next.distance = place.length(next.q - start);
+        if (!next.converged || next.distance > state.distance * (1 + 1e-14)) {
+            fraction /= 2;
+            continue;
+        }
+        const double left = place.product(next_back, back) / place.product(back, back);
+        fraction = std::clamp(left < 0.9 ? fraction / (1 - left) : 2 * fraction, 0.01, 10.0);
+        next.iterations += state.iterations;
+        state = next;
+        back = next_back;
+    }
+}
+
+}  // namespace
+
+Closure close_loops(const Model& model, const Loops& loops, const Vector& q, const ClosureOptions& options) {
+    require_finite_entries(model, "position", q);
+    Closure result;
+    result.q = q;
+    result.converged = true;
+    if (loops.empty()) return result;
+    Place place(model, loops, options.held, options.time);
+    result.converged = close(place, result, options);
+    if (result.converged && options.nearest) approach(place, q, result, options);
+    place.factorise(result.q);
+    result.rank = place.factor().rank();
+    result.gap = place.gap_at(result.q);
+    if (!result.converged) {
+        const Loops::Equation& worst = entry(loops.equations(), widest(place.phi));
+        result.message =
+            text("the loops cannot be closed from here: ", loops.describe(worst.loop), " leaves ", result.gap, " ",
+                 worst.unit, " (", worst.name, ") after ", result.iterations,
+                 " iterations; start from a position that is nearer, hold fewer coordinates, or look for a "
+                 "length that does not fit");
+    } else if (const int turned = place.turned_over(result.q); turned >= 0) {
+        result.converged = false;
+        result.message = text("the loops close from here only with the axes of ", loops.describe(turned),
+                              " against each other; turn one of its frames by 180 degrees, or start nearer");
+    }
+    return result;
+}
+
+Vector close_rates(const Model& model, const Loops& loops, const Vector& q, const Vector& qd,
+                   const ClosureOptions& options) {
+    require_finite_entries(model, "position", q);
+    require_finite_entries(model, "rate", qd);
+    if (loops.empty()) return qd;
+    Place place(model, loops, options.held, options.time);
+    place.factorise(q);
+    Vector opening(loops.size());
+    Vector closed = qd;
+    for (int pass = 0; pass < 2; ++pass) {
+        loops.time_rates(options.time, q, opening);
+        opening += place.G * closed;
+        closed -= place.shortest(opening);
+    }
+    loops.time_rates(options.time, q, opening);
+    opening += place.G * closed;
+    const int worst = widest(opening);
+    if (std::abs(opening(worst)) > 1e-9 * place.extent * (1 + qd.lpNorm<Eigen::Infinity>()))
+        throw InputError(text(in_closure, ": ", loops.describe(entry(loops.equations(), worst).loop)),
+                         "rate at which it opens", opening(worst),
+                         "0: prescribed rates contradict each other, or the position is a dead point");
+    return closed;
+}
+
+}  // namespace cardan

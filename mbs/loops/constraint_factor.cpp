@@ -1,0 +1,122 @@
+#include "mbs/loops/constraint_factor.hpp"
+
+#include "mbs/base/sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace cardan {
+
+using Index = Eigen::Index;
+
+ConstraintFactor::ConstraintFactor(const Model& model, int constraints)
+    : order_(static_cast<std::size_t>(constraints)),
+      B_(model.size(), constraints),
+      R_(constraints, constraints),
+      Q2_(constraints, constraints),
+      T_(constraints, constraints),
+      full_(constraints),
+      left_(constraints),
+      w_(constraints),
+      z_(constraints),
+      sums_(constraints) {}
+
+// Gram and Schmidt's method, twice: then the basis is orthogonal to the last digit.              [Giraud et al. 2005]
+void ConstraintFactor::orthogonalise(Eigen::Ref<Vector> column, MatrixIn basis, Eigen::Ref<Vector> coefficients) {
+    coefficients.setZero();
+    for (int pass = 0; pass < 2; ++pass)
+        for (Index i = 0; i < basis.cols(); ++i) {
+            const double part = basis.col(i).dot(column);
+            column -= part * basis.col(i);
+            coefficients(i) += part;
+        }
+}
+
+void ConstraintFactor::factorise(MetricFactor& metric, MatrixIn G, MatrixIn magnitudes, double tolerance) {
+    const Index m = R_.rows(), n = B_.rows();
+    require_size("constraints", "gradient", G, m, n);
+    require_size("constraints", "magnitudes", magnitudes, m, n);
+    metric_ = &metric;
+    B_ = G.transpose();
+    full_.setZero();
+    for (int a = 0; a < n; ++a) {
+        if (metric.is_driven(a)) {
+            B_.row(a).setZero();
+            continue;
+        }
+        full_.array() += (magnitudes.col(a) / metric(a, a)).array().square();
+    }
+    full_ = full_.cwiseSqrt();
+    metric.solve_LT(B_);
+    std::iota(order_.begin(), order_.end(), 0);
+    R_.setZero();
+    // What is left of the columns is computed afresh for every pivot: there are few.
+    for (rank_ = 0; rank_ < m; ++rank_) {
+        for (Index j = rank_; j < m; ++j) {
+            const double length = full_(entry(order_, j));
+            left_(j) = length > 0 ? B_.col(j).norm() / length : 0;
+        }
+        Index pivot = rank_;
+        left_.tail(m - rank_).maxCoeff(&pivot);
+        pivot += rank_;
+        if (!(left_(pivot) > tolerance)) break;
+        if (pivot != rank_) {
+            std::swap(entry(order_, rank_), entry(order_, pivot));
+            B_.col(rank_).swap(B_.col(pivot));
+            R_.col(rank_).swap(R_.col(pivot));
+        }
+        // Once more against the basis, whose parts were subtracted one by one.
+        orthogonalise(B_.col(rank_), B_.leftCols(rank_), sums_.head(rank_));
+        R_.col(rank_).head(rank_) += sums_.head(rank_);
+        R_(rank_, rank_) = B_.col(rank_).norm();
+        B_.col(rank_) /= R_(rank_, rank_);
+        for (Index j = rank_ + 1; j < m; ++j) {
+            const double part = B_.col(rank_).dot(B_.col(j));
+            B_.col(j) -= part * B_.col(rank_);
+            R_(rank_, j) = part;
+        }
+    }
+    if (rank_ == m) return;
+    for (Index k = 0; k < rank_; ++k) {
+        Q2_.col(k) = R_.row(k).transpose();
+        orthogonalise(Q2_.col(k), Q2_.leftCols(k), sums_.head(k));
+        T_.col(k).head(k) = sums_.head(k);
+        T_(k, k) = Q2_.col(k).norm();
+        Q2_.col(k) /= T_(k, k);
+    }
+}
+
+// w := R11^-T y of the independent constraints.
+void ConstraintFactor::leading_transposed_solve(VectorIn y) {
+    for (Index k = 0; k < rank_; ++k) w_(k) = (y(entry(order_, k)) - R_.col(k).head(k).dot(w_.head(k))) / R_(k, k);
+}
+
+void ConstraintFactor::shortest(VectorIn y, VectorOut x) {
+    require_size("constraints", "y", y, R_.rows());
+    require_size("constraints", "x", x, B_.rows());
+    leading_transposed_solve(y);
+    x.setZero();
+    for (Index k = 0; k < rank_; ++k) x += w_(k) * B_.col(k);
+    metric_->solve_L(x);
+}
+
+// With P the exchange, R^T R P^T lambda = P^T y: R P^T lambda = w.
+void ConstraintFactor::multipliers(VectorIn y, VectorOut lambda) {
+    const Index m = R_.rows(), r = rank_;
+    require_size("constraints", "y", y, m);
+    require_size("constraints", "lambda", lambda, m);
+    leading_transposed_solve(y);
+    if (r == m) {
+        for (Index k = r - 1; k >= 0; --k)
+            z_(k) = (w_(k) - R_.row(k).segment(k + 1, r - k - 1).dot(z_.segment(k + 1, r - k - 1))) / R_(k, k);
+    } else {
+        // R = T^T Q2^T: the shortest solution is Q2 T^-T w.
+        for (Index k = 0; k < r; ++k) w_(k) = (w_(k) - T_.col(k).head(k).dot(w_.head(k))) / T_(k, k);
+        z_.setZero();
+        for (Index k = 0; k < r; ++k) z_ += w_(k) * Q2_.col(k);
+    }
+    for (Index k = 0; k < m; ++k) lambda(entry(order_, k)) = z_(k);
+}
+
+}  // namespace cardan
