@@ -10,7 +10,8 @@ namespace cardan {
 ///
 ///     T = stiffness (L - length) + damping dL/dt
 ///
-/// along the line between them, L their distance. Where they meet the line has no direction, and there is no force.
+/// along the line between them, L their distance. Where they meet the line has no direction; that of the x axis is
+/// taken.
 struct PointSpring {
     std::string name = {};
     FrameId a = {}, b = {};

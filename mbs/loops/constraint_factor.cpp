@@ -18,6 +18,7 @@ ConstraintFactor::ConstraintFactor(const Model& model, int constraints)
       T_(constraints, constraints),
       full_(constraints),
       left_(constraints),
+      known_(constraints),
       w_(constraints),
       z_(constraints),
       sums_(constraints) {}
@@ -51,20 +52,23 @@ void ConstraintFactor::factorise(MetricFactor& metric, MatrixIn G, MatrixIn magn
     metric.solve_LT(B_);
     std::iota(order_.begin(), order_.end(), 0);
     R_.setZero();
-    // What is left of the columns is computed afresh for every pivot: there are few.
+    // Of each column, the square of what is left of it over its full length; where most is gone it is computed afresh.
+    const auto left_of = [&](Index j) {
+        const double length = full_(entry(order_, j));
+        return length > 0 ? B_.col(j).squaredNorm() / (length * length) : 0;
+    };
+    for (Index j = 0; j < m; ++j) known_(j) = left_(j) = left_of(j);
     for (rank_ = 0; rank_ < m; ++rank_) {
-        for (Index j = rank_; j < m; ++j) {
-            const double length = full_(entry(order_, j));
-            left_(j) = length > 0 ? B_.col(j).norm() / length : 0;
-        }
         Index pivot = rank_;
         left_.tail(m - rank_).maxCoeff(&pivot);
         pivot += rank_;
-        if (!(left_(pivot) > tolerance)) break;
+        if (!(left_(pivot) > tolerance * tolerance)) break;
         if (pivot != rank_) {
             std::swap(entry(order_, rank_), entry(order_, pivot));
             B_.col(rank_).swap(B_.col(pivot));
             R_.col(rank_).swap(R_.col(pivot));
+            std::swap(left_(rank_), left_(pivot));
+            std::swap(known_(rank_), known_(pivot));
         }
         // Once more against the basis, whose parts were subtracted one by one.
         orthogonalise(B_.col(rank_), B_.leftCols(rank_), sums_.head(rank_));
@@ -75,6 +79,9 @@ void ConstraintFactor::factorise(MetricFactor& metric, MatrixIn G, MatrixIn magn
             const double part = B_.col(rank_).dot(B_.col(j));
             B_.col(j) -= part * B_.col(rank_);
             R_(rank_, j) = part;
+            const double length = full_(entry(order_, j));
+            if (length > 0) left_(j) -= part * part / (length * length);
+            if (left_(j) < 1e-4 * known_(j)) known_(j) = left_(j) = left_of(j);
         }
     }
     if (rank_ == m) return;

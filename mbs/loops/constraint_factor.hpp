@@ -53,7 +53,8 @@ private:
     Matrix R_;       ///< m x m, upper triangular over the columns as exchanged
     Matrix Q2_, T_;  ///< R^T of the first rank_ rows as Q2 T, where columns depend
     Vector full_;    ///< lengths without cancellation
-    Vector left_;    ///< what is left of columns, as a fraction
+    Vector left_;    ///< squares of what is left of columns over their full lengths
+    Vector known_;   ///< the same when it was last computed from the column
     Vector w_, z_, sums_;
 };
 

@@ -1,7 +1,6 @@
 #include "mbs/loops/loops.hpp"
 
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/path_twists.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,44 +35,9 @@ const char* name_of(CutKind kind) {
     return "weld";
 }
 
-template <class S>
-Vec3T<S> column(const Mat3T<S>& R, int i) {
-    return R.col(i);
-}
-
-// How the frame b moves as seen from a: angular velocity and velocity of its origin, and the accelerations that the
-// rates alone cause. Base axes.
-template <class S>
-struct RelativeMotion {
-    Vec3T<S> w = Vec3T<S>::Zero(), v = Vec3T<S>::Zero(), alpha = Vec3T<S>::Zero(), a = Vec3T<S>::Zero();
-
-    // A joint more, in the order from a to b.
-    void append(const PointTwist<S>& twist, const S& rate) {
-        const Vec3T<S> turn = twist.w * rate, shift = twist.v * rate;
-        alpha += cross<S>(w, turn);
-        a += cross<S>(S(2) * w + turn, shift);
-        w += turn;
-        v += shift;
-    }
-};
-
 }  // namespace
 
-template <class S>
-struct Loops::Ends {
-    Mat3T<S> A, B;
-    Vec3T<S> p, d;  // origin of b; from that of a to it
-
-    Ends(const KinematicsT<S>& kin, const Loop& loop) {
-        const Pose<S> a = pose<S>(kin, loop.a), b = pose<S>(kin, loop.b);
-        A = a.R, B = b.R, p = b.p, d = b.p - a.p;
-    }
-};
-
-template <class S>
-struct Loops::Pair {
-    Vec3T<S> force, moment;
-};
+using Kind = RelativeMeasure::Kind;
 
 // ---- what it is made of
 
@@ -82,7 +46,7 @@ Loops::Loops(const LoopSet& set, const Model& model) : model_(model.serial()), c
     for (const CutJoint& joint : set.joints()) {
         const bool aligned = joint.kind != CutKind::spherical && joint.kind != CutKind::cardan;
         const bool fixed = joint.kind == CutKind::weld || joint.kind == CutKind::prismatic;
-        std::vector<Primitive> equations;
+        std::vector<RelativeMeasure> equations;
         if (joint.kind != CutKind::planar) equations = {{Kind::along, 0}, {Kind::along, 1}};
         if (joint.kind != CutKind::prismatic && joint.kind != CutKind::cylindrical)
             equations.push_back({Kind::along, 2});
@@ -100,7 +64,7 @@ Loops::Loops(const LoopSet& set, const Model& model) : model_(model.serial()), c
         const int index = static_cast<int>(surfaces_.size());
         surfaces_.push_back(contact);
         add_loop(contact.name, model,
-                 {contact.surface, contact.point, -1, -1, 0, index, false, false, {}, {{Kind::surface}}, size()});
+                 {contact.surface, contact.point, -1, -1, 0, index, false, false, {}, {{}}, size()});
         places_.back() = text("surface ", places_.back());
     }
     for (const Coupling& coupling : set.couplings()) {
@@ -138,22 +102,16 @@ void Loops::add_loop(const std::string& name, const Model& model, Loop loop) {
         throw InputError(text("loop '", name, "' ", bodies), "number of coordinates that move it", 0,
                          ">= 1: frames of two bodies");
     for (const PathStep& step : loop.path) involved_[static_cast<std::size_t>(step.coordinate)] = true;
-    for (const Primitive& equation : loop.equations) {
+    for (const RelativeMeasure& equation : loop.equations) {
         const char i = entry(axis_names, equation.i), j = entry(axis_names, equation.j);
-        switch (equation.kind) {
-            case Kind::along:
-                add_equation(text(name, ": ", i, " together"), "m");
-                break;
-            case Kind::square:
-                add_equation(text(name, ": ", i, " square to ", j), "1");
-                break;
-            case Kind::distance:
-                add_equation(text(name, ": length"), "m");
-                break;
-            case Kind::surface:
-                add_equation(text(name, ": on the surface"), "m");
-                break;
-        }
+        if (loop.surface >= 0)
+            add_equation(text(name, ": on the surface"), "m");
+        else if (equation.kind == Kind::along)
+            add_equation(text(name, ": ", i, " together"), "m");
+        else if (equation.kind == Kind::square)
+            add_equation(text(name, ": ", i, " square to ", j), "1");
+        else
+            add_equation(text(name, ": length"), "m");
     }
     names_.push_back(name);
     places_.push_back(bodies);
@@ -187,42 +145,26 @@ void Loops::check(const KinematicsT<S>& kin, VectorInT<S> q) const {
 }
 
 template <class S>
-S Loops::value(const Loop& loop, const Primitive& equation, const Ends<S>& ends) const {
-    switch (equation.kind) {
-        case Kind::along:
-            return dot<S>(column<S>(ends.A, equation.i), ends.d);
-        case Kind::square:
-            return dot<S>(column<S>(ends.A, equation.i), column<S>(ends.B, equation.j));
-        case Kind::distance:
-            return std::sqrt(dot<S>(ends.d, ends.d)) - loop.length;
-        case Kind::surface:
-            if constexpr (std::is_same_v<S, double>)
-                return entry(surfaces_, loop.surface).value(ends.A.transpose() * ends.d);
-            break;
-    }
-    return S(0);
+S Loops::value(const Loop& loop, const RelativeMeasure& equation, const FrameEnds<S>& ends) const {
+    if (loop.surface < 0) return measured<S>(equation, ends) - loop.length;
+    if constexpr (std::is_same_v<S, double>)
+        return entry(surfaces_, loop.surface).value(ends.A.transpose() * ends.d);
+    else
+        return S(0);
 }
 
 template <class S>
-Loops::Pair<S> Loops::wrench(const Loop& loop, const Primitive& equation, const Ends<S>& ends) const {
-    const Vec3T<S> none = Vec3T<S>::Zero();
-    switch (equation.kind) {
-        case Kind::along:
-            return {column<S>(ends.A, equation.i), none};
-        case Kind::square:
-            return {none, cross<S>(column<S>(ends.B, equation.j), column<S>(ends.A, equation.i))};
-        case Kind::distance: {
-            const S length = std::sqrt(dot<S>(ends.d, ends.d));
-            // Where the ends meet any direction will do: the rod cannot be assembled from there otherwise.
-            if (std::abs(length) < 1e-150) return {Vec3T<S>::UnitX(), none};
-            return {ends.d / length, none};
-        }
-        case Kind::surface:
-            if constexpr (std::is_same_v<S, double>)
-                return {ends.A * entry(surfaces_, loop.surface).gradient(ends.A.transpose() * ends.d), none};
-            break;
-    }
-    return {none, none};
+UnitWrench<S> Loops::wrench(const Loop& loop, const RelativeMeasure& equation, const FrameEnds<S>& ends) const {
+    if (loop.surface < 0) return unit_wrench<S>(equation, ends);
+    if constexpr (std::is_same_v<S, double>)
+        return {ends.A * entry(surfaces_, loop.surface).gradient(ends.A.transpose() * ends.d), Vec3::Zero()};
+    else
+        return {};
+}
+
+// Second derivatives of a surface by places, base axes.
+Mat3 Loops::surface_bend(const Loop& loop, const FrameEnds<double>& ends) const {
+    return ends.A * entry(surfaces_, loop.surface).second(ends.A.transpose() * ends.d) * ends.A.transpose();
 }
 
 template <class Visit>
@@ -248,8 +190,9 @@ void Loops::residual(const KinematicsT<S>& kin, [[maybe_unused]] double time, Ve
     check<S>(kin, q);
     require_size(in_loops, "phi", phi, size());
     for (const Loop& loop : loops_) {
-        const Ends<S> ends(kin, loop);
-        for (int k = loop.first; const Primitive& equation : loop.equations) phi(k++) = value<S>(loop, equation, ends);
+        const FrameEnds<S> ends(kin, loop.a, loop.b);
+        for (int k = loop.first; const RelativeMeasure& equation : loop.equations)
+            phi(k++) = value<S>(loop, equation, ends);
     }
     for (const Linear& linear : couplings_) {
         S sum = -linear.offset;
@@ -266,12 +209,12 @@ void Loops::gradient(const KinematicsT<S>& kin, [[maybe_unused]] double time, Ve
     require_size(in_loops, "gradient", G, size(), coordinates_);
     G.setZero();
     for (const Loop& loop : loops_) {
-        const Ends<S> ends(kin, loop);
-        for (int k = loop.first; const Primitive& equation : loop.equations) {
-            const Pair<S> pair = wrench<S>(loop, equation, ends);
+        const FrameEnds<S> ends(kin, loop.a, loop.b);
+        for (int k = loop.first; const RelativeMeasure& equation : loop.equations) {
+            const UnitWrench<S> pair = wrench<S>(loop, equation, ends);
             for (const PathStep& step : loop.path) {
                 const PointTwist<S> twist = own_twist_at<S>(kin, step.coordinate, ends.p);
-                G(k, step.coordinate) = step.sign * (dot<S>(pair.moment, twist.w) + dot<S>(pair.force, twist.v));
+                G(k, step.coordinate) = step.sign * pair.on(twist);
             }
             ++k;
         }
@@ -287,11 +230,12 @@ void Loops::gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G
     require_size(in_loops, "magnitudes", magnitudes, size(), coordinates_);
     magnitudes = G.cwiseAbs();
     for (const Loop& loop : loops_) {
-        const Ends<double> ends(kin, loop);
-        for (int k = loop.first; const Primitive& equation : loop.equations) {
-            const Pair<double> pair = wrench<double>(loop, equation, ends);
+        const FrameEnds<double> ends(kin, loop.a, loop.b);
+        for (int k = loop.first; const RelativeMeasure& equation : loop.equations) {
+            const UnitWrench<double> pair = wrench<double>(loop, equation, ends);
             // Directions are square to one another where the equation is met.
-            const double force = pair.force.norm(), moment = equation.kind == Kind::square ? 1 : 0;
+            const bool directions = loop.surface < 0 && equation.kind == Kind::square;
+            const double force = pair.force.norm(), moment = directions ? 1 : 0;
             for (const PathStep& step : loop.path) {
                 const PointTwist<double> twist = own_twist_at<double>(kin, step.coordinate, ends.p);
                 magnitudes(k, step.coordinate) = moment * twist.w.norm() + force * twist.v.norm();
@@ -316,30 +260,18 @@ void Loops::bias(const KinematicsT<S>& kin, [[maybe_unused]] double time, Vector
     require_size(in_loops, "bias", out, size());
     out.setZero();
     for (const Loop& loop : loops_) {
-        const Ends<S> ends(kin, loop);
+        const FrameEnds<S> ends(kin, loop.a, loop.b);
         RelativeMotion<S> b;
         for (const PathStep& step : loop.path)
             b.append(own_twist_at<S>(kin, step.coordinate, ends.p), step.sign * qd(step.coordinate));
-        for (int k = loop.first; const Primitive& equation : loop.equations) {
-            const Pair<S> pair = wrench<S>(loop, equation, ends);
-            S& sum = out(k++);
-            if (equation.kind == Kind::square) {
-                const Vec3T<S> e = column<S>(ends.B, equation.j);
-                sum = dot<S>(column<S>(ends.A, equation.i),
-                             Vec3T<S>(cross<S>(b.alpha, e) + cross<S>(b.w, cross<S>(b.w, e))));
+        if constexpr (std::is_same_v<S, double>)
+            if (loop.surface >= 0) {
+                const Vec3 f = wrench<double>(loop, loop.equations[0], ends).force;
+                out(loop.first) = f.dot(b.a) + b.v.dot(surface_bend(loop, ends) * b.v);
                 continue;
             }
-            sum = dot<S>(pair.force, b.a);
-            if (equation.kind == Kind::distance) {
-                const S along = dot<S>(pair.force, b.v);
-                sum += (dot<S>(b.v, b.v) - along * along) / std::sqrt(dot<S>(ends.d, ends.d));
-            } else if constexpr (std::is_same_v<S, double>) {
-                if (equation.kind == Kind::surface) {
-                    const Vec3 v = ends.A.transpose() * b.v;
-                    sum += v.dot(entry(surfaces_, loop.surface).second(ends.A.transpose() * ends.d) * v);
-                }
-            }
-        }
+        for (int k = loop.first; const RelativeMeasure& equation : loop.equations)
+            out(k++) = cardan::bias<S>(equation, ends, b);
     }
     if constexpr (std::is_same_v<S, double>)
         for_each_user(time, q, [&](int k, const ConstraintTerms& terms) {
@@ -347,45 +279,30 @@ void Loops::bias(const KinematicsT<S>& kin, [[maybe_unused]] double time, Vector
         });
 }
 
-// For b before c on the way from a to b, d_b d_c x = w_b x v_c and d_b d_c e = w_b x (w_c x e): turning a joint carries
-// what lies behind it along.
 void Loops::add_second_gradient(const Kinematics& kin, double time, VectorIn q, VectorIn factors, MatrixOut H) const {
     check<double>(kin, q);
     require_size(in_loops, "factors", factors, size());
     require_size(in_loops, "second gradient", H, coordinates_, coordinates_);
     for (const Loop& loop : loops_) {
-        const Ends<double> ends(kin, loop);
-        // The sum over the loop's equations: force . (w_b x v_c), v_b . bend v_c, and c . (w_b x (w_c x e)) of each
-        // pair.
-        Vec3 force = Vec3::Zero();
-        Mat3 bend = Mat3::Zero(), directions = Mat3::Zero();
-        for (int k = loop.first; const Primitive& equation : loop.equations) {
-            const double factor = factors(k++);
-            if (equation.kind == Kind::square) {
-                // c . (w_b x (w_c x e)) = (w_b . e)(c . w_c) - (c . e)(w_b . w_c)
-                directions += factor * ends.B.col(equation.j) * ends.A.col(equation.i).transpose();
-                continue;
-            }
-            const Vec3 f = wrench<double>(loop, equation, ends).force;
-            force += factor * f;
-            if (equation.kind == Kind::distance)
-                bend += factor / ends.d.norm() * (Mat3::Identity() - f * f.transpose());
-            else if (equation.kind == Kind::surface)
-                bend += factor * ends.A * entry(surfaces_, loop.surface).second(ends.A.transpose() * ends.d) *
-                        ends.A.transpose();
+        const FrameEnds<double> ends(kin, loop.a, loop.b);
+        MeasureCurvature curvature;
+        if (loop.surface >= 0) {
+            const double factor = factors(loop.first);
+            curvature.force = factor * wrench<double>(loop, loop.equations[0], ends).force;
+            curvature.bend = factor * surface_bend(loop, ends);
+        } else {
+            for (int k = loop.first; const RelativeMeasure& equation : loop.equations)
+                curvature.add(equation, factors(k++), ends);
         }
-        const double trace = directions.trace();
         for (std::size_t i = 0; i < loop.path.size(); ++i) {
             const PathStep& before = loop.path[i];
             const PointTwist<double> b = own_twist_at<double>(kin, before.coordinate, ends.p);
             for (std::size_t j = i; j < loop.path.size(); ++j) {
                 const PathStep& behind = loop.path[j];
-                const PointTwist<double> c = own_twist_at<double>(kin, behind.coordinate, ends.p);
-                const double second =
-                    force.dot(b.w.cross(c.v)) + b.v.dot(bend * c.v) + b.w.dot(directions * c.w) - trace * b.w.dot(c.w);
-                const double signed_second = before.sign * behind.sign * second;
-                H(before.coordinate, behind.coordinate) += signed_second;
-                if (i != j) H(behind.coordinate, before.coordinate) += signed_second;
+                const double second = before.sign * behind.sign *
+                                      curvature.between(b, own_twist_at<double>(kin, behind.coordinate, ends.p));
+                H(before.coordinate, behind.coordinate) += second;
+                if (i != j) H(behind.coordinate, before.coordinate) += second;
             }
         }
     }
@@ -397,7 +314,7 @@ void Loops::add_second_gradient(const Kinematics& kin, double time, VectorIn q, 
 int Loops::turned_over(const Kinematics& kin) const {
     require_model(in_loops, "kinematics", kin.model().serial(), model_);
     for (int i = 0; const Loop& loop : loops_) {
-        const Ends<double> ends(kin, loop);
+        const FrameEnds<double> ends(kin, loop.a, loop.b);
         if ((loop.aligned && ends.A.col(2).dot(ends.B.col(2)) < 0) ||
             (loop.same_x && ends.A.col(0).dot(ends.B.col(0)) < 0))
             return i;
@@ -409,10 +326,25 @@ int Loops::turned_over(const Kinematics& kin) const {
 double Loops::extent(const Kinematics& kin) const {
     double largest = 1;
     for (const Loop& loop : loops_) {
-        const Ends<double> ends(kin, loop);
+        const FrameEnds<double> ends(kin, loop.a, loop.b);
         largest = std::max({largest, ends.p.norm(), (ends.p - ends.d).norm()});
     }
     return largest;
+}
+
+bool Loops::holds_directions(int pair) const {
+    const Loop& loop = entry(loops_, pair);
+    return loop.surface < 0 &&
+           std::ranges::any_of(loop.equations, [](const RelativeMeasure& m) { return m.kind == Kind::square; });
+}
+
+Mat3 Loops::axes(const Kinematics& kin, int pair) const {
+    return pose<double>(kin, entry(loops_, pair).a).R;
+}
+
+double Loops::rod_tension(const Kinematics& kin, int pair, const LoopLoad& on_b) const {
+    const FrameEnds<double> ends(kin, entry(loops_, pair).a, entry(loops_, pair).b);
+    return -on_b.force.dot(ends.d) / ends.length();
 }
 
 LoopLoad Loops::reaction(const Kinematics& kin, int loop, VectorIn lambda) const {
@@ -422,10 +354,10 @@ LoopLoad Loops::reaction(const Kinematics& kin, int loop, VectorIn lambda) const
         throw InputError(in_loops, "loop with a force", loop,
                          text("0 ... ", std::ssize(loops_) - 1, ": joints, rods and surfaces"));
     const Loop& own = entry(loops_, loop);
-    const Ends<double> ends(kin, own);
+    const FrameEnds<double> ends(kin, own.a, own.b);
     LoopLoad load{own.body_b, ends.p, Vec3::Zero(), Vec3::Zero()};
-    for (int k = own.first; const Primitive& equation : own.equations) {
-        const Pair<double> pair = wrench<double>(own, equation, ends);
+    for (int k = own.first; const RelativeMeasure& equation : own.equations) {
+        const UnitWrench<double> pair = wrench<double>(own, equation, ends);
         load.force += lambda(k) * pair.force;
         load.moment += lambda(k) * pair.moment;
         ++k;

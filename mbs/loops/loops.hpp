@@ -5,6 +5,7 @@
 #include "mbs/kernels/kinematics.hpp"
 #include "mbs/loops/loop_set.hpp"
 #include "mbs/loops/path.hpp"
+#include "mbs/loops/relative_measure.hpp"
 
 #include <string>
 #include <vector>
@@ -53,6 +54,19 @@ public:
     std::string describe(int loop) const;
     /// Where a loop's equations begin; loops(): their number.
     int first_of(int loop) const { return entry(first_, loop); }
+    /// @name Joints, rods and surfaces, which come first among the loops
+    /// Loads that they exert have a place; those of couplings and constraints of one's own do not.
+    ///@{
+    int pairs() const { return static_cast<int>(loops_.size()); }
+    bool is_rod(int pair) const { return entry(loops_, pair).length > 0; }
+    /// Whether there may be a moment.
+    bool holds_directions(int pair) const;
+    /// Axes of frame a, base axes.
+    Mat3 axes(const Kinematics& kin, int pair) const;
+    /// N, positive where it pulls.
+    /// @param on_b  its load on b
+    double rod_tension(const Kinematics& kin, int pair, const LoopLoad& on_b) const;
+    ///@}
     /// Whether a coordinate occurs in any of them.
     bool involves(int coordinate) const { return !empty() && entry(involved_, coordinate); }
 
@@ -90,12 +104,6 @@ public:
     LoopLoad reaction(const Kinematics& kin, int loop, VectorIn lambda) const;
 
 private:
-    enum class Kind : std::uint8_t { along, square, distance, surface };
-    // c = axis i of a, e = axis j of b, d from a to b: c . d, c . e, |d| - length, value(d in axes of a).
-    struct Primitive {
-        Kind kind;
-        int i = 0, j = 0;
-    };
     struct Loop {
         FrameId a, b;
         int body_a, body_b;
@@ -103,7 +111,7 @@ private:
         int surface;                 // index in surfaces_, -1: none
         bool aligned, same_x;        // z of a and b agree; x as well
         std::vector<PathStep> path;  // from a to b
-        std::vector<Primitive> equations;
+        std::vector<RelativeMeasure> equations;
         int first;  // index of its first equation
     };
     struct Linear {
@@ -115,17 +123,13 @@ private:
         UserConstraint own;
         int equation;
     };
-    template <class S>
-    struct Ends;
-    template <class S>
-    struct Pair;
-
     void add_loop(const std::string& name, const Model& model, Loop loop);
     void add_equation(const std::string& name, std::string unit);
     template <class S>
-    Pair<S> wrench(const Loop& loop, const Primitive& equation, const Ends<S>& ends) const;
+    UnitWrench<S> wrench(const Loop& loop, const RelativeMeasure& equation, const FrameEnds<S>& ends) const;
     template <class S>
-    S value(const Loop& loop, const Primitive& equation, const Ends<S>& ends) const;
+    S value(const Loop& loop, const RelativeMeasure& equation, const FrameEnds<S>& ends) const;
+    Mat3 surface_bend(const Loop& loop, const FrameEnds<double>& ends) const;
     template <class Visit>
     void for_each_user(double time, VectorIn q, const Visit& visit) const;
     template <class S>

@@ -1,3 +1,4 @@
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/urdf/urdf.hpp"
 
@@ -5,20 +6,43 @@
 
 namespace cardan {
 
+namespace {
+
+BodyId body_of(const Tree& tree, const std::string& coordinate, std::string_view where) {
+    const std::vector<Tree::Body>& bodies = tree.bodies();
+    const auto body =
+        std::ranges::find_if(bodies, [&](const Tree::Body& b) { return b.spec.coordinate.name == coordinate; });
+    if (body == bodies.end()) throw InputError(where, "coordinate", coordinate, "one of the tree");
+    return BodyId{static_cast<int>(body - bodies.begin())};
+}
+
+}  // namespace
+
 ForceSet joint_damping(const Tree& tree, const std::vector<UrdfJoint>& joints) {
     ForceSet forces;
-    const std::vector<Tree::Body>& bodies = tree.bodies();
     for (const UrdfJoint& joint : joints) {
-        const auto body = std::find_if(bodies.begin(), bodies.end(),
-                                       [&](const Tree::Body& b) { return b.spec.coordinate.name == joint.coordinate; });
         const std::string where = text("joint data of '", joint.coordinate, "'");
-        if (body == bodies.end()) throw InputError(where, "coordinate", joint.coordinate, "one of the tree");
+        const BodyId body = body_of(tree, joint.coordinate, where);
         require_not_negative(where, "damping", joint.damping);
-        if (joint.damping > 0)
-            forces.add_spring(joint.coordinate + " damping", BodyId{static_cast<int>(body - bodies.begin())}, 0,
-                              joint.damping);
+        if (joint.damping > 0) forces.add_spring(joint.coordinate + " damping", body, 0, joint.damping);
     }
     return forces;
+}
+
+LoopSet mimic_couplings(const Tree& tree, const std::vector<UrdfJoint>& joints) {
+    LoopSet loops;
+    for (const UrdfJoint& joint : joints) {
+        if (!joint.mimic) continue;
+        const std::string where = text("joint data of '", joint.coordinate, "'");
+        Coupling coupling{text(joint.coordinate, " mimics ", joint.mimic->joint), {}, joint.mimic->offset, "rad"};
+        const BodyId own = body_of(tree, joint.coordinate, where);
+        coupling.factors.emplace_back(own, 1.0);
+        const BodyId other = body_of(tree, joint.mimic->joint, where);
+        if (joint.mimic->multiplier != 0) coupling.factors.emplace_back(other, -joint.mimic->multiplier);
+        if (entry(tree.bodies(), own.index).spec.joint == JointKind::prismatic) coupling.unit = "m";
+        loops.add_coupling(std::move(coupling));
+    }
+    return loops;
 }
 
 }  // namespace cardan

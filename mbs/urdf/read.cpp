@@ -256,7 +256,7 @@ private:
             data.mimic = UrdfMimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};
             note(entry.line, text("joint '", entry.name, "' mimics joint '", joint.mimic->joint_name,
                                   "': the coupling is kept beside the tree and not applied, the coordinate stays free, "
-                                  "because coordinates of a tree are independent"));
+                                  "because coordinates of a tree are independent; mimic_couplings() makes it a loop"));
         }
         out_.joints.push_back(data);
     }

@@ -7,6 +7,7 @@
 /// frame. So `tree.frame("link name")` is the frame of the URDF link in every case.
 #pragma once
 
+#include "mbs/loops/loop_set.hpp"
 #include "mbs/model/tree.hpp"
 #include "mbs/system/forces.hpp"
 
@@ -19,7 +20,8 @@
 
 namespace cardan {
 
-/// A URDF `<mimic>`: coordinate = multiplier * other coordinate + offset. Never applied: coordinates are independent.
+/// A URDF `<mimic>`: coordinate = multiplier * other coordinate + offset. Not applied to the tree, whose
+/// coordinates are independent: mimic_couplings().
 struct UrdfMimic {
     std::string joint = {};  ///< name of the other joint
     double multiplier = 1;
@@ -63,6 +65,10 @@ struct UrdfModel {
 /// Dampers with the viscous damping of the joints, named "<coordinate> damping". (Coulomb friction has no law.)
 /// @throws InputError if the tree has no such coordinate or a damping is negative
 [[nodiscard]] ForceSet joint_damping(const Tree& tree, const std::vector<UrdfJoint>& joints);
+
+/// What mimicking joints are held to, as couplings "<coordinate> mimics <joint>" for System's loops.
+/// @throws InputError if the tree has no such coordinate, or a joint mimics itself
+[[nodiscard]] LoopSet mimic_couplings(const Tree& tree, const std::vector<UrdfJoint>& joints);
 
 /// What is written in addition to the tree.
 struct UrdfExport {

@@ -4,8 +4,10 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "mbs/loops/closure.hpp"
 #include "solvers/campbell/detail/floquet_point.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
+#include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/problem_size.hpp"
 #include "solvers/periodic/periodic_system.hpp"
 
@@ -33,7 +35,6 @@ void require_constant_rows(const RotorMap& rotor, const std::vector<int>& unknow
 std::vector<int> unknowns_of(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
     check(rotor, system.model);
     const bool spin_is_unknown = options.spin == RotorSpin::free && !rotor.hub_is_driven;
-    system.require_no_loops("Campbell diagram");
     std::vector<int> unknowns = system.model.coordinates().free_without(spin_is_unknown ? -1 : rotor.spin);
     check_number_of_unknowns(rotor.machine, unknowns.size());
     if (rotor.spin >= 0 && options.method != CampbellMethod::floquet) require_constant_rows(rotor, unknowns);
@@ -77,13 +78,44 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       rotor_(rotor),
       options_(options),
       unknowns_(unknowns_of(system, rotor, options)),
-      plain_rows_(unknowns_.size()),
       steady_solver_(system, rotor.spin),
-      lineariser_(system),
-      mode_solver_(std::ssize(unknowns_), system.forces.states().size()) {
+      lineariser_(system) {
+    if (!system.loops.empty()) reduce_unknowns();
+    plain_rows_.resize(unknowns_.size());
+    mode_solver_.emplace(std::ssize(unknowns_), system.forces.states().size());
     const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
     const bool blades = rotor.blades.size() > 1 && without_multi_blade_coordinates(rotor, unknowns_).empty();
     if (disc || blades) coleman_.emplace(rotor, unknowns_, system.forces.states());
+}
+
+// With loops: the coordinates that are independent where these are closed.
+void PointSolver::reduce_unknowns() {
+    ClosureOptions options;
+    if (rotor_.spin >= 0) options.held = {rotor_.spin};
+    const Vector zero = Vector::Zero(system_.model.size());
+    const Closure closed = close_loops(system_.model, system_.loops, zero, options);
+    require_result(closed, rotor_.machine);
+    lineariser_.linearise({closed.q, zero, zero}, lin_);
+    moving_ = unknowns_;
+    unknowns_ = independent_coordinates(lin_, moving_);
+    if (rotor_.blades.size() > 1 && options_.method != CampbellMethod::floquet)
+        require_constant_rows(rotor_, unknowns_);
+}
+
+void PointSolver::linearise(const OperatingPoint& at) {
+    lineariser_.linearise(at, lin_);
+    if (!moving_.empty()) condense_loops(lin_, moving_, unknowns_);
+}
+
+Matrix PointSolver::followers(const OperatingPoint& at) const {
+    if (moving_.empty()) return {};
+    Workspace workspace(system_.model);
+    Matrix G(system_.loops.size(), system_.model.size());
+    system_.loops.gradient<double>(kinematics(system_.model, at.q, workspace), at.time, at.q, G);
+    const Matrix shape = following(G, moving_, unknowns_);
+    Matrix all = Matrix::Zero(G.cols(), shape.cols());
+    for (Eigen::Index i = 0; i < shape.rows(); ++i) all.row(entry(moving_, i)) = shape.row(i);
+    return all;
 }
 
 // A constant state: from the mean of a periodic one.
@@ -143,12 +175,12 @@ void PointSolver::set_margin(CampbellPoint& point) const {
 void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     find_steady_state(rotor_speed);
     if (steady_options_.trim) rotor_speed = steady_.at.qd(rotor_.spin);
-    lineariser_.linearise(steady_.at, lin_);
+    linearise(steady_.at);
     if (turned_.q.size() == 0) start();
     set_system(rotor_speed);
     point.rotor_speed = rotor_speed;
     point.at = steady_.at;
-    set_modes(mode_solver_.solve(current_, range_.largest(options_, rotor_speed)), point);
+    set_modes(mode_solver_->solve(current_, range_.largest(options_, rotor_speed)), point);
     range_.set(point.modes, rotor_speed);
     if (rotor_speed == 0 && blades_stand_out()) set_blade_shares(point);
     point.periodic.reset();
@@ -157,20 +189,20 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
 
 // Those of the solver, and motions of states apart.
 void PointSolver::set_modes(std::size_t count, CampbellPoint& point) {
-    const auto is_motion_of_states = [&](std::size_t i) { return mode_solver_.state_share(i) >= 0.5; };
+    const auto is_motion_of_states = [&](std::size_t i) { return mode_solver_->state_share(i) >= 0.5; };
     point.state_motions.clear();
     for (std::size_t i = 0; i < count; ++i)
         if (is_motion_of_states(i)) {
             Mode mode;
-            mode_solver_.copy(i, mode);
+            mode_solver_->copy(i, mode);
             point.state_motions.push_back(state_motion(std::move(mode), current_.states.scales));
         }
     set_count(point.modes, count - point.state_motions.size());
     for (std::size_t i = 0, next = 0; i < count; ++i) {
         if (is_motion_of_states(i)) continue;
         CampbellMode& m = point.modes[next++];
-        mode_solver_.copy(i, m.mode);
-        mode_solver_.energy_by_row(i, m.row_shares);
+        mode_solver_->copy(i, m.mode);
+        mode_solver_->energy_by_row(i, m.row_shares);
         energy_shares_->shares(m.mode, m.shares);
         // In a closed loop the rotor oscillates with hardly any spring.
         m.row = current_.states.size() > 0 ? naming_row(current_, m.mode) : -1;
@@ -242,7 +274,7 @@ void PointSolver::set_system(double rotor_speed) {
 void PointSolver::set_at_azimuth(double psi, double rotor_speed, SecondOrderSystem& out) {
     turned_ = steady_.at;
     turned_.q(rotor_.spin) += psi;
-    lineariser_.linearise(turned_, lin_);
+    linearise(turned_);
     restrict_to(lin_, unknowns_, rotor_.spin, out);
     if (coleman_) coleman_->transform_in_place(out, psi, rotor_speed);
 }
@@ -259,7 +291,7 @@ double PointSolver::remainder(double rotor_speed) {
 double PointSolver::periodic_remainder(double rotor_speed) {
     find_steady_state(rotor_speed);
     if (steady_options_.trim) rotor_speed = steady_.at.qd(rotor_.spin);
-    lineariser_.linearise(steady_.at, lin_);
+    linearise(steady_.at);
     if (turned_.q.size() == 0) start();
     restrict_to(lin_, unknowns_, rotor_.spin, current_);
     if (coleman_) coleman_->transform_in_place(current_, 0, rotor_speed);

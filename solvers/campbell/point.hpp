@@ -36,6 +36,8 @@ public:
     virtual const EnergyShares* energy_shares() const = 0;
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     virtual Matrix rotating_coordinates() const = 0;
+    /// With loops, how all coordinates of the model move with the unknowns in blade coordinates; empty without.
+    virtual Matrix followers(const OperatingPoint& /*at*/) const { return {}; }
     /// Null without multi-blade rows.
     virtual const ColemanTransform* coleman() const = 0;
     /// A warning about the results so far; usually empty.
@@ -80,6 +82,7 @@ public:
     const EnergyShares* energy_shares() const override { return energy_shares_ ? &*energy_shares_ : nullptr; }
     Matrix rotating_coordinates() const override;
     const std::string& warning() const override { return warning_; }
+    Matrix followers(const OperatingPoint& at) const override;
 
     /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
     /// solve().
@@ -98,6 +101,8 @@ public:
 private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
     void find_steady_state(double rotor_speed);
+    void linearise(const OperatingPoint& at);
+    void reduce_unknowns();
     void start();
     void note_rigid_springs();
     void set_margin(CampbellPoint& point) const;
@@ -117,6 +122,7 @@ private:
     CampbellOptions options_;
     ModeRange range_;
     std::vector<int> unknowns_;
+    std::vector<int> moving_;  ///< with loops: these, and the coordinates that follow them; empty without
     std::optional<ColemanTransform> coleman_;
     std::vector<MultiBladeRow> plain_rows_;
     std::optional<EnergyShares> energy_shares_;
@@ -124,7 +130,7 @@ private:
 
     SteadySolver steady_solver_;
     Lineariser lineariser_;
-    ModeSolver mode_solver_;
+    std::optional<ModeSolver> mode_solver_;
     SteadyOptions steady_options_;
     SteadyState steady_;
     OperatingPoint turned_;

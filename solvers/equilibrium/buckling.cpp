@@ -4,6 +4,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/load_path.hpp"
+#include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/modes.hpp"
 
 #include <algorithm>
@@ -98,9 +99,7 @@ void check(const LoadStabilityOptions& options) {
 class Scan {
 public:
     Scan(const System& system, const LoadStabilityOptions& options)
-        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {
-        system.require_no_loops("linear buckling");
-    }
+        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
 
     // None if there is no equilibrium; then `message` says why. `q` is the start and becomes the equilibrium.
     std::optional<LoadStabilityPoint> at(double factor, Vector& q) {
@@ -136,6 +135,7 @@ private:
 }  // namespace
 
 std::vector<BucklingMode> linear_buckling(const System& system, const BucklingOptions& options) {
+    system.require_no_loops("linear buckling");
     const Eigen::Index n = system.model.size();
     if (options.count < 1) throw InputError("linear buckling", "number of factors", options.count, ">= 1");
     if (options.at.size() != 0 && (options.at.size() != n || !options.at.allFinite()))

@@ -2,7 +2,7 @@
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/linear/linearise.hpp"
+#include "solvers/linear/loop_reduction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +44,7 @@ struct Attempt {
 class Path {
 public:
     Path(const System& system, const LoadPathOptions& options)
-        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {
-        system.require_no_loops("load path");
-    }
+        : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
 
     Attempt solve(double factor, const Vector& start) const {
         const System loaded = under_load(system_, factor, options_.gravity);
@@ -59,7 +57,7 @@ public:
                 attempt.reason = found.message;
                 return attempt;
             }
-            const Matrix K = static_stiffness(restrict_to(linearise(loaded, found.at), unknowns_));
+            const Matrix K = static_stiffness(reduce_loops(linearise(loaded, found.at), unknowns_).system);
             attempt.point = {factor, found.at, found.iterations, found.residual, negative_pivots(K)};
         } catch (const NumericalError& error) {  // no constant state at all
             attempt.reason = error.what();

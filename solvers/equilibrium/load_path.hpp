@@ -62,7 +62,8 @@ struct [[nodiscard]] LoadPath : Outcome {
 /// state, extrapolated along the secant of the last two, and is solved by steady_state(). An unstable equilibrium
 /// (beyond a bifurcation of a perfect structure) is followed like any other: see `negative_pivots`.
 ///
-/// Load control: beyond a limit point, where the load cannot grow further, the path ends.
+/// Load control: beyond a limit point, where the load cannot grow further, the path ends; load_curve() goes on. With
+/// loops the stiffness is that of the closed machine.
 /// @throws InputError: factors not finite or not strictly increasing, steps < 1, smallest_step or largest_change not
 /// positive, a negative tolerance; and as steady_state().
 LoadPath load_path(const System& system, const LoadPathOptions& options = {});

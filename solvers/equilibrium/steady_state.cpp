@@ -2,9 +2,9 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/derivatives.hpp"
 #include "solvers/algebra/detail/sundials_memory.hpp"
 #include "solvers/equilibrium/detail/closed_start.hpp"
+#include "solvers/equilibrium/detail/steady_residual.hpp"
 #include "solvers/equilibrium/detail/stiffness_solver.hpp"
 
 #include <kinsol/kinsol.h>
@@ -26,173 +26,10 @@ void free_kinsol(void* memory) {
     KINFree(&memory);
 }
 
-// Residual and Jacobian on the unknowns: free coordinates without the spin, then states that settle, multipliers of the
-// loops' independent equations with these as their own, then what a trim finds, with the torque on the spin as its
-// equation.
-class Residual {
-public:
-    Residual(const System& system, int spin, bool with_trim, std::vector<int> equations)
-        : trimmed(with_trim),
-          loops(std::move(equations)),
-          unknowns(system.model.coordinates().free_without(spin)),
-          system_(system),
-          spin_(spin),
-          workspace_(system.model) {
-        const int n = system.model.size();
-        for (Vector* v : {&at.q, &at.qd, &at.qdd, &tau_, &Q_}) v->setZero(n);
-        by_q_.setZero(n, n);
-        by_qd_.setZero(n, n);
-        const StateTable& table = system.forces.states();
-        for (int i = 0; i < table.size(); ++i)
-            if (table[i].kind != StateKind::angle) states.push_back(i);
-        f_.setZero(table.size());
-        at.u = system.forces.inputs().initial();
-        if (system.loops.empty()) return;
-        phi_.setZero(system.loops.size());
-        at.lambda = phi_;
-        gradients_.setZero(phi_.size(), n);
-    }
-    std::size_t size() const { return unknowns.size() + states.size() + loops.size() + (trimmed ? 1 : 0); }
-
-    void start(const SteadyOptions& options) {
-        if (options.initial.size() > 0)
-            at.q = options.initial;
-        else
-            at.q.setZero();
-        if (spin_ >= 0) {
-            at.q(spin_) = options.azimuth;
-            at.qd(spin_) = options.rotor_speed;
-        }
-        at.s = options.states.size() > 0 ? options.states : system_.forces.states().initial();
-        at.u = options.inputs.size() > 0 ? options.inputs : system_.forces.inputs().initial();
-        input_ = !trimmed || options.trim->input.empty() ? -1 : system_.forces.inputs().index(options.trim->input);
-        thrown = nullptr;
-    }
-    void set(const double* x) {
-        for (const int i : unknowns) at.q(i) = *x++;
-        for (const int i : states) at.s(i) = *x++;
-        for (const int i : loops) at.lambda(i) = *x++;
-        if (trimmed) (input_ < 0 ? at.qd(spin_) : at.u(input_)) = *x;
-    }
-    void get(double* x) const {
-        for (const int i : unknowns) *x++ = at.q(i);
-        for (const int i : states) *x++ = at.s(i);
-        for (const int i : loops) *x++ = at.lambda(i);
-        if (trimmed) *x = input_ < 0 ? at.qd(spin_) : at.u(input_);
-    }
-    void turn_to(double azimuth) { at.q(spin_) = azimuth; }
-    void evaluate(double* r) {
-        const Kinematics kin = kinematics(system_.model, at.q, workspace_);
-        inverse_dynamics<double>(kin, at.qd, at.qdd, tau_);
-        if (system_.forces.has_states())
-            system_.forces.evaluate({at.time, at.q, at.qd, kin, at.s, at.u}, Q_, f_);
-        else
-            system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
-        if (phi_.size() > 0) {
-            system_.loops.residual<double>(kin, at.time, at.q, phi_);
-            system_.loops.gradient<double>(kin, at.time, at.q, gradients_);
-            Q_.noalias() += gradients_.transpose() * at.lambda;
-        }
-        for (const int i : unknowns) *r++ = tau_(i) - Q_(i);
-        for (const int i : states) *r++ = -f_(i);
-        for (const int i : loops) *r++ = phi_(i);
-        if (trimmed) *r = tau_(spin_) - Q_(spin_);
-    }
-    /// @param J  out, over the unknowns, column-major
-    void jacobian(double* J) {
-        const Kinematics kin = kinematics(system_.model, at.q, workspace_);
-        inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, by_q_, by_qd_);
-        if (system_.forces.has_states())
-            system_.forces.derivatives({at.time, at.q, at.qd, kin, at.s, at.u}, forces_, by_states_);
-        else
-            system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
-        by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
-        if (phi_.size() > 0) {
-            system_.loops.gradient<double>(kin, at.time, at.q, gradients_);
-            system_.loops.add_second_gradient(kin, at.time, at.q, -at.lambda, by_q_);
-        }
-        for (int b : unknowns) {
-            for (int a : unknowns) *J++ = by_q_(a, b);
-            for (int a : states) *J++ = -by_states_.f_q(a, b);
-            for (int k : loops) *J++ = gradients_(k, b);
-            if (trimmed) *J++ = by_q_(spin_, b);
-        }
-        for (int b : states) {
-            for (int a : unknowns) *J++ = -by_states_.Q_s(a, b);
-            for (int a : states) *J++ = -by_states_.f_s(a, b);
-            J = std::fill_n(J, loops.size(), 0.0);
-            if (trimmed) *J++ = -by_states_.Q_s(spin_, b);
-        }
-        for (int k : loops) {
-            for (int a : unknowns) *J++ = -gradients_(k, a);
-            J = std::fill_n(J, states.size() + loops.size(), 0.0);
-            if (trimmed) *J++ = -gradients_(k, spin_);
-        }
-        if (trimmed) by_trim(J);
-    }
-    // Stiffness of the springs alone, at the state of the last call of jacobian().
-    double elastic_diagonal(Eigen::Index i) const { return forces_.elastic(entry(unknowns, i), entry(unknowns, i)); }
-
-    // With loops, where there may be no stiffness: the largest of the forces that balance in an equation.
-    double load(Eigen::Index i) const {
-        const int a = entry(unknowns, i);
-        return std::abs(tau_(a)) + gradients_.col(a).cwiseAbs().dot(at.lambda.cwiseAbs());
-    }
-    // At a closed position, the multipliers that come nearest to carry the loads; of all equations.
-    LoopStart start_of_loops() {
-        Vector r(size());
-        at.lambda.setZero();
-        evaluate(r.data());
-        return loop_start(system_, spin_, at.time, at.q, tau_ - Q_);
-    }
-    // What is left open of all equations, per metre of the loops' extent, and the loop it is.
-    std::pair<double, std::string> gap() {
-        const Kinematics kin = kinematics(system_.model, at.q, workspace_);
-        system_.loops.residual<double>(kin, at.time, at.q, phi_);
-        Eigen::Index worst = 0;
-        const double largest = phi_.cwiseAbs().maxCoeff(&worst);
-        return {largest / system_.loops.extent(kin),
-                system_.loops.describe(entry(system_.loops.equations(), worst).loop)};
-    }
-
-    const StateTable& table() const { return system_.forces.states(); }
-    double scale_of(std::size_t state) const { return table()[states[state]].scale; }
-    // Of the quantity that a trim finds; 1 rad/s.
-    double scale_of_trim() const { return input_ < 0 ? 1 : system_.forces.inputs()[input_].scale; }
-    double speed() const { return spin_ < 0 ? 0 : at.qd(spin_); }
-    const InputTable& inputs() const { return system_.forces.inputs(); }
-
-    bool trimmed;
-    std::vector<int> loops;  ///< independent equations
-    std::vector<int> unknowns, states;
-    OperatingPoint at;
-    std::exception_ptr thrown;
-
-private:
-    // The last column.
-    void by_trim(double* J) const {
-        const auto of_force = [&](int a) {
-            return input_ < 0 ? by_qd_(a, spin_) + forces_.damping(a, spin_) : -by_states_.Q_u(a, input_);
-        };
-        for (int a : unknowns) *J++ = of_force(a);
-        for (int a : states) *J++ = input_ < 0 ? -by_states_.f_qd(a, spin_) : -by_states_.f_u(a, input_);
-        J = std::fill_n(J, loops.size(), 0.0);
-        *J = of_force(spin_);
-    }
-
-    const System& system_;
-    int spin_, input_ = -1;
-    Workspace workspace_;
-    Vector tau_, Q_, f_, phi_;
-    Matrix by_q_, by_qd_, gradients_;
-    ForceDerivatives forces_;
-    StateDerivatives by_states_;
-};
-
 // Exceptions must not cross KINSOL: kept and rethrown outside.
 template <class F>
 int guarded(void* user, F f) {
-    auto* residual = static_cast<Residual*>(user);
+    auto* residual = static_cast<SteadyResidual*>(user);
     try {
         f(*residual);
         return 0;
@@ -203,14 +40,14 @@ int guarded(void* user, F f) {
 }
 
 int residual_callback(N_Vector x, N_Vector r, void* user) {
-    return guarded(user, [&](Residual& residual) {
+    return guarded(user, [&](SteadyResidual& residual) {
         residual.set(N_VGetArrayPointer(x));
         residual.evaluate(N_VGetArrayPointer(r));
     });
 }
 
 int jacobian_callback(N_Vector x, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector) {
-    return guarded(user, [&](Residual& residual) {
+    return guarded(user, [&](SteadyResidual& residual) {
         residual.set(N_VGetArrayPointer(x));
         residual.jacobian(SUNDenseMatrix_Data(J));
     });
@@ -258,7 +95,7 @@ private:
     bool check_closed(SteadyState& result);
 
     int spin_, coordinates_;
-    Residual residual_;
+    SteadyResidual residual_;
     Vector scale_, r_;
     // The order matters: members are destroyed in reverse, KINSOL first, the context last.
     SundialsContext context_;

@@ -26,6 +26,12 @@ struct PeerLink {
     }
 };
 
+/// Points of two links that are held together: a loop.
+struct PeerPin {
+    int a = -1, b = -1;                 ///< links, -1: ground
+    double at_a[3] = {}, at_b[3] = {};  ///< in their joint frames, m
+};
+
 /// A tree that an engine cannot represent.
 class PeerRefusal : public std::runtime_error {
 public:

@@ -75,13 +75,21 @@ struct SimbodyPeer::Impl {
     }
 };
 
-SimbodyPeer::SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity) : impl_(new Impl) {
+SimbodyPeer::SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity,
+                         const std::vector<PeerPin>& pins)
+    : impl_(new Impl) {
     Impl& s = *impl_;
     s.gravity = Vec3(gravity[0], gravity[1], gravity[2]);
     for (const PeerLink& link : links) {
         MobilizedBody& parent = link.parent < 0 ? s.matter.updGround() : entry(s.bodies, link.parent);
         s.bodies.push_back(attach(parent, link));
     }
+    const auto held = [&](int link) -> MobilizedBody& {
+        return link < 0 ? s.matter.updGround() : entry(s.bodies, link);
+    };
+    for (const PeerPin& pin : pins)
+        Constraint::Ball(held(pin.a), Vec3(pin.at_a[0], pin.at_a[1], pin.at_a[2]), held(pin.b),
+                         Vec3(pin.at_b[0], pin.at_b[1], pin.at_b[2]));
     s.state = s.system.realizeTopology();
     s.system.realizeModel(s.state);
     int n = 0;
@@ -119,6 +127,14 @@ void SimbodyPeer::forward_dynamics(const double* q, const double* qd, const doub
     s.set(q, qd, Stage::Dynamics);
     copy(Q, s.given);
     s.matter.calcAccelerationIgnoringConstraints(s.state, s.given, s.weigh(), s.result, s.body_accelerations);
+    copy(s.result, qdd);
+}
+
+void SimbodyPeer::closed_dynamics(const double* q, const double* qd, const double* Q, double* qdd) {
+    Impl& s = *impl_;
+    s.set(q, qd, Stage::Dynamics);
+    copy(Q, s.given);
+    s.matter.calcAcceleration(s.state, s.given, s.weigh(), s.result, s.body_accelerations);
     copy(s.result, qdd);
 }
 

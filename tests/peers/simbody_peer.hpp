@@ -12,7 +12,8 @@ namespace cardan::peers {
 class SimbodyPeer : public Peer {
 public:
     /// @throws PeerRefusal for a link that has moments of inertia but no mass
-    explicit SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {});
+    explicit SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {},
+                         const std::vector<PeerPin>& pins = {});
     ~SimbodyPeer() override;
     SimbodyPeer(const SimbodyPeer&) = delete;
     SimbodyPeer& operator=(const SimbodyPeer&) = delete;
@@ -20,6 +21,8 @@ public:
     void metric(const double* q, double* g) override;
     void inverse_dynamics(const double* q, const double* qd, const double* qdd, double* tau) override;
     void forward_dynamics(const double* q, const double* qd, const double* Q, double* qdd) override;
+    /// Likewise with the pins.
+    void closed_dynamics(const double* q, const double* qd, const double* Q, double* qdd);
 
 private:
     struct Impl;

@@ -1,4 +1,6 @@
 // Cardan beside Simbody: the same trees, two programs that share nothing.
+#include "solvers/time/equations_of_motion.hpp"
+#include "tests/peers/closed_links.hpp"
 #include "tests/peers/comparison.hpp"
 #include "tests/peers/simbody_peer.hpp"
 #include "tests/support/catch.hpp"
@@ -65,4 +67,20 @@ TEST_CASE("simbody: the 600 kW machine but for its armatures", "[peers]") {
 TEST_CASE("simbody: a link with moments of inertia and no mass is refused", "[peers]") {
     const PeerLink link = peer_link(-1, PeerJoint::revolute, {}, {0, Vec3::Zero(), Mat3::Identity()});
     REQUIRE_THROWS_AS(SimbodyPeer({link}), PeerRefusal);
+}
+
+TEST_CASE("simbody: accelerations of linkages with loops", "[peers]") {
+    for (const int windows : {1, 2, 7}) {
+        CAPTURE(windows);
+        const Windows machine(windows, CutKind::spherical);
+        const Model& model = machine.system.model;
+        SimbodyPeer peer(peer_links(model), {0, -loop_gravity, 0}, pins(machine));
+        const Vector q = machine.position(1.1), qd = machine.rates(-0.7), none = Vector::Zero(model.size());
+        solvers::EquationsOfMotion equations(machine.system, {}, 0, q, qd);
+        Vector x(2 * q.size()), ours(q.size()), theirs(q.size());
+        x << q, qd;
+        REQUIRE(equations.accelerations(0, x.data(), ours.data()));
+        peer.closed_dynamics(q.data(), qd.data(), none.data(), theirs.data());
+        CHECK((ours - theirs).norm() < 1e-9 * theirs.norm());
+    }
 }

@@ -39,14 +39,19 @@ inline Matrix shapes_left(const turbines::Turbine& machine, const solvers::Azimu
         }
     }
     if (limited == Limited::tower_and_blades) {
-        const Matrix shapes = turbines::elastodyn_blade_shapes(machine.layout().blades[0]);
+        const CardanBeam& blade = machine.layout().blades[0];
+        const Matrix along = turbines::elastodyn_blade_shapes(blade);
+        Matrix shapes = Matrix::Zero(model.size(), along.cols());  // by the coordinates of blade 1
+        Eigen::Index at = 0;
+        for (const CardanBeam::Element& element : blade.elements)
+            for (const BodyId body : element.bodies) shapes.row(model.index(body)) = along.row(at++);
         for (const auto pattern :
              {solvers::MultiBlade::collective, solvers::MultiBlade::cosine, solvers::MultiBlade::sine})
             for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
                 Vector column = Vector::Zero(rows);
                 for (Eigen::Index i = 0; i < rows; ++i)
                     if (const solvers::MultiBladeRow& row = entry(mean.rows, i); row.kind == pattern) {
-                        column(i) = shapes(row.blade_coordinate, k);
+                        column(i) = shapes(entry(machine.rotor().blades[0], row.blade_coordinate), k);
                         entry(taken, i) = true;
                     }
                 columns.push_back(column);

@@ -31,11 +31,14 @@ std::vector<std::vector<FrameMotion>> motions(const System& system, const PointM
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, point.at.q, workspace);
     const ComplexMatrix shapes = shapes_at_azimuth_0(solver, point, modes);
+    const Matrix followers = solver.followers(point.at);
     Matrix jacobian(6, system.model.size());
     std::vector<std::vector<FrameMotion>> motions(point.modes.size());
     for (FrameId frame : frames) {
         frame_jacobian(kin, frame, jacobian);
-        const ComplexMatrix all = jacobian(Eigen::all, solver.unknowns()) * shapes;
+        const Matrix moved =
+            followers.size() > 0 ? Matrix(jacobian * followers) : Matrix(jacobian(Eigen::all, solver.unknowns()));
+        const ComplexMatrix all = moved * shapes;
         for (Eigen::Index j = 0; j < all.cols(); ++j) entry(motions, entry(modes, j)).push_back({all.col(j)});
     }
     return motions;

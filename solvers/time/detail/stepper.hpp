@@ -18,6 +18,11 @@ inline double shortest_step(double time) {
     return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
+/// Two times closer than this are one, s.
+inline double resolution(double time) {
+    return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
+}
+
 /// Weights of the error norm, one per entry of x = (q_f, qd_f, s).
 class ErrorWeights {
 public:

@@ -1,6 +1,8 @@
 // Joints of URDF as coordinates of a tree: forward kinematics against products of elementary motions.
 #include "mbs/base/entry.hpp"
+#include "mbs/loops/closure.hpp"
 #include "mbs/model/summary.hpp"
+#include "mbs/system/system.hpp"
 #include "tests/mbs/urdf/urdf_texts.hpp"
 
 using namespace cardan;
@@ -163,6 +165,19 @@ TEST_CASE("urdf: limits, damping, friction and mimic come beside the tree", "[pr
     CHECK(std::isinf(model.joints[2].effort));
     CHECK(has_note(model.notes, "joint 'third' mimics joint 'first'"));
     CHECK(has_note(model.notes, "joint 'first': Coulomb friction of 0.2"));
+
+    const LoopSet loops = mimic_couplings(model.tree, model.joints);
+    REQUIRE(loops.couplings().size() == 1);
+    const System coupled(model.tree, {}, loops);
+    const Vector free = Vector::LinSpaced(coupled.model.size(), 0.1, 0.5);
+    const Closure closed = close_loops(coupled.model, coupled.loops, free);
+    REQUIRE(closed.converged);
+    CHECK(closed.q(coupled.model.index("third")) ==
+          Approx(-2 * closed.q(coupled.model.index("first")) + 0.1).epsilon(1e-12));
+    check_refused([&] { (void)mimic_couplings(model.tree, {{.coordinate = "first", .mimic = UrdfMimic{"fourth"}}}); },
+                  {"joint data of 'first'", "fourth"});
+    check_refused([&] { (void)mimic_couplings(model.tree, {{.coordinate = "first", .mimic = UrdfMimic{"first"}}}); },
+                  {"first mimics first", "twice"});
 }
 
 TEST_CASE("urdf: the viscous damping becomes force elements, Q = -d qd on the joint's own coordinate", "[analytic]") {

@@ -1,5 +1,7 @@
 // Equilibria and small oscillations of mechanisms with loops.
 #include "elements/machine/point_spring.hpp"
+#include "solvers/equilibrium/buckling.hpp"
+#include "solvers/equilibrium/load_curve.hpp"
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "solvers/linear/loop_reduction.hpp"
@@ -75,7 +77,7 @@ TEST_CASE("loop equilibria: a four-bar that hangs, and swings", "[discrete]") {
         CHECK(std::abs(found[0].eigenvalue.real()) < 1e-6);
         // What knows trees only says so.
         check_refused([&] { (void)restrict_to(lin, {0, 1, 2}); }, {"loops", "reduce_loops"});
-        check_refused([&] { (void)load_path(system); }, {"load path", "pin B"});
+        check_refused([&] { (void)linear_buckling(system); }, {"linear buckling", "pin B"});
     }
 }
 
@@ -200,6 +202,72 @@ TEST_CASE("loop equilibria: near its dead point the pitch linkage has a limit lo
     CHECK(bent(2e4, 1.82) == Approx(1.821681431).margin(1e-8));
     CHECK(bent(4e4, 1.86) == Approx(1.861930431).margin(1e-8));
     CHECK(bent(1e5, 2.33) == Approx(2.33623656).margin(1e-7));
+}
+
+TEST_CASE("loop equilibria: the pitch linkage snaps through along its load curve", "[discrete]") {
+    const PitchLinkage linkage(false, 0.9, 1e5);
+    LoadCurveOptions options;
+    options.state.initial = Vector{{1.796441639572, 0.9}};
+    const LoadCurve curve = load_curve(linkage.system, options);
+    REQUIRE(curve.converged);
+    REQUIRE(curve.limits.size() == 2);  // up to the limit, back, and up again behind it
+    CHECK(curve.limits[0].factor * 1e5 == Approx(47076.0).epsilon(1e-6));
+    CHECK(curve.limits[0].at.q(0) == Approx(1.906609).margin(1e-6));
+    CHECK(curve.points.front().negative_pivots == 0);
+    CHECK(curve.points.back().negative_pivots == 0);
+    int unstable = 0;
+    for (const LoadCurvePoint& point : curve.points) unstable = std::max(unstable, point.negative_pivots);
+    CHECK(unstable == 1);
+    // The equilibrium under the whole load, from the end of the curve.
+    const SteadyState behind = steady_state(linkage.system, -1, {.initial = curve.points.back().at.q});
+    REQUIRE(behind.converged);
+    CHECK(behind.at.q(0) == Approx(2.33623656).margin(1e-7));
+}
+
+TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in closed form", "[closed-form]") {
+    // Bars of 1 m from (0, 0), hinged in the middle, to a slider on x that a spring of 1000 N/m holds at x = 1.8: a
+    // loop. A load F down at the hinge at angle t: x = 2 cos t, F = 2 k (2 cos t - 1.8) tan t ... with its sign.
+    const double k = 1000, rest = 1.8;
+    Tree tree;
+    const Bar left = add_bar(tree, "left", Tree::base(), 1, slender_bar(1, 1));
+    const Bar right = add_bar(tree, "right", left.end, 1, slender_bar(1, 1));
+    const Link slider = add_joint(tree, {.name = "slider",
+                                         .kind = JointKind::prismatic,
+                                         .axis = Vec3::UnitX(),
+                                         .inertia = {1, Vec3::Zero(), Mat3::Zero()}});
+    ForceSet forces;
+    forces.add_spring("spring", slider.body, k, 0, rest);
+    forces.add_wrench({.name = "load", .frame = left.end, .wrench = {Vec3(0, -100, 0), Vec3::Zero()}});
+    LoopSet loops;
+    loops.add_joint({"pin", CutKind::revolute, right.end, slider.axes});
+    const System system(tree, forces, loops);
+    const double t0 = std::acos(rest / 2);
+    LoadCurveOptions options;
+    options.state.initial = Vec3(t0, -2 * t0, rest);
+    options.to = 3;
+    const LoadCurve curve = load_curve(system, options);
+    REQUIRE(curve.converged);
+    // Energy k/2 (2 cos t - rest)^2, the hinge at sin t: F cos t = 2 k (2 cos t - rest) sin t.
+    const auto load = [&](double t) { return 2 * k * (2 * std::cos(t) - rest) * std::tan(t); };
+    for (const LoadCurvePoint& point : curve.points)
+        CHECK(100 * point.factor == Approx(load(point.at.q(0))).margin(1e-6));
+    // dF/dt = 0: 2 cos^3 t = rest.
+    const double t_limit = std::acos(std::cbrt(rest / 2));
+    REQUIRE(curve.limits.size() == 2);
+    CHECK(curve.limits[0].at.q(0) == Approx(t_limit).margin(1e-8));
+    CHECK(100 * curve.limits[0].factor == Approx(load(t_limit)).epsilon(1e-12));
+    CHECK(curve.limits[1].at.q(0) == Approx(-t_limit).margin(1e-8));
+    CHECK(curve.points.front().negative_pivots == 0);
+    // Under load control the path ends there.
+    LoadPathOptions controlled;
+    controlled.state.initial = options.state.initial;
+    controlled.factors = {0, 0.1, 3};
+    controlled.largest_change = 0.1;
+    const LoadPath path = load_path(system, controlled);
+    CHECK_FALSE(path.converged);
+    CHECK(100 * path.points.back().factor == Approx(load(t_limit)).epsilon(1e-3));
+    check_refused([&] { (void)load_curve(system, {.from = 1, .to = 1}); }, {"load factors"});
+    check_refused([&] { (void)load_curve(system, {.first_step = 0}); }, {"first step"});
 }
 
 TEST_CASE("loop equilibria: a loop that cannot be closed is told", "[bad-input]") {

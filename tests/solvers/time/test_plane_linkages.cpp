@@ -1,9 +1,11 @@
 // Plane linkages with loops: motion and the forces of every joint. References: free bodies in closed form, and the
 // multipliers of maximal coordinates, by programs that have nothing in common with a tree.
 #include "mbs/system/joint_loads.hpp"
-#include "solvers/time/integrate.hpp"
+#include "mbs/system/reaction_channels.hpp"
+#include "solvers/time/recorder.hpp"
 #include "tests/mbs/loops/closed_trees.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/refusal.hpp"
 
 using namespace cardan;
 using namespace cardan::solvers;
@@ -174,4 +176,39 @@ TEST_CASE("four-bar: angles, rates and all forces at a constant crank speed", "[
             CHECK(at.drive() == Approx(row.M).epsilon(1e-8));
         }
     }
+}
+
+TEST_CASE("linkages: forces of loops are recorded as channels", "[discrete]") {
+    // The slider-crank at an angle of 1, and a mass on a rod that hangs still.
+    const SliderCrank machine;
+    const Vector near = SliderCrank::position(1);
+    const ClosureOptions held{.held = {0}};
+    const Closure closed = close_loops(machine.system.model, machine.system.loops, near, held);
+    const Vector qd = close_rates(machine.system.model, machine.system.loops, closed.q, Vec3(150, 0, 0), held);
+    Integrator run(machine.system, {}, 0, closed.q, qd);
+    Recorder recorder(run, {reaction_channels(machine.system)});
+    History history;
+    require_result(record(run, recorder, sample_times(0, 0.001, 0.001), history));
+    // In the axes of the rod, to which frame a belongs.
+    const double angle = -0.4342559106, c = std::cos(angle), s = std::sin(angle);
+    CHECK(history["wrist pin force x"].front() == Approx(c * -88.110668 + s * 160.927118).margin(1e-5));
+    CHECK(history["wrist pin force y"].front() == Approx(-s * -88.110668 + c * 160.927118).margin(1e-5));
+    CHECK(std::abs(history["wrist pin moment z"].front()) < 1e-9);
+
+    Tree tree;
+    const Link mass =
+        add_joint(tree, {.name = "z", .kind = JointKind::prismatic, .inertia = {2, Vec3::Zero(), Mat3::Zero()}});
+    ForceSet forces;
+    forces.set_gravity({0, 0, -loop_gravity});
+    LoopSet loops;
+    loops.add_distance({"rod", Tree::base(), mass.axes, 1});
+    const System hanging(tree, forces, loops);
+    const Vector below{{-1.0}};
+    Integrator still(hanging, {}, 0, below, Vector::Zero(1));
+    Recorder tension(still, {reaction_channels(hanging)});
+    History at_rest;
+    require_result(record(still, tension, sample_times(0, 0.1, 0.1), at_rest));
+    CHECK(at_rest["rod tension"].back() == Approx(2 * loop_gravity).epsilon(1e-12));
+    const System open(Tree(tree), {});
+    check_refused([&] { (void)reaction_channels(open); }, {"reaction channels"});
 }

@@ -1,0 +1,79 @@
+// Events: when a function of the state changes its sign.
+#include "solvers/time/detail/stepper.hpp"
+#include "solvers/time/integrate.hpp"
+
+#include <cmath>
+
+namespace cardan::solvers {
+
+namespace {
+
+int sign(double value) {
+    return (value > 0) - (value < 0);
+}
+
+}  // namespace
+
+double Integrator::event_value(std::size_t event, double time) {
+    const double value = equations_.evaluate(options_.events[event].function, time, x_between_.data());
+    if (!std::isfinite(value))
+        throw NumericalError(text(in_integration, ": the function of the event '", options_.events[event].name, "' at ",
+                                  time, " s is ", value));
+    return value;
+}
+
+bool Integrator::due(std::size_t event) const {
+    const int now = sign(values_[event]), before = sides_[event], direction = options_.events[event].direction;
+    return before != 0 && now != before && (direction == 0 || direction == -before);
+}
+
+// Events due at the same time as the one handled keep their sign and come next.
+void Integrator::set_sides(int happened) {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const bool own = static_cast<int>(i) == happened;
+        if (own && sign(values_[i]) == 0)
+            sides_[i] = 0;  // it has happened; its side will be the one it leaves zero to
+        else if (sign(values_[i]) != 0 && (own || !due(i)))
+            sides_[i] = sign(values_[i]);
+    }
+}
+
+// Where the function has just changed its sign, by halving and false position in turn.
+double Integrator::root(std::size_t event, double to) {
+    double a = state_.time, b = to, value_b = values_[event];
+    state_at(a, x_between_);
+    double value_a = event_value(event, a);
+    if (sign(value_a) == sign(value_b)) return a;  // it was due at the start already
+    for (int i = 0; i < 200 && b - a > resolution(b); ++i) {
+        const double secant = a + (b - a) * value_a / (value_a - value_b);
+        const double trial = i % 3 != 2 && secant > a && secant < b ? secant : a + (b - a) / 2;
+        state_at(trial, x_between_);
+        const double value = event_value(event, trial);
+        if (sign(value) == sides_[event]) {
+            a = trial;
+            value_a = value;
+        } else {
+            b = trial;
+            value_b = value;
+        }
+    }
+    return b;
+}
+
+// The first event until `to`, or -1.
+int Integrator::first_event(double to, double& at) {
+    int first = -1;
+    at = to;
+    state_at(to, x_between_);
+    for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, to);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        if (!due(i)) continue;
+        if (const double when = root(i, to); first < 0 || when < at) {
+            first = static_cast<int>(i);
+            at = when;
+        }
+    }
+    return first;
+}
+
+}  // namespace cardan::solvers

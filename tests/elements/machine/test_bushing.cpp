@@ -1,0 +1,129 @@
+// Bushings and bearings: exact derivatives, energy, closed forms of a body on them.
+#include "elements/machine/bushing.hpp"
+#include "elements/machine/pair_law.hpp"
+#include "mbs/base/decompositions.hpp"
+#include "solvers/linear/modes.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
+#include "tests/support/random_tree.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/second_order.hpp"
+#include "tests/support/tree_tools.hpp"
+
+using namespace cardan;
+using namespace cardan::solvers;
+using namespace cardan::testing;
+
+namespace bushing_tests {
+
+Mat6 random_stiffness(Random& random) {
+    const Matrix A = random_matrix(random, 6, 6);
+    return A * A.transpose();
+}
+
+}  // namespace bushing_tests
+
+using namespace bushing_tests;
+
+TEST_CASE("bushing: derivatives and energy on random trees", "[property]") {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        CAPTURE(seed);
+        Random random(seed);
+        Tree tree = random_tree(random, {.bodies = 10});
+        const FrameId a = tree.add_frame(tree.frame_of(BodyId{3}), random_placement(random), "a");
+        const FrameId b = tree.add_frame(tree.frame_of(BodyId{8}), random_placement(random), "b");
+        ForceSet forces;
+        if (seed % 2 == 0)
+            add_bushing(forces, {"bushing", a, b, random_stiffness(random), random_stiffness(random)});
+        else
+            add_bearing(forces, {"bearing", a, b, {random_matrix(random, 2, 2), random_matrix(random, 2, 2)}});
+        const System system(tree, forces);
+        const int n = system.model.size();
+        const Vector q = random_state(random, n), qd = random_state(random, n);
+        Workspace workspace(system.model);
+        const auto Q = [&](const Vector& at, const Vector& rate) {
+            Vector out(n);
+            system.forces.generalised_forces(kinematics(system.model, at, workspace), 0, at, rate, out);
+            return out;
+        };
+        ForceDerivatives d;
+        system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, qd, d);
+        Matrix by_q(n, n), by_qd(n, n);
+        Vector slope(n);
+        const double step = 1e-6;
+        const auto energy = [&](const Vector& at) {
+            return system.forces.potential_energy(kinematics(system.model, at, workspace), 0, at, qd);
+        };
+        for (int i = 0; i < n; ++i) {
+            const Vector e = step * Vector::Unit(n, i);
+            by_q.col(i) = (Q(q + e, qd) - Q(q - e, qd)) / (2 * step);
+            by_qd.col(i) = (Q(q, qd + e) - Q(q, qd - e)) / (2 * step);
+            slope(i) = (energy(q + e) - energy(q - e)) / (2 * step);
+        }
+        CHECK(by_q.norm() > 0);
+        CHECK(scaled(d.elastic + by_q, by_q) < 1e-7);
+        CHECK(scaled(d.damping + by_qd, by_qd) < 1e-7);
+        if (seed % 2 == 0) CHECK(scaled(Q(q, Vector::Zero(n)) + slope, slope) < 1e-6);
+    }
+}
+
+TEST_CASE("bushing: a body on it vibrates by its stiffness", "[closed-form]") {
+    // K x = omega^2 M x of a rigid body whose centre is where the bushing is.
+    Random random(4);
+    Tree tree;
+    const FrameId body = add_floating_base(tree);
+    const RigidInertia inertia{3, Vec3::Zero(), Vec3(0.2, 0.3, 0.4).asDiagonal()};
+    tree.weld(body, inertia);
+    const Mat6 K = random_stiffness(random);
+    ForceSet forces;
+    add_bushing(forces, {"bushing", Tree::base(), body, K, Mat6::Zero()});
+    const System system(tree, forces);
+    const Vector zero = Vector::Zero(6);
+    const std::vector<Mode> found = modes(restrict_to(linearise(system, {zero, zero, zero}), {0, 1, 2, 3, 4, 5}));
+    Mat6 M = Mat6::Zero();
+    M.diagonal() << 0.2, 0.3, 0.4, 3, 3, 3;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> expected{Matrix(K), Matrix(M)};
+    REQUIRE(found.size() == 6);
+    for (std::size_t i = 0; i < 6; ++i)
+        CHECK(found[i].eigenvalue.imag() ==
+              Approx(std::sqrt(expected.eigenvalues()(static_cast<Eigen::Index>(i)))).epsilon(1e-9));
+}
+
+TEST_CASE("bearing: a mass on eight coefficients, and coefficients over speed", "[closed-form]") {
+    BearingCoefficients slow, fast;
+    slow.stiffness << 4e5, 1e5, -2e5, 6e5;
+    slow.damping << 300, 20, 20, 500;
+    fast.stiffness << 5e5, 3e5, -4e5, 7e5;
+    fast.damping << 200, 10, 10, 400;
+    const BearingTable table({100, 300}, {slow, fast});
+    CHECK(table.at(300).stiffness == fast.stiffness);
+    const BearingCoefficients at = table.at(150);
+    CHECK(at.stiffness(0, 1) == Approx(1.5e5));
+    CHECK(at.damping(1, 1) == Approx(475));
+    Tree tree;
+    const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
+    const Link y = add_joint(tree, {.name = "y",
+                                    .inboard = x.axes,
+                                    .kind = JointKind::prismatic,
+                                    .axis = Vec3::UnitY(),
+                                    .inertia = {12, Vec3::Zero(), Mat3::Zero()}});
+    ForceSet forces;
+    add_bearing(forces, {"bearing", Tree::base(), y.axes, at});
+    const System system(tree, forces);
+    const Vector zero = Vector::Zero(2);
+    const SecondOrderSystem found = restrict_to(linearise(system, {zero, zero, zero}), {0, 1});
+    CHECK((found.K - at.stiffness).norm() < 1e-9 * at.stiffness.norm());
+    CHECK((found.C - at.damping).norm() < 1e-9 * at.damping.norm());
+    check_refused([&] { (void)table.at(99); }, {"speed", "99", "100"});
+    check_refused([&] { BearingTable({200, 100}, {slow, fast}); }, {"speed 1"});
+    check_refused([&] { BearingTable({100}, {slow, fast}); }, {"number of coefficients"});
+    check_refused(
+        [&] {
+            add_bushing(forces, {"b", FrameId{0}, FrameId{1}, Mat6::Zero(), Mat6::Zero()});
+        },
+        {"'b'", "stiffness and damping"});
+    Mat6 skewed = Mat6::Identity();
+    skewed(0, 1) = 1;
+    check_refused([&] { add_bushing(forces, {"b", FrameId{0}, FrameId{1}, skewed, Mat6::Zero()}); }, {"symmetric"});
+    check_refused([&] { add_pair_law(forces, {"p", FrameId{0}, FrameId{1}, {}, {}}); }, {"'p'", "measure"});
+}
