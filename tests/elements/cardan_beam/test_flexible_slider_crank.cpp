@@ -2,6 +2,9 @@
 // hinged rigid segments (6 and 12, extrapolated): slider 2e-9 m, middle 2e-3 relative, force along the guide 5e-4 N.
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/loops/closure.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/linear/loop_reduction.hpp"
+#include "solvers/linear/modes.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/mbs/loops/closed_trees.hpp"
 #include "tests/support/catch.hpp"
@@ -85,4 +88,18 @@ TEST_CASE("closed loops: a slider-crank with an elastic rod", "[discrete]") {
         CHECK(left == Approx(row.middle).epsilon(2e-3).margin(2e-7));
         CHECK(system.loops.reaction(kin, 0, run.state().lambda).force.x() == Approx(row.force).margin(0.02));
     }
+}
+
+TEST_CASE("closed loops: the elastic rod of a slider-crank at rest vibrates between its pins", "[closed-form]") {
+    constexpr double l = 0.30, side = 0.008, E = 2e11, density = 7870, A = side * side, I = A * A / 12;
+    const FlexibleSliderCrank machine(8);
+    Vector q = Vector::Zero(machine.system.model.size());
+    q(machine.system.model.index("slider")) = 0.45;
+    const SteadyState state = steady_state(machine.system, -1, {.initial = q});
+    REQUIRE(state.converged);
+    const ReducedSystem reduced =
+        reduce_loops(linearise(machine.system, state.at), machine.system.model.coordinates().free());
+    const double k = pi / l;
+    CHECK(modes(reduced.system).at(0).eigenvalue.imag() ==
+          Approx(k * k * std::sqrt(E * I / (density * A)) / std::sqrt(1 + k * k * I / A)).epsilon(1e-3));
 }

@@ -3,6 +3,7 @@
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "elements/machine/bushing.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -29,6 +30,7 @@ struct Rotor {
     System system;
     std::vector<int> unknowns;
     int y = -1, z = -1;  ///< rows of the free end's displacements
+    RotorMap map = {};   ///< with the pairs of coordinates that turn
 };
 
 // The left end moves and tilts freely in axes that turn; the bearings hold nodes of the shaft to ground.
@@ -95,6 +97,19 @@ Rotor rotor(int per_segment, bool shear, const Eigen::Matrix2d& bearing) {
     };
     out.y = row("end y");
     out.z = row("end z");
+    out.map.spin = spin;
+    const auto add_pair = [&](int y, int z) { out.map.rotating_pairs.push_back({y, z}); };
+    const Model& model = out.system.model;
+    add_pair(model.index("end y"), model.index("end z"));
+    add_pair(model.index("tilt y"), model.index("tilt z"));
+    for (const CardanBeam::Element& element : beam.elements)
+        for (const auto& [y, z] : {std::pair(ElementCoordinate::ay1, ElementCoordinate::az1),
+                                   std::pair(ElementCoordinate::ay2, ElementCoordinate::az2)}) {
+            const auto of_kind = [&, &kinds = element.kinds](ElementCoordinate kind) {
+                return model.index(entry(element.bodies, std::ranges::find(kinds, kind) - kinds.begin()));
+            };
+            add_pair(of_kind(y), of_kind(z));
+        }
     return out;
 }
 
@@ -112,6 +127,39 @@ std::vector<double> whirls(const Rotor& rotor, double speed, std::size_t count) 
     std::ranges::sort(all, [](double a, double b) { return std::abs(a) < std::abs(b); });
     all.resize(std::min(all.size(), count));
     return all;
+}
+
+// In fixed axes, where the equations are constant whatever the bearings: rad/s, rising.
+std::vector<double> fixed_whirls(const Rotor& rotor, double speed) {
+    const Eigen::Index n = rotor.system.model.size();
+    OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
+    at.qd(rotor.map.spin) = speed;
+    const ColemanTransform to_fixed(rotor.map, rotor.unknowns);
+    std::vector<double> all;
+    for (const Mode& mode :
+         modes(to_fixed.transform(restrict_to(linearise(rotor.system, at), rotor.unknowns), 0, speed), 3e4))
+        if (mode.oscillates()) all.push_back(mode.eigenvalue.imag());
+    std::ranges::sort(all);
+    return all;
+}
+
+// Where whirl number i is as fast as the rotor turns, rad/s.
+double critical(const Rotor& rotor, std::size_t i, double near) {
+    double a = 0.98 * near, b = 1.02 * near;
+    const auto excess = [&](double speed) { return fixed_whirls(rotor, speed).at(i) - speed; };
+    double at_a = excess(a), at_b = excess(b);
+    for (int k = 0; k < 20 && std::abs(b - a) > 1e-7 * near; ++k) {
+        const double c = b - at_b * (b - a) / (at_b - at_a);
+        a = b, at_a = at_b;
+        b = c, at_b = excess(c);
+    }
+    return b;
+}
+
+Eigen::Matrix2d orthotropic() {
+    Eigen::Matrix2d bearing;
+    bearing << 3.503e7, -8.756e6, -8.756e6, 3.503e7;
+    return bearing;
 }
 
 const Eigen::Matrix2d isotropic = 4.3781714e7 * Eigen::Matrix2d::Identity();
@@ -142,31 +190,40 @@ TEST_CASE("rotor shaft: whirl speeds of Nelson and McVaugh's rotor on isotropic 
                  {1334.029, 2059.263, 4753.162, 5261.894, 6630.880, 9478.553}, 1e-4);
 }
 
-TEST_CASE("rotor shaft: its critical speeds are where it whirls with the rotor", "[discrete]") {
-    const Rotor machine = rotor(2, false, isotropic);
-    const double rpm = 2 * pi / 60;
-    struct Row {
-        double rpm;
-        std::size_t mode;
+TEST_CASE("rotor shaft: critical speeds, isotropic by Rayleigh's and Timoshenko's beam, and orthotropic",
+          "[discrete]") {
+    struct Case {
+        bool shear;
+        Eigen::Matrix2d bearing;
+        std::array<double, 6> rpm;
     };
-    // At the exact critical speed the whirl's speed is that of the rotor, within the error of the frequencies.
-    for (const Row& row : std::vector<Row>{{15488.98, 0}, {46635.06, 2}, {64758.51, 4}}) {
-        CAPTURE(row.rpm);
-        CHECK(whirls(machine, row.rpm * rpm, 6).at(row.mode) == Approx(-row.rpm * rpm).epsilon(1e-4));
-    }
-    for (const Row& row : std::vector<Row>{{17176.09, 1}, {49991.15, 3}}) {
-        CAPTURE(row.rpm);  // seen from the shaft a forward whirl stands still there: half a per cent beside it
-        const double below = whirls(machine, row.rpm * rpm * 0.995, 6).at(row.mode) - row.rpm * rpm * 0.995,
-                     above = whirls(machine, row.rpm * rpm * 1.005, 6).at(row.mode) - row.rpm * rpm * 1.005;
-        CHECK(below > 0);
-        CHECK(above < 0);
+    const double rpm = 2 * pi / 60;
+    for (const Case& one :
+         std::vector<Case>{{false, isotropic, {15488.98, 17176.09, 46635.06, 49991.15, 64758.51, 96452.04}},
+                           {true, isotropic, {15373.17, 17026.91, 46392.27, 49676.18, 64181.47, 95192.27}},
+                           {false, orthotropic(), {13937.7, 16526.0, 39904.2, 48265.1, 59629.4, 93170.4}}}) {
+        const Rotor machine = rotor(2, one.shear, one.bearing);
+        for (std::size_t i = 0; i < 6; ++i) {
+            CAPTURE(one.shear, one.rpm[i]);
+            CHECK(critical(machine, i, one.rpm[i] * rpm) / rpm == Approx(one.rpm[i]).epsilon(1e-4));
+        }
     }
 }
 
-TEST_CASE("rotor shaft: at rest on bearings with coupled stiffness", "[discrete]") {
-    Eigen::Matrix2d bearing;
-    bearing << 3.503e7, -8.756e6, -8.756e6, 3.503e7;
-    const std::vector<double> found = whirls(rotor(2, false, bearing), 0, 6);
-    const std::vector<double> expected = {1477.858, 1705.495, 4193.627, 5068.714, 6995.37, 8000.34};
-    for (std::size_t i = 0; i < 6; ++i) CHECK(found.at(i) == Approx(expected[i]).epsilon(1e-4));
+TEST_CASE("rotor shaft: whirl speeds on bearings with coupled, unequal stiffness", "[discrete]") {
+    const Rotor machine = rotor(2, false, orthotropic());
+    const double rpm = 2 * pi / 60;
+    struct Row {
+        double rpm;
+        std::array<double, 6> whirls;
+    };
+    for (const Row& row : std::vector<Row>{{0, {1477.858, 1705.495, 4193.627, 5068.714, 6995.37, 8000.34}},
+                                           {40000, {1369.754, 1814.169, 4178.684, 5059.190, 6539.92, 8580.50}},
+                                           {70000, {1246.662, 1938.615, 4146.665, 5034.222, 6102.18, 9251.81}}}) {
+        const std::vector<double> found = fixed_whirls(machine, row.rpm * rpm);
+        for (std::size_t i = 0; i < 6; ++i) {
+            CAPTURE(row.rpm, i);
+            CHECK(found.at(i) == Approx(row.whirls[i]).epsilon(1e-4));
+        }
+    }
 }

@@ -73,6 +73,7 @@ TEST_CASE("rotors: Jeffcott's with internal and external damping", "[closed-form
             CHECK(lambda.imag() == Approx(expected.imag()).margin(1e-5));
         }
     }
+    for (const Mode& mode : modes_at(system, 0)) CHECK(std::abs(mode.eigenvalue - Complex(-5, 316.188235)) < 1e-5);
     // Stable up to sqrt(k/m)(1 + ce/ci).
     const double limit = std::sqrt(shaft / disc_mass) * (1 + outer / 40);
     CHECK(limit == Approx(790.569415));
@@ -182,4 +183,8 @@ TEST_CASE("rotors: an overhung disc", "[closed-form]") {
         for (std::size_t i = 0; i < 4; ++i)
             if (row.whirls[i] != 0) CHECK(found[i] == Approx(row.whirls[i]).epsilon(1e-8));
     }
+    const std::vector<Mode> rest = modes_at(system, 0);
+    REQUIRE(rest.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(rest[i].eigenvalue.imag() == Approx(i < 2 ? 163.1592878 : 792.3607943).epsilon(1e-8));
 }

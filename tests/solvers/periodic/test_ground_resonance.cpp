@@ -75,6 +75,18 @@ TEST_CASE("ground resonance: four blades on an isotropic support without damping
         CAPTURE(row.speed);
         CHECK(machine.growth(row.speed) == Approx(row.growth).margin(1e-7));
     }
+    // Frequencies at 26 rad/s, in fixed axes, up to multiples of the rotor speed.
+    const Floquet at_26 = machine.motions(26);
+    for (const double expected : {18.3810863, 19.1291712, 36.2022926}) {
+        CAPTURE(expected);
+        double nearest = 1;
+        for (const FloquetMode& mode : at_26.modes)
+            for (const double one : {mode.exponent.imag(), -mode.exponent.imag()}) {
+                const double turns = (one - expected) / 26;
+                nearest = std::min(nearest, 26 * std::abs(turns - std::round(turns)));
+            }
+        CHECK(nearest < 1e-6);
+    }
     CHECK(machine.growth(17.6638235 * (1 + 1e-5)) > 1e-3);
     CHECK(machine.growth(17.6638235 * (1 - 1e-5)) < 1e-5);
     CHECK(machine.growth(33.4561349 * (1 - 1e-5)) > 1e-3);
