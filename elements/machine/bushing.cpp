@@ -18,7 +18,7 @@ void require_finite_coefficients(const std::string& where, const BearingCoeffici
 
 }  // namespace
 
-void add_bushing(ForceSet& forces, Bushing bushing) {
+void add_bushing(ForceSet& forces, const Bushing& bushing) {
     const std::string where = text("bushing '", bushing.name, "'");
     const Mat6 &K = bushing.stiffness, &D = bushing.damping;
     if (!K.allFinite() || !D.allFinite()) throw InputError(where, "stiffness, damping", "not finite", "finite");
@@ -60,7 +60,7 @@ BearingCoefficients BearingTable::at(double speed) const {
     return {(1 - part) * below.stiffness + part * above.stiffness, (1 - part) * below.damping + part * above.damping};
 }
 
-void add_bearing(ForceSet& forces, Bearing bearing) {
+void add_bearing(ForceSet& forces, const Bearing& bearing) {
     require_finite_coefficients(text("bearing '", bearing.name, "'"), bearing.coefficients);
     PairLaw pair{bearing.name, bearing.a, bearing.b, {PairMeasure::along(0), PairMeasure::along(1)}, {}};
     pair.has_energy = false;

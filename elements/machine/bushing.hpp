@@ -18,7 +18,7 @@ struct Bushing {
     Mat6 damping = Mat6::Zero();    ///< N m s/rad, N s/rad, N s/m
 };
 /// @throws InputError: numbers that are not finite, a stiffness that is not symmetric, nothing at all
-void add_bushing(ForceSet& forces, Bushing bushing);
+void add_bushing(ForceSet& forces, const Bushing& bushing);
 
 /// The eight coefficients of a journal bearing, across the axis: f = -stiffness (x, y) - damping (dx/dt, dy/dt). Unlike
 /// springs these need not be symmetric: oil films feed forward whirl.
@@ -48,6 +48,6 @@ struct Bearing {
     BearingCoefficients coefficients = {};
 };
 /// Without energy, since it may have none. @throws InputError for numbers that are not finite
-void add_bearing(ForceSet& forces, Bearing bearing);
+void add_bearing(ForceSet& forces, const Bearing& bearing);
 
 }  // namespace cardan

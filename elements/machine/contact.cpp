@@ -23,7 +23,7 @@ HuntCrossley::Force HuntCrossley::at(double depth, double speed) const {
     return {elastic * losses, exponent * elastic / depth * losses, elastic * dissipation, energy};
 }
 
-void add_plane_contact(ForceSet& forces, PlaneContact contact) {
+void add_plane_contact(ForceSet& forces, const PlaneContact& contact) {
     contact.law.check(text("contact '", contact.name, "'"));
     PairLaw pair{contact.name, contact.plane, contact.point, {PairMeasure::along(2)}, {}};
     pair.law = [law = contact.law](const PairState& at, PairForces& out) {

@@ -30,7 +30,7 @@ struct PlaneContact {
     FrameId plane = {}, point = {};
     HuntCrossley law = {};
 };
-void add_plane_contact(ForceSet& forces, PlaneContact contact);
+void add_plane_contact(ForceSet& forces, const PlaneContact& contact);
 
 /// A stop of a coordinate by the same law.
 /// @param upper  acts above the limit; else below

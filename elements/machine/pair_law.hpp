@@ -56,6 +56,6 @@ struct PairLaw {
 
 /// As a field of two wrenches, so that loads of joints and channels take it into account, with exact derivatives.
 /// @throws InputError: no measure, no law, one frame
-void add_pair_law(ForceSet& forces, PairLaw law);
+void add_pair_law(ForceSet& forces, PairLaw pair);
 
 }  // namespace cardan

@@ -7,7 +7,7 @@
 
 namespace cardan {
 
-void add_point_spring(ForceSet& forces, PointSpring spring) {
+void add_point_spring(ForceSet& forces, const PointSpring& spring) {
     const std::string where = text("spring '", spring.name, "'");
     require_not_negative(where, "stiffness [N/m]", spring.stiffness);
     require_not_negative(where, "damping [N s/m]", spring.damping);

@@ -26,6 +26,6 @@ struct PointSpring {
 /// With exact derivatives and energy; loads of joints and channels take it into account. Its stiffness counts as
 /// elastic.
 /// @throws InputError for values out of range, and a spring without stiffness and damping
-void add_point_spring(ForceSet& forces, PointSpring spring);
+void add_point_spring(ForceSet& forces, const PointSpring& spring);
 
 }  // namespace cardan

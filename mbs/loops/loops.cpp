@@ -226,8 +226,9 @@ void Loops::gradient(const KinematicsT<S>& kin, [[maybe_unused]] double time, Ve
 }
 
 void Loops::gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G, MatrixOut magnitudes) const {
-    gradient<double>(kin, time, q, G);
-    require_size(in_loops, "magnitudes", magnitudes, size(), coordinates_);
+    gradient<double>(kin, time, q, magnitudes);
+    require_size(in_loops, "gradient", G, size(), coordinates_);
+    G = magnitudes;
     magnitudes = G.cwiseAbs();
     for (const Loop& loop : loops_) {
         const FrameEnds<double> ends(kin, loop.a, loop.b);

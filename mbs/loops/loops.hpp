@@ -116,12 +116,12 @@ private:
     };
     struct Linear {
         std::vector<std::pair<int, double>> factors;
-        double offset;
-        int equation;
+        double offset = 0;
+        int equation = 0;
     };
     struct User {
         UserConstraint own;
-        int equation;
+        int equation = 0;
     };
     void add_loop(const std::string& name, const Model& model, Loop loop);
     void add_equation(const std::string& name, std::string unit);

@@ -150,7 +150,7 @@ Vector tangent_of(const Curve& curve, const Matrix& J, const Vector& before) {
 
 struct Corrected {
     Vector z, tangent;
-    int iterations;
+    int iterations = 0;
 };
 
 // Newton's method across the tangent from a point ahead.
