@@ -46,20 +46,6 @@ struct Closed {
     ForwardDynamics forward;
 };
 
-template <class Call>
-double seconds(int calls, Call&& call) {
-    return bench::cpu_time_of([&] {
-               for (int i = 0; i < calls; ++i) call();
-           }) /
-           calls;
-}
-
-template <class Call>
-int calls_per_turn(Call&& call) {
-    call();
-    return static_cast<int>(std::clamp(0.5e-3 / seconds(3, call), 1.0, 1e4));
-}
-
 void accelerations(benchmark::State& state) {
     Closed closed(static_cast<int>(state.range(0)));
     closed.with_loops();
@@ -69,12 +55,13 @@ void accelerations(benchmark::State& state) {
     const auto ours = [&] { closed.with_loops(); };
     const auto theirs = [&] { closed.simbody(); };
     const auto tree = [&] { closed.tree(); };
-    const int our_calls = calls_per_turn(ours), their_calls = calls_per_turn(theirs), tree_calls = calls_per_turn(tree);
+    const int our_calls = bench::calls_per_turn(ours), their_calls = bench::calls_per_turn(theirs),
+              tree_calls = bench::calls_per_turn(tree);
     bench::Pairs beside_simbody, beside_tree;
     for (auto _ : state) {
-        const double own = seconds(our_calls, ours);
-        beside_simbody.add(seconds(their_calls, theirs), own);
-        beside_tree.add(own, seconds(tree_calls, tree));
+        const double own = bench::seconds(our_calls, ours);
+        beside_simbody.add(bench::seconds(their_calls, theirs), own);
+        beside_tree.add(own, bench::seconds(tree_calls, tree));
         state.SetIterationTime(own);
     }
     state.counters["coordinates"] = closed.n;

@@ -2,6 +2,8 @@
 // taken pair by pair, so that it holds while the processor's speed drifts, and its median does not see single pairs.
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
 #include <ctime>
 #include <vector>
@@ -19,6 +21,24 @@ double cpu_time_of(Call&& call) {
     const double start = cpu_time();
     call();
     return cpu_time() - start;
+}
+
+/// CPU time of one of so many calls, s.
+template <class Call>
+double seconds(int calls, Call&& call) {
+    const auto all = [&] {
+        for (int i = 0; i < calls; ++i) call();
+        benchmark::ClobberMemory();
+    };
+    return cpu_time_of(all) / calls;
+}
+
+/// How many calls one computation makes before it is the other's turn: half a millisecond of them.
+template <class Call>
+int calls_per_turn(Call&& call) {
+    constexpr double turn = 0.5e-3;  // s
+    call();
+    return static_cast<int>(std::clamp(turn / seconds(3, call), 1.0, 1e4));
 }
 
 /// Of an odd number of values the middle one.

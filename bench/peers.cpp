@@ -95,23 +95,6 @@ struct Pair {
     Matrix A, B;
 };
 
-template <class Call>
-double seconds(int calls, Call&& call) {
-    const auto all = [&] {
-        for (int i = 0; i < calls; ++i) call();
-        benchmark::ClobberMemory();
-    };
-    return bench::cpu_time_of(all) / calls;
-}
-
-constexpr double turn = 0.5e-3;  // s, of one engine before it is the other's turn
-
-template <class Call>
-int calls_per_turn(Call&& call) {
-    call();
-    return static_cast<int>(std::clamp(turn / seconds(3, call), 1.0, 1e4));
-}
-
 struct Row {
     int n = 0;
     std::array<double, quantities.size()> ratio{};
@@ -125,11 +108,11 @@ void beside_simbody(benchmark::State& state, const std::string& tree_name, const
     if (!pair.agree()) return state.SkipWithError("Cardan and Simbody compute different numbers");
     const auto ours = [&] { pair.ours(); };
     const auto theirs = [&] { pair.simbody(); };
-    const int our_calls = calls_per_turn(ours), their_calls = calls_per_turn(theirs);
+    const int our_calls = bench::calls_per_turn(ours), their_calls = bench::calls_per_turn(theirs);
     bench::Pairs times;
     for (auto _ : state) {
-        const double own = seconds(our_calls, ours);
-        times.add(seconds(their_calls, theirs), own);
+        const double own = bench::seconds(our_calls, ours);
+        times.add(bench::seconds(their_calls, theirs), own);
         state.SetIterationTime(own);
     }
     const bool at_least = quantities[quantity].at_least;
@@ -150,10 +133,10 @@ void at_fixed_depth(benchmark::State& state, const Tree& tree, std::size_t quant
         if (quantity == 3) return inverse_dynamics_derivatives<double>(pair.kin(), pair.qd, pair.qdd, A, B);
         pair.ours();
     };
-    const int calls = calls_per_turn(ours);
+    const int calls = bench::calls_per_turn(ours);
     std::vector<double> times;
     for (auto _ : state) {
-        times.push_back(seconds(calls, ours));
+        times.push_back(bench::seconds(calls, ours));
         state.SetIterationTime(times.back());
     }
     state.counters["ns per coordinate"] = growth[pair.n][quantity] = 1e9 * bench::median(times) / pair.n;

@@ -5,9 +5,10 @@
 namespace cardan {
 
 void System::refuse_loops(const char* where) const {
-    throw InputError(where, "loop", loops.describe(0),
-                     "none: this analysis knows trees only; time integration, steady states, linearisation and natural "
-                     "modes know loops");
+    throw InputError(
+        where, "loop", loops.describe(0),
+        "none: this analysis knows trees only; time integration, steady states, load paths, linearisation, "
+        "natural modes and Campbell diagrams with constant equations know loops");
 }
 
 }  // namespace cardan

@@ -25,7 +25,9 @@ const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const 
         system_->forces.evaluate({state.time, state.q, state.qd, kin, s_, u_}, Q_, s_rate_);
     }
     std::vector<LoopLoad> loops;
-    if (state.lambda.size() > 0) system_->loops.add_loads(kin, state.lambda, loops);
+    if (!system_->loops.empty())  // multipliers that are not given are zero
+        system_->loops.add_loads(kin, state.lambda.size() > 0 ? state.lambda : Vector::Zero(system_->loops.size()),
+                                 loops);
     const JointLoads loads =
         joint_loads({state.time, state.q, state.qd, kin, s_, u_}, forces, state.qdd, std::move(loops));
     const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads, s_, s_rate_, u_};

@@ -64,6 +64,14 @@ struct SimbodyPeer::Impl {
         if (qd != nullptr) copy(qd, state.updU());
         system.realize(state, stage);
     }
+    using Accelerate = void (SimbodyMatterSubsystem::*)(const State&, const Vector&, const Vector_<SpatialVec>&,
+                                                        Vector&, Vector_<SpatialVec>&) const;
+    void accelerate(Accelerate solve, const double* q, const double* qd, const double* Q, double* qdd) {
+        set(q, qd, Stage::Dynamics);
+        copy(Q, given);
+        (matter.*solve)(state, given, weigh(), result, body_accelerations);
+        copy(result, qdd);
+    }
     // Forces of gravity; they stay zero without.
     const Vector_<SpatialVec>& weigh() {
         if (gravity.normSqr() == 0) return weights;
@@ -123,19 +131,11 @@ void SimbodyPeer::inverse_dynamics(const double* q, const double* qd, const doub
 }
 
 void SimbodyPeer::forward_dynamics(const double* q, const double* qd, const double* Q, double* qdd) {
-    Impl& s = *impl_;
-    s.set(q, qd, Stage::Dynamics);
-    copy(Q, s.given);
-    s.matter.calcAccelerationIgnoringConstraints(s.state, s.given, s.weigh(), s.result, s.body_accelerations);
-    copy(s.result, qdd);
+    impl_->accelerate(&SimbodyMatterSubsystem::calcAccelerationIgnoringConstraints, q, qd, Q, qdd);
 }
 
 void SimbodyPeer::closed_dynamics(const double* q, const double* qd, const double* Q, double* qdd) {
-    Impl& s = *impl_;
-    s.set(q, qd, Stage::Dynamics);
-    copy(Q, s.given);
-    s.matter.calcAcceleration(s.state, s.given, s.weigh(), s.result, s.body_accelerations);
-    copy(s.result, qdd);
+    impl_->accelerate(&SimbodyMatterSubsystem::calcAcceleration, q, qd, Q, qdd);
 }
 
 }  // namespace cardan::peers

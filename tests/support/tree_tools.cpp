@@ -38,6 +38,16 @@ Link add_joint(Tree& tree, const Joint& joint) {
     return {body, tree.add_frame(tree.frame_of(body), back, joint.name + " axes")};
 }
 
+PlaneMass add_plane_mass(Tree& tree, double mass) {
+    const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
+    const Link y = add_joint(tree, {.name = "y",
+                                    .inboard = x.axes,
+                                    .kind = JointKind::prismatic,
+                                    .axis = Vec3::UnitY(),
+                                    .inertia = {mass, Vec3::Zero(), Mat3::Zero()}});
+    return {x, y};
+}
+
 std::vector<BodyId> transplant(Tree& target, FrameId onto, const Tree& source, std::vector<int> order) {
     const std::size_t n = source.bodies().size();
     if (order.empty()) {

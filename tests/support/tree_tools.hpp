@@ -32,6 +32,12 @@ struct Link {
 };
 Link add_joint(Tree& tree, const Joint& joint);
 
+/// A body that slides along x and y of the base, without turning.
+struct PlaneMass {
+    Link x, y;
+};
+PlaneMass add_plane_mass(Tree& tree, double mass);
+
 /// Adds the bodies and armatures of `source` to `target`; what stood on the base stands on `onto`.
 /// @param order  body indices of `source`, parents before children; empty: as they are
 /// @return the new bodies, by index in `source`

@@ -3,6 +3,7 @@
 #include "elements/machine/pair_law.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "solvers/linear/modes.hpp"
+#include "tests/elements/machine/differenced_forces.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
@@ -40,30 +41,11 @@ TEST_CASE("bushing: derivatives and energy on random trees", "[property]") {
         const System system(tree, forces);
         const int n = system.model.size();
         const Vector q = random_state(random, n), qd = random_state(random, n);
-        Workspace workspace(system.model);
-        const auto Q = [&](const Vector& at, const Vector& rate) {
-            Vector out(n);
-            system.forces.generalised_forces(kinematics(system.model, at, workspace), 0, at, rate, out);
-            return out;
-        };
-        ForceDerivatives d;
-        system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, qd, d);
-        Matrix by_q(n, n), by_qd(n, n);
-        Vector slope(n);
-        const double step = 1e-6;
-        const auto energy = [&](const Vector& at) {
-            return system.forces.potential_energy(kinematics(system.model, at, workspace), 0, at, qd);
-        };
-        for (int i = 0; i < n; ++i) {
-            const Vector e = step * Vector::Unit(n, i);
-            by_q.col(i) = (Q(q + e, qd) - Q(q - e, qd)) / (2 * step);
-            by_qd.col(i) = (Q(q, qd + e) - Q(q, qd - e)) / (2 * step);
-            slope(i) = (energy(q + e) - energy(q - e)) / (2 * step);
-        }
-        CHECK(by_q.norm() > 0);
-        CHECK(scaled(d.elastic + by_q, by_q) < 1e-7);
-        CHECK(scaled(d.damping + by_qd, by_qd) < 1e-7);
-        if (seed % 2 == 0) CHECK(scaled(Q(q, Vector::Zero(n)) + slope, slope) < 1e-6);
+        const DifferencedForces d = differenced(system, q, qd);
+        CHECK(d.by_q.norm() > 0);
+        CHECK(scaled(d.own.elastic + d.by_q, d.by_q) < 1e-7);
+        CHECK(scaled(d.own.damping + d.by_qd, d.by_qd) < 1e-7);
+        if (seed % 2 == 0) CHECK(scaled(d.Q_at_rest + d.slope, d.slope) < 1e-6);
     }
 }
 
@@ -101,12 +83,7 @@ TEST_CASE("bearing: a mass on eight coefficients, and coefficients over speed", 
     CHECK(at.stiffness(0, 1) == Approx(1.5e5));
     CHECK(at.damping(1, 1) == Approx(475));
     Tree tree;
-    const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
-    const Link y = add_joint(tree, {.name = "y",
-                                    .inboard = x.axes,
-                                    .kind = JointKind::prismatic,
-                                    .axis = Vec3::UnitY(),
-                                    .inertia = {12, Vec3::Zero(), Mat3::Zero()}});
+    const auto [x, y] = add_plane_mass(tree, 12);
     ForceSet forces;
     add_bearing(forces, {"bearing", Tree::base(), y.axes, at});
     const System system(tree, forces);

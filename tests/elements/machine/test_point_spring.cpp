@@ -4,6 +4,7 @@
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/time/integrate.hpp"
+#include "tests/elements/machine/differenced_forces.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
@@ -87,32 +88,13 @@ TEST_CASE("point spring: derivatives, energy and power on random trees", "[prope
             const System system(tree, forces);
             const int n = system.model.size();
             const Vector q = random_state(random, n), qd = random_state(random, n);
-            Workspace workspace(system.model);
-            const auto Q = [&](const Vector& at, const Vector& rate) {
-                Vector out(n);
-                system.forces.generalised_forces(kinematics(system.model, at, workspace), 0, at, rate, out);
-                return out;
-            };
-            const auto energy = [&](const Vector& at) {
-                return system.forces.potential_energy(kinematics(system.model, at, workspace), 0, at, qd);
-            };
-            ForceDerivatives d;
-            system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, qd, d);
-            Matrix by_q(n, n), by_qd(n, n);
-            Vector slope(n);
-            const double step = 1e-6;
-            for (int i = 0; i < n; ++i) {
-                const Vector e = step * Vector::Unit(n, i);
-                by_q.col(i) = (Q(q + e, qd) - Q(q - e, qd)) / (2 * step);
-                by_qd.col(i) = (Q(q, qd + e) - Q(q, qd - e)) / (2 * step);
-                slope(i) = (energy(q + e) - energy(q - e)) / (2 * step);
-            }
-            CHECK(by_q.norm() > 0);
-            CHECK(scaled(d.elastic + by_q, by_q) < 1e-7);
-            CHECK(scaled(d.damping + by_qd, by_qd) < 1e-7);
-            CHECK(scaled(Q(q, Vector::Zero(n)) + slope, slope) < 1e-7);
-            CHECK(max_abs(d.loads) == 0);
-            if (damping > 0) CHECK((Q(q, qd) - Q(q, Vector::Zero(n))).dot(qd) < 0);
+            const DifferencedForces d = differenced(system, q, qd);
+            CHECK(d.by_q.norm() > 0);
+            CHECK(scaled(d.own.elastic + d.by_q, d.by_q) < 1e-7);
+            CHECK(scaled(d.own.damping + d.by_qd, d.by_qd) < 1e-7);
+            CHECK(scaled(d.Q_at_rest + d.slope, d.slope) < 1e-7);
+            CHECK(max_abs(d.own.loads) == 0);
+            if (damping > 0) CHECK((d.Q - d.Q_at_rest).dot(qd) < 0);
         }
 }
 

@@ -104,12 +104,7 @@ TEST_CASE("loop equilibria: natural modes of a closed machine are those of the o
     // A mass on a rod about the origin, held by springs in x and y: against the same mass on a hinge.
     const double length = 1.3, m = 2, kx = 30, ky = 70;
     Tree tree;
-    const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
-    const Link y = add_joint(tree, {.name = "y",
-                                    .inboard = x.axes,
-                                    .kind = JointKind::prismatic,
-                                    .axis = Vec3::UnitY(),
-                                    .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
+    const auto [x, y] = add_plane_mass(tree, m);
     ForceSet forces;
     forces.add_spring("x", x.body, kx, 0, length);  // at rest on the x axis
     forces.add_spring("y", y.body, ky, 0, 0);

@@ -28,12 +28,7 @@ struct GroundResonance {
     System system() const {
         Tree tree;
         ForceSet forces;
-        const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
-        const Link y = add_joint(tree, {.name = "y",
-                                        .inboard = x.axes,
-                                        .kind = JointKind::prismatic,
-                                        .axis = Vec3::UnitY(),
-                                        .inertia = {M, Vec3::Zero()}});
+        const auto [x, y] = add_plane_mass(tree, M);
         const Link spin =
             add_joint(tree, {.name = "spin", .inboard = y.axes, .inertia = {0, Vec3::Zero(), Mat3::Identity()}});
         forces.add_spring("x", x.body, kx, cx);

@@ -19,12 +19,7 @@ struct Helicopter {
     System system() const {
         Tree tree;
         ForceSet forces;
-        const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
-        const Link y = add_joint(tree, {.name = "y",
-                                        .inboard = x.axes,
-                                        .kind = JointKind::prismatic,
-                                        .axis = Vec3::UnitY(),
-                                        .inertia = {My, Vec3::Zero(), Mat3::Zero()}});
+        const auto [x, y] = add_plane_mass(tree, My);
         // What moves in x only is heavier or lighter than what moves in y.
         tree.add_armature({"mass in x", Mx - My, {{x.body, 1.0}}});
         const Link spin =

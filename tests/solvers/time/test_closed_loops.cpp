@@ -36,12 +36,7 @@ struct RodPendulum {
     RodPendulum() : system(make()) {}
     static System make() {
         Tree tree;
-        const Link x = add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .axis = Vec3::UnitX()});
-        const Link y = add_joint(tree, {.name = "y",
-                                        .inboard = x.axes,
-                                        .kind = JointKind::prismatic,
-                                        .axis = Vec3::UnitY(),
-                                        .inertia = {2, Vec3::Zero(), Mat3::Zero()}});
+        const auto [x, y] = add_plane_mass(tree, 2);
         ForceSet forces;
         forces.set_gravity({0, -loop_gravity, 0});
         LoopSet loops;
