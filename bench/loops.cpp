@@ -1,12 +1,15 @@
 // What loops cost: accelerations of N windows of four-bars beside those of the same tree without loops, and beside
-// Simbody's with as many pins, in turn: medians of the ratios of CPU times, pair by pair.
+// Simbody's with as many pins, in turn; and a motion of them to a given error. Medians of the ratios of CPU times, pair
+// by pair.
 #include "bench/pairs.hpp"
 #include "mbs/kernels/dynamics.hpp"
-#include "solvers/time/equations_of_motion.hpp"
+#include "solvers/time/integrate.hpp"
 #include "tests/peers/closed_links.hpp"
 #include "tests/peers/simbody_peer.hpp"
 
 #include <benchmark/benchmark.h>
+
+#include <cmath>
 
 using namespace cardan;
 
@@ -80,5 +83,80 @@ BENCHMARK(accelerations)
     ->UseManualTime()
     ->Iterations(bench::Pairs::least)
     ->Unit(benchmark::kMicrosecond);
+
+// A second of the motion from IFToMM benchmark A02, short of the first position in which all links lie in one line; the
+// couplers stay level and the uprights turn as one coordinate has it.
+struct Fall {
+    explicit Fall(int windows)
+        : machine(windows, CutKind::spherical),
+          peer(peers::peer_links(machine.system.model), {0, -testing::loop_gravity, 0}, peers::pins(machine)) {
+        const double inertia = (windows + 1) / 3.0 + windows, weight = 9.81 * ((windows + 1) / 2.0 + windows);
+        double theta = pi / 2, rate = -1;
+        const int steps = 20000;
+        for (int i = 0; i < steps; ++i) {
+            const double h = duration / steps;
+            const auto f = [&](double at) { return -weight / inertia * std::cos(at); };
+            const double a = f(theta), b = f(theta + h / 2 * rate + h * h / 8 * a),
+                         c = f(theta + h * rate + h * h / 2 * b);
+            theta += h * rate + h * h / 6 * (a + 2 * b);
+            rate += h / 6 * (a + 4 * b + c);
+        }
+        end = machine.position(theta);
+    }
+    double ours(double tolerance) const {
+        solvers::IntegrationOptions options;
+        options.method = solvers::Method::erk;
+        options.tolerances = {tolerance, tolerance, tolerance, tolerance, tolerance};
+        options.integrate_work = false;
+        solvers::Integrator run(machine.system, {}, 0, machine.position(pi / 2), machine.rates(-1), options);
+        if (!run.advance(duration).reached()) return 1;
+        return (run.state().q - end).lpNorm<Eigen::Infinity>();
+    }
+    double theirs(double accuracy) {
+        Vector q = machine.position(pi / 2), qd = machine.rates(-1);
+        if (peer.advance(q.data(), qd.data(), duration, accuracy) < 0) return 1;
+        return (q - end).lpNorm<Eigen::Infinity>();
+    }
+
+    static constexpr double duration = 0.5, wanted = 1e-6;
+    testing::Windows machine;
+    peers::SimbodyMotion peer;
+    Vector end;
+};
+
+// The loosest accuracy, in powers of the root of ten, that comes as near as wanted.
+template <class Error>
+double loosest(const Error& error) {
+    for (double accuracy = 1e-2; accuracy > 1e-13; accuracy /= std::sqrt(10.0))
+        if (error(accuracy) < Fall::wanted) return accuracy;
+    return 0;
+}
+
+void motion(benchmark::State& state) {
+    Fall fall(static_cast<int>(state.range(0)));
+    const double ours = loosest([&](double accuracy) { return fall.ours(accuracy); }),
+                 theirs = loosest([&](double accuracy) { return fall.theirs(accuracy); });
+    if (ours == 0 || theirs == 0) return state.SkipWithError("one of them does not come as near as wanted");
+    const auto own = [&] { benchmark::DoNotOptimize(fall.ours(ours)); };
+    const auto other = [&] { benchmark::DoNotOptimize(fall.theirs(theirs)); };
+    const int our_calls = bench::calls_per_turn(own), their_calls = bench::calls_per_turn(other);
+    bench::Pairs pairs;
+    for (auto _ : state) {
+        const double first = bench::seconds(their_calls, other), second = bench::seconds(our_calls, own);
+        pairs.add(first, second);
+        state.SetIterationTime(second);
+    }
+    state.counters["Simbody / Cardan"] = pairs.ratio();
+    state.counters["accuracy"] = ours;
+    state.counters["accuracy of Simbody"] = theirs;
+}
+
+BENCHMARK(motion)
+    ->Arg(2)
+    ->Arg(10)
+    ->Arg(40)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

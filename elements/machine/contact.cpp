@@ -64,6 +64,11 @@ StribeckFriction::Force StribeckFriction::at(double speed) const {
     return {dry * side + viscous * speed, dry_slope * side + dry * (1 - side * side) / regularisation + viscous};
 }
 
+StribeckFriction::Force StribeckFriction::sliding(double speed, int direction) const {
+    const double drop = (static_force - coulomb_force) * std::exp(-direction * speed / stribeck_speed);
+    return {direction * (coulomb_force + drop) + viscous * speed, viscous - drop / stribeck_speed};
+}
+
 UserForce friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed) {
     const std::string where = text("friction '", name, "'");
     law.check(where);
@@ -73,6 +78,24 @@ UserForce friction_force(std::string name, BodyId coordinate, const StribeckFric
         return {-force.force, 0, -force.by_speed, 0};
     };
     return coordinate_force(std::move(name), coordinate, along, false);
+}
+
+DryFriction add_dry_friction(ForceSet& forces, LoopSet& loops, const std::string& name, BodyId coordinate,
+                             const StribeckFriction& law, double surface_speed) {
+    const std::string where = text("friction '", name, "'");
+    law.check(where);
+    if (!std::isfinite(surface_speed)) throw InputError(where, "speed of the surface", surface_speed, "finite");
+    DryFriction friction{name, coordinate, law.static_force, surface_speed};
+    const auto along = [law, surface_speed, state = friction.state](double, double, double rate) -> CoordinateLaw {
+        if (state->engaged) return {};
+        const double speed = rate - surface_speed;
+        const StribeckFriction::Force force =
+            state->direction == 0 ? law.at(speed) : law.sliding(speed, state->direction);
+        return {-force.force, 0, -force.by_speed, 0};
+    };
+    forces.add_user(coordinate_force(name, coordinate, along, false));
+    loops.add_lock({name, coordinate, friction.state});
+    return friction;
 }
 
 }  // namespace cardan

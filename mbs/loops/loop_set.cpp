@@ -12,7 +12,7 @@ void LoopSet::require_new(const std::string& name) const {
     const auto taken = [&](const auto& list) {
         return std::ranges::any_of(list, [&](const auto& other) { return other.name == name; });
     };
-    if (taken(joints_) || taken(distances_) || taken(surfaces_) || taken(couplings_) || taken(users_))
+    if (taken(joints_) || taken(distances_) || taken(surfaces_) || taken(couplings_) || taken(users_) || taken(locks_))
         throw InputError(text("loop '", name, "'"), "name", name, "one that no other loop has");
 }
 
@@ -56,6 +56,12 @@ void LoopSet::add_user(UserConstraint constraint) {
     require_new(constraint.name);
     if (!constraint.terms) throw InputError(text("loop '", constraint.name, "'"), "function", "missing", "one");
     users_.push_back(std::move(constraint));
+}
+
+void LoopSet::add_lock(Lock lock) {
+    require_new(lock.name);
+    if (!lock.state) throw InputError(text("loop '", lock.name, "'"), "state of the lock", "missing", "one");
+    locks_.push_back(std::move(lock));
 }
 
 }  // namespace cardan

@@ -5,6 +5,7 @@
 #include "mbs/model/tree.hpp"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,22 @@ struct Coupling {
     std::string unit = "rad";  ///< of the equation
 };
 
+/// What a lock does at present: the coordinate is held at position + rate (t - since) while it is engaged. Whoever
+/// engages it, such as an event of a time integration, shares this; one motion at a time.
+struct LockState {
+    bool engaged = false;
+    double position = 0, rate = 0;  ///< rad, rad/s or m, m/s
+    double since = 0;               ///< s
+};
+
+/// A brake, a latch or dry friction that sticks: holds a coordinate while it is engaged, and does nothing otherwise.
+/// The multiplier is the force that holds it.
+struct Lock {
+    std::string name = {};
+    BodyId coordinate = {};
+    std::shared_ptr<const LockState> state = {};
+};
+
 /// A function phi(q, t) with its derivatives. All are zero before a user function is called.
 struct ConstraintTerms {
     double value = 0, rate = 0, rate_rate = 0;  ///< phi, phi_t, phi_tt
@@ -75,14 +92,17 @@ public:
     void add_surface(PointOnSurface contact);
     void add_coupling(Coupling coupling);
     void add_user(UserConstraint constraint);
+    void add_lock(Lock lock);
 
     const std::vector<CutJoint>& joints() const { return joints_; }
     const std::vector<FixedDistance>& distances() const { return distances_; }
     const std::vector<PointOnSurface>& surfaces() const { return surfaces_; }
     const std::vector<Coupling>& couplings() const { return couplings_; }
     const std::vector<UserConstraint>& users() const { return users_; }
+    const std::vector<Lock>& locks() const { return locks_; }
     bool empty() const {
-        return joints_.empty() && distances_.empty() && surfaces_.empty() && couplings_.empty() && users_.empty();
+        return joints_.empty() && distances_.empty() && surfaces_.empty() && couplings_.empty() && users_.empty() &&
+               locks_.empty();
     }
 
 private:
@@ -93,6 +113,7 @@ private:
     std::vector<PointOnSurface> surfaces_;
     std::vector<Coupling> couplings_;
     std::vector<UserConstraint> users_;
+    std::vector<Lock> locks_;
 };
 
 }  // namespace cardan

@@ -73,23 +73,28 @@ Loops::Loops(const LoopSet& set, const Model& model) : model_(model.serial()), c
         for (const auto& [body, factor] : coupling.factors) {
             const int at = model.index(body);
             linear.factors.emplace_back(at, factor);
-            involved_[static_cast<std::size_t>(at)] = true;
             place += text(" '", model.coordinates()[at].name, "'");
         }
         couplings_.push_back(std::move(linear));
-        names_.push_back(coupling.name);
-        places_.push_back(std::move(place));
-        add_equation(coupling.name, coupling.unit);
-        first_.push_back(size());
+        add_single(coupling.name, coupling.unit, std::move(place));
     }
     for (const UserConstraint& user : set.users()) {
         users_.push_back({user, size()});
         involved_.assign(involved_.size(), true);
-        names_.push_back(user.name);
-        places_.emplace_back("constraint of one's own");
-        add_equation(user.name, user.unit);
-        first_.push_back(size());
+        add_single(user.name, user.unit, "constraint of one's own");
     }
+    for (const Lock& lock : set.locks()) {
+        const int at = model.index(lock.coordinate);
+        locks_.push_back({lock.state, at, size()});
+        add_single(lock.name, model.coordinates()[at].unit, text("lock of '", model.coordinates()[at].name, "'"));
+    }
+}
+
+void Loops::add_single(const std::string& name, const std::string& unit, std::string place) {
+    names_.push_back(name);
+    places_.push_back(std::move(place));
+    equations_.push_back({name, unit, static_cast<int>(names_.size()) - 1});
+    first_.push_back(size());
 }
 
 void Loops::add_loop(const std::string& name, const Model& model, Loop loop) {
@@ -186,7 +191,7 @@ void Loops::for_each_user(double time, VectorIn q, const Visit& visit) const {
 }
 
 template <class S>
-void Loops::residual(const KinematicsT<S>& kin, [[maybe_unused]] double time, VectorInT<S> q, VectorOutT<S> phi) const {
+void Loops::residual(const KinematicsT<S>& kin, double time, VectorInT<S> q, VectorOutT<S> phi) const {
     check<S>(kin, q);
     require_size(in_loops, "phi", phi, size());
     for (const Loop& loop : loops_) {
@@ -199,51 +204,64 @@ void Loops::residual(const KinematicsT<S>& kin, [[maybe_unused]] double time, Ve
         for (const auto& [at, factor] : linear.factors) sum += factor * q(at);
         phi(linear.equation) = sum;
     }
+    for (const Held& held : locks_) {
+        const LockState& lock = *held.state;
+        const double wanted = lock.position + lock.rate * (time - lock.since);
+        phi(held.equation) = lock.engaged ? q(held.coordinate) - wanted : S(0);
+    }
     if constexpr (std::is_same_v<S, double>)
         for_each_user(time, q, [&](int k, const ConstraintTerms& terms) { phi(k) = terms.value; });
 }
 
-template <class S>
-void Loops::gradient(const KinematicsT<S>& kin, [[maybe_unused]] double time, VectorInT<S> q, MatrixOutT<S> G) const {
-    check<S>(kin, q);
-    require_size(in_loops, "gradient", G, size(), coordinates_);
-    G.setZero();
+// Every coordinate of every equation of joints, rods and surfaces.
+template <class S, class Visit>
+void Loops::for_each_entry(const KinematicsT<S>& kin, const Visit& visit) const {
     for (const Loop& loop : loops_) {
         const FrameEnds<S> ends(kin, loop.a, loop.b);
         for (int k = loop.first; const RelativeMeasure& equation : loop.equations) {
             const UnitWrench<S> pair = wrench<S>(loop, equation, ends);
-            for (const PathStep& step : loop.path) {
-                const PointTwist<S> twist = own_twist_at<S>(kin, step.coordinate, ends.p);
-                G(k, step.coordinate) = step.sign * pair.on(twist);
-            }
+            for (const PathStep& step : loop.path)
+                visit(loop, equation, k, step, pair, own_twist_at<S>(kin, step.coordinate, ends.p));
             ++k;
         }
     }
+}
+
+template <class S>
+void Loops::add_linear_rows([[maybe_unused]] double time, [[maybe_unused]] VectorInT<S> q, MatrixOutT<S> G) const {
     for (const Linear& linear : couplings_)
         for (const auto& [at, factor] : linear.factors) G(linear.equation, at) = factor;
+    for (const Held& held : locks_) G(held.equation, held.coordinate) = held.state->engaged ? 1 : 0;
     if constexpr (std::is_same_v<S, double>)
         for_each_user(time, q, [&](int k, const ConstraintTerms& terms) { G.row(k) = terms.gradient.transpose(); });
 }
 
-void Loops::gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G, MatrixOut magnitudes) const {
-    gradient<double>(kin, time, q, magnitudes);
+template <class S>
+void Loops::gradient(const KinematicsT<S>& kin, double time, VectorInT<S> q, MatrixOutT<S> G) const {
+    check<S>(kin, q);
     require_size(in_loops, "gradient", G, size(), coordinates_);
-    G = magnitudes;
+    G.setZero();
+    for_each_entry<S>(kin,
+                      [&](const Loop&, const RelativeMeasure&, int k, const PathStep& step, const UnitWrench<S>& pair,
+                          const PointTwist<S>& twist) { G(k, step.coordinate) = step.sign * pair.on(twist); });
+    add_linear_rows<S>(time, q, G);
+}
+
+void Loops::gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G, MatrixOut magnitudes) const {
+    check<double>(kin, q);
+    require_size(in_loops, "gradient", G, size(), coordinates_);
+    require_size(in_loops, "magnitudes", magnitudes, size(), coordinates_);
+    G.setZero();
+    add_linear_rows<double>(time, q, G);
     magnitudes = G.cwiseAbs();
-    for (const Loop& loop : loops_) {
-        const FrameEnds<double> ends(kin, loop.a, loop.b);
-        for (int k = loop.first; const RelativeMeasure& equation : loop.equations) {
-            const UnitWrench<double> pair = wrench<double>(loop, equation, ends);
-            // Directions are square to one another where the equation is met.
-            const bool directions = loop.surface < 0 && equation.kind == Kind::square;
-            const double force = pair.force.norm(), moment = directions ? 1 : 0;
-            for (const PathStep& step : loop.path) {
-                const PointTwist<double> twist = own_twist_at<double>(kin, step.coordinate, ends.p);
-                magnitudes(k, step.coordinate) = moment * twist.w.norm() + force * twist.v.norm();
-            }
-            ++k;
-        }
-    }
+    for_each_entry<double>(kin, [&](const Loop& loop, const RelativeMeasure& equation, int k, const PathStep& step,
+                                    const UnitWrench<double>& pair, const PointTwist<double>& twist) {
+        G(k, step.coordinate) = step.sign * pair.on(twist);
+        // Directions are square to one another where the equation is met.
+        const bool directions = loop.surface < 0 && equation.kind == Kind::square;
+        const double force = pair.force.norm(), moment = directions ? 1 : 0;
+        magnitudes(k, step.coordinate) = moment * twist.w.norm() + force * twist.v.norm();
+    });
 }
 
 void Loops::time_rates(double time, VectorIn q, VectorOut out) const {
@@ -251,6 +269,8 @@ void Loops::time_rates(double time, VectorIn q, VectorOut out) const {
     require_size(in_loops, "q", q, coordinates_);
     out.setZero();
     for_each_user(time, q, [&](int k, const ConstraintTerms& terms) { out(k) = terms.rate; });
+    for (const Held& held : locks_)
+        if (held.state->engaged) out(held.equation) = -held.state->rate;
 }
 
 template <class S>

@@ -37,7 +37,7 @@ public:
     struct Equation {
         std::string name;  ///< "crank pin: x together"
         std::string unit;  ///< of phi; "1" for the cosine of an angle that is to be a right one
-        int loop;          ///< index in the order joints, distances, surfaces, couplings, users
+        int loop;          ///< index in the order joints, distances, surfaces, couplings, users, locks
     };
 
     Loops() = default;
@@ -67,7 +67,9 @@ public:
     /// @param on_b  its load on b
     double rod_tension(const Kinematics& kin, int pair, const LoopLoad& on_b) const;
     ///@}
-    /// Whether a coordinate occurs in any of them.
+    /// Whether there are surfaces or constraints of one's own, which are known for real numbers only.
+    bool has_own_functions() const { return !surfaces_.empty() || !users_.empty(); }
+    /// Whether gradients may change with a coordinate. Those of couplings and locks never do.
     bool involves(int coordinate) const { return !empty() && entry(involved_, coordinate); }
 
     /// phi.  @param phi  out, size(), in units of the equations
@@ -123,8 +125,17 @@ private:
         UserConstraint own;
         int equation = 0;
     };
+    struct Held {
+        std::shared_ptr<const LockState> state;
+        int coordinate = 0, equation = 0;
+    };
     void add_loop(const std::string& name, const Model& model, Loop loop);
+    void add_single(const std::string& name, const std::string& unit, std::string place);
     void add_equation(const std::string& name, std::string unit);
+    template <class S, class Visit>
+    void for_each_entry(const KinematicsT<S>& kin, const Visit& visit) const;
+    template <class S>
+    void add_linear_rows(double time, VectorInT<S> q, MatrixOutT<S> G) const;
     template <class S>
     UnitWrench<S> wrench(const Loop& loop, const RelativeMeasure& equation, const FrameEnds<S>& ends) const;
     template <class S>
@@ -139,6 +150,7 @@ private:
     std::vector<PointOnSurface> surfaces_;
     std::vector<Linear> couplings_;
     std::vector<User> users_;
+    std::vector<Held> locks_;
     std::vector<Equation> equations_;
     std::vector<std::string> names_, places_;
     std::vector<int> first_ = {0};

@@ -42,6 +42,12 @@ void Model::make(const Tree& tree) {
         }
         armatures_.push_back(spin);
     }
+    const auto indices = [&](const std::array<BodyId, 3>& bodies) {
+        return std::array{index(bodies[0]), index(bodies[1]), index(bodies[2])};
+    };
+    for (const FreeBody& body : tree.free_bodies())
+        free_bodies_.push_back(
+            {body.name, indices(body.slides), index(body.reference), indices(body.hinges), body.frame});
     check_metric();
 }
 
@@ -127,6 +133,13 @@ FrameId Model::frame(std::string_view name) const {
         if (frames_[i].name == name) return FrameId{static_cast<int>(i)};
     throw InputError(text("unknown frame '", name, "'; the model has ", frames_.size(), " frames, the first of them '",
                           frames_[0].name, "'"));
+}
+
+const Model::Free& Model::free_body(std::string_view name) const {
+    const auto found = std::ranges::find(free_bodies_, name, &Free::name);
+    if (found == free_bodies_.end())
+        throw InputError(text("unknown free body '", name, "'; the model has ", free_bodies_.size(), " free bodies"));
+    return *found;
 }
 
 double Model::mass() const {

@@ -38,6 +38,15 @@ public:
         std::vector<std::pair<int, double>> spin;
     };
 
+    /// A free body, by coordinate indices; see cardan::FreeBody.
+    struct Free {
+        std::string name;
+        std::array<int, 3> slides;
+        int reference;
+        std::array<int, 3> hinges;
+        FrameId frame;
+    };
+
     /// @throws InputError if the metric of the free coordinates at q = 0 is singular (a pivot below 1e-12 of its
     /// scale; see ForwardDynamics::singular_pivot()): the coordinate is named.
     /// @throws MemoryError
@@ -61,6 +70,9 @@ public:
     const std::vector<Frame>& frames() const { return frames_; }
     const std::vector<Spin>& armatures() const { return armatures_; }
     const CoordinateTable& coordinates() const { return coordinates_; }
+    const std::vector<Free>& free_bodies() const { return free_bodies_; }
+    /// @throws InputError for a name that no free body has
+    const Free& free_body(std::string_view name) const;
 
     /// Coordinate (= body) index in the model of a body of the tree.
     int index(BodyId body) const;
@@ -90,6 +102,7 @@ private:
     std::vector<int> by_depth_;
     std::vector<Frame> frames_;
     std::vector<Spin> armatures_;
+    std::vector<Free> free_bodies_;
     CoordinateTable coordinates_;
     std::vector<int> index_of_tree_body_;
     std::uint64_t serial_;

@@ -64,6 +64,39 @@ BodyId Tree::add_body(BodySpec spec, const DhParameters& dh) {
     return add_body(spec);
 }
 
+FreeBody Tree::add_free_body(const FreeBodySpec& spec) {
+    const std::string where = text("free body '", spec.name, "'");
+    if (spec.name.empty()) throw InputError("a free body needs a name");
+    require_new_frame(spec.name, where);
+    require(spec.inboard, where);
+    spec.inertia.check(where);
+    // Axes of joints in those of the inboard frame; each body's own frame has z along its joint.
+    const Mat3 x = (Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished(), y = x * x, z = Mat3::Identity();
+    FrameId at = spec.inboard;
+    Mat3 axes = Mat3::Identity();  // of `at`, in those of the inboard frame
+    const auto add = [&](const char* joint, JointKind kind, const Mat3& own, CoordinateRole role, bool last = false) {
+        BodySpec body{.name = text(spec.name, " ", joint), .inboard = at, .joint = kind, .coordinate = spec.coordinate};
+        body.placement = Placement::rotation(axes.transpose() * own);
+        if (last) body.inertia = spec.inertia.in(Placement::rotation(own.transpose()));
+        body.coordinate.name.clear();
+        body.coordinate.role = role;
+        const BodyId id = add_body(body);
+        at = frame_of(id);
+        axes = own;
+        return id;
+    };
+    constexpr CoordinateRole free = CoordinateRole::free;
+    FreeBody body{.name = spec.name, .slides = {}, .reference = {}, .hinges = {}, .frame = {}};
+    body.slides = {add("x", JointKind::prismatic, x, free), add("y", JointKind::prismatic, y, free),
+                   add("z", JointKind::prismatic, z, free)};
+    body.reference = add("reference", JointKind::revolute, x, CoordinateRole::driven);
+    body.hinges = {add("turn z", JointKind::revolute, z, free), add("turn y", JointKind::revolute, y, free),
+                   add("turn x", JointKind::revolute, x, free, true)};
+    body.frame = add_frame(at, Placement::rotation(x.transpose()), spec.name);
+    free_bodies_.push_back(body);
+    return body;
+}
+
 FrameId Tree::add_frame(FrameId parent, const Placement& placement, std::string name) {
     const std::string where = text("frame '", name, "'");
     if (name.empty()) throw InputError("a frame needs a name");

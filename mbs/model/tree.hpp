@@ -6,6 +6,7 @@
 #include "mbs/model/dh.hpp"
 #include "mbs/model/inertia.hpp"
 
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -29,6 +30,26 @@ struct Armature {
     std::string name = {};
     double inertia = 0;  ///< J, kg m^2 (rad) or kg (m); negative values are legal as long as the metric stays positive
     std::vector<std::pair<BodyId, double>> spin = {};  ///< the vector s: coordinates on one branch and their factors
+};
+
+/// What a free body needs to be added to a tree.
+struct FreeBodySpec {
+    std::string name = {};
+    FrameId inboard = {};            ///< from which it is seen
+    RigidInertia inertia = {};       ///< in the axes of the body
+    CoordinateInfo coordinate = {};  ///< of all its coordinates, but for their names
+};
+
+/// A body that nothing holds. Three slides carry it along x, y and z of the inboard frame, and three hinges turn it
+/// about z, y and x, which are singular where the second one stands at a right angle. So a fourth, the reference, turns
+/// all of them about x: it is driven, stands still, and is put where the three are far from their singularity whenever
+/// they come near to it. Pose and velocities: mbs/model/free_body.hpp.
+struct FreeBody {
+    std::string name;
+    std::array<BodyId, 3> slides;
+    BodyId reference;
+    std::array<BodyId, 3> hinges;
+    FrameId frame;  ///< axes of the body: those of the inboard frame at q = 0, origin between its hinges
 };
 
 /// A tree of bodies, each attached by a joint with one coordinate to a frame of another body or of the base. Everything
@@ -62,6 +83,9 @@ public:
 
     BodyId add_body(BodySpec spec);
     BodyId add_body(BodySpec spec, const DhParameters& dh);
+    /// Its coordinates are "<name> x", "y", "z", "<name> reference" and "<name> turn z", "turn y", "turn x"; its frame
+    /// is called like the body.
+    FreeBody add_free_body(const FreeBodySpec& spec);
     /// A frame fixed to the body of `parent`, at `placement` in it.
     FrameId add_frame(FrameId parent, const Placement& placement, std::string name);
     /// Fixes a rigid inertia, given in components of `frame`, to the body of that frame. On the base it moves nothing
@@ -76,6 +100,7 @@ public:
 
     const std::vector<Body>& bodies() const { return bodies_; }
     const std::vector<Frame>& frames() const { return frames_; }
+    const std::vector<FreeBody>& free_bodies() const { return free_bodies_; }
     const std::vector<Armature>& armatures() const { return armatures_; }
     const std::vector<Piece>& pieces() const { return pieces_; }
 
@@ -86,6 +111,7 @@ private:
 
     std::vector<Body> bodies_;
     std::vector<Frame> frames_;
+    std::vector<FreeBody> free_bodies_;
     std::vector<Armature> armatures_;
     std::vector<Piece> pieces_;
     std::map<std::string, int, std::less<>> frame_index_;  ///< of every name of a frame or body

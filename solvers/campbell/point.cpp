@@ -97,7 +97,7 @@ void PointSolver::reduce_unknowns() {
     require_result(closed, rotor_.machine);
     lineariser_.linearise({closed.q, zero, zero}, lin_);
     moving_ = unknowns_;
-    unknowns_ = independent_coordinates(lin_, moving_);
+    unknowns_ = independent_coordinates(lin_, moving_, rotor_.spin);
     if (rotor_.blades.size() > 1 && options_.method != CampbellMethod::floquet)
         require_constant_rows(rotor_, unknowns_);
 }
@@ -105,6 +105,12 @@ void PointSolver::reduce_unknowns() {
 void PointSolver::linearise(const OperatingPoint& at) {
     lineariser_.linearise(at, lin_);
     if (!moving_.empty()) condense_loops(lin_, moving_, unknowns_);
+}
+
+Linearisation PointSolver::linearised_at(const OperatingPoint& at) const {
+    Linearisation lin = solvers::linearise(system_, at, LoopState::in_motion);
+    condense_loops(lin, moving(), unknowns_);
+    return lin;
 }
 
 Matrix PointSolver::followers(const OperatingPoint& at) const {

@@ -84,6 +84,10 @@ public:
     const std::string& warning() const override { return warning_; }
     Matrix followers(const OperatingPoint& at) const override;
 
+    /// Coordinates that may move: the unknowns, and with loops those that follow them.
+    const std::vector<int>& moving() const { return moving_.empty() ? unknowns_ : moving_; }
+    /// About a point where loops may be in motion, without constraints: condense_loops().
+    Linearisation linearised_at(const OperatingPoint& at) const;
     /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
     /// solve().
     double periodic_remainder(double rotor_speed);

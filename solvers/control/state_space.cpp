@@ -6,6 +6,8 @@
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/algebra/azimuth_series.hpp"
 #include "solvers/control/detail/state_space.hpp"
+#include "solvers/equilibrium/detail/closed_start.hpp"
+#include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/problem_size.hpp"
 
 #include <algorithm>
@@ -29,16 +31,22 @@ public:
           rotor_(rotor),
           layout_(system, rotor, inputs, options),
           differences_(system, outputs, options.outputs),
-          lineariser_(system),
+          lineariser_(system, LoopState::in_motion),
           workspace_(system.model) {}
 
+    /// With loops: what is independent on the way of the steady states.
+    void choose_states(const std::vector<OperatingPoint>& way);
+    /// Those of the steady state, where they are not given.
+    void set_multipliers(OperatingPoint& at) const;
     LinearModel empty(double rotor_speed) const;
     /// @param state_rates  of the steady state; empty: its states stand still
     void add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model);
     void finish(LinearModel& model) const;
 
 private:
+    void follow();
     void solve(const Matrix& right);
+    void solve_with_loops(const Matrix& right);
     void find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model);
 
     const System& system_;
@@ -70,6 +78,37 @@ LinearModel Builder::empty(double rotor_speed) const {
     return model;
 }
 
+void Builder::choose_states(const std::vector<OperatingPoint>& points) {
+    std::vector<Linearisation> way(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) lineariser_.linearise(points[i], way[i]);
+    layout_.keep_independent(independent_on_the_way(way, layout_.unknowns, rotor_.spin));
+}
+
+void Builder::set_multipliers(OperatingPoint& at) const {
+    if (system_.loops.empty() || at.lambda.size() > 0) return;
+    const Index n = system_.model.size();
+    Workspace workspace(system_.model);
+    const Kinematics kin = kinematics(system_.model, at.q, workspace);
+    Vector tau(n), Q(n), rates(layout_.first_order());
+    inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
+    const Vector s = at.s.size() > 0 ? at.s : system_.forces.states().initial(),
+                 u = at.u.size() > 0 ? at.u : system_.forces.inputs().initial();
+    if (system_.forces.has_states())
+        system_.forces.evaluate({at.time, at.q, at.qd, kin, s, u}, Q, rates);
+    else
+        system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+    at.lambda = loop_start(system_, rotor_.spin, at.time, at.q, tau - Q).lambda;
+}
+
+// Positions and rates of the unknowns that follow: G q = 0, G qd + G' q = 0.
+void Builder::follow() {
+    const std::vector<int>& f = layout_.followers;
+    const Matrix& G = lin_.constraints;
+    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(G(Eigen::all, f)));
+    directions_.q(f, Eigen::all) = -qr.solve(G * directions_.q);
+    directions_.qd(f, Eigen::all) = -qr.solve(G * directions_.qd + lin_.constraint_rates * directions_.q);
+}
+
 // Accelerations of the unknowns along every direction, and forces of drives:
 // M qdd + C qd + K q = Q + actuator, zero on the unknowns.
 void Builder::solve(const Matrix& right) {
@@ -86,6 +125,34 @@ void Builder::solve(const Matrix& right) {
     directions_.actuator(d, Eigen::all) = Matrix(lin_.mass(d, f)) * accelerations - Matrix(right(d, Eigen::all));
 }
 
+// The same where G qdd + 2 G' qd + G'' q = 0: M qdd = right + G^T lambda.
+void Builder::solve_with_loops(const Matrix& right) {
+    const std::vector<int>&f = layout_.unknowns, &d = layout_.driven;
+    const Matrix& G = lin_.constraints;
+    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(G(Eigen::all, layout_.followers)));
+    // What the other directions ask of those that follow, before the independent ones accelerate.
+    directions_.qdd(layout_.followers, Eigen::all) =
+        -qr.solve(G * directions_.qdd + 2 * lin_.constraint_rates * directions_.qd +
+                  lin_.constraint_accelerations * directions_.q);
+    const Matrix asked = directions_.qdd(f, Eigen::all), M = lin_.mass(f, f);
+    std::vector<int> own;
+    for (const int a : f)
+        if (std::ranges::find(layout_.followers, a) == layout_.followers.end()) own.push_back(a);
+    const Matrix Z = following(G, f, own);
+    const Eigen::LLT<Matrix> mass(Matrix(Z.transpose() * M * Z));
+    if (mass.info() != Eigen::Success)
+        throw NumericalError(
+            text(in_linear_model, ": the mass matrix where loops are closed is not positive definite"));
+    const Matrix load = right(f, Eigen::all);
+    const Matrix accelerations = asked + Z * mass.solve(Matrix(Z.transpose() * (load - M * asked)));
+    directions_.qdd(f, Eigen::all) = accelerations;
+    if (!accelerations.allFinite()) throw NumericalError(text(in_linear_model, ": accelerations are not finite"));
+    Eigen::CompleteOrthogonalDecomposition<Matrix> transposed(Matrix(G(Eigen::all, f).transpose()));
+    directions_.lambda = transposed.solve(M * accelerations - load);
+    directions_.actuator(d, Eigen::all) = Matrix(lin_.mass(d, f)) * accelerations - Matrix(right(d, Eigen::all)) -
+                                          Matrix(G(Eigen::all, d).transpose()) * directions_.lambda;
+}
+
 // What the drives, that of the spin among them, carry at the operating point, and what no drive carries.
 void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model) {
     const Index n = system_.model.size();
@@ -97,7 +164,8 @@ void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearM
         system_.forces.evaluate({at.time, at.q, at.qd, kin, lin_.at.s, lin_.at.u}, Q, state_rates_);
     else
         system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
-    const Vector missing = tau - Q;
+    Vector missing = tau - Q;
+    if (!system_.loops.empty()) missing -= lin_.constraints.transpose() * lin_.at.lambda;
     actuator_ = Vector::Zero(n);
     for (int i : layout_.driven) actuator_(i) = missing(i);
     Vector on_unknowns = missing(layout_.unknowns);
@@ -121,6 +189,8 @@ void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearM
 void Builder::add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model) {
     lineariser_.linearise(at, lin_);
     layout_.begin(kinematics(system_.model, at.q, workspace_), directions_);
+    const bool loops = !system_.loops.empty();
+    if (loops) follow();
     // Prescribed accelerations stand in qdd already; the others are zero and follow.
     Matrix right = directions_.Q - lin_.mass * directions_.qdd - lin_.velocity() * directions_.qd -
                    lin_.stiffness() * directions_.q;
@@ -130,7 +200,10 @@ void Builder::add(const OperatingPoint& at, const Vector& state_rates, double ps
         directions_.s_rate =
             d.f_q * directions_.q + d.f_qd * directions_.qd + d.f_s * directions_.s + d.f_u * directions_.u;
     }
-    solve(right);
+    if (loops)
+        solve_with_loops(right);
+    else
+        solve(right);
     find_forces(at, state_rates, model);
 
     const Index states = layout_.states(), half = std::ssize(layout_.coordinates), first = layout_.first_order(),
@@ -174,10 +247,21 @@ LinearModel build(const System& system, const RotorMap& rotor, double rotor_spee
                   const std::vector<ChannelGroup>& outputs, const StateSpaceOptions& options) {
     check_number_of_unknowns(rotor.machine, system.model.coordinates().free().size());
     Builder builder(system, rotor, inputs, outputs, options);
+    const auto azimuth = [&](int s) { return azimuths == 1 ? first : 2 * pi * s / azimuths; };
+    const auto at = [&](int s) {
+        Steady now = steady(azimuth(s));
+        builder.set_multipliers(now.at);
+        return now;
+    };
+    if (!system.loops.empty()) {
+        std::vector<OperatingPoint> way;
+        for (int s = 0; s < azimuths; ++s) way.push_back(at(s).at);
+        builder.choose_states(way);
+    }
     LinearModel model = builder.empty(rotor_speed);
     for (int s = 0; s < azimuths; ++s) {
-        const double psi = azimuths == 1 ? first : 2 * pi * s / azimuths;
-        const Steady now = steady(psi);
+        const double psi = azimuth(s);
+        const Steady now = at(s);
         builder.add(now.at, now.state_rates, psi, model);
     }
     builder.finish(model);

@@ -57,7 +57,10 @@ void restrict_states(const Linearisation& lin, const std::vector<int>& coordinat
 
 }  // namespace
 
-Lineariser::Lineariser(const System& system) : system_(system), workspace_(system.model) {}
+Lineariser::Lineariser(const System& system, LoopState loops)
+    : system_(system), workspace_(system.model), loops_(loops) {
+    if (loops == LoopState::in_motion && !system.loops.empty()) gradient_rates_.emplace(system.model, system.loops);
+}
 
 void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
     const Eigen::Index n = system_.model.size();
@@ -84,38 +87,45 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
     std::swap(out.gravity, forces_.gravity);
     std::swap(out.loads, forces_.loads);
     std::swap(out.damping, forces_.damping);
-    if (system_.loops.empty())
-        out.constraints = out.reactions = {};
-    else
-        add_loops(kin, out);
+    for (Matrix* m : {&out.constraints, &out.reactions, &out.constraint_rates, &out.constraint_accelerations})
+        m->resize(0, 0);
+    if (!system_.loops.empty()) add_loops(kin, out);
 }
 
-void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) const {
+void Lineariser::check_loops(const Kinematics& kin, const Linearisation& out) const {
     const Loops& loops = system_.loops;
     const OperatingPoint& at = out.at;
-    const Eigen::Index n = system_.model.size();
-    for (int i = 0; i < n; ++i)
-        if (loops.involves(i) && at.qd(i) != 0)
+    for (int i = 0; i < system_.model.size(); ++i)
+        if (loops_ == LoopState::at_rest && loops.involves(i) && at.qd(i) != 0)
             throw InputError(text(in_linearisation, ": coordinate '", out.coordinates[i].name, "' of a loop"), "rate",
                              at.qd(i), "0: a loop in motion has no constant linearisation");
-    if (at.lambda.size() == 0) out.at.lambda.setZero(loops.size());
-    require_size(in_linearisation, "multipliers of loops", at.lambda, loops.size());
     Vector phi(loops.size());
     loops.residual<double>(kin, at.time, at.q, phi);
     Eigen::Index worst = 0;
     if (const double gap = phi.cwiseAbs().maxCoeff(&worst); !(gap < 1e-6 * loops.extent(kin)))
         throw InputError(text(in_linearisation, ": ", loops.describe(entry(loops.equations(), worst).loop)), "gap", gap,
                          "less than 1e-6 of the loops' extent: see close_loops()");
+}
+
+void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) {
+    const Loops& loops = system_.loops;
+    const OperatingPoint& at = out.at;
+    const Eigen::Index n = system_.model.size();
+    if (at.lambda.size() == 0) out.at.lambda.setZero(loops.size());
+    require_size(in_linearisation, "multipliers of loops", at.lambda, loops.size());
+    if (loops_ != LoopState::open) check_loops(kin, out);
     out.constraints.resize(loops.size(), n);
     loops.gradient<double>(kin, at.time, at.q, out.constraints);
     out.reactions.setZero(n, n);
     loops.add_second_gradient(kin, at.time, at.q, -at.lambda, out.reactions);
+    if (gradient_rates_)
+        gradient_rates_->at(at.time, at.q, at.qd, at.qdd, out.constraint_rates, out.constraint_accelerations);
 }
 
-Linearisation linearise(const System& system, const OperatingPoint& at) {
+Linearisation linearise(const System& system, const OperatingPoint& at, LoopState loops) {
     Linearisation lin;
     with_memory([&] { return text("the linearisation of ", system.model.size(), " coordinates"); },
-                [&] { Lineariser(system).linearise(at, lin); });
+                [&] { Lineariser(system, loops).linearise(at, lin); });
     return lin;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "mbs/kernels/workspace.hpp"
+#include "mbs/loops/gradient_rates.hpp"
 #include "mbs/system/system.hpp"
 #include "solvers/linear/operating_point.hpp"
 
+#include <optional>
 #include <string>
 
 namespace cardan::solvers {
@@ -30,6 +32,8 @@ struct Linearisation {
     /// With loops the equations hold for motions with constraints dx = 0 (reduce_loops()); `reactions` is the stiffness
     /// that the loops' forces have as they turn, -lambda_i phi_i,ab. Empty without.
     Matrix constraints = {}, reactions = {};
+    /// Derivatives of `constraints` by time along the motion; empty where the loops are at rest.
+    Matrix constraint_rates = {}, constraint_accelerations = {};
 
     Matrix velocity() const { return damping + gyroscopic; }
     Matrix geometric() const {
@@ -40,29 +44,39 @@ struct Linearisation {
     Matrix stiffness() const { return elastic + geometric(); }
 };
 
+/// What loops may do at an operating point.
+enum class LoopState : std::uint8_t {
+    at_rest,    ///< closed, their coordinates stand still: a constant linearisation
+    in_motion,  ///< closed; the linearisation holds at that instant only
+    open        ///< anything: derivatives of the equations with multipliers, in the course of an iteration
+};
+
 /// Linearises a system about one operating point after another. Exact: analytic derivatives of the recursions and of
 /// the force elements (user forces without a Jacobian are differenced). Keeps a reference to the system; one per
 /// thread.
 class Lineariser {
 public:
-    explicit Lineariser(const System& system);
+    explicit Lineariser(const System& system, LoopState loops = LoopState::at_rest);
 
     /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
     ///             allocates or is differenced.  Cost O(n^2).
     /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's
-    /// name; for loops that are open, or in motion: their gradients would change with time
+    /// name; for loops that are open or in motion where they may not be
     void linearise(const OperatingPoint& at, Linearisation& out);
 
 private:
-    void add_loops(const Kinematics& kin, Linearisation& out) const;
+    void check_loops(const Kinematics& kin, const Linearisation& out) const;
+    void add_loops(const Kinematics& kin, Linearisation& out);
 
     const System& system_;
     Workspace workspace_;
     ForceDerivatives forces_;
+    LoopState loops_;
+    std::optional<GradientRates> gradient_rates_;  ///< where loops may be in motion
 };
 
 /// A single linearisation with a temporary Lineariser. @throws also MemoryError
-Linearisation linearise(const System& system, const OperatingPoint& at);
+Linearisation linearise(const System& system, const OperatingPoint& at, LoopState loops = LoopState::at_rest);
 
 /// How states s of first order couple to the rows x of a system of second order:
 ///

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -13,27 +14,67 @@ namespace {
 
 constexpr double dependent_below = 1e-9;
 
-// By all coordinates: the identity but for `coordinates`, which follow `independent`.
-Matrix spread_shape(const Linearisation& lin, const std::vector<int>& coordinates,
-                    const std::vector<int>& independent) {
-    const Matrix shape = following(lin.constraints, coordinates, independent);
-    Matrix all = Matrix::Identity(lin.mass.rows(), lin.mass.rows());
+// The coordinates among some that follow the independent ones, by the gradients of loops.
+class Dependence {
+public:
+    Dependence(const Matrix& constraints, const std::vector<int>& coordinates, const std::vector<int>& independent)
+        : rows_(std::ssize(coordinates)) {
+        for (Eigen::Index i = 0; i < rows_; ++i) {
+            const auto at = std::ranges::find(independent, entry(coordinates, i));
+            if (at == independent.end()) {
+                own_.push_back(entry(coordinates, i));
+                dependent_.push_back(i);
+            } else {
+                independent_.emplace_back(i, at - independent.begin());
+            }
+        }
+        if (own_.empty()) return;
+        qr_.setThreshold(dependent_below);
+        qr_.compute(Matrix(constraints(Eigen::all, own_)));
+        if (qr_.rank() < std::ssize(own_))
+            throw NumericalError(text("reduction of loops: ", std::ssize(own_), " coordinates should follow ",
+                                      std::ssize(independent), " others, but ", std::ssize(own_) - qr_.rank(),
+                                      " of them do not: the loops are at a dead point"));
+    }
+    // What independent coordinates move of themselves, 1 or 0, and what follows: G x = -right.
+    Matrix move(double own, const Matrix& right) const {
+        Matrix x = Matrix::Zero(rows_, right.cols());
+        for (const auto& [row, column] : independent_) x(row, column) = own;
+        if (own_.empty()) return x;
+        const Matrix follow = -qr_.solve(right);
+        for (Eigen::Index k = 0; k < follow.rows(); ++k) x.row(entry(dependent_, k)) = follow.row(k);
+        return x;
+    }
+
+private:
+    Eigen::Index rows_;
+    std::vector<int> own_;                                            // those that follow
+    std::vector<Eigen::Index> dependent_;                             // their rows
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> independent_;  // rows and columns of the others
+    Eigen::ColPivHouseholderQR<Matrix> qr_;
+};
+
+// By all coordinates: `own` on the diagonal but for `coordinates`, whose rows are given.
+Matrix spread(const Matrix& rows, double own, Eigen::Index size, const std::vector<int>& coordinates,
+              const std::vector<int>& independent) {
+    Matrix all = own * Matrix::Identity(size, size);
     for (const int a : coordinates) all(a, a) = 0;
-    for (Eigen::Index i = 0; i < shape.rows(); ++i)
-        for (Eigen::Index j = 0; j < shape.cols(); ++j) all(entry(coordinates, i), entry(independent, j)) = shape(i, j);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+        for (Eigen::Index j = 0; j < rows.cols(); ++j) all(entry(coordinates, i), entry(independent, j)) = rows(i, j);
     return all;
 }
 
 }  // namespace
 
-std::vector<int> independent_coordinates(const Linearisation& lin, const std::vector<int>& coordinates) {
+std::vector<int> independent_coordinates(const Linearisation& lin, const std::vector<int>& coordinates, int preferred) {
     for (const int a : coordinates) require_index("reduction of loops", "coordinate", a, lin.mass.rows());
     if (lin.constraints.rows() == 0) return coordinates;
     const auto n = std::ssize(coordinates);
     Matrix G(lin.constraints.rows(), n);
     for (Eigen::Index i = 0; i < n; ++i) {
         const int a = entry(coordinates, i);
-        G.col(i) = lin.constraints.col(a) / std::sqrt(lin.mass(a, a));
+        // What is preferred counts as heavy: it becomes a pivot last.
+        G.col(i) = lin.constraints.col(a) / std::sqrt(lin.mass(a, a)) * (a == preferred ? 1e-6 : 1.0);
     }
     Eigen::ColPivHouseholderQR<Matrix> qr(G);
     qr.setThreshold(dependent_below);
@@ -48,43 +89,84 @@ std::vector<int> independent_coordinates(const Linearisation& lin, const std::ve
 }
 
 Matrix following(const Matrix& constraints, const std::vector<int>& coordinates, const std::vector<int>& independent) {
-    const auto n = std::ssize(coordinates), m = std::ssize(independent);
-    Matrix shape = Matrix::Zero(n, m);
+    return Dependence(constraints, coordinates, independent).move(1, constraints(Eigen::all, independent));
+}
+
+double following_quality(const Matrix& constraints, const std::vector<int>& coordinates,
+                         const std::vector<int>& independent) {
     std::vector<int> dependent;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const auto at = std::ranges::find(independent, entry(coordinates, i));
-        if (at == independent.end())
-            dependent.push_back(entry(coordinates, i));
-        else
-            shape(i, at - independent.begin()) = 1;
+    for (const int a : coordinates)
+        if (std::ranges::find(independent, a) == independent.end()) dependent.push_back(a);
+    if (dependent.empty()) return 1;
+    if (constraints.rows() < std::ssize(dependent)) return 0;
+    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(constraints(Eigen::all, dependent)));
+    const Vector pivots = qr.matrixR().diagonal().head(std::ssize(dependent)).cwiseAbs();
+    return pivots(0) > 0 ? pivots.minCoeff() / pivots(0) : 0;
+}
+
+std::vector<int> independent_on_the_way(const std::vector<Linearisation>& way, const std::vector<int>& coordinates,
+                                        int preferred) {
+    constexpr double dead = 1e-6;
+    double most = 0;
+    std::vector<int> best;
+    for (const Linearisation& at : way) {
+        std::vector<int> choice = independent_coordinates(at, coordinates, preferred);
+        double least = 1;
+        for (const Linearisation& other : way)
+            least = std::min(least, following_quality(other.constraints, coordinates, choice));
+        if (least <= most) continue;
+        most = least;
+        best = std::move(choice);
     }
-    if (dependent.empty()) return shape;
-    Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(constraints(Eigen::all, dependent)));
-    qr.setThreshold(dependent_below);
-    if (qr.rank() < std::ssize(dependent))
-        throw NumericalError(text("reduction of loops: ", std::ssize(dependent), " coordinates should follow ", m,
-                                  " others, but ", std::ssize(dependent) - qr.rank(),
-                                  " of them do not: the loops are at a dead point"));
-    const Matrix follow = -qr.solve(Matrix(constraints(Eigen::all, independent)));
-    for (Eigen::Index i = 0, k = 0; i < n; ++i)
-        if (std::ranges::find(dependent, entry(coordinates, i)) != dependent.end()) shape.row(i) = follow.row(k++);
-    return shape;
+    if (most < dead)
+        throw NumericalError(
+            "reduction of loops: no choice of independent coordinates passes the dead points of the loops on the way");
+    return best;
+}
+
+Followers followers(const Linearisation& lin, const std::vector<int>& coordinates,
+                    const std::vector<int>& independent) {
+    const Dependence dependence(lin.constraints, coordinates, independent);
+    Followers out{dependence.move(1, lin.constraints(Eigen::all, independent)), {}, {}};
+    if (lin.constraint_rates.rows() == 0) return out;
+    const Matrix first = lin.constraint_rates(Eigen::all, coordinates),
+                 second = lin.constraint_accelerations(Eigen::all, coordinates);
+    out.rate = dependence.move(0, first * out.shape);
+    out.acceleration = dependence.move(0, 2 * first * out.rate + second * out.shape);
+    return out;
 }
 
 void condense_loops(Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent) {
     if (lin.constraints.rows() == 0) return;
-    const Matrix Z = spread_shape(lin, coordinates, independent);
+    const Followers move = followers(lin, coordinates, independent);
+    const Eigen::Index n = lin.mass.rows();
+    const Matrix Z = spread(move.shape, 1, n, coordinates, independent);
+    const bool moving = move.rate.size() > 0;
+    // Of the motion, from the left still by all coordinates: M (2 Z' dy' + Z'' dy) and so on.
+    Matrix Z1, by_rate, by_position, damped;
+    if (moving) {
+        Z1 = spread(move.rate, 0, n, coordinates, independent);
+        by_rate = 2 * lin.mass * Z1;
+        by_position = lin.gyroscopic * Z1 + lin.mass * spread(move.acceleration, 0, n, coordinates, independent);
+        damped = lin.damping * Z1;
+    }
     for (Matrix* m : {&lin.mass, &lin.damping, &lin.gyroscopic, &lin.elastic, &lin.gravity, &lin.loads, &lin.inertial,
                       &lin.reactions})
         *m = (Z.transpose() * *m * Z).eval();
+    if (moving) {
+        lin.gyroscopic += Z.transpose() * by_rate;
+        lin.inertial += Z.transpose() * by_position;
+        lin.loads += Z.transpose() * damped;
+    }
     if (!lin.states.empty()) {
         StateDerivatives& states = lin.state_derivatives;
         states.Q_s = (Z.transpose() * states.Q_s).eval();
         if (states.Q_u.size() > 0) states.Q_u = (Z.transpose() * states.Q_u).eval();
         states.f_q = (states.f_q * Z).eval();
+        if (moving) states.f_q += states.f_qd * Z1;
         states.f_qd = (states.f_qd * Z).eval();
     }
-    lin.constraints.resize(0, 0);
+    for (Matrix* m : {&lin.constraints, &lin.constraint_rates, &lin.constraint_accelerations}) m->resize(0, 0);
 }
 
 ReducedSystem reduce_loops(const Linearisation& lin, const std::vector<int>& coordinates, int spin) {

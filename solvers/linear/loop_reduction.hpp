@@ -9,8 +9,10 @@ namespace cardan::solvers {
 /// As many of some coordinates as are independent where G dx = 0; the others follow. Those that move most for the least
 /// inertia do: pivots of the gradients over the root of the mass. Dependent constraints (below 1e-9 of the largest
 /// pivot) count once. All of them without loops.
+/// @param preferred  a coordinate that is independent wherever the others can follow it, such as the spin; -1: none
 /// @throws InputError for coordinates out of range
-std::vector<int> independent_coordinates(const Linearisation& lin, const std::vector<int>& coordinates);
+std::vector<int> independent_coordinates(const Linearisation& lin, const std::vector<int>& coordinates,
+                                         int preferred = -1);
 
 /// How coordinates follow those that are independent: G shape = 0.
 /// @param constraints  G, by all coordinates
@@ -18,6 +20,27 @@ std::vector<int> independent_coordinates(const Linearisation& lin, const std::ve
 /// @returns one row for each of `coordinates`, one column for each of `independent`
 /// @throws NumericalError where those do not determine the others, as at a dead point
 Matrix following(const Matrix& constraints, const std::vector<int>& coordinates, const std::vector<int>& independent);
+
+/// How well the others are determined by those that are independent: smallest over largest pivot, 0 at a dead point.
+double following_quality(const Matrix& constraints, const std::vector<int>& coordinates,
+                         const std::vector<int>& independent);
+
+/// Of some coordinates, those that are independent all along a way: those that the others follow best where they follow
+/// worst.
+/// @param way  linearisations on it
+/// @throws as independent_coordinates(); NumericalError where no choice passes every dead point on the way
+std::vector<int> independent_on_the_way(const std::vector<Linearisation>& way, const std::vector<int>& coordinates,
+                                        int preferred = -1);
+
+/// How they follow along a motion, where the gradients change with time:
+///
+///     dx = shape dy,  dx' = shape dy' + rate dy,  dx'' = shape dy'' + 2 rate dy' + acceleration dy .
+struct Followers {
+    Matrix shape;
+    Matrix rate, acceleration;  ///< empty where the loops are at rest
+};
+/// @throws as above
+Followers followers(const Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent);
 
 /// The system over independent coordinates: dx = shape dy, so that M = shape^T M shape and so on.
 struct ReducedSystem {
@@ -31,7 +54,8 @@ ReducedSystem reduce_loops(const Linearisation& lin, const std::vector<int>& coo
 
 /// A linearisation without constraints instead: what belongs to coordinates that follow is moved to those that are
 /// independent, and their own rows and columns become zero. For analyses of the independent coordinates that know trees
-/// only.
+/// only. Where loops move, what deviations of the independent ones cause by the motion is among `inertial`,
+/// `gyroscopic` and `loads`.
 /// @param coordinates  those that may move; all others stay as they are
 void condense_loops(Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent);
 

@@ -41,6 +41,7 @@ private:
     bool solve(Matrix& J, Vector& right, const Vector& unit, const std::vector<Index>& held);
     Vector shortest_solution(const Matrix& J, const Vector& right);
     void describe(const Vector& null_vector);
+    void note_open(std::string words);
     bool search(const Matrix& dx);
     bool advance();
     bool mean_step();
@@ -80,8 +81,11 @@ Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
     }
     hold();
     x_ = equations_.start(options.harmonics);
-    if (options.rotor) mean_ = MeanJacobian::make(*options.rotor, equations_, options.harmonics);
-    if (options.rotor) half_ = HalfTurn::make(*options.rotor, equations_, options.harmonics);
+    if (!system.loops.empty()) equations_.close(x_, std::max(count, 64));
+    // Both know blades by their coordinates; multipliers would have to change places like these.
+    const bool blades = options.rotor && system.loops.empty();
+    if (blades) mean_ = MeanJacobian::make(*options.rotor, equations_, options.harmonics);
+    if (blades) half_ = HalfTurn::make(*options.rotor, equations_, options.harmonics);
     for (Index row : held_) {
         if (mean_ && !mean_->hold(row)) mean_.reset();
         if (half_ && half_->mean_of(row) < 0) half_.reset();
@@ -237,13 +241,22 @@ void Balance::describe(const Vector& null_vector) {
     null_vector.cwiseAbs().maxCoeff(&at);
     if (null_vector.size() < x_.size()) at = half_->place(at);
     const Index harmonic = (at / x_.rows() + 1) / 2;
-    const std::string& name = equations_.name(at % x_.rows());
+    const Index row = at % x_.rows();
+    const std::string& name = equations_.name(row);
+    if (equations_.is_multiplier(row)) {
+        note_open(text("the reaction '", name, "' is not unique: its equation is redundant"));
+        return;
+    }
     open_mean_ = open_mean_ || harmonic == 0;
     std::string words = harmonic == 0
                             ? text("the mean of '", name, "' is held by nothing and stays near where it started")
                             : text("harmonic ", harmonic, " of '", name,
                                    "' is not determined (a natural frequency at this multiple of the rotor speed)");
-    if (std::find(open_.begin(), open_.end(), words) == open_.end()) open_.push_back(std::move(words));
+    note_open(std::move(words));
+}
+
+void Balance::note_open(std::string words) {
+    if (std::ranges::find(open_, words) == open_.end()) open_.push_back(std::move(words));
 }
 
 // Halves the step until the residual falls.

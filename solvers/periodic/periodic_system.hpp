@@ -50,13 +50,22 @@ private:
     FirstOrder first_;
 };
 
+/// Those of some coordinates that are independent where loops are closed, the same over the whole period: those that
+/// the others follow best where they follow worst. The spin is one if it is among them. All without loops.
+/// @throws InputError as linearised(); NumericalError where no choice passes every dead point on the way
+std::vector<int> independent_coordinates(const System& system, const PeriodicSteadyState& about,
+                                         const std::vector<int>& unknowns);
+
 /// A system linearised about its periodic (or constant) steady state, over some of its coordinates and with all states.
-/// @param unknowns  coordinates, in the order of the rows; may include the spin: its drive then keeps the steady-state
-///                  torque whatever the disturbance. The result keeps a reference to `system`, and copies share memory:
-///                  use it in one thread.
+/// @param unknowns     coordinates, in the order of the rows; may include the spin: its drive then keeps the
+/// steady-state
+///                     torque whatever the disturbance. The result keeps a reference to `system`, and copies share
+///                     memory: use it in one thread. With loops the rows are those that are independent.
+/// @param independent  these; empty: independent_coordinates()
 /// @throws InputError for a steady state that did not converge or belongs to another system, and for coordinates that
-/// do not exist
-PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns);
+/// do not exist; as independent_coordinates()
+PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns,
+                          std::vector<int> independent = {});
 /// Over all free coordinates but the spin.
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about);
 

@@ -70,6 +70,7 @@ Shooting::Shooting(const System& system, int spin, const PeriodicOptions& option
       algebra_(method_, equations_.size(), equations_.states().size()),
       steps_(number_of_steps(options)),
       path_(equations_.size(), steps_) {
+    system.require_no_loops(in_shooting);
     require_no_growth(equations_);
     const Index n = equations_.states_from(), m = equations_.states().size();
     const Index columns = std::max({options.start.cols(), options.state_start.cols(), Index{1}});

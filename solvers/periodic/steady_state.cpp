@@ -14,9 +14,14 @@ OperatingPoint PeriodicSteadyState::at(double psi) const {
     point.q = coefficients * fourier_basis(psi, harmonics());
     point.qd = rotor_speed * (coefficients * fourier_basis(psi, harmonics(), 1));
     point.qdd = rotor_speed * rotor_speed * (coefficients * fourier_basis(psi, harmonics(), 2));
+    if (turns.size() > 0) {
+        point.q += psi * turns;
+        point.qd += rotor_speed * turns;
+    }
     point.q(spin) = psi;
     point.qd(spin) = rotor_speed;
     if (state_coefficients.rows() > 0) point.s = state_coefficients * fourier_basis(psi, harmonics());
+    if (multipliers.rows() > 0) point.lambda = multipliers * fourier_basis(psi, harmonics());
     point.u = inputs;
     return point;
 }

@@ -60,9 +60,13 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     std::vector<HeldMean> held;
     std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
     double state_remainder = 0;  ///< likewise of the states, over their scales
+    Matrix multipliers = {};     ///< of the loops, Loops::equations(); a row each, as `coefficients`
+    /// With loops, how often each coordinate turns in a revolution, beside its series: q = turns psi + ..., as that of
+    /// a rod against its crank. Empty: none does.
+    Vector turns = {};
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
-    /// All coordinates with rates and accelerations, and states; time = psi / rotor_speed.
+    /// All coordinates with rates and accelerations, states and multipliers; time = psi / rotor_speed.
     OperatingPoint at(double psi) const;
     /// Largest amplitude sqrt(hc_j^2 + hs_j^2) of any coordinate in harmonic j (|h0| for j = 0), rad or m.
     double amplitude(int harmonic) const;
@@ -74,7 +78,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 /// of s' - f of the states. (Of states of kind `angle`, which grow for ever, all but the mean.) Newton's
 /// method with line search; residual and exact Jacobian from the equations and their derivatives at equidistant
 /// azimuths (alternating frequency and time). If the Jacobian is singular (an unrestrained mean) the minimum-norm step
-/// is taken and `note` says so, unless the start already is a solution.
+/// is taken and `note` says so, unless the start already is a solution. With loops the multipliers are unknowns beside
+/// the coordinates, and the retained harmonics of their equations vanish; the start need not be closed.
 ///                                                             [Cameron and Griffin 1989; Krack and Gross 2019]
 ///
 /// Cost per iteration O(samples harmonics^2 n^2) and a linear system of n (2 harmonics + 1) rows. If `rotor` is given,
@@ -87,7 +92,8 @@ PeriodicSteadyState harmonic_balance(const System& system, int spin, const Perio
 /// The periodic steady state by shooting: finds the free coordinates, rates and states at azimuth 0 that one revolution
 /// reproduces, by Newton's method with the exact derivative of the integration (Radau IIA, equal steps), the monodromy
 /// matrix. The harmonics are computed from the ends of the steps.
-/// @throws InputError also for `held`, for states of kind `angle` and if there are fewer than 2 harmonics + 1 steps
+/// @throws InputError also for `held`, for loops, for states of kind `angle` and if there are fewer than 2 harmonics +
+/// 1 steps
 PeriodicSteadyState shooting(const System& system, int spin, const PeriodicOptions& options);
 
 /// Steady states at one rotor speed after another by harmonic balance, each started from the previous one. A speed that

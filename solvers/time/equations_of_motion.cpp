@@ -93,8 +93,7 @@ void EquationsOfMotion::require_closed() {
 }
 
 void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
-    const auto drive =
-        std::find_if(drives_.begin(), drives_.end(), [&](const Drive& d) { return d.coordinate == coordinate; });
+    const auto drive = std::ranges::find(drives_, coordinate, &Drive::coordinate);
     if (drive == drives_.end())
         throw InputError(in_integration, "index of a driven coordinate", coordinate,
                          "one that was driven from the start");
@@ -107,6 +106,10 @@ void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
     if (jumps(before.velocity, after.velocity))
         throw InputError(where, "rate", after.velocity, text("as before, ", before.velocity));
     drive->motion = std::move(motion);
+}
+
+void EquationsOfMotion::set_jump(int coordinate, Motion motion) {
+    std::ranges::find(drives_, coordinate, &Drive::coordinate)->motion = std::move(motion);
 }
 
 void EquationsOfMotion::set_forces(const Forces* forces) {
@@ -210,6 +213,18 @@ bool EquationsOfMotion::project(double time, double* x) {
         x[m + i] = qd_(free_[i]);
     }
     return true;
+}
+
+void EquationsOfMotion::require_closed_rates(double time, const double* x) {
+    if (!loops_) return;
+    expand(time, x);
+    int loop = 0;
+    const double rate = loops_->opening_rate(time, q_, qd_, workspace_, loop);
+    const double size = std::max(1.0, qd_.lpNorm<Eigen::Infinity>());
+    if (!(rate < 1e-6 * size))
+        throw InputError(text(in_integration, ": ", loops_->loops().describe(loop)),
+                         "rate with which it opens at the start", rate,
+                         "0: prescribed motions contradict each other there");
 }
 
 bool EquationsOfMotion::accelerations(double time, const double* x, double* xdd) {

@@ -81,6 +81,8 @@ public:
     /// Replaces the motion of a driven coordinate from now on.
     /// @throws InputError if the coordinate is not driven, or if its position or rate would jump at `time`
     void set_motion(int coordinate, Motion motion, double time);
+    /// The same for a motion that jumps.
+    void set_jump(int coordinate, Motion motion);
     /// Replaces the forces from now on (nullptr: those of the system); they must outlive their use.
     /// @throws InputError for forces with other states or inputs
     void set_forces(const Forces* forces);
@@ -130,6 +132,8 @@ public:
     /// Moves a state onto the constraints of the loops, if there are any.
     /// @return false if they stay open; problem() says which
     bool project(double time, double* x);
+    /// @throws InputError where projected rates still open a loop: prescribed motions contradict each other
+    void require_closed_rates(double time, const double* x);
     /// What the loops do; nullptr: there are none.
     const ConstrainedMotion* loops() const { return loops_.get(); }
     const Loops& system_loops() const { return system_->loops; }

@@ -1,6 +1,7 @@
 #include "solvers/time/integrate.hpp"
 
 #include "mbs/base/entry.hpp"
+#include "mbs/model/free_body.hpp"
 #include "solvers/time/detail/stepper.hpp"
 
 #include <algorithm>
@@ -50,6 +51,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
       equations_(system, std::move(drives), time, q, qd),
       controllers_(options_.controllers, system.forces.inputs(), time),
       workspace_(system.model) {
+    watch_free_bodies();
     check_options(time);
     const Eigen::Index m = equations_.size();
     if (equations_.length() == 0) throw InputError(in_integration, "number of free coordinates and states", 0, ">= 1");
@@ -62,6 +64,7 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, double t
     }
     if (!equations_.project(time, x_.data()))
         throw InputError(in_integration, "start", equations_.problem(), "one that the loops allow: see close_rates()");
+    equations_.require_closed_rates(time, x_.data());
     stepper_ = make_stepper(equations_, options_);
     values_.resize(options_.events.size());
     sides_.resize(options_.events.size());
@@ -330,6 +333,56 @@ void Integrator::set_forces(const Forces* forces) {
     equations_.set_forces(forces);
     find_breaks();
     begin_piece();
+}
+
+void Integrator::set_state(const Vector& q, const Vector& qd) {
+    check_allowed("set_state()", Doing::acting);
+    for (const Vector* v : {&q, &qd}) {
+        require_size(in_integration, "new state", *v, model().size());
+        if (!v->allFinite()) throw InputError(in_integration, "new state", "not finite", "finite");
+    }
+    Vector x = x_;
+    const Eigen::Index m = equations_.size();
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x(i) = q(entry(equations_.unknowns(), i));
+        x(m + i) = qd(entry(equations_.unknowns(), i));
+    }
+    DynamicState now = state_;
+    if (!equations_.project(state_.time, x.data()) || !equations_.complete(state_.time, x.data(), now))
+        throw InputError(in_integration, "new state", equations_.problem(), "one that the loops allow");
+    work_.forces += equations_.kinetic_energy(now) - equations_.kinetic_energy(state_);
+    x_ = x_between_ = x;
+    state_ = now;
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = event_value(i, state_.time);
+    begin_piece();
+}
+
+void Integrator::update() {
+    check_allowed("update()", Doing::acting);
+    if (!equations_.complete(state_.time, x_.data(), state_))
+        throw NumericalError(text(in_integration, ": no forces at ", state_.time, " s: ", equations_.problem()));
+}
+
+// Their hinges are singular where the second one stands at a right angle: from 60 degrees on they are turned anew.
+void Integrator::watch_free_bodies() {
+    for (const Model::Free& body : equations_.model().free_bodies())
+        options_.events.push_back(
+            {.name = text("coordinates of '", body.name, "'"),
+             .function = [&body](const ForceInput& at) { return free_chart_quality(body, at.q) - 0.5; },
+             .direction = -1,
+             .action =
+                 [&body](Integrator& run) {
+                     run.turn_reference(body);
+                     return AfterEvent::restart;
+                 }});
+}
+
+void Integrator::turn_reference(const Model::Free& body) {
+    Vector q = state_.q, qd = state_.qd;
+    set_free_motion(body, free_motion(body, q, qd), q, qd);
+    equations_.set_jump(body.reference, Motion::constant(q(body.reference)));
+    positions_(body.reference) = q(body.reference);
+    set_state(q, qd);
 }
 
 void Integrator::restart() {

@@ -66,8 +66,11 @@ struct Event {
     std::string name = {};
     std::function<double(const ForceInput&)> function = {};
     int direction = 0;  ///< 1: rising through zero, -1: falling, 0: both
-    /// May call set_motion() and set_forces(); state() is the state at the event. Empty: stop.
+    /// May call set_motion(), set_forces() and set_state(); state() is the state at the event. Empty: stop.
     std::function<AfterEvent(Integrator&)> action = {};
+    /// Instead of `function`, of what costs an evaluation of the equations of motion: accelerations, forces of drives,
+    /// multipliers of loops.
+    std::function<double(const DynamicState&)> of_state = {};
 };
 
 struct IntegrationOptions {
@@ -168,6 +171,9 @@ class Stepper;
 /// has stepped beyond the output time: if accelerations have changed, at that time or at the end of the step, advance()
 /// restarts from the output. Call restart() for a change that cannot be detected there.
 ///
+/// Free bodies (Tree::add_free_body()) turn as they like: their coordinates are changed on the way where they come near
+/// to a singularity.
+///
 /// Exceptions of user functions propagate. After a failure or an exception the last accepted state is kept. Steps
 /// allocate nothing unless user functions do. Keeps a reference to the system; one object per thread.
 class Integrator {
@@ -228,6 +234,13 @@ public:
     /// Replaces the forces from now on; nullptr: those of the system. They must live as long as the integrator uses
     /// them.
     void set_forces(const Forces* forces);
+    /// Replaces positions and rates from now on, as an impact does; what that adds to the kinetic energy counts as work
+    /// of loads. Driven coordinates go on as they are driven, whatever is given for them.
+    /// @throws InputError for values that are not finite, and where they do not close the loops
+    void set_state(const Vector& q, const Vector& qd);
+    /// Evaluates accelerations, forces of drives and multipliers of the present state anew: in an action, after what
+    /// they depend on has changed.
+    void update();
     /// Call when forces have changed: results beyond the present time are discarded.
     void restart();
     ///@}
@@ -237,6 +250,8 @@ private:
     /// What it does while this lives.
     class While;
 
+    void watch_free_bodies();
+    void turn_reference(const Model::Free& body);
     void go_on_from(const Checkpoint& from);
     void repeat_steps();
     void check_options(double time) const;
@@ -281,7 +296,7 @@ private:
     MethodState from_;                                           ///< to be repeated
     std::vector<double> values_;                                 ///< of the event functions at the end of the stretch
     std::vector<int> sides_;                                     ///< last sign of each event function that was not zero
-    DynamicState state_;
+    DynamicState state_, between_;
     Work work_;
     double kinetic_at_start_ = 0, potential_at_start_ = 0, stored_at_start_ = 0;
     std::map<std::string, double> notes_;

@@ -15,10 +15,19 @@ int sign(double value) {
 }  // namespace
 
 double Integrator::event_value(std::size_t event, double time) {
-    const double value = equations_.evaluate(options_.events[event].function, time, x_between_.data());
+    const Event& own = options_.events[event];
+    double value = 0;
+    if (own.of_state) {
+        if (!equations_.complete(time, x_between_.data(), between_))
+            throw NumericalError(
+                text(in_integration, ": no state for the event '", own.name, "': ", equations_.problem()));
+        value = own.of_state(between_);
+    } else {
+        value = equations_.evaluate(own.function, time, x_between_.data());
+    }
     if (!std::isfinite(value))
-        throw NumericalError(text(in_integration, ": the function of the event '", options_.events[event].name, "' at ",
-                                  time, " s is ", value));
+        throw NumericalError(
+            text(in_integration, ": the function of the event '", own.name, "' at ", time, " s is ", value));
     return value;
 }
 

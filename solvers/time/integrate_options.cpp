@@ -37,7 +37,8 @@ void Integrator::check_options(double time) const {
     for (double jump : options_.breaks)
         if (!std::isfinite(jump)) throw InputError(in_integration, "time of a break [s]", jump, "finite");
     for (const Event& event : options_.events) {
-        if (!event.function) throw InputError(in_integration, "event", event.name, "one with a function");
+        if (static_cast<bool>(event.function) == static_cast<bool>(event.of_state))
+            throw InputError(in_integration, "event", event.name, "one with a function, of one kind");
         if (event.direction < -1 || event.direction > 1)
             throw InputError(text(in_integration, ": event '", event.name, "'"), "direction", event.direction,
                              "-1, 0 or 1");

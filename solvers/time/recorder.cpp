@@ -1,6 +1,8 @@
 #include "solvers/time/recorder.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/system/free_body_channels.hpp"
 
 #include <algorithm>
 #include <array>
@@ -43,6 +45,7 @@ Recorder::Recorder(const Integrator& integrator, std::vector<ChannelGroup> more,
     state_energies_ = energies_ && integrator.forces().has_states();
     if (state_energies_) add_state_energies();
     if (statistics_) add_statistics();
+    if (options.coordinates && !model_->free_bodies().empty()) more_.insert(more_.begin(), free_body_channels(*model_));
     for (const ChannelGroup& group : more_) {
         if (!group.sample)
             throw InputError(in_recorder, "group of channels", "without a function", "one with a function");
@@ -53,8 +56,15 @@ Recorder::Recorder(const Integrator& integrator, std::vector<ChannelGroup> more,
 
 void Recorder::add_states(const RecorderOptions& options, const Integrator& integrator) {
     const CoordinateTable& table = model_->coordinates();
+    // Those by which free bodies turn change on the way: channels of the pose stand in their place.
+    std::vector<bool> shown(static_cast<std::size_t>(table.size()), true);
+    for (const Model::Free& body : model_->free_bodies()) {
+        entry(shown, body.reference) = false;
+        for (const int hinge : body.hinges) entry(shown, hinge) = false;
+    }
     const auto add = [&](const char* suffix, const char* what, const char* per, Vector DynamicState::*vector) {
         for (int k = 0; k < table.size(); ++k) {
+            if (!entry(shown, k)) continue;
             channels_.push_back({.name = table[k].name + suffix,
                                  .units = table[k].unit + per,
                                  .long_name = text(what, " of the coordinate '", table[k].name, "'"),
@@ -73,7 +83,7 @@ void Recorder::add_states(const RecorderOptions& options, const Integrator& inte
         }
     if (!options.actuators) return;
     for (int k = 0; k < table.size(); ++k) {
-        if (!integrator.is_driven(k)) continue;
+        if (!integrator.is_driven(k) || !entry(shown, k)) continue;
         channels_.push_back({.name = table[k].name + " drive",
                              .units = table[k].unit == "rad" ? "N m" : "N",
                              .long_name = text("force of the drive on the coordinate '", table[k].name, "'"),

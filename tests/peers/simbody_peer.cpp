@@ -48,11 +48,31 @@ void copy(const Vector& from, double* to) {
 
 }  // namespace
 
-struct SimbodyPeer::Impl {
+namespace {
+
+struct Links {
     MultibodySystem system;
     SimbodyMatterSubsystem matter{system};
-    Vec3 gravity;
     std::vector<MobilizedBody> bodies;
+
+    void add(const std::vector<PeerLink>& links, const std::vector<PeerPin>& pins) {
+        for (const PeerLink& link : links) {
+            MobilizedBody& parent = link.parent < 0 ? matter.updGround() : entry(bodies, link.parent);
+            bodies.push_back(attach(parent, link));
+        }
+        const auto held = [&](int link) -> MobilizedBody& {
+            return link < 0 ? matter.updGround() : entry(bodies, link);
+        };
+        for (const PeerPin& pin : pins)
+            Constraint::Ball(held(pin.a), Vec3(pin.at_a[0], pin.at_a[1], pin.at_a[2]), held(pin.b),
+                             Vec3(pin.at_b[0], pin.at_b[1], pin.at_b[2]));
+    }
+};
+
+}  // namespace
+
+struct SimbodyPeer::Impl : Links {
+    Vec3 gravity;
     State state;
     Vector given, result;
     Vector_<SpatialVec> weights;  // per body, the ground among them
@@ -88,16 +108,7 @@ SimbodyPeer::SimbodyPeer(const std::vector<PeerLink>& links, std::array<double, 
     : impl_(new Impl) {
     Impl& s = *impl_;
     s.gravity = Vec3(gravity[0], gravity[1], gravity[2]);
-    for (const PeerLink& link : links) {
-        MobilizedBody& parent = link.parent < 0 ? s.matter.updGround() : entry(s.bodies, link.parent);
-        s.bodies.push_back(attach(parent, link));
-    }
-    const auto held = [&](int link) -> MobilizedBody& {
-        return link < 0 ? s.matter.updGround() : entry(s.bodies, link);
-    };
-    for (const PeerPin& pin : pins)
-        Constraint::Ball(held(pin.a), Vec3(pin.at_a[0], pin.at_a[1], pin.at_a[2]), held(pin.b),
-                         Vec3(pin.at_b[0], pin.at_b[1], pin.at_b[2]));
+    s.add(links, pins);
     s.state = s.system.realizeTopology();
     s.system.realizeModel(s.state);
     int n = 0;
@@ -136,6 +147,37 @@ void SimbodyPeer::forward_dynamics(const double* q, const double* qd, const doub
 
 void SimbodyPeer::closed_dynamics(const double* q, const double* qd, const double* Q, double* qdd) {
     impl_->accelerate(&SimbodyMatterSubsystem::calcAcceleration, q, qd, Q, qdd);
+}
+
+struct SimbodyMotion::Impl : Links {
+    GeneralForceSubsystem forces{system};
+};
+
+SimbodyMotion::SimbodyMotion(const std::vector<PeerLink>& links, std::array<double, 3> gravity,
+                             const std::vector<PeerPin>& pins)
+    : impl_(new Impl) {
+    impl_->add(links, pins);
+    Force::UniformGravity(impl_->forces, impl_->matter, Vec3(gravity[0], gravity[1], gravity[2]));
+    impl_->system.realizeTopology();
+}
+
+SimbodyMotion::~SimbodyMotion() = default;
+
+int SimbodyMotion::advance(double* q, double* qd, double duration, double accuracy) {
+    State start = impl_->system.getDefaultState();
+    copy(q, start.updQ());
+    copy(qd, start.updU());
+    RungeKuttaMersonIntegrator method(impl_->system);
+    method.setAccuracy(accuracy);
+    try {
+        method.initialize(start);
+        method.stepTo(duration);
+    } catch (const std::exception&) {
+        return -1;
+    }
+    copy(method.getState().getQ(), q);
+    copy(method.getState().getU(), qd);
+    return method.getNumStepsTaken();
 }
 
 }  // namespace cardan::peers

@@ -29,4 +29,23 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// Motions of links with pins under gravity by Simbody's own integration: Runge, Kutta and Merson's method with
+/// projection.
+class SimbodyMotion {
+public:
+    SimbodyMotion(const std::vector<PeerLink>& links, std::array<double, 3> gravity, const std::vector<PeerPin>& pins);
+    ~SimbodyMotion();
+    SimbodyMotion(const SimbodyMotion&) = delete;
+    SimbodyMotion& operator=(const SimbodyMotion&) = delete;
+
+    /// @param q, qd     in and out
+    /// @param accuracy  Simbody's: relative error of a step
+    /// @return steps taken; -1: it failed
+    int advance(double* q, double* qd, double duration, double accuracy);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
 }  // namespace cardan::peers

@@ -80,7 +80,7 @@ PartDamping part_damping(const TurbineDescription& d, const AssemblyOptions& opt
 Turbine Turbine::with_forces(const ForceSet& forces, const std::string& remark) const {
     Turbine other = *this;
     other.forces_ = std::make_shared<const ForceSet>(forces);
-    other.system_ = std::make_shared<const System>(*tree_, forces);
+    other.system_ = std::make_shared<const System>(*tree_, forces, *loops_);
     if (!remark.empty()) other.rotor_.description = text(remark, "\n\n", rotor_.description);
     return other;
 }
@@ -130,7 +130,8 @@ void Turbine::finish(const Assembler& assembler, const std::string& name, std::s
     tree_ = std::make_shared<const Tree>(assembler.tree);
     forces_ = std::make_shared<const ForceSet>(assembler.forces);
     layout_ = std::make_shared<const MachineLayout>(assembler.layout);
-    system_ = std::make_shared<const System>(assembler.tree, assembler.forces);
+    loops_ = std::make_shared<const LoopSet>(assembler.loops);
+    system_ = std::make_shared<const System>(assembler.tree, assembler.forces, assembler.loops);
     rotor_ = rotor_map(assembler, system_->model, name);
     warnings_ = assembler.warnings;
     source_ = std::move(source);
@@ -179,6 +180,7 @@ TurbineDescription blade_alone(const TurbineDescription& d, int number) {
     alone.hub.radius = d.hub.radius;
     alone.blade = *blade;
     alone.blade.pitch = rigid_joint;
+    alone.blade.linkage.reset();
     alone.unusual = d.unusual;
     return alone;
 }

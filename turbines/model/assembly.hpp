@@ -56,11 +56,12 @@ struct MachineLayout {
     double gear_ratio = 1;                         ///< generator speed over the rate of its coordinate
     std::vector<int> blade_numbers;                ///< places of the blades below, from 1; some may be missing
     std::vector<CardanBeam> blades;
-    std::vector<FrameId> pitch_axes;     ///< per blade, before the pitch joint: x along the blade, z downwind
-    std::vector<FrameId> blade_roots;    ///< behind pitch joint and pitch setting: the blade's axes
-    std::vector<BodyId> pitch;           ///< pitch joints; their coordinates are positive away from feather
-    std::vector<double> pitch_settings;  ///< per blade, rad, positive toward feather
-    std::vector<BodyId> pitch_drives;    ///< per blade, if the assembly has them
+    std::vector<FrameId> pitch_axes;      ///< per blade, before the pitch joint: x along the blade, z downwind
+    std::vector<FrameId> blade_roots;     ///< behind pitch joint and pitch setting: the blade's axes
+    std::vector<BodyId> pitch;            ///< pitch joints; their coordinates are positive away from feather
+    std::vector<double> pitch_settings;   ///< per blade, rad, positive toward feather
+    std::vector<BodyId> pitch_drives;     ///< per blade, if the assembly has them
+    std::vector<BodyId> pitch_actuators;  ///< per blade, if linkages turn them: strokes, m
 };
 
 /// A machine ready for the solvers. Immutable and cheap to copy.
@@ -70,6 +71,8 @@ public:
     const RotorMap& rotor() const { return rotor_; }
     const Tree& tree() const { return *tree_; }
     const ForceSet& forces() const { return *forces_; }
+    /// Pitch linkages; usually empty.
+    const LoopSet& loops() const { return *loops_; }
     const MachineLayout& layout() const { return *layout_; }
     /// The same machine with other forces: usually a copy of forces() with generator, brake or loads added.
     /// @param remark  describes the forces, for the description stored in files
@@ -90,6 +93,7 @@ private:
 
     std::shared_ptr<const Tree> tree_;
     std::shared_ptr<const ForceSet> forces_;
+    std::shared_ptr<const LoopSet> loops_;
     std::shared_ptr<const MachineLayout> layout_;
     std::shared_ptr<const System> system_;
     RotorMap rotor_;
@@ -98,10 +102,10 @@ private:
 };
 
 /// The whole machine. Coordinates in order: platform if there is one, tower, yaw x, y, rotation, tilt, generator,
-/// gearbox, hub (or shaft beam), teeter, then every blade's pitch and elements; rigid joints are left out. The spin
-/// coordinate is the generator's azimuth relative to the nacelle.
-/// Frames: "tower foot", "tower top", "nacelle", "shaft" (fixed to the nacelle), "rotor centre" (spins), "hub"
-/// (teeters), "blade <k> pitch axis" and, behind the pitch joint, "blade <k> root".
+/// gearbox, hub (or shaft beam), teeter, then every blade's pitch, pitch actuator and elements; rigid joints are left
+/// out. The spin coordinate is the generator's azimuth relative to the nacelle. Frames: "tower foot", "tower top",
+/// "nacelle", "shaft" (fixed to the nacelle), "rotor centre" (spins), "hub" (teeters), "blade <k> pitch axis" and,
+/// behind the pitch joint, "blade <k> root".
 /// @throws InputError for bad data; the part is named.
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
 

@@ -2,6 +2,8 @@
 
 #include "mbs/base/error.hpp"
 
+#include <utility>
+
 namespace cardan::turbines {
 
 namespace {
@@ -71,9 +73,34 @@ void check_damping(const BeamDamping& damping, const std::string& field, const R
         for (double ratio : *ratios) ranges.ratio(field + ".damping", ratio);
 }
 
+void check_linkage(const std::string& machine, const BladeDescription& blade, const std::string& field) {
+    const PitchLinkage& linkage = *blade.linkage;
+    if (blade.pitch.hold == Hold::driven || blade.pitch.is_rigid())
+        throw InputError(machine, field + ".pitch", blade.pitch.is_rigid() ? "rigid" : "driven",
+                         "free_joint or a spring: the linkage turns the blade");
+    for (const auto& [name, v] : {std::pair{".linkage.crank_pin", &linkage.crank_pin},
+                                  {".linkage.actuator_pin", &linkage.actuator_pin},
+                                  {".linkage.direction", &linkage.direction}})
+        if (!v->allFinite()) throw InputError(machine, field + name, v->transpose(), "finite");
+    if (linkage.direction.isZero(0)) throw InputError(machine, field + ".linkage.direction", "0 0 0", "a direction");
+    if (linkage.actuator.hold != Hold::driven && linkage.actuator.hold != Hold::spring)
+        throw InputError(machine, field + ".linkage.actuator", linkage.actuator.is_rigid() ? "rigid" : "free",
+                         "driven or a spring");
+    check_bearing(machine, field + ".linkage.actuator", linkage.actuator, along);
+    require_positive(machine, field + ".linkage.mass [kg]", linkage.mass);
+    const Vec3 rod = linkage.crank_pin - linkage.actuator_pin;
+    require_positive(machine, field + ".linkage: length of the push rod [m]", rod.norm());
+    // Turning about x moves the pin along x cross pin: at right angles to the rod it moves nothing.
+    const double arm = Vec3::UnitX().cross(linkage.crank_pin).dot(rod) / rod.norm();
+    if (!(std::abs(arm) > 1e-6 * linkage.crank_pin.norm()))
+        throw InputError(machine, field + ".linkage: lever of the push rod about the pitch axis [m]", arm,
+                         "not 0: at a dead point the rod does not turn the blade");
+}
+
 void check_blade(const TurbineDescription& d, const BladeDescription& blade, const std::string& field,
                  const Ranges& ranges) {
     check_bearing(d.name, field + ".pitch", blade.pitch, about);
+    if (blade.linkage) check_linkage(d.name, blade, field);
     ranges.angle(field + ".cone", blade.cone, 0.5, pi / 2);
     ranges.angle(field + ".pitch_setting", blade.pitch_setting, 3.2, 1e3);
     ranges.ratio(field + ".first_flap_damping", blade.first_flap_damping);
@@ -93,6 +120,9 @@ void check_blades(const TurbineDescription& d, const Ranges& ranges) {
         if (blade->pitch.is_rigid() != d.blade.pitch.is_rigid())
             throw InputError(d.name, field + ".pitch", blade->pitch.is_rigid() ? "rigid" : "not rigid",
                              "as the other blades: they have the same coordinates (driven_joint holds one of them)");
+        if (blade->linkage.has_value() != d.blade.linkage.has_value())
+            throw InputError(d.name, field + ".linkage", blade->linkage ? "given" : "none",
+                             "as the other blades: they have the same coordinates");
     }
 }
 

@@ -95,10 +95,24 @@ inline Mat3 hub_axes() {
     return (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
 }
 
+/// What turns a blade about its pitch bearing: an actuator moves one end of a rigid push rod along a straight line of
+/// the hub, the other end turns a crank on the blade. A loop: the angle follows the stroke. All in the axes before the
+/// pitch joint, x along the blade, z downwind, origin at the root.
+struct PitchLinkage {
+    Vec3 crank_pin = Vec3::Zero();     ///< on the blade, at no pitch, m
+    Vec3 actuator_pin = Vec3::Zero();  ///< of the actuator at no stroke, m
+    Vec3 direction = Vec3::Zero();     ///< of its stroke; its length does not matter
+    /// Driven: the stroke is prescribed. A spring: the stroke is commanded as its rest (zero), the actuator yields.
+    Bearing actuator = driven_joint;
+    double mass = 1;  ///< of what the actuator moves, kg, > 0
+};
+
 struct BladeDescription {
-    BeamLine line;             ///< from the root out; x radial, y to the leading edge, z downwind
-    double tip_mass = 0;       ///< of a tip brake, a point at the end of the line, kg
-    Bearing pitch;             ///< pitch bearing or drive
+    BeamLine line;        ///< from the root out; x radial, y to the leading edge, z downwind
+    double tip_mass = 0;  ///< of a tip brake, a point at the end of the line, kg
+    Bearing pitch;        ///< pitch bearing or drive
+    /// In place of a drive: then the bearing is a free joint, or has a spring and friction of its own.
+    std::optional<PitchLinkage> linkage = {};
     double cone = 0;           ///< blade axis out of the rotor plane, tips downwind positive, rad
     double pitch_setting = 0;  ///< beside that of the assembly, leading edge upwind positive, rad
     double first_flap_damping =

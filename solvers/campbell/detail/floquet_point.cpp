@@ -117,7 +117,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     const PeriodicSystem periodic = multi_blade_system();
     set_symmetry(periodic);
     set_mean(periodic);
-    if (!energy_shares()) standstill_.define_components(linearise(system_, state_->at(0)));
+    if (!energy_shares()) standstill_.define_components(standstill_.linearised_at(state_->at(0)));
     point.rotor_speed = rotor_speed;
     point.at = state_->at(0);
     point.periodic = state_;
@@ -173,7 +173,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
 }
 
 PeriodicSystem PeriodicPointSolver::multi_blade_system() const {
-    PeriodicSystem raw = linearised(system_, *state_, unknowns());
+    PeriodicSystem raw = linearised(system_, *state_, standstill_.moving(), unknowns());
     const ColemanTransform* T = standstill_.coleman();
     return T ? in_multi_blade_rows(std::move(raw), *T, state_->rotor_speed) : raw;
 }
@@ -281,7 +281,7 @@ void PeriodicPointSolver::move_state_motions(std::vector<FloquetMode>& modes, Ca
 void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
     constexpr int azimuths = 32, most = 8;  // most: harmonics that are compared
     const ColemanTransform* T = standstill_.coleman();
-    const Linearisation lin = linearise(system_, point.at);
+    const Linearisation lin = standstill_.linearised_at(point.at);
     std::vector<Matrix> at;
     at.reserve(azimuths);
     for (int i = 0; i < azimuths; ++i)

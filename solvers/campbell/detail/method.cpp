@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/detail/blade_likeness.hpp"
 #include "solvers/campbell/point.hpp"
+#include "solvers/equilibrium/detail/closed_start.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,8 @@ constexpr const char* at_standstill = "; at standstill: azimuth 0";
 
 bool blades_differ(const System& system, const RotorMap& rotor) {
     const Vector zero = Vector::Zero(system.model.size());
-    return !blades_alike(system.model, rotor, linearise(system, {zero, zero, zero, 0.0}));
+    const Vector closed = system.loops.empty() ? zero : closed_position(system, rotor.spin, 0, zero);
+    return !blades_alike(system.model, rotor, linearise(system, {closed, zero, zero, 0.0}));
 }
 
 // Empty: constant in multi-blade coordinates, and there is a constant steady state.

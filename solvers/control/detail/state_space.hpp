@@ -18,6 +18,7 @@ struct Directions {
     Matrix actuator;      ///< of what drives add to Q on their coordinates
     Matrix Q;             ///< generalised forces of inputs
     Matrix s, s_rate, u;  ///< of the states of first order, their rates, the system's inputs
+    Matrix lambda;        ///< of the multipliers of loops
 };
 
 /// States, driven coordinates and columns of a model, from the inputs.
@@ -26,6 +27,8 @@ public:
     /// @throws InputError, see state_space()
     Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
            const StateSpaceOptions& options);
+    /// With loops, leaves those as states on which the other unknowns depend.
+    void keep_independent(const std::vector<int>& independent);
 
     Eigen::Index states() const { return 2 * std::ssize(coordinates) + first_order(); }
     Eigen::Index first_order() const { return system_.forces.states().size(); }
@@ -33,6 +36,7 @@ public:
 
     std::vector<int> coordinates;       ///< whose positions and rates are states
     std::vector<int> unknowns, driven;  ///< coordinates with an equation of motion, and the others
+    std::vector<int> followers;         ///< unknowns that follow by loops
     std::vector<Signal> state_signals, input_signals;
 
     /// Directions as far as they follow from kinematics alone, at the poses of `kin`.

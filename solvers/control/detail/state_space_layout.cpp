@@ -96,7 +96,6 @@ struct Moved {
 Layout::Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
                const StateSpaceOptions& options)
     : system_(system), inputs_(inputs) {
-    system.require_no_loops("linear model");
     const CoordinateTable& table = system.model.coordinates();
     if (rotor.spin >= table.size())
         throw InputError("linear model", "index of the spin coordinate", rotor.spin, text("-1 ... ", table.size() - 1));
@@ -110,6 +109,14 @@ Layout::Layout(const System& system, const RotorMap& rotor, const std::vector<Li
     }
     if (unknowns.empty()) throw InputError("linear model", "number of free coordinates", 0, ">= 1");
     add_columns(inputs);
+    name_states();
+}
+
+void Layout::keep_independent(const std::vector<int>& independent) {
+    for (const int i : unknowns)
+        if (!Moved::contains(independent, i)) followers.push_back(i);
+    std::erase_if(coordinates, [&](int i) { return Moved::contains(followers, i); });
+    state_signals.clear();
     name_states();
 }
 

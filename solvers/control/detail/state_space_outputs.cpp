@@ -96,6 +96,7 @@ Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actua
             moved.qdd += step * qdd;
             moved.s += step * s;
             moved.u += step * u;
+            if (moved.lambda.size() > 0) moved.lambda += step * directions.lambda.col(j);
             const Vector forced = actuator + step * directions.actuator.col(j);
             return load ? at(moved, forced, with_wrench(system_, *load, step)) : at(moved, forced, system_.forces);
         };

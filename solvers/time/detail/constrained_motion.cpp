@@ -95,6 +95,18 @@ double ConstrainedMotion::gap(double time, const Vector& q, Workspace& workspace
     return phi_.allFinite() ? largest / loops_->extent(kin) : largest;
 }
 
+double ConstrainedMotion::opening_rate(double time, const Vector& q, const Vector& qd, Workspace& workspace,
+                                       int& loop) {
+    const Kinematics kin = kinematics(metric_.model(), q, workspace);
+    loops_->gradient<double>(kin, time, q, G_);
+    loops_->time_rates(time, q, phi_);
+    phi_.noalias() += G_ * qd;
+    Eigen::Index worst = 0;
+    const double largest = phi_.cwiseAbs().maxCoeff(&worst);
+    loop = entry(loops_->equations(), worst).loop;
+    return largest;
+}
+
 double ConstrainedMotion::power(double time, const Vector& q) {
     loops_->time_rates(time, q, phi_);
     return -lambda_.dot(phi_);

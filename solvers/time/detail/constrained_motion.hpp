@@ -34,6 +34,8 @@ public:
     bool project(double time, Vector& q, Vector& qd, Workspace& workspace);
     /// Largest residual at a position, and the loop that has it.
     double gap(double time, const Vector& q, Workspace& workspace, int& loop);
+    /// Likewise the largest rate with which one opens.
+    double opening_rate(double time, const Vector& q, const Vector& qd, Workspace& workspace, int& loop);
 
     /// Multipliers and gradients at the last constrain().
     const Vector& lambda() const { return lambda_; }

@@ -1,6 +1,6 @@
 // Contact and friction: bounces in closed form, a stick-slip oscillator.
 #include "elements/machine/contact.hpp"
-#include "solvers/time/integrate.hpp"
+#include "solvers/time/stick_slip.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
@@ -50,7 +50,7 @@ struct Cycle {
 };
 
 // m x'' + d x' + k x = friction of a belt that moves with +V: two periods from one begin of slip to the third.
-Cycle stick_slip(double d, const StribeckFriction& law) {
+Cycle creeping_cycle(double d, const StribeckFriction& law) {
     constexpr double k = 100, V = 0.2;
     Tree tree;
     const Link x =
@@ -83,6 +83,56 @@ Cycle stick_slip(double d, const StribeckFriction& law) {
     REQUIRE(run.advance(4).reached());
     REQUIRE(tops.size() >= 3);
     return {tops[2] - tops[1], 0, highest[1], lowest[1]};
+}
+
+// The same by events: true sticking.
+struct Slips {
+    std::vector<double> begins, ends, from, to, greatest, least;
+    double energy_error = 0;
+};
+
+Slips slips(double d, const StribeckFriction& law) {
+    constexpr double k = 100, V = 0.2;
+    Tree tree;
+    const Link x =
+        add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .inertia = {1, Vec3::Zero(), Mat3::Zero()}});
+    ForceSet forces;
+    LoopSet loops;
+    forces.add_spring("spring", x.body, k, d);
+    const DryFriction belt = add_dry_friction(forces, loops, "belt", x.body, law, V);
+    const System system(tree, forces, loops);
+    const Vector q = Vector{{0.05}}, qd = Vector{{V}};
+    IntegrationOptions options;
+    options.tolerances = {1e-11, 1e-13, 1e-13, 1e-12, 1e-12};
+    options.max_step = 0.02;
+    options.events = stick_slip(system, {belt}, {}, 0, q, qd);
+    REQUIRE(belt.state->engaged);
+    Slips found;
+    for (Event& event : options.events)
+        event.action = [&found, own = event.action](Integrator& run) {
+            const AfterEvent after = own(run);
+            const bool sticks = run.state().qd(0) > 0.199;
+            const bool begins = sticks && found.begins.size() == found.ends.size();
+            (begins ? found.begins : found.ends).push_back(run.time());
+            (begins ? found.from : found.to).push_back(run.state().q(0));
+            return after;
+        };
+    const auto turning = [](std::vector<double>& places, int direction) {
+        return Event{.name = "turns",
+                     .function = [](const ForceInput& at) { return at.qd(0); },
+                     .direction = direction,
+                     .action =
+                         [&places](Integrator& run) {
+                             places.push_back(run.state().q(0));
+                             return AfterEvent::proceed;
+                         }};
+    };
+    options.events.push_back(turning(found.greatest, -1));
+    options.events.push_back(turning(found.least, 1));
+    Integrator run(system, {}, 0, q, qd, options);
+    REQUIRE(run.advance(4.5).reached());
+    found.energy_error = run.energy().error;
+    return found;
 }
 
 }  // namespace contact_tests
@@ -153,11 +203,106 @@ TEST_CASE("friction: stick-slip on a belt", "[discrete]") {
         CAPTURE(row.d);
         // What sticks creeps: the errors fall with the regularisation, and the limit is the one of true sticking.
         const StribeckFriction coarse{15, 9, 0.1, row.viscous, 2e-4}, fine{15, 9, 0.1, row.viscous, 1e-4};
-        const Cycle twice = stick_slip(row.d, coarse), once = stick_slip(row.d, fine);
+        const Cycle twice = creeping_cycle(row.d, coarse), once = creeping_cycle(row.d, fine);
         CHECK(once.period == Approx(row.period).epsilon(3e-3));
         CHECK(std::abs(once.period - row.period) < 0.6 * std::abs(twice.period - row.period));
         CHECK(once.greatest == Approx(row.greatest).epsilon(2e-3));
         CHECK(once.least == Approx(row.least).margin(4e-4));
+    }
+}
+
+TEST_CASE("friction: stick-slip by events", "[discrete]") {
+    struct Row {
+        double d;
+        StribeckFriction law;
+        double period, slip, from, to, greatest, least;
+    };
+    // The last: Coulomb's law with a static friction of its own, in closed form.
+    const std::vector<Row> rows = {
+        {0, {15, 9, 0.1}, 1.0521471606, 0.41007560, 0.15, 0.021585688, 0.160736365, 0.019617499},
+        {1, {15, 9, 0.1, 2}, 0.8808870126, 0.42703810, 0.148, 0.057230218, 0.159055203, 0.054206741},
+        {0, {15, 9, 1e-7}, 0.9785093762, 0.37850938, 0.15, 0.03, 0.153245553, 0.026754447}};
+    for (const Row& row : rows) {
+        CAPTURE(row.period);
+        const Slips found = slips(row.d, row.law);
+        REQUIRE(found.begins.size() >= 3);
+        CHECK(found.begins[2] - found.begins[1] == Approx(row.period).epsilon(2e-8));
+        CHECK(found.ends[1] - found.begins[1] == Approx(row.slip).epsilon(5e-7));
+        CHECK(found.from[1] == Approx(row.from).epsilon(1e-7));
+        CHECK(found.to[1] == Approx(row.to).epsilon(1e-6));
+        CHECK(found.greatest[1] == Approx(row.greatest).epsilon(1e-7));
+        CHECK(found.least[1] == Approx(row.least).epsilon(1e-6));
+        CHECK(std::abs(found.energy_error) < 1e-7);
+    }
+}
+
+TEST_CASE("friction: three blocks in a row break loose one after another", "[closed-form]") {
+    // The first is pulled with a force that grows with time; springs of 100 N/m between them, each holds 1 N at most.
+    Tree tree;
+    ForceSet forces;
+    LoopSet loops;
+    std::vector<BodyId> blocks;
+    std::vector<DryFriction> frictions;
+    for (int i = 0; i < 3; ++i) {
+        const std::string name = text("block ", i + 1);
+        blocks.push_back(add_joint(tree, {.name = name,
+                                          .kind = JointKind::prismatic,
+                                          .axis = Vec3::UnitX(),
+                                          .inertia = {1, Vec3::Zero(), Mat3::Zero()}})
+                             .body);
+        frictions.push_back(add_dry_friction(forces, loops, text("floor ", i + 1), blocks.back(), {1, 1, 0.1}));
+    }
+    forces.add_user({.name = "springs and pull", .force = [](const ForceInput& at, VectorOut Q) {
+                         const double a = 100 * (at.q(0) - at.q(1)), b = 100 * (at.q(1) - at.q(2));
+                         Q(0) += at.time / 10 - a;
+                         Q(1) += a - b;
+                         Q(2) += b;
+                     }});
+    const System system(tree, forces, loops);
+    const Vector rest = Vector::Zero(3);
+    IntegrationOptions options;
+    options.tolerances = {1e-8, 1e-10, 1e-10, 1e-9, 1e-9};
+    options.events = stick_slip(system, frictions, {}, 0, rest, rest);
+    Integrator run(system, {}, 0, rest, rest, options);
+    REQUIRE(run.advance(9.99).reached());
+    CHECK(run.state().q.norm() < 1e-14);
+    CHECK(run.state().lambda(0) == Approx(-0.999));
+    CHECK(std::abs(run.state().lambda(1)) < 1e-12);
+    // Slowly pulled, the first moves by 10 mm until the second one breaks loose, from 2 N on; the third from 3 N on.
+    REQUIRE(run.advance(25).reached());
+    CHECK(run.state().q(0) > 0.01);
+    CHECK(std::abs(run.state().q(2)) < 1e-14);
+    REQUIRE(run.advance(29).reached());
+    CHECK(std::abs(run.state().q(2)) < 1e-14);
+    REQUIRE(run.advance(35).reached());
+    CHECK(run.state().q(2) > 1e-3);
+    CHECK(std::abs(run.energy().error) < 1e-6);
+}
+
+TEST_CASE("friction: a block on a slope stops, and stays or slides back", "[closed-form]") {
+    // Thrown uphill at 2 m/s; weight along the slope 5 N, friction 4 N or 6 N.
+    for (const double hold : {4.0, 6.0}) {
+        CAPTURE(hold);
+        Tree tree;
+        const Link block = add_joint(tree, {.name = "block",
+                                            .kind = JointKind::prismatic,
+                                            .axis = Vec3::UnitX(),
+                                            .inertia = {1, Vec3::Zero(), Mat3::Zero()}});
+        ForceSet forces;
+        LoopSet loops;
+        forces.set_gravity({-5, 0, 0});
+        const DryFriction floor = add_dry_friction(forces, loops, "floor", block.body, {hold, hold, 0.1});
+        const System system(tree, forces, loops);
+        const Vector q = Vector{{0.0}}, qd = Vector{{2.0}};
+        IntegrationOptions options;
+        options.events = stick_slip(system, {floor}, {}, 0, q, qd);
+        Integrator run(system, {}, 0, q, qd, options);
+        REQUIRE(run.advance(2).reached());
+        const double up = 2 / (5 + hold), reached = up, back = 2 - up;
+        CHECK(run.state().q(0) == Approx(reached - std::max(0.0, 5 - hold) / 2 * back * back).epsilon(1e-9));
+        CHECK(run.state().lambda(0) == Approx(hold > 5 ? 5 : 0).margin(1e-12));
+        // The lock is engaged no more than by one who watches: elsewhere the law is regularised.
+        check_refused([&] { (void)stick_slip(System(tree, forces), {floor}, {}, 0, q, qd); }, {"'floor'", "lock"});
     }
 }
 

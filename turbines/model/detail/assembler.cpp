@@ -3,6 +3,8 @@
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/error.hpp"
 
+#include <Eigen/Geometry>
+
 namespace cardan::turbines {
 
 namespace {
@@ -275,6 +277,21 @@ FrameId Assembler::add_pitch_axis(FrameId hub, int number, const BladeDescriptio
     return tree.add_frame(hub, root, text("blade ", number, " pitch axis"));
 }
 
+// The actuator slides on the hub; the rod closes the loop.
+BodyId Assembler::add_linkage(FrameId pitch_axis, FrameId blade_side, int number, const PitchLinkage& linkage) {
+    const std::string name = text("blade ", number, " pitch ");
+    const Mat3 along = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), linkage.direction).toRotationMatrix();
+    const FrameId line = tree.add_frame(
+        pitch_axis, Placement::translation(linkage.actuator_pin) * Placement::rotation(along), name + "actuator line");
+    const JointedFrame actuator =
+        jointed(line, JointKind::prismatic, Axis::x, name + "actuator", {"pitch", number}, linkage.actuator);
+    tree.weld(actuator.frame, {linkage.mass, Vec3::Zero(), Mat3::Zero()}, "pitch actuators");
+    const FrameId pin = tree.add_frame(blade_side, Placement::translation(linkage.crank_pin), name + "crank pin");
+    loops.add_distance({name + "rod", actuator.frame, pin, (linkage.crank_pin - linkage.actuator_pin).norm()});
+    layout.pitch_actuators.push_back(actuator.body);
+    return actuator.body;
+}
+
 void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade, bool with_pitch_joint) {
     const std::string name = text("blade ", number);
     const FrameId pitch_axis = add_pitch_axis(hub, number, blade);
@@ -286,6 +303,7 @@ void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade
         coordinates.push_back(pitch.body);
         layout.pitch.push_back(pitch.body);
         root = pitch.frame;
+        if (blade.linkage) coordinates.push_back(add_linkage(pitch_axis, root, number, *blade.linkage));
     }
     if (options_.pitch_drives) {
         const JointedFrame drive = add_joint(tree, root, JointKind::revolute, Axis::x, name + " pitch drive",

@@ -25,6 +25,7 @@ public:
 
     Tree tree;
     ForceSet forces;
+    LoopSet loops;
     std::optional<BodyId> spin;  ///< none: no rotor
     bool hub_is_driven = false;  ///< see RotorMap
     int places = 0;              ///< for blades
@@ -60,6 +61,7 @@ private:
     FrameId add_teeter(FrameId rotor_centre, const TeeterDescription& teeter);
     void add_blades(FrameId hub);
     void add_blade(FrameId hub, int number, const BladeDescription& blade, bool with_pitch_joint);
+    BodyId add_linkage(FrameId pitch_axis, FrameId blade_side, int number, const PitchLinkage& linkage);
     FrameId add_pitch_axis(FrameId hub, int number, const BladeDescription& blade);
 
     const TurbineDescription& d_;

@@ -71,6 +71,15 @@ template <class Archive, class Blade>
 void blade_fields(Archive& archive, Blade& blade) {
     archive.line("line", blade.line);
     archive.bearing("pitch", blade.pitch);
+    archive.since(2, [&] {
+        archive.optional_group("linkage", blade.linkage, [&](auto& linkage) {
+            archive.vector("crank_pin", linkage.crank_pin);
+            archive.vector("actuator_pin", linkage.actuator_pin);
+            archive.vector("direction", linkage.direction);
+            archive.bearing("actuator", linkage.actuator);
+            archive.number("mass", linkage.mass);
+        });
+    });
     archive.number("cone", blade.cone);
     archive.since(2, [&] { archive.number("pitch_setting", blade.pitch_setting); });
     archive.number("first_flap_damping", blade.first_flap_damping);

@@ -1,0 +1,129 @@
+// Linear models of machines with loops: a mass on the slider of a slider-crank, in closed form, and the periodic
+// system.
+#include "mbs/kernels/metric.hpp"
+#include "mbs/system/reaction_channels.hpp"
+#include "solvers/control/state_space.hpp"
+#include "solvers/periodic/periodic_system.hpp"
+#include "tests/mbs/loops/closed_trees.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/numbers.hpp"
+
+using namespace cardan;
+using namespace cardan::solvers;
+using namespace cardan::testing;
+
+namespace linear_loop_tests {
+
+constexpr double r = SliderCrank::r, l = SliderCrank::l, m = 0.7, k = 200, c = 0.6;
+
+// First derivatives by the crank's angle of the slider's place and of the rod's angle against the crank.
+Complex slider_rate(Complex t) {
+    return -r * std::sin(t) - r * r * std::sin(t) * std::cos(t) / std::sqrt(l * l - r * r * std::sin(t) * std::sin(t));
+}
+double rod_rate(double t) {
+    return -r * std::cos(t) / std::sqrt(l * l - std::pow(r * std::sin(t), 2)) - 1;
+}
+double slider_second(double t) {
+    return slider_rate({t, 1e-30}).imag() / 1e-30;
+}
+
+// The crank turns as the spin; on the slider a mass on a spring along its way.
+System machine() {
+    Tree tree;
+    const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(0.36, r));
+    const Bar rod = add_bar(tree, "rod", crank.end, l, slender_bar(0.15, l));
+    const Link slider = add_joint(tree, {.name = "slider",
+                                         .kind = JointKind::prismatic,
+                                         .axis = Vec3::UnitX(),
+                                         .inertia = {0.08, Vec3::Zero(), Mat3::Zero()}});
+    const Link mass = add_joint(tree, {.name = "mass",
+                                       .inboard = slider.axes,
+                                       .kind = JointKind::prismatic,
+                                       .axis = Vec3::UnitX(),
+                                       .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
+    ForceSet forces;
+    forces.add_spring("spring", mass.body, k, c);
+    LoopSet loops;
+    loops.add_joint({"pin", CutKind::revolute, rod.end, slider.axes});
+    return {tree, forces, loops};
+}
+
+ChannelGroup own_channels() {
+    ChannelGroup group{{{.name = "place", .units = "m", .long_name = "of the slider"},
+                        {.name = "mass", .units = "m s-2", .long_name = "acceleration of the mass"},
+                        {.name = "drive", .units = "N m", .long_name = "of the crank"}},
+                       {}};
+    group.sample = [](const ChannelInput& in, double* values) {
+        values[0] = in.q(2);
+        values[1] = in.qdd(2) + in.qdd(3);
+        values[2] = in.actuator(0);
+    };
+    return group;
+}
+
+const RotorMap map{.machine = "slider-crank", .spin = 0, .hub = {}, .blades = {}, .parts = {}, .lines = {}};
+
+}  // namespace linear_loop_tests
+
+using namespace linear_loop_tests;
+
+TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[closed-form]") {
+    const System system = machine();
+    const double theta = 0.8;
+    Vector q = Vector::Zero(4);
+    q.head(3) = SliderCrank::position(theta);
+    const OperatingPoint at{q, Vector::Zero(4), Vector::Zero(4)};
+    const LinearModel model = state_space(system, map, at, {LinearInput::motion("crank", {{0, 1}})},
+                                          {own_channels(), reaction_channels(system)});
+    REQUIRE(model.coordinates == std::vector<int>{3});
+    REQUIRE(model.inputs.size() == 3);
+    CHECK(model.imbalance < 1e-12);
+    const LinearSample& sample = model.samples.at(0);
+    const double x1 = slider_rate(theta).real();
+    // z'' = -(k z + c z') / m - x' theta''
+    CHECK((sample.A - (Matrix(2, 2) << 0, 1, -k / m, -c / m).finished()).norm() < 1e-9);
+    CHECK((sample.B - (Matrix(2, 3) << 0, 0, 0, 0, 0, -x1).finished()).norm() < 1e-12);
+    CHECK(sample.D(0, 0) == Approx(x1).epsilon(1e-8));
+    CHECK((sample.C.row(1) - sample.A.row(1)).norm() < 1e-7);
+    CHECK(std::abs(sample.D(1, 2)) < 1e-9);  // the spring is soft: the mass stays where it is
+    // The torque of the drive: inertia of crank, rod and slider as seen from the crank, and the spring.
+    Workspace workspace(system.model);
+    Matrix g(4, 4);
+    metric(kinematics(system.model, q, workspace), g);
+    const Vec3 Z(1, rod_rate(theta), x1);
+    CHECK(sample.D(2, 2) == Approx(Z.dot(g.topLeftCorner(3, 3) * Z) - m * x1 * x1).epsilon(1e-8));
+    CHECK(sample.C(2, 0) == Approx(-k * x1).epsilon(1e-7));
+    CHECK(sample.C(2, 1) == Approx(-c * x1).epsilon(1e-7));
+    // Of the pin's force along x: the slider's inertia, and what the spring pulls.
+    const auto force = static_cast<Eigen::Index>(index_of(model.outputs, "pin force x"));
+    const Vec3 along = rot_z(q(0) + q(1)).transpose() * Vec3(-k, 0, 0);  // in the axes of the rod's end
+    CHECK(sample.C(force, 0) == Approx(along.x()).epsilon(1e-6));
+}
+
+TEST_CASE("linear model with loops: about a slider-crank in motion", "[closed-form][crosscheck]") {
+    const System system = machine();
+    const double Omega = 9;
+    Matrix start = Matrix::Zero(4, 1);
+    start(2) = 0.4;
+    const PeriodicSteadyState state =
+        harmonic_balance(system, 0, {.rotor_speed = Omega, .harmonics = 24, .start = start});
+    require_result(state);
+    const LinearModel model =
+        state_space(system, map, state, {LinearInput::motion("crank", {{0, 1}})}, {own_channels()}, {.azimuths = 7});
+    REQUIRE(model.coordinates == std::vector<int>{3});
+    CHECK(model.imbalance < 1e-6);
+    const PeriodicSystem periodic = linearised(system, state);
+    for (const LinearSample& sample : model.samples) {
+        const double psi = sample.azimuth, h = 1e-4;
+        CAPTURE(psi);
+        const double x1 = slider_rate(psi).real(), x2 = slider_second(psi),
+                     x3 = (slider_second(psi + h) - slider_second(psi - h)) / (2 * h);
+        // The slider's acceleration is x'' theta'^2 + x' theta'': its deviations drive the mass.
+        CHECK(sample.B(1, 0) == Approx(-x3 * Omega * Omega).margin(1e-5));
+        CHECK(sample.B(1, 1) == Approx(-2 * x2 * Omega).margin(1e-7));
+        CHECK(sample.B(1, 2) == Approx(-x1).margin(1e-9));
+        Matrix E, A;
+        periodic.at(psi / Omega, E, A);
+        CHECK((sample.A - E.partialPivLu().solve(A)).norm() < 1e-8);
+    }
+}
