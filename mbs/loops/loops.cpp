@@ -77,17 +77,17 @@ Loops::Loops(const LoopSet& set, const Model& model) : model_(model.serial()), c
             place += text(" '", model.coordinates()[at].name, "'");
         }
         couplings_.push_back(std::move(linear));
+        add_equation(coupling.name, coupling.unit);  // before the name: it counts those there are
         names_.push_back(coupling.name);
         places_.push_back(std::move(place));
-        add_equation(coupling.name, coupling.unit);
         first_.push_back(size());
     }
     for (const UserConstraint& user : set.users()) {
         users_.push_back({user, size()});
         involved_.assign(involved_.size(), true);
+        add_equation(user.name, user.unit);
         names_.push_back(user.name);
         places_.emplace_back("constraint of one's own");
-        add_equation(user.name, user.unit);
         first_.push_back(size());
     }
 }
