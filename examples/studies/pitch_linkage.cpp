@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
         }
         const System loaded = linkage(0.9, full_moment);
         solvers::LoadCurveOptions options;
-        options.state.initial = equilibrium(0.9, 0, Vector{{1.8, 0.9}}).at.q;
+        options.state.initial = q;  // as the last one above
         options.largest_step = 0.02;
         const solvers::LoadCurve curve = solvers::load_curve(loaded, options);
         require_result(curve);
