@@ -66,8 +66,8 @@ void turn_freely(const std::string& picture) {
     const Model& model = system.model;
     solvers::IntegrationOptions options;
     options.tolerances = {1e-9, 1e-11, 1e-11, 1e-10, 1e-10};
-    solvers::Integrator run(system, {}, 0, vector(model, 0.5, pi / 6), speed * Vector::Unit(4, model.index("shaft")),
-                            options);
+    solvers::Integrator run(system, {}, 0, vector(model, 0.5, pi / 6),
+                            speed * Vector::Unit(model.size(), model.index("shaft")), options);
     solvers::Recorder recorder(run, {});
     solvers::History history;
     history.title = "Flyball governor";
