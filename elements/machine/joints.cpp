@@ -29,4 +29,9 @@ JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, c
     return {body, tree.add_frame(tree.frame_of(body), Placement::rotation(R.transpose()), name + " axes")};
 }
 
+JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, const std::string& name,
+                       const PartLabel& label, CoordinateRole role) {
+    return add_joint(tree, carrier, kind, axis, name, label, Vec3::Zero(), role);
+}
+
 }  // namespace cardan

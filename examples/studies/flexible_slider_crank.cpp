@@ -28,7 +28,7 @@ System slider_crank(int elements) {
     Tree tree;
     ForceSet forces;
     const JointedFrame crank =
-        add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "crank", {"engine"}, {}, CoordinateRole::driven);
+        add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "crank", {"engine"}, CoordinateRole::driven);
     tree.weld(crank.frame, {0.36, {r / 2, 0, 0}, Vec3(0, 6.75e-4, 6.75e-4).asDiagonal().toDenseMatrix()});
     const JointedFrame rod =
         add_joint(tree, crank.frame, JointKind::revolute, Axis::z, "rod", {"engine"}, Vec3(r, 0, 0));

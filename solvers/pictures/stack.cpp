@@ -13,7 +13,7 @@ namespace cardan::solvers {
 namespace {
 
 // All in pixels.
-constexpr double left_margin = 100, right_margin = 24, top_margin = 12, bottom_margin = 58;
+constexpr double left_margin = 100, right_margin = 24, top_margin = 12, bottom_margin = 64;
 constexpr double title_height = 32, legend_row = 22, mark_row = 18, gap = 16;
 constexpr double legend_sample = 30, legend_space = 26;  // line before an entry, distance to the next one
 constexpr double letter = 8.7, small_letter = 7;         // mean width in the legend and at marks, on the safe side

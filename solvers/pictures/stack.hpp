@@ -10,29 +10,30 @@
 namespace cardan::solvers {
 
 struct StackCurve {
-    std::string label;         ///< in the legend above the panel
-    std::vector<double> x, y;  ///< a y that is not finite is a gap
+    std::string label = {};              ///< in the legend above the panel
+    std::vector<double> x = {}, y = {};  ///< a y that is not finite is a gap
 };
 
 struct StackPanel {
-    std::string y_label;
-    std::vector<StackCurve> curves;  ///< at most one per colour of the palette
-    bool logarithmic = false;        ///< at most six decades below the largest value
+    std::string y_label = {};
+    std::vector<StackCurve> curves = {};  ///< at most one per colour of the palette
+    bool logarithmic = false;             ///< at most six decades below the largest value
 };
 
 /// A vertical line through all panels.
 struct StackMark {
     double x = 0;
-    std::string label;
+    std::string label = {};
 };
 
 struct PanelStack {
-    std::string title;
-    std::string x_label;
+    std::string title = {};
+    std::string x_label = {};
     double x_low = 0, x_high = 1;
-    std::vector<StackPanel> panels;
-    std::vector<StackMark> marks;  ///< marks outside the axis range are left out; labels that would overlap move up
-    int width = 1200;              ///< pixels
+    std::vector<StackPanel> panels = {};
+    std::vector<StackMark> marks =
+        {};            ///< marks outside the axis range are left out; labels that would overlap move up
+    int width = 1200;  ///< pixels
 };
 
 /// The height follows from the panels, legends and labels.

@@ -79,6 +79,16 @@ ComplexVector stepped(const Vector& q, const Vector& direction) {
 
 using namespace loop_tests;
 
+TEST_CASE("loops: every equation belongs to the loop whose name it bears", "[property]") {
+    RandomLoops given(1);
+    given.set.add_user({"one's own", "m", [](double, const Vector& q, ConstraintTerms& out) { out.value = q(0); }});
+    const Loops loops(given.set, *given.model);
+    for (const Loops::Equation& equation : loops.equations()) {
+        CAPTURE(equation.name);
+        CHECK(equation.name.starts_with(loops.name(equation.loop)));
+    }
+}
+
 TEST_CASE("loops: gradients, second gradients and biases are derivatives of the equations", "[property]") {
     for (unsigned seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);

@@ -137,6 +137,30 @@ TEST_CASE("loop equilibria: natural modes of a closed machine are those of the o
         {"rod", "gap"});
 }
 
+TEST_CASE("loop equilibria: two wheels held by a spring and tied by a coupling only", "[closed-form]") {
+    // Pinion = -2 wheel; a torque M on the pinion, a spring k on the wheel: k wheel = -2 M.
+    Tree tree;
+    const Link wheel = add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
+    const Link pinion = add_joint(tree, {.name = "pinion", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
+    ForceSet forces;
+    forces.add_spring("spring", wheel.body, 50, 0);
+    forces.add_wrench({.name = "torque", .frame = pinion.axes, .wrench = {Vec3::Zero(), Vec3(0, 0, 3)}});
+    LoopSet loops;
+    loops.add_coupling({"gear", {{wheel.body, 2.0}, {pinion.body, 1.0}}, 0, "rad"});
+    const System system(tree, forces, loops);
+    const SteadyState state = steady_state(system, -1, {});
+    REQUIRE(state.converged);
+    CHECK(state.at.q(0) == Approx(-6.0 / 50));
+    CHECK(state.at.q(1) == Approx(12.0 / 50));
+    check_refused(
+        [&] {
+            OperatingPoint open = state.at;
+            open.q(0) = 1;
+            (void)linearise(system, open);
+        },
+        {"gear", "wheel", "pinion", "gap"});
+}
+
 TEST_CASE("loop equilibria: a blade pitched by crank and push rod", "[discrete]") {
     struct Row {
         double z, phi, slope, stiffness, tension, loaded;

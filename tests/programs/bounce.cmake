@@ -1,0 +1,1 @@
+add_example_test(example_bounce bounce 0 "exponent 1[.]5.*a v = 1: restitution +0[.]59362426[0-9] +0[.]593624260.*depth, mm +28[.]57966[0-9] +28[.]579660.*exponent 2[.]2.*a v = 5: restitution +0[.]19698024[0-9] +0[.]196980245")

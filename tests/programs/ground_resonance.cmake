@@ -1,0 +1,2 @@
+add_example_test(example_ground_resonance ground_resonance 0 "growth at 26 rad/s, 1/s +2[.]580220[0-9]+ +2[.]58022034.*growth at 260 rev/min, 1/s +0[.]320739[0-9]+ +0[.]32073962.*unstable from, rev/min +210[.]3711[0-9]+ +210[.]371134.*to, rev/min +307[.]0754[0-9]+ +307[.]075478.*largest growth -0[.]3[0-9]+ 1/s" --points=20)
+add_example_test(example_ground_resonance_points ground_resonance 2 "--points" --points=3)

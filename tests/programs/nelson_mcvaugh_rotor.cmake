@@ -1,0 +1,1 @@
+add_example_test(example_nelson_mcvaugh_rotor nelson_mcvaugh_rotor 0 "Rayleigh.*critical speed 2 +17176[.][0-9] +17176[.]1.*Timoshenko.*critical speed 4 +4967[67][.][0-9] +49676[.]2.*unequal.*critical speed 1 +13937[.][67] +13937[.]7.*critical speed 6 +931[67][0-9][.][0-9] +93170[.]4")

@@ -1,0 +1,1 @@
+add_example_test(example_overhung_disc overhung_disc 0 "at 800, forward 2, rad/s +1801[.]835828[0-9] +1801[.]8358287.*critical speed, rad/s +192[.]83053[0-9] +192[.]830535.*critical speed, rad/s +-141[.]53218[0-9] +-141[.]532189.*critical speed, rad/s +-538[.]71693[0-9] +-538[.]716938")

@@ -1,0 +1,1 @@
+add_example_test(example_pitch_linkage pitch_linkage 0 "0[.]5 m: angle, rad +0[.]71175355[0-9]+ +0[.]7117535520.*stiffness, MN m/rad +14[.]82016[0-9]+ +14[.]82016111.*limit load, N m +4707[56][.][0-9] +47076[.]0.*there, rad +1[.]90660[89] +1[.]906609.*behind it, rad +2[.]3362365[67] +2[.]33623656")

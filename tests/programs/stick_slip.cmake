@@ -1,0 +1,1 @@
+add_example_test(example_stick_slip stick_slip 0 "creep 0[.]0001 m/s.*period, s +1[.]0[45][0-9]+ +1[.]052147.*greatest x, m +0[.]160[0-9]+ +0[.]160736.*least x, m +0[.]019[0-9]+ +0[.]019617.*1 and 2 N s/m, creep 0[.]0001.*period, s +0[.]8[78][0-9]+ +0[.]880887")

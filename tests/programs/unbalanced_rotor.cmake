@@ -1,0 +1,1 @@
+add_example_test(example_unbalanced_rotor unbalanced_rotor 0 "at 316 rad/s: equal, mm +5[.]251542[0-9]+ +5[.]25154219.*at 360 rad/s: equal.*forward, mm +0[.]108176[0-9]+ +0[.]10817681.*backward, mm +0[.]532168[0-9]+ +0[.]53216826")
