@@ -52,19 +52,20 @@ void StribeckFriction::check(const std::string& where) const {
     require_not_negative(where, "Coulomb friction", coulomb_force);
     if (!(static_force >= coulomb_force) || std::isinf(static_force))
         throw InputError(where, "static friction", static_force, text("finite, at least Coulomb's, ", coulomb_force));
-    require_positive(where, "Stribeck's speed", stribeck_speed);
+    require_not_negative(where, "Stribeck's speed", stribeck_speed);
     require_not_negative(where, "viscous friction", viscous);
     require_positive(where, "regularisation", regularisation);
 }
 
 StribeckFriction::Force StribeckFriction::at(double speed) const {
-    const double drop = (static_force - coulomb_force) * std::exp(-std::abs(speed) / stribeck_speed);
-    const double dry = coulomb_force + drop, side = std::tanh(speed / regularisation);
-    const double dry_slope = (speed < 0 ? drop : -drop) / stribeck_speed;
+    const Force ahead = sliding(std::abs(speed), 1);
+    const double dry = ahead.force - viscous * std::abs(speed), side = std::tanh(speed / regularisation);
+    const double dry_slope = (ahead.by_speed - viscous) * (speed < 0 ? -1 : 1);
     return {dry * side + viscous * speed, dry_slope * side + dry * (1 - side * side) / regularisation + viscous};
 }
 
 StribeckFriction::Force StribeckFriction::sliding(double speed, int direction) const {
+    if (stribeck_speed == 0) return {direction * coulomb_force + viscous * speed, viscous};
     const double drop = (static_force - coulomb_force) * std::exp(-direction * speed / stribeck_speed);
     return {direction * (coulomb_force + drop) + viscous * speed, viscous - drop / stribeck_speed};
 }

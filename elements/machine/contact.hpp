@@ -47,7 +47,7 @@ UserForce contact_stop(std::string name, BodyId coordinate, double limit, bool u
 struct StribeckFriction {
     double static_force = 0;       ///< Fs, N or N m, >= Fc
     double coulomb_force = 0;      ///< Fc, >= 0
-    double stribeck_speed = 0;     ///< vs, m/s or rad/s, > 0
+    double stribeck_speed = 0;     ///< vs, m/s or rad/s, >= 0; 0: from Fs to Fc at once, where it truly sticks
     double viscous = 0;            ///< c, N s/m or N m s/rad, >= 0
     double regularisation = 1e-4;  ///< vr, m/s or rad/s, > 0
 

@@ -183,7 +183,7 @@ TEST_CASE("periodic loops: a pendulum that a slider-crank shakes obeys Hill's eq
 
 TEST_CASE("periodic loops: gradients that change on the way, against the machine as a tree", "[discrete]") {
     const System tree = ElasticDrive::tree(), loop = ElasticDrive::loop();
-    for (const double Omega : {8.0, 31.0, -60.0}) {
+    for (const double Omega : {8.0, 31.0, -20.0}) {
         CAPTURE(Omega);
         const PeriodicSteadyState open = ElasticDrive::steady(tree, Omega, 24),
                                   closed = ElasticDrive::steady(loop, Omega, 24);
