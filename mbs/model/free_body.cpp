@@ -3,7 +3,6 @@
 #include "mbs/base/error.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <cmath>
 
@@ -57,7 +56,7 @@ void set_free_motion(const Model::Free& body, const FreeMotion& motion, Vector& 
     q(body.hinges[1]) = 0;
     q(body.hinges[2]) = std::atan2(S(2, 1), S(2, 2));
     qd(body.reference) = 0;
-    const Vec3 rates = Hinges(body, q).axes.inverse() * motion.w;
+    const Vec3 rates = Hinges(body, q).axes.transpose() * motion.w;  // at right angles where b = 0
     for (int i = 0; i < 3; ++i) {
         q(entry(body.slides, i)) = motion.pose.p(i);
         qd(entry(body.slides, i)) = motion.v(i);

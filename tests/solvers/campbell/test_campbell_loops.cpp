@@ -108,6 +108,8 @@ TEST_CASE("campbell: with gravity, by Floquet's theory, the geared rotor is the 
         REQUIRE(a.size() == b.size());
         for (std::size_t i = 0; i < a.size(); ++i) {
             CAPTURE(speeds[s], i);
+            CHECK(a[i].kind() == b[i].kind());
+            if (b[i].kind() == FloquetKind::rigid) continue;
             CHECK(std::abs(a[i].mode.eigenvalue - b[i].mode.eigenvalue) < 1e-7 * std::abs(b[i].mode.eigenvalue));
         }
     }

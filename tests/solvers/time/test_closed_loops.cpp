@@ -332,7 +332,15 @@ TEST_CASE("closed loops: starts and methods that do not fit are refused", "[bad-
             (void)close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 1}}, {.held = held});
         },
         {"pin B", "contradict"});
-    Integrator run(system, both, 0, closed.q, Vector{{1, 0, 1}});
+    check_refused(
+        [&] {
+            Integrator(system, both, 0, closed.q, Vector{{1, 0, 1}});
+        },
+        {"pin B", "opens at the start", "contradict"});
+    // At rates that do so at the start only.
+    const Vector fit = close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 0}}, {.held = {0}});
+    both[1].motion = Motion::constant_rate(closed.q(2), fit(2));
+    Integrator run(system, both, 0, closed.q, fit);
     const Advance end = run.advance(1);
     CHECK(end.end == Advance::End::failed);
     CHECK(end.message.find("pin B") != std::string::npos);

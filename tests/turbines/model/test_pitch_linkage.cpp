@@ -6,6 +6,7 @@
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/turbines/readers/model_files.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/yaml/description.hpp"
 
@@ -104,7 +105,9 @@ TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[close
 }
 
 TEST_CASE("pitch linkage: in files, and what cannot be is refused", "[property][bad-input]") {
-    const TurbineDescription d = machine(linkage({actuator_stiffness, 2e5}), {3e6, 0});
+    TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
+    d.blade.linkage = linkage({actuator_stiffness, 2e5});
+    d.blade.pitch = {3e6, 0};
     const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
     CHECK(to_yaml(read) == to_yaml(d));
     REQUIRE(read.blade.linkage);
