@@ -39,7 +39,7 @@ WindOperation operation_of(const Iea22Rotor& rotor) {
 // The collective edge mode is one of blades against generator; what the two programs have for the drive train is not
 // published, and theirs differ by a factor of three at 24 m/s. Its damping leaves the band there, by less than 0.002. A
 // part of that is the rate of the sections about their bent span as the rotor turns, which OpenFAST's lags do not see
-// (BEM_Mod = 2): with the rate about the radius it is larger by 0.001.
+// (BEM_Mod = 2): with the rate about the radius it is larger by 0.0006.
 TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", "[discrete][.models]") {
     const std::optional<Iea22Rotor> rotor = iea22_rotor();
     if (!rotor) return;
