@@ -21,10 +21,12 @@ constexpr std::array mode_names{
     "2nd blade edge (backward)",   "2nd blade edge (forward)",    "3rd blade flap (backward)",
     "3rd blade flap (collective)", "3rd blade flap (forward)",    "2nd blade edge (collective)"};
 
-// On a shaft that turns freely with the generator's inertia.
+// On a shaft that turns freely with the generator's inertia. Extension is free: the sections' tension centres lie off
+// the reference line, and without it the moment of the centrifugal force about them is lost. The edge modes of the bent
+// blades then have up to a quarter more damping, and three more of them leave the band.
 WindOperation operation_of(const Iea22Rotor& rotor) {
     AssemblyOptions assembly;
-    assembly.blade_beam = CardanBeamOptions{.elements = 8, .partition = Partition::mean_difference};
+    assembly.blade_beam = CardanBeamOptions{.elements = 8, .partition = Partition::mean_difference, .extension = true};
     assembly.spin = CoordinateRole::free;
     WindOperationOptions options;
     options.air = rotor.air.options;
@@ -35,7 +37,9 @@ WindOperation operation_of(const Iea22Rotor& rotor) {
 }  // namespace
 
 // The collective edge mode is one of blades against generator; what the two programs have for the drive train is not
-// published, and its damping leaves the band at 20 and 24 m/s by 0.003.
+// published, and theirs differ by a factor of three at 24 m/s. Its damping leaves the band there, by less than 0.002. A
+// part of that is the rate of the sections about their bent span as the rotor turns, which OpenFAST's lags do not see
+// (BEM_Mod = 2): with the rate about the radius it is larger by 0.0006.
 TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", "[discrete][.models]") {
     const std::optional<Iea22Rotor> rotor = iea22_rotor();
     if (!rotor) return;
@@ -52,7 +56,8 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
     for (std::size_t k = 0; k < schedule.rows(); ++k) {
         const auto own = [&](const char* name) { return schedule.column(name)[k]; };
         const bool in_table = std::ranges::count(table.column("wind"), own("wind")) > 0;
-        if (own("program") != 1 || !in_table) continue;  // OpenFAST's operation
+        // Both programs' modes are of HAWC2's operation: the speeds published with them are those of its schedule.
+        if (own("program") != 2 || !in_table) continue;
         const std::array points{
             operation.at({own("wind"), own("rotor_speed") * units::rpm, own("pitch") * units::degree})};
         REQUIRE(points[0].converged);
@@ -76,7 +81,7 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
         }
     }
     CHECK(compared == 72);
-    CHECK(in_band >= 67);
+    CHECK(in_band >= 71);
 }
 
 }  // namespace cardan::testing::rotor_mode_tests
