@@ -123,7 +123,7 @@ Matrix joint_stiffness(const Mat6& flexibility, const std::vector<ElementCoordin
     for (ElementCoordinate kind : coordinates) refuse_rigid(flexibility, kind, where);
     // Scaled to unit diagonal: metres and radians differ by decades.
     const Vector scale = f.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::LLT<Matrix> cholesky(scale.asDiagonal() * f * scale.asDiagonal());
+    const Eigen::LLT<Matrix> cholesky(Matrix(scale.asDiagonal() * f * scale.asDiagonal()));
     if (cholesky.info() != Eigen::Success)
         throw InputError(where, "flexibility of the free joint coordinates (diagonal)", f.diagonal().transpose(),
                          "positive definite: the section's compliance is indefinite or singular");

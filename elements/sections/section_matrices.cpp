@@ -179,7 +179,7 @@ BeamSection beam_section(const SectionMatrices& section, const std::string& wher
     const Mat6 K = (section.stiffness + section.stiffness.transpose()) / 2;
     const Vec6 d = unit_scales(K);
     const Mat6 unit = unit_stiffness(K);
-    const Mat6 inverse = unit.llt().solve(Mat6::Identity());
+    const Mat6 inverse = Matrix(unit).llt().solve(Matrix::Identity(6, 6));
     s.compliance = d.asDiagonal() * Mat6((inverse + inverse.transpose()) / 2) * d.asDiagonal();
     const Mat6& M = section.mass;
     s.mass = M(0, 0);
@@ -203,7 +203,7 @@ SectionMatrices section_matrices(const BeamSection& section) {
         throw InputError("section matrices", "smallest eigenvalue of the compliance (scaled)", solver.eigenvalues()(0),
                          "> 0: a rigid direction that is not an axis has no stiffness matrix");
     SectionMatrices m;
-    m.stiffness = d.asDiagonal() * Mat6(unit.inverse()) * d.asDiagonal();
+    m.stiffness = d.asDiagonal() * Mat6(Matrix(unit).partialPivLu().inverse()) * d.asDiagonal();
     m.stiffness = Mat6((m.stiffness + m.stiffness.transpose()) / 2);
     for (Eigen::Index i = 0; i < 6; ++i)
         if (is_rigid(i)) m.stiffness(i, i) = std::numeric_limits<double>::infinity();

@@ -175,7 +175,8 @@ FlutterPoint StripFlutter::steady_flutter(double largest_speed) const {
     const auto squares = [&](double speed) {
         const double lift = 2 * pi * strip_.density * speed * speed * b;
         const Eigen::MatrixXd K = stiffness() + over_shapes<double>(0, lift, 0, -lift * lever);
-        return Eigen::VectorXcd(Eigen::EigenSolver<Eigen::MatrixXd>(inverse.solve(K), false).eigenvalues());
+        return Eigen::VectorXcd(
+            Eigen::EigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(inverse.solve(K)), false).eigenvalues());
     };
     const auto flutters = [&](double speed) {
         const Eigen::VectorXcd values = squares(speed);
