@@ -104,9 +104,8 @@ void Builder::set_multipliers(OperatingPoint& at) const {
 void Builder::follow() {
     const std::vector<int>& f = layout_.followers;
     const Matrix& G = lin_.constraints;
-    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(G(Eigen::all, f)));
-    directions_.q(f, Eigen::all) = -qr.solve(G * directions_.q);
-    directions_.qd(f, Eigen::all) = -qr.solve(G * directions_.qd + lin_.constraint_rates * directions_.q);
+    directions_.q(f, Eigen::all) = solvers::follow(G, f, G * directions_.q);
+    directions_.qd(f, Eigen::all) = solvers::follow(G, f, G * directions_.qd + lin_.constraint_rates * directions_.q);
 }
 
 // Accelerations of the unknowns along every direction, and forces of drives:
@@ -129,11 +128,10 @@ void Builder::solve(const Matrix& right) {
 void Builder::solve_with_loops(const Matrix& right) {
     const std::vector<int>&f = layout_.unknowns, &d = layout_.driven;
     const Matrix& G = lin_.constraints;
-    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(G(Eigen::all, layout_.followers)));
     // What the other directions ask of those that follow, before the independent ones accelerate.
-    directions_.qdd(layout_.followers, Eigen::all) =
-        -qr.solve(G * directions_.qdd + 2 * lin_.constraint_rates * directions_.qd +
-                  lin_.constraint_accelerations * directions_.q);
+    const Matrix right_of_followers = G * directions_.qdd + 2 * lin_.constraint_rates * directions_.qd +
+                                      lin_.constraint_accelerations * directions_.q;
+    directions_.qdd(layout_.followers, Eigen::all) = solvers::follow(G, layout_.followers, right_of_followers);
     const Matrix asked = directions_.qdd(f, Eigen::all), M = lin_.mass(f, f);
     std::vector<int> own;
     for (const int a : f)
@@ -147,8 +145,7 @@ void Builder::solve_with_loops(const Matrix& right) {
     const Matrix accelerations = asked + Z * mass.solve(Matrix(Z.transpose() * (load - M * asked)));
     directions_.qdd(f, Eigen::all) = accelerations;
     if (!accelerations.allFinite()) throw NumericalError(text(in_linear_model, ": accelerations are not finite"));
-    Eigen::CompleteOrthogonalDecomposition<Matrix> transposed(Matrix(G(Eigen::all, f).transpose()));
-    directions_.lambda = transposed.solve(M * accelerations - load);
+    directions_.lambda = multipliers_on(G, f, M * accelerations - load);
     directions_.actuator(d, Eigen::all) = Matrix(lin_.mass(d, f)) * accelerations - Matrix(right(d, Eigen::all)) -
                                           Matrix(G(Eigen::all, d).transpose()) * directions_.lambda;
 }

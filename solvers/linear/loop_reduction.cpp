@@ -136,6 +136,17 @@ Followers followers(const Linearisation& lin, const std::vector<int>& coordinate
     return out;
 }
 
+Matrix follow(const Matrix& constraints, const std::vector<int>& dependent, const Matrix& right) {
+    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(constraints(Eigen::all, dependent)));
+    return -qr.solve(right);
+}
+
+Matrix multipliers_on(const Matrix& constraints, const std::vector<int>& coordinates, const Matrix& load) {
+    const Matrix transposed = constraints(Eigen::all, coordinates).transpose();
+    const Eigen::CompleteOrthogonalDecomposition<Matrix> factor(transposed);
+    return factor.solve(load);
+}
+
 void condense_loops(Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent) {
     if (lin.constraints.rows() == 0) return;
     const Followers move = followers(lin, coordinates, independent);

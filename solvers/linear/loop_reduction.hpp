@@ -42,6 +42,12 @@ struct Followers {
 /// @throws as above
 Followers followers(const Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent);
 
+/// How dependent coordinates move for what the others do: G_d x = -right, the shortest x.
+/// @param right  G times what the others do
+Matrix follow(const Matrix& constraints, const std::vector<int>& dependent, const Matrix& right);
+/// Multipliers with G^T lambda = load on some coordinates, the shortest.
+Matrix multipliers_on(const Matrix& constraints, const std::vector<int>& coordinates, const Matrix& load);
+
 /// The system over independent coordinates: dx = shape dy, so that M = shape^T M shape and so on.
 struct ReducedSystem {
     SecondOrderSystem system;
