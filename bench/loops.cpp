@@ -5,6 +5,9 @@
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/peers/closed_links.hpp"
+#ifdef CARDAN_BESIDE_MUJOCO
+#include "tests/peers/mujoco_peer.hpp"
+#endif
 #include "tests/peers/simbody_peer.hpp"
 
 #include <benchmark/benchmark.h>
@@ -84,8 +87,46 @@ BENCHMARK(accelerations)
     ->Iterations(bench::Pairs::least)
     ->Unit(benchmark::kMicrosecond);
 
-// A second of the motion from IFToMM benchmark A02, short of the first position in which all links lie in one line; the
-// couplers stay level and the uprights turn as one coordinate has it.
+#ifdef CARDAN_BESIDE_MUJOCO
+// MuJoCo's pins are soft, and its accelerations a little different.
+void accelerations_beside_mujoco(benchmark::State& state) {
+    Closed closed(static_cast<int>(state.range(0)));
+    std::vector<peers::PeerLink> links = peers::peer_links(closed.machine.system.model);
+    for (peers::PeerLink& link : links) link.J[0] = 1e-9;  // about the bar's own axis: MuJoCo wants some
+    peers::MujocoPeer peer(links, {0, -testing::loop_gravity, 0}, peers::pins(closed.machine));
+    const auto ours = [&] { closed.with_loops(); };
+    const auto theirs = [&] {
+        peer.forward_dynamics(closed.q.data(), closed.qd.data(), closed.none.data(), closed.theirs.data());
+    };
+    ours();
+    theirs();
+    if ((closed.ours - closed.theirs).norm() > 1e-2 * closed.theirs.norm())
+        return state.SkipWithError("Cardan and MuJoCo compute different numbers");
+    const int our_calls = bench::calls_per_turn(ours), their_calls = bench::calls_per_turn(theirs);
+    bench::Pairs pairs;
+    for (auto _ : state) {
+        const double own = bench::seconds(our_calls, ours);
+        pairs.add(bench::seconds(their_calls, theirs), own);
+        state.SetIterationTime(own);
+    }
+    state.counters["MuJoCo / Cardan"] = pairs.ratio();
+    state.counters["difference"] = (closed.ours - closed.theirs).norm() / closed.theirs.norm();
+}
+
+BENCHMARK(accelerations_beside_mujoco)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(5)
+    ->Arg(10)
+    ->Arg(20)
+    ->Arg(40)
+    ->UseManualTime()
+    ->Iterations(bench::Pairs::least)
+    ->Unit(benchmark::kMicrosecond);
+#endif
+
+// Half a second of the motion from IFToMM benchmark A02, short of the first position in which all links lie in one
+// line; the couplers stay level and the uprights turn as one coordinate has it.
 struct Fall {
     explicit Fall(int windows)
         : machine(windows, CutKind::spherical),

@@ -363,7 +363,7 @@ void Integrator::update() {
         throw NumericalError(text(in_integration, ": no forces at ", state_.time, " s: ", equations_.problem()));
 }
 
-// Their hinges are singular where the second one stands at a right angle: from 60 degrees on they are turned anew.
+// Their hinges are singular where the second one stands at a right angle: at 60 degrees they are turned anew.
 void Integrator::watch_free_bodies() {
     for (const Model::Free& body : equations_.model().free_bodies())
         options_.events.push_back(

@@ -65,8 +65,9 @@ struct MujocoPeer::Impl {
     }
 };
 
-MujocoPeer::MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity)
-    : impl_(new Impl(mujoco_xml(links, gravity))) {
+MujocoPeer::MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity,
+                       const std::vector<PeerPin>& pins)
+    : impl_(new Impl(mujoco_xml(links, gravity, pins))) {
     int previous = -1;
     for (const std::string& joint : joints()) {
         const int link = std::stoi(joint);

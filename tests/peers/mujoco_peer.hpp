@@ -16,7 +16,10 @@ namespace cardan::peers {
 class MujocoPeer : public Peer {
 public:
     /// @throws PeerRefusal for a massless link that carries not exactly one other, and for what MuJoCo itself refuses
-    explicit MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {});
+    /// @param pins  that have to be closed at q = 0. MuJoCo's are soft: accelerations differ by some 1e-4 from those of
+    ///              pins that hold, where these are closed.
+    explicit MujocoPeer(const std::vector<PeerLink>& links, std::array<double, 3> gravity = {},
+                        const std::vector<PeerPin>& pins = {});
     /// From a URDF text, which MuJoCo reads by itself. Limits, damping and friction are switched off.
     /// @throws PeerRefusal for what MuJoCo refuses
     static std::unique_ptr<MujocoPeer> from_urdf(const std::string& urdf);
@@ -38,6 +41,7 @@ private:
 
 /// The tree in MuJoCo's own format (MJCF); the joints are named after the links: "0", "1" ...
 /// @throws PeerRefusal for a massless link that carries not exactly one other
-std::string mujoco_xml(const std::vector<PeerLink>& links, std::array<double, 3> gravity);
+std::string mujoco_xml(const std::vector<PeerLink>& links, std::array<double, 3> gravity,
+                       const std::vector<PeerPin>& pins = {});
 
 }  // namespace cardan::peers

@@ -22,12 +22,15 @@ public:
         out_.precision(17);
     }
 
-    std::string write(std::array<double, 3> gravity) {
+    std::string write(std::array<double, 3> gravity, const std::vector<PeerPin>& pins) {
         out_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"false\" boundmass=\"0\""
              << " boundinertia=\"0\"/><option gravity=\"" << gravity[0] << ' ' << gravity[1] << ' ' << gravity[2]
-             << "\"><flag contact=\"disable\" constraint=\"disable\"/></option><worldbody>\n";
+             << "\"><flag contact=\"disable\" constraint=\"" << (pins.empty() ? "disable" : "enable")
+             << "\" warmstart=\"disable\"/></option><worldbody>\n";
         for (const int root : roots_) body(root);
-        out_ << "</worldbody></mujoco>\n";
+        out_ << "</worldbody>\n";
+        if (!pins.empty()) equality(pins);
+        out_ << "</mujoco>\n";
         return out_.str();
     }
 
@@ -53,7 +56,7 @@ private:
             run.push_back(carried.front());
             own = own * placement_of(link(run.back()));
         }
-        out_ << "<body";
+        out_ << "<body name=\"link " << run.back() << '"';
         attribute("pos", own.p);
         rotation(own.R);
         out_ << ">\n";
@@ -77,6 +80,17 @@ private:
         }
     }
 
+    // As stiff as MuJoCo allows. The place on the second body is where the pin is at q = 0.
+    void equality(const std::vector<PeerPin>& pins) {
+        out_ << "<equality>\n";
+        for (const PeerPin& pin : pins) {
+            out_ << "<connect body1=\"link " << pin.a << "\" body2=\"link " << pin.b << '"';
+            attribute("anchor", Eigen::Map<const Vec3>(pin.at_a));
+            out_ << " solimp=\"0.9999 0.9999 0.001 0.5 2\"/>\n";
+        }
+        out_ << "</equality>\n";
+    }
+
     void inertial(const PeerLink& link) {
         const double* J = link.J;
         const Mat3 tensor{{J[0], J[3], J[4]}, {J[3], J[1], J[5]}, {J[4], J[5], J[2]}};
@@ -98,8 +112,9 @@ private:
 
 }  // namespace
 
-std::string mujoco_xml(const std::vector<PeerLink>& links, std::array<double, 3> gravity) {
-    return Writer(links).write(gravity);
+std::string mujoco_xml(const std::vector<PeerLink>& links, std::array<double, 3> gravity,
+                       const std::vector<PeerPin>& pins) {
+    return Writer(links).write(gravity, pins);
 }
 
 }  // namespace cardan::peers

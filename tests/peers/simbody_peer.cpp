@@ -165,13 +165,15 @@ SimbodyMotion::~SimbodyMotion() = default;
 
 int SimbodyMotion::advance(double* q, double* qd, double duration, double accuracy) {
     State start = impl_->system.getDefaultState();
+    impl_->system.realizeModel(start);
     copy(q, start.updQ());
     copy(qd, start.updU());
     RungeKuttaMersonIntegrator method(impl_->system);
     method.setAccuracy(accuracy);
+    TimeStepper motion(impl_->system, method);
     try {
-        method.initialize(start);
-        method.stepTo(duration);
+        motion.initialize(start);
+        motion.stepTo(duration);
     } catch (const std::exception&) {
         return -1;
     }

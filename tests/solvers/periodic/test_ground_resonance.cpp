@@ -14,7 +14,7 @@ namespace ground_resonance_tables {
 struct Helicopter {
     double m, S, I, e, c;           // of a blade: mass, static moment, inertia about the hinge, hinge's radius, damper
     double Mx, My, kx, ky, cx, cy;  // of the support
-    int damper_out = 0;             // number of the blade without; 0: none
+    int damper_out = 0, other_out = 0;  // numbers of blades without; 0: none
 
     System system() const {
         Tree tree;
@@ -34,7 +34,7 @@ struct Helicopter {
                 add_joint(tree, {.name = text("lag ", blade),
                                  .inboard = root,
                                  .inertia = {m, {S / m, 0, 0}, about_centre * Mat3(Vec3(0, 1, 1).asDiagonal())}});
-            forces.add_spring(text("lag ", blade), lag.body, 0, blade == damper_out ? 0 : c);
+            forces.add_spring(text("lag ", blade), lag.body, 0, blade == damper_out || blade == other_out ? 0 : c);
         }
         return {tree, forces};
     }
@@ -133,4 +133,21 @@ TEST_CASE("ground resonance: Hammond's rotor, all dampers at work and one of the
     }
     check_limit(machine, 210.371134 * rpm, true);
     check_limit(machine, 307.075478 * rpm, false);
+}
+
+TEST_CASE("ground resonance: without two opposite dampers these blades swing without reaction and damping",
+          "[closed-form]") {
+    Helicopter machine{94.9, 289.1, 1084.7, 0.3048, 4067.5, 8026.6, 3283.6, 1240481.8, 1240481.8, 51078.7, 25539.35};
+    machine.damper_out = 1;
+    machine.other_out = 3;
+    // Both lag alike: their forces on the hub cancel, and the centrifugal force alone brings them back.
+    const double per_turn = std::sqrt(machine.S * machine.e / machine.I);
+    for (const double Omega : {12.0, 17.0, 40.0}) {
+        CAPTURE(Omega);
+        double nearest = 1;
+        for (const FloquetMode& mode : machine.motions(Omega).modes)
+            for (const double turns : {mode.per_period() - per_turn, mode.per_period() + per_turn})
+                nearest = std::min(nearest, std::hypot(mode.growth() / Omega, turns - std::round(turns)));
+        CHECK(nearest < 1e-8);
+    }
 }

@@ -280,9 +280,10 @@ FrameId Assembler::add_pitch_axis(FrameId hub, int number, const BladeDescriptio
 // The actuator slides on the hub; the rod closes the loop.
 BodyId Assembler::add_linkage(FrameId pitch_axis, FrameId blade_side, int number, const PitchLinkage& linkage) {
     const std::string name = text("blade ", number, " pitch ");
-    const Mat3 along = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), linkage.direction).toRotationMatrix();
-    const FrameId line = tree.add_frame(
-        pitch_axis, Placement::translation(linkage.actuator_pin) * Placement::rotation(along), name + "actuator line");
+    const Mat3 onto_line = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), linkage.direction).toRotationMatrix();
+    const FrameId line =
+        tree.add_frame(pitch_axis, Placement::translation(linkage.actuator_pin) * Placement::rotation(onto_line),
+                       name + "actuator line");
     const JointedFrame actuator =
         jointed(line, JointKind::prismatic, Axis::x, name + "actuator", {"pitch", number}, linkage.actuator);
     tree.weld(actuator.frame, {linkage.mass, Vec3::Zero(), Mat3::Zero()}, "pitch actuators");
