@@ -24,7 +24,7 @@ public:
     /// @param G           m x n
     /// @param magnitudes  m x n, >= |G|
     /// @param tolerance   a column counts as dependent if less than this fraction of its full length is left
-    /// Cost O(m n d + m^2 n).
+    /// Cost O(m n d + m^2 n); constraints whose gradients have no coordinates in common cost nothing together.
     void factorise(MetricFactor& metric, MatrixIn G, MatrixIn magnitudes, double tolerance);
 
     int constraints() const { return static_cast<int>(R_.rows()); }
@@ -45,13 +45,18 @@ public:
 private:
     static void orthogonalise(Eigen::Ref<Vector> column, MatrixIn basis, Eigen::Ref<Vector> coefficients);
     void leading_transposed_solve(VectorIn y);
+    void find_spans();
+    void orthogonalise_pivot(bool thorough);
+    void subtract_pivot_from(Eigen::Index j);
 
     MetricFactor* metric_ = nullptr;
     int rank_ = 0;
     std::vector<int> order_;
+    std::vector<Eigen::Index> first_, end_;  ///< rows of each column of B between which it may be other than zero
     Matrix B_;       ///< n x m: columns to come, then Q in the first rank_
     Matrix R_;       ///< m x m, upper triangular over the columns as exchanged
-    Matrix Q2_, T_;  ///< R^T of the first rank_ rows as Q2 T, where columns depend
+    bool shared_ = false;  ///< dependent constraints take part in what others hold; else their gradients vanish
+    Matrix Q2_, T_;        ///< R^T of the first rank_ rows as Q2 T, where they do
     Vector full_;    ///< lengths without cancellation
     Vector left_;    ///< squares of what is left of columns over their full lengths
     Vector known_;   ///< the same when it was last computed from the column

@@ -18,21 +18,21 @@ using namespace cardan::testing;
 namespace flexible_four_bar_tests {
 
 constexpr double crank_length = 0.12, coupler_length = 0.24;
-constexpr double E = 207e9, G = E / 2.6, density = 7800;
+constexpr double youngs_modulus = 207e9, shear_modulus = youngs_modulus / 2.6, steel_density = 7800;
 
 // Square bars; shear and torsion as the benchmark's tables have them, relative to the area and its moment.
-EngineeringSection section(double side) {
+EngineeringSection square_bar(double side) {
     const double A = side * side, I = A * A / 12;
     EngineeringSection s;
-    s.mass = density * A;
-    s.EA = E * A;
-    s.GA_y = s.GA_z = 5.0 / 6 * G * A;
-    s.GJ = 0.1406 * G * A * A;
-    s.EI_flap = s.EI_edge = E * I;
-    s.j_flap = s.j_edge = density * I;
+    s.mass = steel_density * A;
+    s.EA = youngs_modulus * A;
+    s.GA_y = s.GA_z = 5.0 / 6 * shear_modulus * A;
+    s.GJ = 0.1406 * shear_modulus * A * A;
+    s.EI_flap = s.EI_edge = youngs_modulus * I;
+    s.j_flap = s.j_edge = steel_density * I;
     return s;
 }
-const EngineeringSection thick = section(0.016), thin = section(0.008);
+const EngineeringSection thick_bar = square_bar(0.016), thin_bar = square_bar(0.008);
 
 // Crank and rocker along their x axes, the coupler parallel to the ground; the last hinge is turned by `skew` about the
 // bars that stand upright at the start.
@@ -48,12 +48,12 @@ struct FourBarMachine {
             return add_cardan_beam(tree, forces, root, uniform_beam(length, s), name, {name}, options).tip();
         };
         const Link crank = add_joint(tree, {.name = "crank", .role = CoordinateRole::driven});
-        const FrameId B = bar("AB", crank.axes, crank_length, thick);
+        const FrameId B = bar("AB", crank.axes, crank_length, thick_bar);
         const Link coupler = add_joint(tree, {.name = "coupler", .inboard = B});
-        const FrameId C = bar("BC", coupler.axes, coupler_length, thick);
+        const FrameId C = bar("BC", coupler.axes, coupler_length, thick_bar);
         const FrameId D = tree.add_frame(Tree::base(), Placement::translation({coupler_length, 0, 0}), "D");
         const Link rocker = add_joint(tree, {.name = "rocker", .inboard = D});
-        const FrameId C2 = bar("DC", rocker.axes, crank_length, thin);
+        const FrameId C2 = bar("DC", rocker.axes, crank_length, thin_bar);
         LoopSet loops;
         loops.add_joint({"hinge C", CutKind::revolute, tree.add_frame(C, Placement::rotation(rot_y(skew)), "C of BC"),
                          tree.add_frame(C2, Placement::rotation(rot_z(-pi / 2) * rot_y(skew)), "C of DC")});
@@ -119,9 +119,9 @@ Hinge by_frame(double skew, double angle) {
         for (int i = 0; i < 4; ++i) T.block<3, 3>(3 * i, 3 * i) = R.transpose();
         K.block<12, 12>(6 * end, 6 * end) += T.transpose() * stiffness(L, s) * T;
     };
-    bar(0, rot_z(angle), crank_length, thick);
-    bar(2, Mat3::Identity(), coupler_length, thick);
-    bar(4, rot_z(angle), crank_length, thin);
+    bar(0, rot_z(angle), crank_length, thick_bar);
+    bar(2, Mat3::Identity(), coupler_length, thick_bar);
+    bar(4, rot_z(angle), crank_length, thin_bar);
     std::vector<Vector> rows;
     std::vector<double> values;
     const auto hold = [&](int end, int direction, int other, double value) {
