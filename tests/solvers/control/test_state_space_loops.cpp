@@ -14,14 +14,16 @@ using namespace cardan::testing;
 
 namespace linear_loop_tests {
 
-constexpr double r = SliderCrank::r, l = SliderCrank::l, m = 0.7, k = 200, c = 0.6;
+constexpr double crank_arm = SliderCrank::r, rod_length = SliderCrank::l, carried = 0.7, spring_k = 200, spring_d = 0.6;
 
 // First derivatives by the crank's angle of the slider's place and of the rod's angle against the crank.
 Complex slider_rate(Complex t) {
-    return -r * std::sin(t) - r * r * std::sin(t) * std::cos(t) / std::sqrt(l * l - r * r * std::sin(t) * std::sin(t));
+    return -crank_arm * std::sin(t) -
+           crank_arm * crank_arm * std::sin(t) * std::cos(t) /
+               std::sqrt(rod_length * rod_length - crank_arm * crank_arm * std::sin(t) * std::sin(t));
 }
 double rod_rate(double t) {
-    return -r * std::cos(t) / std::sqrt(l * l - std::pow(r * std::sin(t), 2)) - 1;
+    return -crank_arm * std::cos(t) / std::sqrt(rod_length * rod_length - std::pow(crank_arm * std::sin(t), 2)) - 1;
 }
 double slider_second(double t) {
     return slider_rate({t, 1e-30}).imag() / 1e-30;
@@ -30,8 +32,8 @@ double slider_second(double t) {
 // The crank turns as the spin; on the slider a mass on a spring along its way.
 System machine() {
     Tree tree;
-    const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(0.36, r));
-    const Bar rod = add_bar(tree, "rod", crank.end, l, slender_bar(0.15, l));
+    const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, slender_bar(0.36, crank_arm));
+    const Bar rod = add_bar(tree, "rod", crank.end, rod_length, slender_bar(0.15, rod_length));
     const Link slider = add_joint(tree, {.name = "slider",
                                          .kind = JointKind::prismatic,
                                          .axis = Vec3::UnitX(),
@@ -40,9 +42,9 @@ System machine() {
                                        .inboard = slider.axes,
                                        .kind = JointKind::prismatic,
                                        .axis = Vec3::UnitX(),
-                                       .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
+                                       .inertia = {carried, Vec3::Zero(), Mat3::Zero()}});
     ForceSet forces;
-    forces.add_spring("spring", mass.body, k, c);
+    forces.add_spring("spring", mass.body, spring_k, spring_d);
     LoopSet loops;
     loops.add_joint({"pin", CutKind::revolute, rod.end, slider.axes});
     return {tree, forces, loops};
@@ -61,7 +63,7 @@ ChannelGroup own_channels() {
     return group;
 }
 
-const RotorMap map{.machine = "slider-crank", .spin = 0, .hub = {}, .blades = {}, .parts = {}, .lines = {}};
+const RotorMap the_machine{.machine = "slider-crank", .spin = 0, .hub = {}, .blades = {}, .parts = {}, .lines = {}};
 
 }  // namespace linear_loop_tests
 
@@ -73,7 +75,7 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[cl
     Vector q = Vector::Zero(4);
     q.head(3) = SliderCrank::position(theta);
     const OperatingPoint at{q, Vector::Zero(4), Vector::Zero(4)};
-    const LinearModel model = state_space(system, map, at, {LinearInput::motion("crank", {{0, 1}})},
+    const LinearModel model = state_space(system, the_machine, at, {LinearInput::motion("crank", {{0, 1}})},
                                           {own_channels(), reaction_channels(system)});
     REQUIRE(model.coordinates == std::vector<int>{3});
     REQUIRE(model.inputs.size() == 3);
@@ -81,7 +83,7 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[cl
     const LinearSample& sample = model.samples.at(0);
     const double x1 = slider_rate(theta).real();
     // z'' = -(k z + c z') / m - x' theta''
-    CHECK((sample.A - (Matrix(2, 2) << 0, 1, -k / m, -c / m).finished()).norm() < 1e-9);
+    CHECK((sample.A - (Matrix(2, 2) << 0, 1, -spring_k / carried, -spring_d / carried).finished()).norm() < 1e-9);
     CHECK((sample.B - (Matrix(2, 3) << 0, 0, 0, 0, 0, -x1).finished()).norm() < 1e-12);
     CHECK(sample.D(0, 0) == Approx(x1).epsilon(1e-8));
     CHECK((sample.C.row(1) - sample.A.row(1)).norm() < 1e-7);
@@ -91,12 +93,12 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[cl
     Matrix g(4, 4);
     metric(kinematics(system.model, q, workspace), g);
     const Vec3 Z(1, rod_rate(theta), x1);
-    CHECK(sample.D(2, 2) == Approx(Z.dot(g.topLeftCorner(3, 3) * Z) - m * x1 * x1).epsilon(1e-8));
-    CHECK(sample.C(2, 0) == Approx(-k * x1).epsilon(1e-7));
-    CHECK(sample.C(2, 1) == Approx(-c * x1).epsilon(1e-7));
+    CHECK(sample.D(2, 2) == Approx(Z.dot(g.topLeftCorner(3, 3) * Z) - carried * x1 * x1).epsilon(1e-8));
+    CHECK(sample.C(2, 0) == Approx(-spring_k * x1).epsilon(1e-7));
+    CHECK(sample.C(2, 1) == Approx(-spring_d * x1).epsilon(1e-7));
     // The rod carries what the spring pulls along itself.
     const auto force = static_cast<Eigen::Index>(index_of(model.outputs, "pin force x"));
-    CHECK(sample.C(force, 0) == Approx(-k / std::cos(q(0) + q(1))).epsilon(1e-6));
+    CHECK(sample.C(force, 0) == Approx(-spring_k / std::cos(q(0) + q(1))).epsilon(1e-6));
 }
 
 TEST_CASE("linear model with loops: about a slider-crank in motion", "[closed-form][crosscheck]") {
@@ -107,8 +109,8 @@ TEST_CASE("linear model with loops: about a slider-crank in motion", "[closed-fo
     const PeriodicSteadyState state =
         harmonic_balance(system, 0, {.rotor_speed = Omega, .harmonics = 24, .start = start});
     require_result(state);
-    const LinearModel model =
-        state_space(system, map, state, {LinearInput::motion("crank", {{0, 1}})}, {own_channels()}, {.azimuths = 7});
+    const LinearModel model = state_space(system, the_machine, state, {LinearInput::motion("crank", {{0, 1}})},
+                                          {own_channels()}, {.azimuths = 7});
     REQUIRE(model.coordinates == std::vector<int>{3});
     CHECK(model.imbalance < 1e-6);
     const PeriodicSystem periodic = linearised(system, state);

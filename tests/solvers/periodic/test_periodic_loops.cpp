@@ -13,17 +13,17 @@ using namespace cardan::testing;
 
 namespace periodic_loop_tests {
 
-constexpr double r = SliderCrank::r, l = SliderCrank::l;
+constexpr double crank_arm = SliderCrank::r, rod_length = SliderCrank::l;
 
 // Of the slider by the crank's angle.
 double slider(double theta) {
-    return r * std::cos(theta) + std::sqrt(l * l - std::pow(r * std::sin(theta), 2));
+    return crank_arm * std::cos(theta) + std::sqrt(rod_length * rod_length - std::pow(crank_arm * std::sin(theta), 2));
 }
 // Its second derivative by the angle, by a complex step of the first.
 double slider_second(double theta) {
     const auto first = [](Complex t) {
-        const Complex root = std::sqrt(l * l - r * r * std::sin(t) * std::sin(t));
-        return -r * std::sin(t) - r * r * std::sin(t) * std::cos(t) / root;
+        const Complex root = std::sqrt(rod_length * rod_length - crank_arm * crank_arm * std::sin(t) * std::sin(t));
+        return -crank_arm * std::sin(t) - crank_arm * crank_arm * std::sin(t) * std::cos(t) / root;
     };
     return first({theta, 1e-30}).imag() / 1e-30;
 }
@@ -34,8 +34,8 @@ struct ShakenPendulum {
 
     static System system() {
         Tree tree;
-        const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(1, r));
-        const Bar rod = add_bar(tree, "rod", crank.end, l, slender_bar(0.15, l));
+        const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, slender_bar(1, crank_arm));
+        const Bar rod = add_bar(tree, "rod", crank.end, rod_length, slender_bar(0.15, rod_length));
         const Link guide = add_joint(tree, {.name = "slider",
                                             .kind = JointKind::prismatic,
                                             .axis = Vec3::UnitX(),
@@ -49,7 +49,7 @@ struct ShakenPendulum {
         loops.add_joint({"wrist pin", CutKind::cylindrical, rod.end, guide.axes});
         return {tree, forces, loops};
     }
-    // Trace of the monodromy matrix of m l^2 x'' + d x' + m l (g - s'') x = 0, by classical Runge-Kutta steps.
+    // Trace of the monodromy matrix of m L^2 x'' + d x' + m L (g - s'') x = 0, by classical Runge-Kutta steps.
     static double trace(double Omega) {
         const auto f = [&](double t, const Eigen::Matrix2d& X) {
             const double inertia = mass * length * length;
@@ -90,7 +90,7 @@ struct ElasticDrive {
         Link guide;
     };
     static Parts parts(Tree& tree, ForceSet& forces, double mass) {
-        const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(1, r));
+        const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, slender_bar(1, crank_arm));
         const Link guide = add_joint(tree, {.name = "slider",
                                             .kind = JointKind::prismatic,
                                             .axis = Vec3::UnitX(),

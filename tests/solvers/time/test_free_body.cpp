@@ -15,13 +15,13 @@ using namespace cardan::testing;
 
 namespace free_body_tests {
 
-constexpr double g = 9.81;
-const Vec3 moments(1, 2, 2.8);
-const oracles::FreeAsymmetricTop top(moments, 0.5, 1.7);
+constexpr double fall = 9.81;
+const Vec3 spinner_moments(1, 2, 2.8);
+const oracles::FreeAsymmetricTop spinner(spinner_moments, 0.5, 1.7);
 
 System thrown(double gravity) {
     Tree tree;
-    (void)tree.add_free_body({.name = "body", .inertia = {3, Vec3::Zero(), moments.asDiagonal()}});
+    (void)tree.add_free_body({.name = "body", .inertia = {3, Vec3::Zero(), spinner_moments.asDiagonal()}});
     ForceSet forces;
     forces.set_gravity({0, 0, -gravity});
     return {tree, forces};
@@ -30,10 +30,10 @@ System thrown(double gravity) {
 // Turns like the top, its angular momentum laid along x, and flies.
 const Mat3 laid = rot_y(pi / 2);
 Mat3 attitude(double t) {
-    return laid * top.attitude(t);
+    return laid * spinner.attitude(t);
 }
 Vec3 angular_velocity(double t) {
-    return attitude(t) * top.angular_velocity(t);
+    return attitude(t) * spinner.angular_velocity(t);
 }
 FreeMotion start() {
     return {{attitude(0), Vec3(1, 2, 3)}, {4, -2, 5}, angular_velocity(0)};
@@ -84,7 +84,7 @@ TEST_CASE("free body: tumbles and flies with every method, through all attitudes
         Method method;
         double tolerance, error;
     };
-    const System system = thrown(g);
+    const System system = thrown(fall);
     const State begin(system.model, start());
     for (const Accuracy& a :
          {Accuracy{Method::bdf, 1e-10, 5e-7}, Accuracy{Method::adams, 1e-10, 1e-7}, Accuracy{Method::dirk, 1e-10, 5e-9},
@@ -92,12 +92,12 @@ TEST_CASE("free body: tumbles and flies with every method, through all attitudes
         CAPTURE(static_cast<int>(a.method));
         Integrator run(system, {}, 0, begin.q, begin.qd, equal_tolerances(a.method, a.tolerance));
         for (int i = 1; i <= 8; ++i) {
-            const double t = 0.5 * i * top.period();
+            const double t = 0.5 * i * spinner.period();
             REQUIRE(run.advance(t).reached());
             const FreeMotion motion = free_motion(system.model.free_bodies()[0], run.state().q, run.state().qd);
             CHECK((motion.pose.R - attitude(t)).norm() < 10 * a.error);  // as with a change of charts
             CHECK((motion.w - angular_velocity(t)).norm() < 50 * a.error);
-            const Vec3 place = Vec3(1, 2, 3) + t * Vec3(4, -2, 5) - t * t / 2 * g * Vec3::UnitZ();
+            const Vec3 place = Vec3(1, 2, 3) + t * Vec3(4, -2, 5) - t * t / 2 * fall * Vec3::UnitZ();
             CHECK((motion.pose.p - place).norm() < 10 * a.error);
         }
         CHECK(run.statistics().restarts > 3);  // its coordinates have been changed on the way
@@ -106,16 +106,16 @@ TEST_CASE("free body: tumbles and flies with every method, through all attitudes
 }
 
 TEST_CASE("free body: continues bit for bit from a checkpoint behind a change of its coordinates", "[property]") {
-    const System system = thrown(g);
+    const System system = thrown(fall);
     const State begin(system.model, start());
     const IntegrationOptions options = equal_tolerances(Method::dirk, 1e-8);
     Integrator whole(system, {}, 0, begin.q, begin.qd, options);
-    REQUIRE(whole.advance(3 * top.period()).reached());
+    REQUIRE(whole.advance(3 * spinner.period()).reached());
     REQUIRE(whole.statistics().restarts > 2);
     const Checkpoint here = whole.checkpoint();
     Integrator again(system, {}, here, options);
-    REQUIRE(whole.advance(5 * top.period()).reached());
-    REQUIRE(again.advance(5 * top.period()).reached());
+    REQUIRE(whole.advance(5 * spinner.period()).reached());
+    REQUIRE(again.advance(5 * spinner.period()).reached());
     CHECK(again.state().q == whole.state().q);
     CHECK(again.state().qd == whole.state().qd);
 }
@@ -182,7 +182,7 @@ TEST_CASE("time: a state that jumps, as in an impact", "[closed-form]") {
     Tree tree;
     (void)add_joint(tree, {.name = "z", .kind = JointKind::prismatic, .inertia = {2, Vec3::Zero(), Mat3::Zero()}});
     ForceSet forces;
-    forces.set_gravity({0, 0, -g});
+    forces.set_gravity({0, 0, -fall});
     const System system(tree, forces);
     constexpr double e = 0.8, height = 1;
     IntegrationOptions options = equal_tolerances(Method::dirk, 1e-10);
@@ -206,12 +206,12 @@ TEST_CASE("time: a state that jumps, as in an impact", "[closed-form]") {
                                return AfterEvent::proceed;
                            }}};
     Integrator run(system, {}, 0, Vector{{height}}, Vector{{0.0}}, options);
-    const double fall = std::sqrt(2 * height / g);
-    REQUIRE(run.advance(fall * (1 + 2 * e + 2 * e * e + 0.1)).reached());
+    const double drop = std::sqrt(2 * height / fall);
+    REQUIRE(run.advance(drop * (1 + 2 * e + 2 * e * e + 0.1)).reached());
     CHECK(bounces == 3);
     CHECK(top_of_first == Approx(e * e * height).epsilon(1e-8));
     const EnergyBalance energy = run.energy();
     CHECK(std::abs(energy.error) < 1e-7);
-    CHECK(energy.loads == Approx(-2 * g * height * (1 - std::pow(e, 6))).epsilon(1e-8));
+    CHECK(energy.loads == Approx(-2 * fall * height * (1 - std::pow(e, 6))).epsilon(1e-8));
     check_refused([&] { run.set_state(Vector{{1.0}}, Vector{{1.0, 2.0}}); }, {"new state"});
 }
