@@ -53,13 +53,13 @@ private:
     int rank_ = 0;
     std::vector<int> order_;
     std::vector<Eigen::Index> first_, end_;  ///< rows of each column of B between which it may be other than zero
-    Matrix B_;       ///< n x m: columns to come, then Q in the first rank_
-    Matrix R_;       ///< m x m, upper triangular over the columns as exchanged
+    Matrix B_;                               ///< n x m: columns to come, then Q in the first rank_
+    Matrix R_;                               ///< m x m, upper triangular over the columns as exchanged
     bool shared_ = false;  ///< dependent constraints take part in what others hold; else their gradients vanish
     Matrix Q2_, T_;        ///< R^T of the first rank_ rows as Q2 T, where they do
-    Vector full_;    ///< lengths without cancellation
-    Vector left_;    ///< squares of what is left of columns over their full lengths
-    Vector known_;   ///< the same when it was last computed from the column
+    Vector full_;          ///< lengths without cancellation
+    Vector left_;          ///< squares of what is left of columns over their full lengths
+    Vector known_;         ///< the same when it was last computed from the column
     Vector w_, z_, sums_;
 };
 
