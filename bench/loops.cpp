@@ -52,6 +52,11 @@ struct Closed {
     ForwardDynamics forward;
 };
 
+void numbers_of_windows(benchmark::internal::Benchmark* benchmark) {
+    for (const int windows : {1, 2, 5, 10, 20, 40}) benchmark->Arg(windows);
+    benchmark->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMicrosecond);
+}
+
 void accelerations(benchmark::State& state) {
     Closed closed(static_cast<int>(state.range(0)));
     closed.with_loops();
@@ -76,16 +81,7 @@ void accelerations(benchmark::State& state) {
     state.counters["with / without loops"] = beside_tree.ratio();
 }
 
-BENCHMARK(accelerations)
-    ->Arg(1)
-    ->Arg(2)
-    ->Arg(5)
-    ->Arg(10)
-    ->Arg(20)
-    ->Arg(40)
-    ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
-    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(accelerations)->Apply(numbers_of_windows);
 
 #ifdef CARDAN_BESIDE_MUJOCO
 // MuJoCo's pins are soft, and its accelerations a little different.
@@ -113,16 +109,7 @@ void accelerations_beside_mujoco(benchmark::State& state) {
     state.counters["difference"] = (closed.ours - closed.theirs).norm() / closed.theirs.norm();
 }
 
-BENCHMARK(accelerations_beside_mujoco)
-    ->Arg(1)
-    ->Arg(2)
-    ->Arg(5)
-    ->Arg(10)
-    ->Arg(20)
-    ->Arg(40)
-    ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
-    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(accelerations_beside_mujoco)->Apply(numbers_of_windows);
 #endif
 
 // Half a second of the motion from IFToMM benchmark A02, short of the first position in which all links lie in one

@@ -70,31 +70,37 @@ StribeckFriction::Force StribeckFriction::sliding(double speed, int direction) c
     return {direction * (coulomb_force + drop) + viscous * speed, viscous - drop / stribeck_speed};
 }
 
-UserForce friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed) {
+namespace {
+
+// On a coordinate, by the force of friction at a speed against the surface.
+template <class Friction>
+UserForce against_surface(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed,
+                          const Friction& friction) {
     const std::string where = text("friction '", name, "'");
     law.check(where);
     if (!std::isfinite(surface_speed)) throw InputError(where, "speed of the surface", surface_speed, "finite");
     const auto along = [=](double, double, double rate) -> CoordinateLaw {
-        const StribeckFriction::Force force = law.at(rate - surface_speed);
+        const StribeckFriction::Force force = friction(rate - surface_speed);
         return {-force.force, 0, -force.by_speed, 0};
     };
     return coordinate_force(std::move(name), coordinate, along, false);
 }
 
+}  // namespace
+
+UserForce friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed) {
+    return against_surface(std::move(name), coordinate, law, surface_speed,
+                           [law](double speed) { return law.at(speed); });
+}
+
 DryFriction add_dry_friction(ForceSet& forces, LoopSet& loops, const std::string& name, BodyId coordinate,
                              const StribeckFriction& law, double surface_speed) {
-    const std::string where = text("friction '", name, "'");
-    law.check(where);
-    if (!std::isfinite(surface_speed)) throw InputError(where, "speed of the surface", surface_speed, "finite");
     DryFriction friction{name, coordinate, law.static_force, surface_speed};
-    const auto along = [law, surface_speed, state = friction.state](double, double, double rate) -> CoordinateLaw {
-        if (state->engaged) return {};
-        const double speed = rate - surface_speed;
-        const StribeckFriction::Force force =
-            state->direction == 0 ? law.at(speed) : law.sliding(speed, state->direction);
-        return {-force.force, 0, -force.by_speed, 0};
+    const auto at_present = [law, state = friction.state](double speed) {
+        if (state->engaged) return StribeckFriction::Force{};
+        return state->direction == 0 ? law.at(speed) : law.sliding(speed, state->direction);
     };
-    forces.add_user(coordinate_force(name, coordinate, along, false));
+    forces.add_user(against_surface(name, coordinate, law, surface_speed, at_present));
     loops.add_lock({name, coordinate, friction.state});
     return friction;
 }

@@ -2,28 +2,22 @@
 
 #include "mbs/base/error.hpp"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 
 namespace cardan {
 
 namespace {
 
-Mat3 turned(double angle, const Vec3& axis) {
-    return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-
 // Axes of the hinges about z, y, x by column, and the axes of the body.
 struct Hinges {
     Mat3 axes, R;
 
     Hinges(const Model::Free& body, const Vector& q) {
-        const Mat3 before = turned(q(body.reference), Vec3::UnitX());
-        const Mat3 first = before * turned(q(body.hinges[0]), Vec3::UnitZ());
-        const Mat3 second = first * turned(q(body.hinges[1]), Vec3::UnitY());
+        const Mat3 before = rot_x(q(body.reference));
+        const Mat3 first = before * rot_z(q(body.hinges[0]));
+        const Mat3 second = first * rot_y(q(body.hinges[1]));
         axes << before.col(2), first.col(1), second.col(0);
-        R = second * turned(q(body.hinges[2]), Vec3::UnitX());
+        R = second * rot_x(q(body.hinges[2]));
     }
 };
 
@@ -50,7 +44,7 @@ void set_free_motion(const Model::Free& body, const FreeMotion& motion, Vector& 
     if (!motion.v.allFinite() || !motion.w.allFinite()) throw InputError(where, "velocities", "not finite", "finite");
     const Mat3& R = motion.pose.R;
     const double d = std::atan2(R(2, 0), R(1, 0));
-    const Mat3 S = turned(-d, Vec3::UnitX()) * R;
+    const Mat3 S = rot_x(-d) * R;
     q(body.reference) = d;
     q(body.hinges[0]) = std::atan2(S(1, 0), S(0, 0));
     q(body.hinges[1]) = 0;

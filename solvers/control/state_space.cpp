@@ -37,13 +37,14 @@ public:
     /// With loops: what is independent on the way of the steady states.
     void choose_states(const std::vector<OperatingPoint>& way);
     /// Those of the steady state, where they are not given.
-    void set_multipliers(OperatingPoint& at) const;
+    void set_multipliers(OperatingPoint& at);
     LinearModel empty(double rotor_speed) const;
     /// @param state_rates  of the steady state; empty: its states stand still
     void add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model);
     void finish(LinearModel& model) const;
 
 private:
+    Vector missing_forces(const OperatingPoint& at, const Vector& s, const Vector& u, Vector& state_rates);
     void follow();
     void solve(const Matrix& right);
     void solve_with_loops(const Matrix& right);
@@ -84,20 +85,24 @@ void Builder::choose_states(const std::vector<OperatingPoint>& points) {
     layout_.keep_independent(independent_on_the_way(way, layout_.unknowns, rotor_.spin));
 }
 
-void Builder::set_multipliers(OperatingPoint& at) const {
-    if (system_.loops.empty() || at.lambda.size() > 0) return;
-    const Index n = system_.model.size();
-    Workspace workspace(system_.model);
-    const Kinematics kin = kinematics(system_.model, at.q, workspace);
-    Vector tau(n), Q(n), rates(layout_.first_order());
+// Inertial less applied forces of all coordinates, and the rates of the states.
+Vector Builder::missing_forces(const OperatingPoint& at, const Vector& s, const Vector& u, Vector& state_rates) {
+    const Kinematics kin = kinematics(system_.model, at.q, workspace_);
+    Vector tau(at.q.size()), Q(at.q.size());
     inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
-    const Vector s = at.s.size() > 0 ? at.s : system_.forces.states().initial(),
-                 u = at.u.size() > 0 ? at.u : system_.forces.inputs().initial();
+    state_rates.resize(layout_.first_order());
     if (system_.forces.has_states())
-        system_.forces.evaluate({at.time, at.q, at.qd, kin, s, u}, Q, rates);
+        system_.forces.evaluate({at.time, at.q, at.qd, kin, s, u}, Q, state_rates);
     else
         system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
-    at.lambda = loop_start(system_, rotor_.spin, at.time, at.q, tau - Q).lambda;
+    return tau - Q;
+}
+
+void Builder::set_multipliers(OperatingPoint& at) {
+    if (system_.loops.empty() || at.lambda.size() > 0) return;
+    const Vector s = at.s.size() > 0 ? at.s : system_.forces.states().initial(),
+                 u = at.u.size() > 0 ? at.u : system_.forces.inputs().initial();
+    at.lambda = loop_start(system_, rotor_.spin, at.time, at.q, missing_forces(at, s, u, state_rates_)).lambda;
 }
 
 // Positions and rates of the unknowns that follow: G q = 0, G qd + G' q = 0.
@@ -133,10 +138,7 @@ void Builder::solve_with_loops(const Matrix& right) {
                                       lin_.constraint_accelerations * directions_.q;
     directions_.qdd(layout_.followers, Eigen::all) = solvers::follow(G, layout_.followers, right_of_followers);
     const Matrix asked = directions_.qdd(f, Eigen::all), M = lin_.mass(f, f);
-    std::vector<int> own;
-    for (const int a : f)
-        if (std::ranges::find(layout_.followers, a) == layout_.followers.end()) own.push_back(a);
-    const Matrix Z = following(G, f, own);
+    const Matrix Z = following(G, f, layout_.independent);
     const Eigen::LLT<Matrix> mass(Matrix(Z.transpose() * M * Z));
     if (mass.info() != Eigen::Success)
         throw NumericalError(
@@ -152,18 +154,9 @@ void Builder::solve_with_loops(const Matrix& right) {
 
 // What the drives, that of the spin among them, carry at the operating point, and what no drive carries.
 void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model) {
-    const Index n = system_.model.size();
-    const Kinematics kin = kinematics(system_.model, at.q, workspace_);
-    Vector tau(n), Q(n);
-    inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
-    state_rates_.resize(layout_.first_order());
-    if (system_.forces.has_states())
-        system_.forces.evaluate({at.time, at.q, at.qd, kin, lin_.at.s, lin_.at.u}, Q, state_rates_);
-    else
-        system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
-    Vector missing = tau - Q;
+    Vector missing = missing_forces(at, lin_.at.s, lin_.at.u, state_rates_);
     if (!system_.loops.empty()) missing -= lin_.constraints.transpose() * lin_.at.lambda;
-    actuator_ = Vector::Zero(n);
+    actuator_ = Vector::Zero(missing.size());
     for (int i : layout_.driven) actuator_(i) = missing(i);
     Vector on_unknowns = missing(layout_.unknowns);
     for (Index row = 0; row < on_unknowns.size(); ++row)

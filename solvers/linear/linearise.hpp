@@ -32,7 +32,7 @@ struct Linearisation {
     /// With loops the equations hold for motions with constraints dx = 0 (reduce_loops()); `reactions` is the stiffness
     /// that the loops' forces have as they turn, -lambda_i phi_i,ab. Empty without.
     Matrix constraints = {}, reactions = {};
-    /// Derivatives of `constraints` by time along the motion; empty where the loops are at rest.
+    /// Derivatives of `constraints` by time along the motion, of LoopState::in_motion; else empty.
     Matrix constraint_rates = {}, constraint_accelerations = {};
 
     Matrix velocity() const { return damping + gyroscopic; }

@@ -107,10 +107,14 @@ double following_quality(const Matrix& constraints, const std::vector<int>& coor
 std::vector<int> independent_on_the_way(const std::vector<Linearisation>& way, const std::vector<int>& coordinates,
                                         int preferred) {
     constexpr double dead = 1e-6;
+    std::vector<std::vector<int>> choices;
+    for (const Linearisation& at : way)
+        if (std::vector<int> choice = independent_coordinates(at, coordinates, preferred);
+            std::ranges::find(choices, choice) == choices.end())
+            choices.push_back(std::move(choice));
     double most = 0;
     std::vector<int> best;
-    for (const Linearisation& at : way) {
-        std::vector<int> choice = independent_coordinates(at, coordinates, preferred);
+    for (std::vector<int>& choice : choices) {
         double least = 1;
         for (const Linearisation& other : way)
             least = std::min(least, following_quality(other.constraints, coordinates, choice));

@@ -37,7 +37,7 @@ std::vector<int> independent_on_the_way(const std::vector<Linearisation>& way, c
 ///     dx = shape dy,  dx' = shape dy' + rate dy,  dx'' = shape dy'' + 2 rate dy' + acceleration dy .
 struct Followers {
     Matrix shape;
-    Matrix rate, acceleration;  ///< empty where the loops are at rest
+    Matrix rate, acceleration;  ///< empty of a linearisation at rest
 };
 /// @throws as above
 Followers followers(const Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent);

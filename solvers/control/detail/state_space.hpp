@@ -28,15 +28,15 @@ public:
     Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
            const StateSpaceOptions& options);
     /// With loops, leaves those as states on which the other unknowns depend.
-    void keep_independent(const std::vector<int>& independent);
+    void keep_independent(const std::vector<int>& kept);
 
     Eigen::Index states() const { return 2 * std::ssize(coordinates) + first_order(); }
     Eigen::Index first_order() const { return system_.forces.states().size(); }
     Eigen::Index columns() const { return states() + std::ssize(input_signals); }
 
-    std::vector<int> coordinates;       ///< whose positions and rates are states
-    std::vector<int> unknowns, driven;  ///< coordinates with an equation of motion, and the others
-    std::vector<int> followers;         ///< unknowns that follow by loops
+    std::vector<int> coordinates;             ///< whose positions and rates are states
+    std::vector<int> unknowns, driven;        ///< coordinates with an equation of motion, and the others
+    std::vector<int> independent, followers;  ///< of the unknowns, with loops
     std::vector<Signal> state_signals, input_signals;
 
     /// Directions as far as they follow from kinematics alone, at the poses of `kin`.

@@ -112,9 +112,10 @@ Layout::Layout(const System& system, const RotorMap& rotor, const std::vector<Li
     name_states();
 }
 
-void Layout::keep_independent(const std::vector<int>& independent) {
+void Layout::keep_independent(const std::vector<int>& kept) {
+    independent = kept;
     for (const int i : unknowns)
-        if (!Moved::contains(independent, i)) followers.push_back(i);
+        if (!Moved::contains(kept, i)) followers.push_back(i);
     std::erase_if(coordinates, [&](int i) { return Moved::contains(followers, i); });
     state_signals.clear();
     name_states();

@@ -86,12 +86,17 @@ bool ConstrainedMotion::project(double time, Vector& q, Vector& qd, Workspace& w
     return true;
 }
 
-double ConstrainedMotion::gap(double time, const Vector& q, Workspace& workspace, int& loop) {
-    const Kinematics kin = kinematics(metric_.model(), q, workspace);
-    loops_->residual<double>(kin, time, q, phi_);
+double ConstrainedMotion::widest(int& loop) const {
     Eigen::Index worst = 0;
     const double largest = phi_.cwiseAbs().maxCoeff(&worst);
     loop = entry(loops_->equations(), worst).loop;
+    return largest;
+}
+
+double ConstrainedMotion::gap(double time, const Vector& q, Workspace& workspace, int& loop) {
+    const Kinematics kin = kinematics(metric_.model(), q, workspace);
+    loops_->residual<double>(kin, time, q, phi_);
+    const double largest = widest(loop);
     return phi_.allFinite() ? largest / loops_->extent(kin) : largest;
 }
 
@@ -101,10 +106,7 @@ double ConstrainedMotion::opening_rate(double time, const Vector& q, const Vecto
     loops_->gradient<double>(kin, time, q, G_);
     loops_->time_rates(time, q, phi_);
     phi_.noalias() += G_ * qd;
-    Eigen::Index worst = 0;
-    const double largest = phi_.cwiseAbs().maxCoeff(&worst);
-    loop = entry(loops_->equations(), worst).loop;
-    return largest;
+    return widest(loop);
 }
 
 double ConstrainedMotion::power(double time, const Vector& q) {

@@ -49,6 +49,7 @@ public:
 
 private:
     bool factorise(const Kinematics& kin, double time, const Vector& q);
+    double widest(int& loop) const;
 
     const Loops* loops_;
     MetricFactor metric_;

@@ -37,16 +37,27 @@ struct SliderCrank {
     explicit SliderCrank(CutKind kind = CutKind::revolute) : system(make(kind)) {}
     static System make(CutKind kind) {
         Tree tree;
-        const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(crank_mass, r), CoordinateRole::driven);
+        LoopSet loops;
+        add(tree, loops, kind, CoordinateRole::driven);
+        return {tree, {}, loops};
+    }
+    /// Its parts, and the loop; the slider.
+    static Link add(Tree& tree, LoopSet& loops, CutKind kind, CoordinateRole of_crank) {
+        const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(crank_mass, r), of_crank);
         const Bar rod = add_bar(tree, "rod", crank.end, l, slender_bar(rod_mass, l));
         const Link slider = add_joint(tree, {.name = "slider",
                                              .kind = JointKind::prismatic,
                                              .axis = Vec3::UnitX(),
                                              .inertia = {slider_mass, Vec3::Zero(), Mat3::Zero()}});
-        LoopSet loops;
         loops.add_joint({"wrist pin", kind, rod.end, slider.axes});
-        return {tree, {}, loops};
+        return slider;
     }
+    /// First derivative of the slider's place by the crank's angle, and the second, by a complex step of it.
+    static Complex slider_rate(Complex theta) {
+        const Complex sine = std::sin(theta), cosine = std::cos(theta);
+        return -r * sine - r * r * sine * cosine / std::sqrt(l * l - r * r * sine * sine);
+    }
+    static double slider_second(double theta) { return slider_rate({theta, 1e-30}).imag() / 1e-30; }
     /// Positions of crank, rod and slider at a crank angle, from geometry.
     static Vector position(double theta) {
         const double rod = -std::asin(r * std::sin(theta) / l);

@@ -16,28 +16,16 @@ namespace linear_loop_tests {
 
 constexpr double crank_arm = SliderCrank::r, rod_length = SliderCrank::l, carried = 0.7, spring_k = 200, spring_d = 0.6;
 
-// First derivatives by the crank's angle of the slider's place and of the rod's angle against the crank.
-Complex slider_rate(Complex t) {
-    return -crank_arm * std::sin(t) -
-           crank_arm * crank_arm * std::sin(t) * std::cos(t) /
-               std::sqrt(rod_length * rod_length - crank_arm * crank_arm * std::sin(t) * std::sin(t));
-}
+// Derivative by the crank's angle of the rod's angle against the crank.
 double rod_rate(double t) {
     return -crank_arm * std::cos(t) / std::sqrt(rod_length * rod_length - std::pow(crank_arm * std::sin(t), 2)) - 1;
-}
-double slider_second(double t) {
-    return slider_rate({t, 1e-30}).imag() / 1e-30;
 }
 
 // The crank turns as the spin; on the slider a mass on a spring along its way.
 System machine() {
     Tree tree;
-    const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, slender_bar(0.36, crank_arm));
-    const Bar rod = add_bar(tree, "rod", crank.end, rod_length, slender_bar(0.15, rod_length));
-    const Link slider = add_joint(tree, {.name = "slider",
-                                         .kind = JointKind::prismatic,
-                                         .axis = Vec3::UnitX(),
-                                         .inertia = {0.08, Vec3::Zero(), Mat3::Zero()}});
+    LoopSet loops;
+    const Link slider = SliderCrank::add(tree, loops, CutKind::revolute, CoordinateRole::free);
     const Link mass = add_joint(tree, {.name = "mass",
                                        .inboard = slider.axes,
                                        .kind = JointKind::prismatic,
@@ -45,8 +33,6 @@ System machine() {
                                        .inertia = {carried, Vec3::Zero(), Mat3::Zero()}});
     ForceSet forces;
     forces.add_spring("spring", mass.body, spring_k, spring_d);
-    LoopSet loops;
-    loops.add_joint({"pin", CutKind::revolute, rod.end, slider.axes});
     return {tree, forces, loops};
 }
 
@@ -81,7 +67,7 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[cl
     REQUIRE(model.inputs.size() == 3);
     CHECK(model.imbalance < 1e-12);
     const LinearSample& sample = model.samples.at(0);
-    const double x1 = slider_rate(theta).real();
+    const double x1 = SliderCrank::slider_rate(theta).real();
     // z'' = -(k z + c z') / m - x' theta''
     CHECK((sample.A - (Matrix(2, 2) << 0, 1, -spring_k / carried, -spring_d / carried).finished()).norm() < 1e-9);
     CHECK((sample.B - (Matrix(2, 3) << 0, 0, 0, 0, 0, -x1).finished()).norm() < 1e-12);
@@ -97,7 +83,7 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[cl
     CHECK(sample.C(2, 0) == Approx(-spring_k * x1).epsilon(1e-7));
     CHECK(sample.C(2, 1) == Approx(-spring_d * x1).epsilon(1e-7));
     // The rod carries what the spring pulls along itself.
-    const auto force = static_cast<Eigen::Index>(index_of(model.outputs, "pin force x"));
+    const auto force = static_cast<Eigen::Index>(index_of(model.outputs, "wrist pin force x"));
     CHECK(sample.C(force, 0) == Approx(-spring_k / std::cos(q(0) + q(1))).epsilon(1e-6));
 }
 
@@ -117,8 +103,8 @@ TEST_CASE("linear model with loops: about a slider-crank in motion", "[closed-fo
     for (const LinearSample& sample : model.samples) {
         const double psi = sample.azimuth, h = 1e-4;
         CAPTURE(psi);
-        const double x1 = slider_rate(psi).real(), x2 = slider_second(psi),
-                     x3 = (slider_second(psi + h) - slider_second(psi - h)) / (2 * h);
+        const double x1 = SliderCrank::slider_rate(psi).real(), x2 = SliderCrank::slider_second(psi),
+                     x3 = (SliderCrank::slider_second(psi + h) - SliderCrank::slider_second(psi - h)) / (2 * h);
         // The slider's acceleration is x'' theta'^2 + x' theta'': its deviations drive the mass.
         CHECK(sample.B(1, 0) == Approx(-x3 * Omega * Omega).margin(1e-5));
         CHECK(sample.B(1, 1) == Approx(-2 * x2 * Omega).margin(1e-7));

@@ -13,20 +13,7 @@ using namespace cardan::testing;
 
 namespace periodic_loop_tests {
 
-constexpr double crank_arm = SliderCrank::r, rod_length = SliderCrank::l;
-
-// Of the slider by the crank's angle.
-double slider(double theta) {
-    return crank_arm * std::cos(theta) + std::sqrt(rod_length * rod_length - std::pow(crank_arm * std::sin(theta), 2));
-}
-// Its second derivative by the angle, by a complex step of the first.
-double slider_second(double theta) {
-    const auto first = [](Complex t) {
-        const Complex root = std::sqrt(rod_length * rod_length - crank_arm * crank_arm * std::sin(t) * std::sin(t));
-        return -crank_arm * std::sin(t) - crank_arm * crank_arm * std::sin(t) * std::cos(t) / root;
-    };
-    return first({theta, 1e-30}).imag() / 1e-30;
-}
+constexpr double crank_arm = SliderCrank::r;
 
 // A pendulum hangs from the slider of a slider-crank, along the way of the slider, which shakes it.
 struct ShakenPendulum {
@@ -34,26 +21,20 @@ struct ShakenPendulum {
 
     static System system() {
         Tree tree;
-        const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, slender_bar(1, crank_arm));
-        const Bar rod = add_bar(tree, "rod", crank.end, rod_length, slender_bar(0.15, rod_length));
-        const Link guide = add_joint(tree, {.name = "slider",
-                                            .kind = JointKind::prismatic,
-                                            .axis = Vec3::UnitX(),
-                                            .inertia = {0.08, Vec3::Zero(), Mat3::Zero()}});
+        LoopSet loops;
+        const Link guide = SliderCrank::add(tree, loops, CutKind::cylindrical, CoordinateRole::free);
         const Link bob = add_joint(
             tree, {.name = "pendulum", .inboard = guide.axes, .inertia = {mass, {length, 0, 0}, Mat3::Zero()}});
         ForceSet forces;
         forces.set_gravity({g, 0, 0});
         forces.add_spring("pivot", bob.body, 0, damping);
-        LoopSet loops;
-        loops.add_joint({"wrist pin", CutKind::cylindrical, rod.end, guide.axes});
         return {tree, forces, loops};
     }
     // Trace of the monodromy matrix of m L^2 x'' + d x' + m L (g - s'') x = 0, by classical Runge-Kutta steps.
     static double trace(double Omega) {
         const auto f = [&](double t, const Eigen::Matrix2d& X) {
             const double inertia = mass * length * length;
-            const double pull = mass * length * (g - Omega * Omega * slider_second(Omega * t));
+            const double pull = mass * length * (g - Omega * Omega * SliderCrank::slider_second(Omega * t));
             Eigen::Matrix2d A;
             A << 0, 1, -pull / inertia, -damping / inertia;
             return Eigen::Matrix2d(A * X);
@@ -173,7 +154,7 @@ TEST_CASE("periodic loops: a pendulum that a slider-crank shakes obeys Hill's eq
         const PeriodicSteadyState state =
             harmonic_balance(system, 0, {.rotor_speed = Omega, .harmonics = 24, .start = start});
         require_result(state);
-        CHECK(state.at(0.7).q(system.model.index("slider")) == Approx(slider(0.7)).margin(1e-9));
+        CHECK(state.at(0.7).q(system.model.index("slider")) == Approx(SliderCrank::position(0.7)(2)).margin(1e-9));
         CHECK(independent_coordinates(system, state, system.model.coordinates().free_without(0)) ==
               std::vector<int>{system.model.index("pendulum")});
         const Floquet motions = floquet(linearised(system, state));
