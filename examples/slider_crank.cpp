@@ -2,6 +2,7 @@
 // a constant speed of the crank: place and acceleration of the slider, and the force in the pin.
 #include <cardan/elements/machine/joints.hpp>
 #include <cardan/mbs/loops/closure.hpp>
+#include <cardan/mbs/model/solids.hpp>
 #include <cardan/solvers/time/integrate.hpp>
 
 #include <cstdio>
@@ -12,10 +13,6 @@ int main() {
     constexpr double crank_mass = 0.36, rod_mass = 0.15, slider_mass = 0.075;  // kg
 
     // Crank and rod turn about z, the slider runs along x.
-    const auto bar = [](double mass, double length) {
-        const double across = mass * length * length / 12;
-        return RigidInertia{mass, {length / 2, 0, 0}, Vec3(0, across, across).asDiagonal().toDenseMatrix()};
-    };
     Tree tree;
     const FrameId ground = Tree::base();
     const JointedFrame crank =
@@ -24,8 +21,8 @@ int main() {
     const JointedFrame rod = add_joint(tree, crank_pin, JointKind::revolute, Axis::z, "rod", {"engine"});
     const FrameId rod_end = tree.add_frame(rod.frame, Placement::translation({l, 0, 0}), "rod end");
     const JointedFrame slider = add_joint(tree, ground, JointKind::prismatic, Axis::x, "slider", {"engine"});
-    tree.weld(crank.frame, bar(crank_mass, r));
-    tree.weld(rod.frame, bar(rod_mass, l));
+    tree.weld(crank.frame, slender_bar(crank_mass, Vec3::Zero(), {r, 0, 0}));
+    tree.weld(rod.frame, slender_bar(rod_mass, Vec3::Zero(), {l, 0, 0}));
     tree.weld(slider.frame, {.mass = slider_mass});
     LoopSet loops;
     loops.add_joint({"wrist pin", CutKind::revolute, rod_end, slider.frame});

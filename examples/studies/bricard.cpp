@@ -4,6 +4,7 @@
 #include "elements/machine/joints.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/loops/closure.hpp"
+#include "mbs/model/solids.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
 
@@ -23,10 +24,9 @@ System bricard() {
     FrameId at = Tree::base();
     for (std::size_t i = 0; i < 5; ++i) {
         const Vec3& along = rods[i];
-        const double across = m * (1 + a * a) / 12;
-        const Mat3 J = across * Mat3::Identity() + (m * a * a / 6 - across) * along * along.transpose();
         const JointedFrame rod = add_joint(tree, at, JointKind::revolute, hinges[i], text("hinge ", i), {"loop"});
-        tree.weld(rod.frame, {m, along / 2, J});
+        const Vec3 sides = Vec3::Constant(a) + (1 - a) * along.cwiseAbs();
+        tree.weld(rod.frame, solid_box(m, sides, along / 2));
         at = tree.add_frame(rod.frame, Placement::translation(along), text("P", i + 1));
     }
     const Mat3 about_x = axis_rotation(Axis::x);  // a cut joint turns about z of its frames

@@ -5,6 +5,7 @@
 // Picture: driven_four_bar.svg.
 #include "elements/machine/joints.hpp"
 #include "mbs/loops/closure.hpp"
+#include "mbs/model/solids.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
 
@@ -48,8 +49,7 @@ std::array<double, 9> free_bodies(double theta, double speed) {
 
 FrameId add_bar(Tree& tree, FrameId at, const std::string& name, double length, CoordinateRole role) {
     const JointedFrame joint = add_joint(tree, at, JointKind::revolute, Axis::z, name, {"four-bar"}, role);
-    const double across = std::pow(length, 3) / 12;
-    tree.weld(joint.frame, {length, {length / 2, 0, 0}, Vec3(0, across, across).asDiagonal().toDenseMatrix()});
+    tree.weld(joint.frame, slender_bar(length, Vec3::Zero(), {length, 0, 0}));  // 1 kg/m
     return tree.add_frame(joint.frame, Placement::translation({length, 0, 0}), name + " end");
 }
 

@@ -3,6 +3,7 @@
 // Picture: flexible_slider_crank.svg.
 #include "elements/cardan_beam/cardan_beam.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/model/solids.hpp"
 #include "mbs/system/reaction_channels.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
@@ -29,7 +30,7 @@ System slider_crank(int elements) {
     ForceSet forces;
     const JointedFrame crank =
         add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "crank", {"engine"}, CoordinateRole::driven);
-    tree.weld(crank.frame, {0.36, {r / 2, 0, 0}, Vec3(0, 6.75e-4, 6.75e-4).asDiagonal().toDenseMatrix()});
+    tree.weld(crank.frame, slender_bar(0.36, Vec3::Zero(), {r, 0, 0}));
     const JointedFrame rod =
         add_joint(tree, crank.frame, JointKind::revolute, Axis::z, "rod", {"engine"}, Vec3(r, 0, 0));
     const CardanBeam beam =

@@ -5,6 +5,7 @@
 // Picture: four_bars.svg.
 #include "elements/machine/joints.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/model/solids.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
 
@@ -18,14 +19,10 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-RigidInertia rod() {
-    return {1, {0.5, 0, 0}, Vec3(0, 1.0 / 12, 1.0 / 12).asDiagonal().toDenseMatrix()};
-}
-
 // A rod along x that turns about z, and the frame at its end.
 FrameId add_rod(Tree& tree, FrameId at, const std::string& name) {
     const JointedFrame joint = add_joint(tree, at, JointKind::revolute, Axis::z, name, {"linkage"});
-    tree.weld(joint.frame, rod());
+    tree.weld(joint.frame, slender_bar(1, Vec3::Zero(), Vec3::UnitX()));
     return tree.add_frame(joint.frame, Placement::translation({1, 0, 0}), name + " end");
 }
 

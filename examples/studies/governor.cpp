@@ -5,6 +5,7 @@
 // Picture: governor.svg.
 #include "elements/machine/joints.hpp"
 #include "elements/machine/point_spring.hpp"
+#include "mbs/model/solids.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/modes.hpp"
@@ -19,11 +20,6 @@ namespace {
 
 constexpr double speed = 2 * pi;  // rad/s
 
-RigidInertia box(double mass, const Vec3& sides, const Vec3& centre) {
-    const Vec3 squares = sides.cwiseAbs2();
-    return {mass, centre, (mass / 12 * (Vec3::Constant(squares.sum()) - squares)).asDiagonal().toDenseMatrix()};
-}
-
 // @param alike  both arms rise together; otherwise each has a coordinate of its own
 System governor(CoordinateRole of_shaft, bool alike) {
     Tree tree;
@@ -32,9 +28,9 @@ System governor(CoordinateRole of_shaft, bool alike) {
     forces.set_gravity({0, 0, -9.81});
     const JointedFrame shaft =
         add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "shaft", {"governor"}, of_shaft);
-    tree.weld(shaft.frame, box(0.3, {0.01, 0.01, 1}, {0, 0, 0.5}));
+    tree.weld(shaft.frame, solid_box(0.3, {0.01, 0.01, 1}, {0, 0, 0.5}));
     const JointedFrame slider = add_joint(tree, shaft.frame, JointKind::prismatic, Axis::z, "slider", {"governor"});
-    tree.weld(slider.frame, box(3, {0.1, 0.1, 0.1}, Vec3::Zero()));
+    tree.weld(slider.frame, solid_box(3, {0.1, 0.1, 0.1}));
     std::vector<BodyId> arms;
     for (const double side : {1.0, -1.0}) {
         // Seen from its hinge one arm is like the other: the frame of the second is turned by half a turn.
@@ -42,7 +38,7 @@ System governor(CoordinateRole of_shaft, bool alike) {
         const FrameId hinge =
             tree.add_frame(shaft.frame, {rot_z(side > 0 ? 0 : pi), {side * 0.05, 0, 1}}, name + " hinge");
         const JointedFrame arm = add_joint(tree, hinge, JointKind::revolute, Axis::y, name, {"governor"});
-        tree.weld(arm.frame, box(0.3, {1, 0.01, 0.01}, {0.5, 0, 0}));
+        tree.weld(arm.frame, solid_box(0.3, {1, 0.01, 0.01}, {0.5, 0, 0}));
         tree.weld(arm.frame, {5, {1, 0, 0}, Mat3::Zero()});
         const FrameId below =
             tree.add_frame(slider.frame, Placement::translation({side * 0.05, 0, 0}), name + " on slider");

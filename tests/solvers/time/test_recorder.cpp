@@ -1,4 +1,7 @@
+#include "elements/machine/joints.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/model/solids.hpp"
+#include "mbs/system/joint_channels.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/solvers/time/integrated_systems.hpp"
 #include "tests/support/catch.hpp"
@@ -79,4 +82,36 @@ TEST_CASE("recorder: bad input is refused", "[solvers][recorder][property]") {
     check_refused([&] { (void)record(integrator, recorder, {0.2}, without_values); },
                   {"lists of values", "0", "one per"});
     check_refused([&] { (void)history.index("nonsense"); }, {"'nonsense'", "'hinge'"});
+}
+
+// By Newton's law for a rod on a hinge with a spring: what drive, spring and bearing transmit together.
+TEST_CASE("recorder: force and moment of a joint in axes of one's choice", "[solvers][recorder][analytic]") {
+    constexpr double m = 3, L = 0.8, k = 5, g = 9.81, angle = 0.7, speed = -2.3;
+    Tree tree;
+    const JointedFrame rod = add_joint(tree, Tree::base(), JointKind::revolute, Axis::y, "rod", {"pendulum"});
+    tree.weld(rod.frame, slender_bar(m, Vec3::Zero(), {0, 0, -L}));
+    ForceSet forces;
+    forces.set_gravity({0, 0, -g});
+    forces.add_spring("spring", rod.body, k);
+    const System system(tree, forces);
+    Integrator integrator(system, {}, 0, vector({angle}), vector({speed}));
+    Recorder recorder(integrator, {joint_channels(system, {{"rod"}})});
+    Recorder turned(integrator, {joint_channels(system, {{"rod", "rod axes"}})});
+    History ground, own;
+    require_result(record(integrator, recorder, {0}, ground));
+    require_result(record(integrator, turned, {0}, own));
+
+    const double s = std::sin(angle), c = std::cos(angle),
+                 acceleration = -(m * g * L / 2 * s + k * angle) / (m * L * L / 3);
+    const double x = m * L / 2 * (-acceleration * c + speed * speed * s),
+                 z = m * (L / 2 * (acceleration * s + speed * speed * c) + g);
+    CHECK(ground["rod joint force x"].front() == Approx(x).epsilon(1e-12));
+    CHECK(std::abs(ground["rod joint force y"].front()) < 1e-12);
+    CHECK(ground["rod joint force z"].front() == Approx(z).epsilon(1e-12));
+    CHECK(ground["rod joint moment y"].front() == Approx(-k * angle).epsilon(1e-12));
+    CHECK(own["rod joint force x"].front() == Approx(c * x - s * z).epsilon(1e-12));
+    CHECK(own["rod joint force z"].front() == Approx(s * x + c * z).epsilon(1e-12));
+    check_refused([&] { (void)joint_channels(system, {}); }, {"joint channels", "number of joints"});
+    check_refused([&] { (void)joint_channels(system, {{"rad"}}); }, {"joint channels", "body", "'rad'"});
+    check_refused([&] { (void)joint_channels(system, {{"rod", "nowhere"}}); }, {"nowhere"});
 }
