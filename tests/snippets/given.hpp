@@ -11,6 +11,7 @@
 
 extern const cardan::turbines::Turbine turbine;
 extern const cardan::Tree tree;
+extern const cardan::System linkage;
 extern const cardan::JointedFrame slide;
 extern const cardan::BodyId shaft;
 extern cardan::ForceSet forces;
