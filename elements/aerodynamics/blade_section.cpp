@@ -1,6 +1,11 @@
 #include "elements/aerodynamics/blade_section.hpp"
 
 #include "elements/aerodynamics/detail/section_factors.hpp"
+#include "mbs/base/elementary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace cardan {
 
@@ -27,6 +32,29 @@ SectionAir section_air(const Induction& balance, const Annulus& annulus, double 
     }
     out.force = section_force(annulus, V_x, V_y, found, density);
     return out;
+}
+
+void skew_inductions(std::span<Induction> inductions, std::span<const SectionInflow> sections, double angle,
+                     std::span<const double> levers) {
+    if (angle == 0) return;  // there are no levers either
+    constexpr std::size_t most = 32;
+    const double by_sine = 1 / std::sin(angle);
+    std::array<double, most> x, y, found;
+    for (std::size_t first = 0; first < inductions.size(); first += most) {
+        const std::size_t n = std::min(most, inductions.size() - first);
+        const std::span<Induction> own = inductions.subspan(first, n);
+        for (std::size_t i = 0; i < n; ++i) x[i] = wake_share(own[i].axial) * angle / 2;
+        tangents(std::span(x).first(n), found);
+        for (std::size_t i = 0; i < n; ++i) {
+            const SectionInflow& at = sections[first + i];
+            if (own[i].solved) own[i].axial *= redistribution(found[i] * by_sine, levers[first + i]);
+            y[i] = at.V_x * (1 - own[i].axial);
+            x[i] = at.V_y * (1 + own[i].tangential);
+        }
+        arc_tangents(std::span(y).first(n), std::span(x).first(n), found);
+        for (std::size_t i = 0; i < n; ++i)
+            if (own[i].solved) own[i].phi = found[i];
+    }
 }
 
 SectionSlopes section_slopes(const Annulus& annulus, const SectionAir& at, const SkewedWake& wake,

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <span>
 
 namespace cardan {
 
@@ -39,6 +40,13 @@ SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const Ske
 /// @param balance  the induction in equilibrium with the loads, solve_induction(), or none
 SectionAir section_air(const Induction& balance, const Annulus& annulus, double V_x, double V_y, const SkewedWake& wake,
                        double density);
+
+/// What a skewed wake makes of the inductions along a blade, as section_air() does one by one.
+/// @param inductions  changed: a, and the angle of inflow with it
+/// @param angle       SkewedWake::angle, rad
+/// @param levers      SkewedWake::lever of each
+void skew_inductions(std::span<Induction> inductions, std::span<const SectionInflow> sections, double angle,
+                     std::span<const double> levers);
 
 /// Derivatives of normal, driving and moment (rows), exact: the balance of momentum by implicit differentiation. Zero
 /// where there is no air speed at all.

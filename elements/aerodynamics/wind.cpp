@@ -1,5 +1,6 @@
 #include "elements/aerodynamics/wind.hpp"
 
+#include "mbs/base/elementary.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ double SteadyWind::law(double z) const {
     return 1;
 }
 
-double SteadyWind::size(const Vec3& place, double z, const Vec3& left) const {
-    return speed * (law(z) + gradient * (z - reference_height) + lateral * place.dot(left)) + gust;
+double SteadyWind::size(const Vec3& place, double z, double law, const Vec3& left) const {
+    return speed * (law + gradient * (z - reference_height) + lateral * place.dot(left)) + gust;
 }
 
 Vec3 SteadyWind::along(double to) const {
@@ -53,7 +54,27 @@ WindAtPlaces::WindAtPlaces(const SteadyWind& wind)
 
 Vec3 WindAtPlaces::at(const Vec3& place) const {
     const double z = wind_.height(place);
-    Vec3 out = wind_.size(place, z, left_) *
+    return at(place, z, wind_.law(z));
+}
+
+void WindAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) const {
+    constexpr std::size_t most = 64;
+    std::array<double, most> ratios, laws;
+    for (std::size_t first = 0; first < places.size(); first += most) {
+        const std::size_t n = std::min(most, places.size() - first);
+        const std::span<const Vec3> own = places.subspan(first, n);
+        if (wind_.shear == Shear::power) {
+            for (std::size_t i = 0; i < n; ++i) ratios[i] = wind_.height(own[i]) / wind_.reference_height;
+            powers(std::span(ratios).first(n), wind_.exponent, laws);
+        } else {
+            for (std::size_t i = 0; i < n; ++i) laws[i] = wind_.law(wind_.height(own[i]));
+        }
+        for (std::size_t i = 0; i < n; ++i) out[first + i] = at(own[i], wind_.height(own[i]), laws[i]);
+    }
+}
+
+Vec3 WindAtPlaces::at(const Vec3& place, double z, double law) const {
+    Vec3 out = wind_.size(place, z, law, left_) *
                (wind_.veer == 0 ? along_ : wind_.along(wind_.direction + wind_.veer * (z - wind_.reference_height)));
     out.z() += wind_.vertical;
     return out;
@@ -69,7 +90,7 @@ Mat3 SteadyWind::gradient_at(const Vec3& place) const {
         slope.z() = gradient;
         if (shear == Shear::power) slope.z() += exponent * law(z) / z;
         if (shear == Shear::logarithmic && z > roughness) slope.z() += 1 / (z * std::log(reference_height / roughness));
-        turning = veer * size(place, z, left);
+        turning = veer * size(place, z, law(z), left);
     }
     Mat3 out = speed * along(to) * slope.transpose();
     out.col(2) += turning * std::cos(upflow) * left_of(to);

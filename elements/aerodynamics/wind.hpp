@@ -5,6 +5,7 @@
 #include "mbs/base/types.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cardan {
@@ -50,7 +51,8 @@ private:
     friend class WindAtPlaces;
     double height(const Vec3& place) const;
     double law(double z) const;
-    double size(const Vec3& place, double z, const Vec3& left) const;
+    // @param law  of the height z
+    double size(const Vec3& place, double z, double law, const Vec3& left) const;
     Vec3 along(double to) const;  // unit
 };
 
@@ -59,8 +61,13 @@ class WindAtPlaces {
 public:
     explicit WindAtPlaces(const SteadyWind& wind);
     Vec3 at(const Vec3& place) const;
+    /// The same at many places.
+    /// @param out  as many
+    void at(std::span<const Vec3> places, std::span<Vec3> out) const;
 
 private:
+    Vec3 at(const Vec3& place, double z, double law) const;
+
     SteadyWind wind_;
     Vec3 along_, left_;  // of its direction
 };

@@ -127,13 +127,21 @@ Factors<S> factors_at(const Balance<S>& balance, const S& phi) {
 }
 
 /// 1 + 15 pi/32 tan(chi/2) / sin(chi_0) times the lever, chi = (0.6 a + 1) chi_0: what a skewed wake makes of a.
+/// @param quotient  of tangent and sine
+template <class S>
+S redistribution(const S& quotient, const S& lever) {
+    return 1 + 15 * pi / 32 * quotient * lever;
+}
+template <class S>
+S wake_share(const S& axial) {
+    return 0.6 * axial + 1;
+}
 template <class S>
 S redistribution(const S& axial, const S& angle, const S& lever) {
     using std::sin, std::tan;
-    const S share = 0.6 * axial + 1;
+    const S share = wake_share(axial);
     // The quotient of small angles: it depends on their square only.
-    const S tangent = value_of(angle) < 1e-6 ? share / 2 : tan(share * angle / 2) / sin(angle);
-    return 1 + 15 * pi / 32 * tangent * lever;
+    return redistribution<S>(value_of(angle) < 1e-6 ? S(share / 2) : S(tan(share * angle / 2) / sin(angle)), lever);
 }
 
 /// Forces of a section from what the wake has left of the inflow.

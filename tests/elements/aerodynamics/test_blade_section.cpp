@@ -104,4 +104,53 @@ TEST_CASE("wind: its gradient is that of the wind", "[property]") {
     }
 }
 
+TEST_CASE("blade section: a skewed wake along a blade is that of its sections one by one", "[discrete]") {
+    const AeroBlade blade = turbines::nrel5mw_aero_blade();
+    Random random(12);
+    for (const double angle : {0.0, 1e-9, 0.05, 0.6, 2.5}) {
+        constexpr std::size_t count = 45;  // more than fit side by side, and not a multiple
+        std::vector<Case> cases;
+        std::vector<SectionInflow> sections;
+        std::vector<Induction> inductions;
+        std::vector<double> levers;
+        for (std::size_t i = 0; i < count; ++i) cases.push_back(random_case(random, blade));
+        for (Case& at : cases) {
+            at.wake = {angle, std::sin(angle) * uniform(random, -1, 1)};
+            sections.push_back({&at.annulus, at.V_x, at.V_y});
+            inductions.push_back(solve_induction(at.annulus, at.V_x, at.V_y));
+            levers.push_back(at.wake.lever);
+        }
+        const std::vector<Induction> before = inductions;
+        skew_inductions(inductions, sections, angle, levers);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Case& at = cases[i];
+            const Induction expected = section_air(before[i], at.annulus, at.V_x, at.V_y, at.wake, 1.2).induction;
+            CAPTURE(angle, i, at.V_x, at.V_y);
+            CHECK(inductions[i].axial == Approx(expected.axial).epsilon(1e-13).margin(1e-14));
+            CHECK(inductions[i].phi == Approx(expected.phi).epsilon(1e-13).margin(1e-14));
+            CHECK(inductions[i].tangential == before[i].tangential);
+        }
+    }
+}
+
+TEST_CASE("wind: at many places it is that at each", "[discrete]") {
+    Random random(13);
+    for (const Shear shear : {Shear::none, Shear::power, Shear::logarithmic}) {
+        const WindAtPlaces wind(SteadyWind{.speed = 9,
+                                           .shear = shear,
+                                           .exponent = 0.2,
+                                           .roughness = 0.03,
+                                           .gradient = 1e-3,
+                                           .direction = 0.1,
+                                           .veer = 1e-3,
+                                           .upflow = 0.05,
+                                           .lateral = 2e-3});
+        std::vector<Vec3> places, found(75);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            places.emplace_back(random_vector(random, 60) + Vec3(0, 0, i % 10 == 0 ? -100 : 90));
+        wind.at(places, found);
+        for (std::size_t i = 0; i < found.size(); ++i) CHECK((found[i] - wind.at(places[i])).norm() < 1e-13);
+    }
+}
+
 }  // namespace cardan::testing::blade_section_tests

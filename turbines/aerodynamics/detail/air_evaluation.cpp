@@ -1,5 +1,6 @@
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
+#include "mbs/base/elementary.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
@@ -38,10 +39,11 @@ double AirEvaluation::speed() const {
 }
 
 void AirEvaluation::place_sections() {
-    const std::size_t count = parts_.profile->sections();
-    const WindAtPlaces wind(wind_);
-    scratch_.sections.resize(parts_.blades.size() * count);
-    for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
+    const std::size_t count = parts_.profile->sections(), all = parts_.blades.size() * count;
+    scratch_.sections.resize(all);
+    for (std::vector<Vec3>* places : {&scratch_.places, &scratch_.winds}) places->resize(all);
+    for (std::vector<double>* numbers : {&scratch_.along_x, &scratch_.along_y, &scratch_.angles}) numbers->resize(all);
+    for (std::size_t i = 0; i < all; ++i) {
         const AirSection& own = parts_.blades[i / count].sections[i % count];
         SectionState& s = scratch_.sections[i];
         const auto& frame = entry(kin_.workspace().frame, own.body);
@@ -51,13 +53,21 @@ void AirEvaluation::place_sections() {
         s.y = cross<double>(s.span, shaft_).normalized();
         s.x = cross<double>(s.y, s.span);
         s.velocity = motion_.velocity(own.body, s.place);
-        s.relative = wind.at(s.place) - s.velocity;
         s.radial = across(s.place - hub_, shaft_);
         s.annulus = own.annulus;
         s.annulus.radius = s.radial.norm();
         s.radial /= s.annulus.radius;
         const Vec3 chord = R * own.chord;
-        s.annulus.angle = std::atan2(chord.dot(s.x), chord.dot(s.y));
+        scratch_.places[i] = s.place;
+        scratch_.along_x[i] = chord.dot(s.x);
+        scratch_.along_y[i] = chord.dot(s.y);
+    }
+    WindAtPlaces(wind_).at(scratch_.places, scratch_.winds);
+    arc_tangents(scratch_.along_x, scratch_.along_y, scratch_.angles);
+    for (std::size_t i = 0; i < all; ++i) {
+        SectionState& s = scratch_.sections[i];
+        s.relative = scratch_.winds[i] - s.velocity;
+        s.annulus.angle = scratch_.angles[i];
     }
 }
 
@@ -145,23 +155,42 @@ void AirEvaluation::find_inductions() {
 void AirEvaluation::find_loads() {
     find_inductions();
     const std::size_t count = parts_.profile->sections();
-    if (parts_.lags) scratch_.lagging.resize(scratch_.sections.size());
+    scratch_.levers.resize(scratch_.sections.size());
     for (std::size_t blade = 0; blade < parts_.blades.size(); ++blade) {
         const double along = parts_.options.skew == Skew::none ? 0 : sine(blade);
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {
             SectionState& s = scratch_.sections[i];
-            s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
-            if (parts_.lags) {
-                scratch_.lagging[i] = lagging_air(scratch_.inductions[i], s.annulus, motion_of(i), states_of(i),
-                                                  wind_.density, parts_.lags->sections[i]);
-                s.air = scratch_.lagging[i].air;
-            } else {
-                s.air = section_air(scratch_.inductions[i], s.annulus, scratch_.inflows[i].V_x, scratch_.inflows[i].V_y,
-                                    s.wake, wind_.density);
-            }
-            s.force = s.air.force.normal * s.x - s.air.force.driving * s.y;
-            s.moment = s.air.force.moment * s.span;
+            s.wake = {mean_.angle, scratch_.levers[i] = s.annulus.radius / parts_.radius * along};
         }
+    }
+    if (parts_.lags)
+        find_lagging_air();
+    else
+        find_steady_air();
+    for (SectionState& s : scratch_.sections) {
+        s.force = s.air.force.normal * s.x - s.air.force.driving * s.y;
+        s.moment = s.air.force.moment * s.span;
+    }
+}
+
+void AirEvaluation::find_lagging_air() {
+    scratch_.lagging.resize(scratch_.sections.size());
+    for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
+        SectionState& s = scratch_.sections[i];
+        scratch_.lagging[i] = lagging_air(scratch_.inductions[i], s.annulus, motion_of(i), states_of(i), wind_.density,
+                                          parts_.lags->sections[i]);
+        s.air = scratch_.lagging[i].air;
+    }
+}
+
+void AirEvaluation::find_steady_air() {
+    if (parts_.options.skew != Skew::none)
+        skew_inductions(scratch_.inductions, scratch_.inflows, mean_.angle, scratch_.levers);
+    for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
+        SectionState& s = scratch_.sections[i];
+        const auto& [annulus, V_x, V_y] = scratch_.inflows[i];
+        const Induction& found = scratch_.inductions[i];
+        s.air = {V_x, V_y, found, section_force(*annulus, V_x, V_y, found, wind_.density)};
     }
 }
 

@@ -70,7 +70,10 @@ struct AirScratch {
     std::vector<DamState> dam;           ///< at them, if there is one
     std::vector<LaggingAir> lagging;     ///< likewise, if something lags
     std::vector<SectionInflow> inflows;  ///< of all sections
-    std::vector<Induction> inductions;   ///< in equilibrium with the loads
+    std::vector<Induction> inductions;   ///< in equilibrium with the loads; without lags redistributed by the wake
+    std::vector<Vec3> places, winds;     ///< of all sections, the wind without a dam
+    std::vector<double> along_x, along_y, angles,
+        levers;  ///< likewise: the chord's components and angle, the wake's lever
     AirDerivativeScratch derivatives;
 };
 
@@ -107,6 +110,8 @@ private:
     void find_mean_wind();
     void find_inductions();
     void find_loads();
+    void find_lagging_air();
+    void find_steady_air();
     SectionMotion motion_of(std::size_t section) const;
     SectionStates states_of(std::size_t section) const;
     Vec3 blade_direction(std::size_t blade) const;  // unit, in the plane of the rotor

@@ -1,23 +1,30 @@
 #include "turbines/aerodynamics/detail/body_motion.hpp"
 
-#include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
-
 #include <algorithm>
 
 namespace cardan::turbines {
 
-// Angular velocities and velocities of the joints' origins, from the base out.
+// Angular velocities and velocities of the joints' origins, from the base out. Those of the body before stay in
+// registers for the next one, which it carries as a rule.
 BodyMotion::BodyMotion(const ForceInput& at, std::span<const int> bodies, std::vector<BodyRate>& rates)
     : kin_(at.kinematics), rates_(rates) {
     rates_.resize(model().links().size());
+    int last = -1;
+    Vec3 w = Vec3::Zero(), v = w, o = w;
     for (const int k : bodies) {
         const Model::Link& link = entry(model().links(), k);
         const auto& frame = entry(kin_.workspace().frame, k);
-        const Vec3 turn = at.qd(k) * frame.E[2].vector();
-        BodyRate& own = entry(rates_, k);
-        own = {angular(link.parent), velocity(link.parent, frame.o.vector())};
-        (link.revolute ? own.angular : own.origin) += turn;
+        if (link.parent != last) {
+            w = angular(link.parent);
+            o = place(link.parent, Vec3::Zero());
+            v = velocity(link.parent, o);
+        }
+        const Vec3 origin = frame.o.vector(), turn = at.qd(k) * frame.E[2].vector();
+        v += cross<double>(w, Vec3(origin - o));
+        (link.revolute ? w : v) += turn;
+        o = origin;
+        entry(rates_, k) = {w, v};
+        last = k;
     }
 }
 
@@ -29,16 +36,6 @@ Vec3 BodyMotion::place(int body, const Vec3& in_body) const {
     if (body < 0) return in_body;
     const auto& frame = entry(kin_.workspace().frame, body);
     return frame.o.vector() + frame.E.matrix() * in_body;
-}
-
-Vec3 BodyMotion::angular(int body) const {
-    return body < 0 ? Vec3(Vec3::Zero()) : entry(rates_, body).angular;
-}
-
-Vec3 BodyMotion::velocity(int body, const Vec3& place) const {
-    if (body < 0) return Vec3::Zero();
-    const BodyRate& rate = entry(rates_, body);
-    return rate.origin + cross<double>(rate.angular, place - entry(kin_.workspace().frame, body).o.vector());
 }
 
 Mover BodyMotion::mover(int coordinate) const {

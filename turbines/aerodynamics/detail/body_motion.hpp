@@ -3,6 +3,8 @@
 /// installed.
 #pragma once
 
+#include "mbs/base/entry.hpp"
+#include "mbs/kernels/path_twists.hpp"
 #include "mbs/system/forces.hpp"
 
 #include <span>
@@ -42,9 +44,13 @@ public:
 
     Mat3 rotation(int body) const;
     Vec3 place(int body, const Vec3& in_body) const;
-    Vec3 angular(int body) const;
+    Vec3 angular(int body) const { return body < 0 ? Vec3(Vec3::Zero()) : entry(rates_, body).angular; }
     /// Of a point of the body at a place.
-    Vec3 velocity(int body, const Vec3& place) const;
+    Vec3 velocity(int body, const Vec3& place) const {
+        if (body < 0) return Vec3::Zero();
+        const BodyRate& rate = entry(rates_, body);
+        return rate.origin + cross<double>(rate.angular, place - entry(kin_.workspace().frame, body).o.vector());
+    }
     Mover mover(int coordinate) const;
     /// Number of bodies from the base to this one.
     int depth(int body) const;
