@@ -36,10 +36,11 @@ WindOperation operation_of(const Iea22Rotor& rotor) {
 
 }  // namespace
 
-// The collective edge mode is one of blades against generator; what the two programs have for the drive train is not
-// published, and theirs differ by a factor of three at 24 m/s. Its damping leaves the band there, by less than 0.002. A
-// part of that is the rate of the sections about their bent span as the rotor turns, which OpenFAST's lags do not see
-// (BEM_Mod = 2): with the rate about the radius it is larger by 0.0006.
+// The collective edge mode leaves the band at 24 m/s: 0.0123 of at least 0.0124 with eight elements, 0.0106 with
+// sixteen. It is the small difference of large parts there, structure 0.007, air with steady profiles 0.029, shed wake
+// -0.025, and nothing that was tried fits this mode without taking others out: generator and shaft, elements, wake,
+// operating point. Below rated power OpenFAST's numbers are those of a generator torque with the square of the speed,
+// HAWC2's those of a constant one, which is taken here.
 TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", "[discrete][.models]") {
     const std::optional<Iea22Rotor> rotor = iea22_rotor();
     if (!rotor) return;
@@ -82,6 +83,30 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
     }
     CHECK(compared == 72);
     CHECK(in_band >= 71);
+}
+
+// Most of the factor between the two programs at 24 m/s lies in the constants of the shed wake: with those of R. T.
+// Jones [NACA report 681, 1940], whose sum is one half, in the place of A1 + A2 = 1 of OpenFAST's file, the damping is
+// three times as large. (That HAWC2 had such ones is a guess; its input is not published with the results.)
+TEST_CASE("rotor modes: how the shed wake lags decides on the collective edge mode", "[property][.models]") {
+    std::optional<Iea22Rotor> rotor = iea22_rotor();
+    if (!rotor) return;
+    WindOperation operation = operation_of(*rotor);
+    const std::array points{operation.at({24, 7.0611 * units::rpm, 20.87848 * units::degree})};
+    REQUIRE(points[0].converged);
+    const auto damping = [&](const std::vector<UnsteadyProfile>& profiles) {
+        const solvers::Campbell diagram = aeroelastic_campbell(
+            operation, points, {.wake = Wake::frozen, .profiles = profiles}, {.max_frequency_hz = 2});
+        return diagram.damping_ratio(diagram.branch("1st blade edge (collective)"), 0);
+    };
+    std::vector<UnsteadyProfile> by_jones;
+    for (const UnsteadyProfile& own : rotor->air.profiles)
+        by_jones.emplace_back(own.polar(), own.flow(), ProfileLags{.A1 = 0.165, .A2 = 0.335, .b1 = 0.0455, .b2 = 0.3});
+    const double of_file = damping(rotor->air.profiles), jones = damping(by_jones), steady = damping({});
+    CAPTURE(of_file, jones, steady);
+    CHECK(jones > 2.3 * of_file);
+    CHECK(jones < 2.9 * of_file);
+    CHECK(steady > jones);
 }
 
 }  // namespace cardan::testing::rotor_mode_tests
