@@ -87,7 +87,7 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
 
 // Most of the factor between the two programs at 24 m/s lies in the constants of the shed wake: with those of R. T.
 // Jones [NACA report 681, 1940], whose sum is one half, in the place of A1 + A2 = 1 of OpenFAST's file, the damping is
-// three times as large. (That HAWC2 had such ones is a guess; its input is not published with the results.)
+// 2.6 times as large. (That HAWC2 had such ones is a guess; its input is not published with the results.)
 TEST_CASE("rotor modes: how the shed wake lags decides on the collective edge mode", "[property][.models]") {
     std::optional<Iea22Rotor> rotor = iea22_rotor();
     if (!rotor) return;
