@@ -62,8 +62,8 @@ inline std::vector<std::string> main_channels(const turbines::MachineLayout& lay
                                    "TwrBsMyt", "TwrBsMxt", "yaw",     "teeter angle"};
     for (int number : layout.blade_numbers) {
         const std::string blade = text("blade ", number);
-        names.insert(names.end(), {blade + " tip out-of-plane deflection", blade + " root moment y",
-                                   blade + " root moment x", blade + " root force z"});
+        names.insert(names.end(), {blade + " tip out-of-plane deflection", blade + " tip twist",
+                                   blade + " root moment y", blade + " root moment x", blade + " root force z"});
     }
     std::erase_if(names, [&](const std::string& name) { return !has(channels, name); });
     return names;

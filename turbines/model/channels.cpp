@@ -221,6 +221,11 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
     add(" tip flap deflection", "flapwise deflection", "", "TipDxb");
     add(" tip edge deflection", "edgewise deflection, toward the trailing edge,", "", "TipDyb");
     add(" tip axial deflection", "deflection along the pitch axis", "", "TipDzb");
+    group.channels.push_back({.name = blade + " tip twist",
+                              .units = "rad",
+                              .long_name = "turn of the tip about its span, after those about the root's other axes",
+                              .frame = blade,
+                              .point = blade + " tip"});
     const bool pitch = !source->layout().pitch.empty();
     if (pitch)
         group.channels.push_back({.name = blade + " pitch angle",
@@ -234,11 +239,15 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
         const CardanBeam& beam = layout.blades[k];
         const Kinematics& kin = in.kinematics;
         const Pose<double> root = pose(kin, layout.blade_roots[k]);
-        const Vec3 d = pose(kin, beam.tip()).p - root.p - root.R * beam.line.pose(beam.line.length).p;
+        const Pose<double> tip = pose(kin, beam.tip());
+        const Placement at_rest = beam.line.pose(beam.line.length);
+        const Vec3 d = tip.p - root.p - root.R * at_rest.p;
+        const Mat3 turned = root.R.transpose() * tip.R * at_rest.R.transpose();
         const Vec3 coned = openfast_axes(pose(kin, layout.pitch_axes[k]).R).transpose() * d;
         *values++ = coned.x();
         *values++ = coned.y();
         write(openfast_axes(root.R).transpose() * d, values);
+        *values++ = std::atan2(turned(2, 1), turned(2, 2));  // of R_z R_y R_x, x along the span
         if (pitch) *values = layout.pitch_settings[k] - in.q(kin.model().index(layout.pitch[k]));
     };
     return group;

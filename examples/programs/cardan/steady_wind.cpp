@@ -10,10 +10,33 @@
 #include "examples/programs/cardan/wind_results.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/words.hpp"
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
 namespace cardan::program {
+
+namespace {
+
+// At the wind with the largest thrust.
+void tell_mesh(const WindRun& run, const WindResults& results, const MachineFile& machine,
+               const MachineOptions& options, const RevolutionOptions& revolution) {
+    if (run.ready.turbine.layout().blades.empty() || !machine.file.dofs.blades) return;
+    const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindPoint::thrust);
+    const double wind = largest->operation.wind;
+    FinerPoint finer = finer_point(run, machine, options, largest->operation);
+    if (!finer.point.converged) {
+        std::printf("with twice as many elements no steady state was found at %g m/s\n", wind);
+        return;
+    }
+    std::vector<turbines::WindPoint> points;
+    points.push_back(std::move(finer.point));
+    const WindResults other = wind_results(finer.operation, std::move(points), revolution.stations, "");
+    const auto index = static_cast<std::size_t>(largest - results.points.begin());
+    std::printf("at %g m/s, and with twice as many elements: %s\n", wind, beside(results, index, other).c_str());
+}
+
+}  // namespace
 
 int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind,
                    const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command) {
@@ -32,6 +55,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
             "%d harmonics of the revolution; what those left out would have to balance, over stiffness: up to "
             "%.1e rad or m\n",
             revolution.harmonics, run.remainder);
+    tell_mesh(run, results, machine, options, revolution);
     print(results);
     write_csv(results, prefix);
     write_hdf5(results, prefix + ".h5", run_text("steady", command) + run.ready.turbine.rotor().description);

@@ -163,6 +163,25 @@ void print(const WindResults& results) {
     }
 }
 
+std::string beside(const WindResults& results, std::size_t point, const WindResults& finer) {
+    const WindPoint &own = results.points[point], &other = finer.points.front();
+    std::string out;
+    const auto add = [&](const char* what, double a, double b, const char* unit) {
+        std::array<char, 120> line{};
+        std::snprintf(line.data(), line.size(), "%s%s %.5g, %.5g %s", out.empty() ? "" : "; ", what, a, b, unit);
+        out += line.data();
+    };
+    for (const Quantity& q : {quantity::power, quantity::thrust})
+        add(q.name, q.shown(own), q.shown(other), q.unit.name);
+    for (std::size_t i = 0; i < results.channels.size(); ++i) {
+        const double a = results.values[point][i].mean, b = finer.values.front()[i].mean;
+        const std::string& name = results.channels[i].name;
+        if (name == "blade 1 tip out-of-plane deflection") add("tip out of the plane", a, b, "m");
+        if (name == "blade 1 tip twist") add("its twist", a * units::to_degrees, b * units::to_degrees, "deg");
+    }
+    return out;
+}
+
 void write_csv(const WindResults& results, const std::string& prefix) {
     std::string out = "wind[m/s]";
     for (const Quantity& q : quantity::all) out += text(",", q.name, "[", q.unit.name, "]");
@@ -242,6 +261,7 @@ void draw_points(const WindResults& results, const std::string& prefix) {
                     panel(results, "coefficients", {quantity::power_coefficient, quantity::thrust_coefficient})};
     for (const solvers::StackPanel& one :
          {channel_panel(results, "deflection in m", "blade 1 tip out-of-plane deflection", 1),
+          channel_panel(results, "twist in deg", "blade 1 tip twist", units::to_degrees),
           channel_panel(results, "moment in kN m", "blade 1 root moment y", 1e-3)})
         if (!one.curves.empty()) stack.panels.push_back(one);
     draw(stack, prefix);

@@ -63,9 +63,9 @@ std::vector<turbines::Operation> schedule_of(const std::string& path) {
     return schedule;
 }
 
-turbines::WindOperation operation_of(const MachineFile& machine, const MachineOptions& options,
-                                     const WindArguments& wind, const Air& air, const turbines::Turbine& turbine,
-                                     int harmonics, int azimuths, std::size_t speeds) {
+turbines::WindOperationOptions options_of(const MachineFile& machine, const WindArguments& wind, const Air& air,
+                                          const turbines::Turbine& turbine, int harmonics, int azimuths,
+                                          std::size_t speeds) {
     turbines::WindOperationOptions in_wind;
     in_wind.wind = wind_profile(wind.air, air, machine, turbine);
     in_wind.air = air.options;
@@ -77,7 +77,7 @@ turbines::WindOperation operation_of(const MachineFile& machine, const MachineOp
         progress(text("\rwind speed ", done, " of ", speeds, done == speeds ? "\n" : ""));
         return !interrupted();
     };
-    return {machine.file.description, assembly_options(machine, options), air.blade, in_wind};
+    return in_wind;
 }
 
 }  // namespace
@@ -107,13 +107,27 @@ WindRun wind_run(const MachineFile& machine, MachineOptions& options, const Wind
     if (!options.pitch && machine.file.operation.least_pitch.empty())
         set_pitch(machine, options, machine.file.rotor_speed);
     ReadyMachine ready = ready_machine(machine, options, max_frequency, machine.file.rotor_speed);
-    turbines::WindOperation operation =
-        operation_of(machine, options, wind, air, ready.turbine, harmonics, azimuths, speeds.size());
+    turbines::WindOperationOptions in_wind =
+        options_of(machine, wind, air, ready.turbine, harmonics, azimuths, speeds.size());
+    turbines::WindOperation operation(machine.file.description, assembly_options(machine, options), air.blade, in_wind);
     return {.air = std::move(air),
             .speeds = std::move(speeds),
             .asked_pitch = asked_pitch,
             .ready = std::move(ready),
+            .in_wind = std::move(in_wind),
             .operation = std::move(operation)};
+}
+
+FinerPoint finer_point(const WindRun& run, const MachineFile& machine, MachineOptions options,
+                       const turbines::Operation& at) {
+    options.blade_elements *= 2;
+    options.tower_elements *= 2;
+    turbines::WindOperationOptions in_wind = run.in_wind;
+    in_wind.progress = {};
+    turbines::WindOperation operation(machine.file.description, assembly_options(machine, options), run.air.blade,
+                                      in_wind);
+    WindPoint point = operation.at(at);
+    return {std::move(operation), std::move(point)};
 }
 
 void find_points(WindRun& run, const MachineFile& machine, const MachineOptions& options, const WindArguments& wind) {

@@ -29,6 +29,7 @@ struct WindRun {
     std::vector<double> speeds;         ///< that were asked for, m/s
     std::optional<double> asked_pitch;  ///< by the options, deg
     ReadyMachine ready;
+    turbines::WindOperationOptions in_wind;
     turbines::WindOperation operation;
     std::vector<turbines::WindPoint> points = {};  ///< that converged
     double remainder = 0;                          ///< WindPoint::remainder, the largest
@@ -44,6 +45,15 @@ struct WindRun {
 /// @param max_frequency  up to which the mesh is to be accurate, Hz
 WindRun wind_run(const MachineFile& machine, MachineOptions& options, const WindArguments& wind, int harmonics,
                  int azimuths, double max_frequency);
+
+/// One operation by twice as many elements, of which deflections and twist of bent blades ask for more than frequencies
+/// at rest do.
+struct FinerPoint {
+    turbines::WindOperation operation;
+    turbines::WindPoint point;
+};
+FinerPoint finer_point(const WindRun& run, const MachineFile& machine, MachineOptions options,
+                       const turbines::Operation& at);
 
 /// One after the other, with progress. Those that do not converge are named on standard error.
 void find_points(WindRun& run, const MachineFile& machine, const MachineOptions& options, const WindArguments& wind);

@@ -252,6 +252,10 @@ TEST_CASE("channels: a hinge angle deflects the tip by its lever; turning the bl
     const Vec3 coned = Eigen::AngleAxisd(0.3, Vec3::UnitZ()) * d;  // pitched away from feather
     CHECK(now["OoPDefl1"] == Approx(coned.x()).epsilon(1e-12));
     CHECK(now["IPDefl1"] == Approx(coned.y()).epsilon(1e-12));
+    CHECK(std::abs(now["blade 1 tip twist"]) < 1e-12);
+    // Behind the bend the torsion joint turns the tip about its span.
+    at(turbine, bent.q, "blade 1 element 2 torsion") = -0.02;
+    CHECK(Sampled(turbine, bent)["blade 1 tip twist"] == Approx(-0.02).epsilon(1e-12));
 }
 
 TEST_CASE("channels: displacement, acceleration and speeds are those of frames and coordinates in motion",
