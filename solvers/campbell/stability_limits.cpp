@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/detail/floquet_point.hpp"
 #include "solvers/campbell/detail/method.hpp"
+#include "solvers/campbell/detail/state_vibrations.hpp"
 #include "solvers/campbell/detail/static_name.hpp"
 #include "solvers/campbell/detail/sweep.hpp"
 
@@ -60,30 +61,10 @@ double static_root(const StaticRoots& roots, int i) {
     return i < std::ssize(roots.values) ? entry(roots.values, i) + least_static_root : 1;
 }
 
-// Oscillations of states among the modes, with unit energy as these have.
-void take_vibrations_of_states(const PointMethod& solver, CampbellPoint& point) {
-    const SecondOrderSystem& system = solver.system();
-    std::vector<StateMotion> others;
-    for (StateMotion& motion : point.state_motions) {
-        Mode& mode = motion.mode;
-        const double energy = energy_product(system, mode, mode).real();
-        if (!mode.oscillates() || !(energy > 0)) {
-            others.push_back(std::move(motion));
-            continue;
-        }
-        mode.shape *= std::sqrt(2 / energy);
-        mode.states *= std::sqrt(2 / energy);
-        CampbellMode& added = point.modes.emplace_back();
-        added.shares = solver.energy_shares()->shares(mode);
-        added.row_shares = energy_by_row(system, mode);
-        added.row = naming_row(system, mode);
-        added.mode = std::move(mode);
-    }
-    point.state_motions = std::move(others);
-    std::ranges::stable_sort(point.modes, {}, [](const CampbellMode& one) {
-        return std::pair(!one.mode.oscillates(), one.mode.natural_hz());
-    });
-}
+// Of an iteration: CampbellCase::start.
+struct Start {
+    Matrix coordinates, states;
+};
 
 // A machine at a value of the parameter. Of its solver only what it has computed is used later on: the machine may be
 // gone by then.
@@ -113,6 +94,7 @@ private:
         return modes;
     }
     std::string at(double parameter) const;
+    void start(PointMethod& solver, const CampbellCase& one) const;
     std::optional<Probe> probe(double parameter);
     Probe certain_probe(double parameter);
     void check_machine(const CampbellCase& one, const PointMethod& solver);
@@ -144,6 +126,7 @@ private:
     std::string failure_;  // why the last probe has no steady state
     // By point that was accepted.
     std::vector<double> parameters_;
+    std::vector<Start> starts_;
     std::vector<std::unique_ptr<PointMethod>> solvers_;
     std::vector<StaticRoots> roots_;
     StabilityLimits found_;
@@ -174,6 +157,15 @@ void LimitSearch::find_static_roots(Probe& probe) {
     }
 }
 
+// Where the machine comes without a start, that is the steady state of the nearest point that was accepted.
+void LimitSearch::start(PointMethod& solver, const CampbellCase& one) const {
+    if (one.start.size() > 0 || starts_.empty()) return solver.start_from(one.start, one.state_start);
+    const auto distance = [&](double parameter) { return std::abs(parameter - one.parameter); };
+    const auto nearest = std::ranges::min_element(parameters_, {}, distance) - parameters_.begin();
+    const Start& from = starts_[static_cast<std::size_t>(nearest)];
+    solver.start_from(from.coordinates, from.states);
+}
+
 // None if it was cancelled, or if there is no steady state.
 std::optional<Probe> LimitSearch::probe(double parameter) {
     cancelled_ = cancelled_ || (modes_.cancelled && modes_.cancelled());
@@ -185,7 +177,7 @@ std::optional<Probe> LimitSearch::probe(double parameter) {
     Probe out{parameter, point_method(*one.system, *one.rotor, modes_)};
     check_machine(one, *out.solver);
     if (!solvers_.empty()) out.solver->mode_range() = solvers_.front()->mode_range();
-    out.solver->start_from(one.start, one.state_start);
+    start(*out.solver, one);
     try {
         out.point = sweep_.solve(*out.solver, one.rotor_speed);
     } catch (const NumericalError& error) {
@@ -206,6 +198,11 @@ Probe LimitSearch::certain_probe(double parameter) {
 }
 
 void LimitSearch::accept(Probe probe, const PeriodicMac& likeness) {
+    const CampbellPoint& point = probe.point;
+    if (point.periodic)
+        starts_.push_back({point.periodic->coefficients, point.periodic->state_coefficients});
+    else
+        starts_.push_back({point.at.q, point.at.s});
     sweep_.add(*probe.solver, std::move(probe.point), likeness);
     parameters_.push_back(probe.parameter);
     solvers_.push_back(std::move(probe.solver));

@@ -305,6 +305,25 @@ TEST_CASE("stability limits: what has no steady state ends the range, and says w
     CHECK_THROWS_AS(stability_limits(heavy, "parameter", 3, 5, options), NumericalError);
 }
 
+// A magnet that turns drags a needle along: sin(q - p) = 0. From q = 0 other turns are nearer.
+TEST_CASE("stability limits: a steady state is sought from that of the neighbour", "[analytic]") {
+    Remade needle{[](double p) {
+        Tree tree;
+        add_joint(tree, {.name = "needle", .inertia = {1, {1, 0, 0}, Mat3::Zero()}});
+        ForceSet forces;
+        forces.add_user(
+            {.name = "magnet", .force = [p](const ForceInput& in, VectorOut Q) { Q(0) -= std::sin(in.q(0) - p); }});
+        return System(tree, forces);
+    }};
+    needle.map.machine = "needle";
+    needle.map.parts = {{"", Tree::base(), {}, {"", "needle", ""}}};
+    constexpr double last = 9;
+    const StabilityLimits found = stability_limits(needle.family(), "angle, rad", 0.1, last, {.steps = 30});
+    REQUIRE(found.diagram.complete);
+    CHECK(found.limits.empty());
+    CHECK(found.diagram.points.back().at.q(0) == Approx(last).epsilon(1e-9));
+}
+
 TEST_CASE("stability limits: progress and cancelling", "[property]") {
     Remade column = loaded_column(WrenchAxes::base);
     StabilityOptions options;
