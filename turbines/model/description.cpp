@@ -91,7 +91,7 @@ void check_linkage(const std::string& machine, const BladeDescription& blade, co
     const Vec3 rod = linkage.crank_pin - linkage.actuator_pin;
     require_positive(machine, field + ".linkage: length of the push rod [m]", rod.norm());
     // Turning about x moves the pin along x cross pin: at right angles to the rod it moves nothing.
-    const double arm = Vec3::UnitX().cross(linkage.crank_pin).dot(rod) / rod.norm();
+    const double arm = cross<double>(Vec3(Vec3::UnitX()), linkage.crank_pin).dot(rod) / rod.norm();
     if (!(std::abs(arm) > 1e-6 * linkage.crank_pin.norm()))
         throw InputError(machine, field + ".linkage: lever of the push rod about the pitch axis [m]", arm,
                          "not 0: at a dead point the rod does not turn the blade");
