@@ -39,7 +39,7 @@ void skew_inductions(std::span<Induction> inductions, std::span<const SectionInf
     if (angle == 0) return;  // there are no levers either
     constexpr std::size_t most = 32;
     const double by_sine = 1 / std::sin(angle);
-    std::array<double, most> x, y, found;
+    std::array<double, most> x = {}, y = {}, found = {};
     for (std::size_t first = 0; first < inductions.size(); first += most) {
         const std::size_t n = std::min(most, inductions.size() - first);
         const std::span<Induction> own = inductions.subspan(first, n);

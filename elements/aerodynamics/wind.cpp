@@ -59,7 +59,7 @@ Vec3 WindAtPlaces::at(const Vec3& place) const {
 
 void WindAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) const {
     constexpr std::size_t most = 64;
-    std::array<double, most> ratios, laws;
+    std::array<double, most> ratios = {}, laws = {};
     for (std::size_t first = 0; first < places.size(); first += most) {
         const std::size_t n = std::min(most, places.size() - first);
         const std::span<const Vec3> own = places.subspan(first, n);

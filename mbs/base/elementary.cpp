@@ -69,7 +69,7 @@ void in_vectors(std::span<const double> y, std::span<const double> x, std::span<
     const std::size_t whole = x.size() / lanes * lanes, left = x.size() - whole;
     function(static_cast<std::ptrdiff_t>(whole), y.data(), x.data(), out.data());
     if (left == 0) return;
-    std::array<double, lanes> last_y, last_x, found;
+    std::array<double, lanes> last_y = {}, last_x = {}, found = {};
     last_y.fill(1);
     last_x.fill(1);
     std::copy_n(y.begin() + static_cast<std::ptrdiff_t>(whole), left, last_y.begin());

@@ -1,7 +1,7 @@
 #include "mbs/kernels/kinematics.hpp"
 
-#include "mbs/base/error.hpp"
 #include "mbs/base/elementary.hpp"
+#include "mbs/base/error.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
 #include <algorithm>

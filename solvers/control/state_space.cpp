@@ -79,9 +79,9 @@ LinearModel Builder::empty(double rotor_speed) const {
     return model;
 }
 
-void Builder::choose_states(const std::vector<OperatingPoint>& points) {
-    std::vector<Linearisation> way(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) lineariser_.linearise(points[i], way[i]);
+void Builder::choose_states(const std::vector<OperatingPoint>& way) {
+    std::vector<Linearisation> way(way.size());
+    for (std::size_t i = 0; i < way.size(); ++i) lineariser_.linearise(way[i], way[i]);
     layout_.keep_independent(independent_on_the_way(way, layout_.unknowns, rotor_.spin));
 }
 
@@ -245,6 +245,7 @@ LinearModel build(const System& system, const RotorMap& rotor, double rotor_spee
     };
     if (!system.loops.empty()) {
         std::vector<OperatingPoint> way;
+        way.reserve(static_cast<std::size_t>(azimuths));
         for (int s = 0; s < azimuths; ++s) way.push_back(at(s).at);
         builder.choose_states(way);
     }
