@@ -35,7 +35,7 @@ public:
           workspace_(system.model) {}
 
     /// With loops: what is independent on the way of the steady states.
-    void choose_states(const std::vector<OperatingPoint>& way);
+    void choose_states(const std::vector<OperatingPoint>& points);
     /// Those of the steady state, where they are not given.
     void set_multipliers(OperatingPoint& at);
     LinearModel empty(double rotor_speed) const;
@@ -79,9 +79,9 @@ LinearModel Builder::empty(double rotor_speed) const {
     return model;
 }
 
-void Builder::choose_states(const std::vector<OperatingPoint>& way) {
-    std::vector<Linearisation> way(way.size());
-    for (std::size_t i = 0; i < way.size(); ++i) lineariser_.linearise(way[i], way[i]);
+void Builder::choose_states(const std::vector<OperatingPoint>& points) {
+    std::vector<Linearisation> way(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) lineariser_.linearise(points[i], way[i]);
     layout_.keep_independent(independent_on_the_way(way, layout_.unknowns, rotor_.spin));
 }
 
