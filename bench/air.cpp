@@ -33,38 +33,36 @@ public:
         qd_(turbine_.rotor().spin) = 1.1;
         Q_ = qdd_ = actuator_ = Vector::Zero(n);
         by_q_ = by_qd_ = Matrix::Zero(n, n);
+        new_input();
     }
 
     void forces_of_air() {
-        air_.wrenches(input_of_air(), wrenches_);
+        air_.wrenches(input(), wrenches_);
         benchmark::DoNotOptimize(wrenches_.data());
     }
     void forward_dynamics() {
-        const ForceInput at = input();
+        const ForceInput at = new_input();
         turbine_.system().forces.generalised_forces(at.kinematics, 0, q_, qd_, Q_);
         dynamics_.solve(at.kinematics, qd_, Q_, qdd_, actuator_);
         benchmark::DoNotOptimize(qdd_.data());
     }
     void derivatives_of_air() {
-        air_.jacobian(input_of_air(), by_q_, by_qd_);
+        air_.jacobian(input(), by_q_, by_qd_);
         benchmark::DoNotOptimize(by_q_.data());
     }
     void derivatives_of_dynamics() {
-        const ForceInput at = input();
+        const ForceInput at = new_input();
         turbine_.system().forces.derivatives(at.kinematics, 0, q_, qd_, forces_);
         benchmark::DoNotOptimize(derivatives_.compute(at.kinematics, qd_, qdd_, &forces_));
     }
 
 private:
     const Model& model() const { return turbine_.system().model; }
-    ForceInput input() {
+    // The structure computes the kinematics, the air finds them.
+    ForceInput input() const { return {0, q_, qd_, *kin_, no_states, no_states}; }
+    ForceInput new_input() {
         kin_.emplace(kinematics(model(), q_, workspace_));
-        return {0, q_, qd_, *kin_, no_states, no_states};
-    }
-    // It finds the kinematics as the structure has computed them.
-    ForceInput input_of_air() {
-        if (!kin_) return input();
-        return {0, q_, qd_, *kin_, no_states, no_states};
+        return input();
     }
 
     turbines::Turbine turbine_;

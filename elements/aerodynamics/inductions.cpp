@@ -1,25 +1,12 @@
 // Inductions of many sections at once: the arithmetic of eight of them fills the registers of the processor.
 #include "elements/aerodynamics/detail/balance.hpp"
 #include "elements/aerodynamics/momentum.hpp"
+#include "mbs/base/vector_math.hpp"
 #include "mbs/base/vectorised.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <features.h>
-
-// glibc has vector versions of these (libmvec), acos from 2.35 on; errno, which they do not set, is switched off for
-// this file in CMakeLists.txt. See mbs/base/sines.cpp.
-#ifdef CARDAN_HAS_CLONES
-extern "C" {
-__attribute__((__simd__("notinbranch"))) double sin(double) noexcept;
-__attribute__((__simd__("notinbranch"))) double cos(double) noexcept;
-__attribute__((__simd__("notinbranch"))) double exp(double) noexcept;
-#if __GLIBC_PREREQ(2, 35)
-__attribute__((__simd__("notinbranch"))) double acos(double) noexcept;
-#endif
-}
-#endif
 
 namespace cardan {
 

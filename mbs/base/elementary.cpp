@@ -1,26 +1,12 @@
 #include "mbs/base/elementary.hpp"
 
+#include "mbs/base/vector_math.hpp"
 #include "mbs/base/vectorised.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <features.h>
-
-// glibc has vector versions of these (libmvec), which loops may call once the compiler is told of them; errno, which
-// they do not set, is switched off for this file in CMakeLists.txt.
-#ifdef CARDAN_HAS_CLONES
-extern "C" {
-__attribute__((__simd__("notinbranch"))) double sin(double) noexcept;
-__attribute__((__simd__("notinbranch"))) double cos(double) noexcept;
-__attribute__((__simd__("notinbranch"))) double pow(double, double) noexcept;
-#if __GLIBC_PREREQ(2, 35)
-__attribute__((__simd__("notinbranch"))) double tan(double) noexcept;
-__attribute__((__simd__("notinbranch"))) double atan2(double, double) noexcept;
-#endif
-}
-#endif
 
 namespace cardan {
 
@@ -46,21 +32,6 @@ CARDAN_VECTORISED void all_powers(std::ptrdiff_t n, const double* __restrict x, 
     for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = ::pow(x[i], exponent);
 }
 
-}  // namespace
-
-void sines(const Eigen::Ref<const Vector>& q, Vector& s, Vector& c) {
-    all_sines(q.size(), q.data(), s.data(), c.data());
-}
-
-void sines(const Eigen::Ref<const ComplexVector>& q, ComplexVector& s, ComplexVector& c) {
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-        s(i) = std::sin(q(i));
-        c(i) = std::cos(q(i));
-    }
-}
-
-namespace {
-
 constexpr std::size_t lanes = 8;  // a multiple of what a register holds
 
 // Of y and x in whole vectors only: those left over stand in one that is filled up.
@@ -79,6 +50,17 @@ void in_vectors(std::span<const double> y, std::span<const double> x, std::span<
 }
 
 }  // namespace
+
+void sines(const Eigen::Ref<const Vector>& q, Vector& s, Vector& c) {
+    all_sines(q.size(), q.data(), s.data(), c.data());
+}
+
+void sines(const Eigen::Ref<const ComplexVector>& q, ComplexVector& s, ComplexVector& c) {
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+        s(i) = std::sin(q(i));
+        c(i) = std::cos(q(i));
+    }
+}
 
 void tangents(std::span<const double> x, std::span<double> out) {
     in_vectors(x, x, out, [](std::ptrdiff_t n, const double* /*y*/, const double* own, double* found) {

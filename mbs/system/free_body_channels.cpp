@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/model/free_body.hpp"
+#include "mbs/system/detail/vector_channels.hpp"
 
 #include <Eigen/Geometry>
 
@@ -14,11 +15,10 @@ ChannelGroup free_body_channels(const Model& model) {
     ChannelGroup group;
     for (const Model::Free& body : model.free_bodies())
         for (const auto& [what, unit] : {std::pair{"rotation", "rad"}, {"angular velocity", "rad s-1"}})
-            for (const char axis : {'x', 'y', 'z'})
-                group.channels.push_back({.name = text(body.name, " ", what, " ", axis),
-                                          .units = unit,
-                                          .long_name = text(what, " of the free body '", body.name, "' about ", axis),
-                                          .frame = text("inboard frame of ", body.name)});
+            add_vector(group.channels, {.name = text(body.name, " ", what),
+                                        .units = unit,
+                                        .long_name = text(what, " of the free body '", body.name, "' about"),
+                                        .frame = text("inboard frame of ", body.name)});
     group.sample = [&model](const ChannelInput& in, double* values) {
         for (const Model::Free& body : model.free_bodies()) {
             const FreeMotion motion = free_motion(body, in.q, in.qd);

@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/system/detail/vector_channels.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -33,13 +34,13 @@ ChannelGroup joint_channels(const System& system, const std::vector<JointOutput>
         places.push_back(place_of_joint(system.model, joint));
         const std::string frame = joint.axes.empty() ? "ground" : joint.axes;
         for (const auto& [what, unit] : {std::pair{"force", "N"}, {"moment", "N m"}})
-            for (const char axis : {'x', 'y', 'z'})
-                group.channels.push_back(
-                    {.name = text(joint.body, " joint ", what, " ", axis),
-                     .units = unit,
-                     .long_name = text(what, " of the joint on '", joint.body, "' along ", axis, " of ", frame),
-                     .frame = frame,
-                     .point = text("joint of ", joint.body)});
+            add_vector(group.channels,
+                       {.name = text(joint.body, " joint ", what),
+                        .units = unit,
+                        .long_name = text(what, " of the joint on '", joint.body, "' along"),
+                        .frame = frame,
+                        .point = text("joint of ", joint.body)},
+                       text(" of ", frame));
     }
     group.sample = [places = std::move(places)](const ChannelInput& in, double* values) {
         for (const auto& [body, axes] : places) {

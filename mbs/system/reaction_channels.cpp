@@ -1,6 +1,7 @@
 #include "mbs/system/reaction_channels.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/system/detail/vector_channels.hpp"
 
 #include <algorithm>
 
@@ -8,14 +9,14 @@ namespace cardan {
 
 namespace {
 
-void add_vector(std::vector<Channel>& out, const std::string& name, const char* what, const char* unit) {
-    for (const char axis : {'x', 'y', 'z'})
-        out.push_back(
-            {.name = text(name, " ", what, " ", axis),
-             .units = unit,
-             .long_name = text(what, " of the loop '", name, "' on its body b along ", axis, " of its frame a"),
-             .frame = text("frame a of ", name),
-             .point = text("frame b of ", name)});
+void add_reaction(std::vector<Channel>& out, const std::string& name, const char* what, const char* unit) {
+    add_vector(out,
+               {.name = text(name, " ", what),
+                .units = unit,
+                .long_name = text(what, " of the loop '", name, "' on its body b along"),
+                .frame = text("frame a of ", name),
+                .point = text("frame b of ", name)},
+               " of its frame a");
 }
 
 }  // namespace
@@ -31,8 +32,8 @@ ChannelGroup reaction_channels(const System& system) {
                                       .long_name = text("force with which the rod '", name, "' pulls")});
             continue;
         }
-        add_vector(group.channels, name, "force", "N");
-        if (loops.holds_directions(i)) add_vector(group.channels, name, "moment", "N m");
+        add_reaction(group.channels, name, "force", "N");
+        if (loops.holds_directions(i)) add_reaction(group.channels, name, "moment", "N m");
     }
     if (group.channels.empty())
         throw InputError("reaction channels", "number of joints, rods and surfaces among the loops", 0, ">= 1");

@@ -229,7 +229,7 @@ struct CampbellCase {
     double parameter = 0;    ///< its place on the axis
     /// Where its steady state is looked for, and the motion of driven coordinates, such as a pitch that is prescribed,
     /// as PeriodicOptions::start and state_start: columns are harmonics, a single one is constant. Empty: zero, and the
-    /// states as their table says.
+    /// states as their table says; in stability_limits() as they are at the nearest point that it has.
     Matrix start = {}, state_start = {};
 };
 

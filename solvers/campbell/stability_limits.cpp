@@ -61,7 +61,7 @@ double static_root(const StaticRoots& roots, int i) {
     return i < std::ssize(roots.values) ? entry(roots.values, i) + least_static_root : 1;
 }
 
-// Of an iteration: CampbellCase::start.
+// Of an iteration: CampbellCase::start. The points themselves are handed over before the limits are sought.
 struct Start {
     Matrix coordinates, states;
 };

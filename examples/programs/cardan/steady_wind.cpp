@@ -49,16 +49,16 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     const int code = run.exit_code();
     const WindResults results =
         wind_results(run.operation, std::move(run.points), revolution.stations, text(d.name, ", in the wind"));
+    write_csv(results, prefix);
+    write_hdf5(results, prefix + ".h5", run_text("steady", command) + run.ready.turbine.rotor().description);
     std::printf("\n%s\n%s\n", results.title.c_str(), in_words(run.ready.mesh).c_str());
     if (!run.operation.is_constant())
         std::printf(
             "%d harmonics of the revolution; what those left out would have to balance, over stiffness: up to "
             "%.1e rad or m\n",
             revolution.harmonics, run.remainder);
-    tell_mesh(run, results, machine, options, revolution);
+    if (run.complete) tell_mesh(run, results, machine, options, revolution);
     print(results);
-    write_csv(results, prefix);
-    write_hdf5(results, prefix + ".h5", run_text("steady", command) + run.ready.turbine.rotor().description);
     std::printf("\nfiles: %s.h5, .csv, _sections.csv", prefix.c_str());
     if (results.points.size() > 1) {
         draw_points(results, prefix);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/loops/closure.hpp"
+#include "mbs/model/solids.hpp"
 #include "mbs/system/system.hpp"
 #include "tests/support/tree_tools.hpp"
 
@@ -13,10 +14,9 @@ namespace cardan::testing {
 
 inline constexpr double loop_gravity = 9.81;
 
-/// A uniform slender bar along x.
-inline RigidInertia slender_bar(double mass, double length) {
-    const double across = mass * length * length / 12;
-    return {mass, {length / 2, 0, 0}, Vec3(0, across, across).asDiagonal().toDenseMatrix()};
+/// From its frame on.
+inline RigidInertia bar_along_x(double mass, double length) {
+    return slender_bar(mass, Vec3::Zero(), {length, 0, 0});
 }
 
 /// A bar hinged about z at `inboard`, along x, with the frame "<name> end" at its end.
@@ -43,8 +43,8 @@ struct SliderCrank {
     }
     /// Its parts, and the loop; the slider.
     static Link add(Tree& tree, LoopSet& loops, CutKind kind, CoordinateRole of_crank) {
-        const Bar crank = add_bar(tree, "crank", Tree::base(), r, slender_bar(crank_mass, r), of_crank);
-        const Bar rod = add_bar(tree, "rod", crank.end, l, slender_bar(rod_mass, l));
+        const Bar crank = add_bar(tree, "crank", Tree::base(), r, bar_along_x(crank_mass, r), of_crank);
+        const Bar rod = add_bar(tree, "rod", crank.end, l, bar_along_x(rod_mass, l));
         const Link slider = add_joint(tree, {.name = "slider",
                                              .kind = JointKind::prismatic,
                                              .axis = Vec3::UnitX(),
@@ -74,7 +74,7 @@ struct FourBar {
     explicit FourBar(CoordinateRole crank, CutKind kind = CutKind::revolute) : system(make(crank, kind)) {}
     static System make(CoordinateRole role, CutKind kind) {
         Tree tree;
-        const auto bar = [](double length) { return slender_bar(length, length); };
+        const auto bar = [](double length) { return bar_along_x(length, length); };
         const Bar crank = add_bar(tree, "crank", Tree::base(), crank_length, bar(crank_length), role);
         const Bar coupler = add_bar(tree, "coupler", crank.end, coupler_length, bar(coupler_length));
         const FrameId ground = tree.add_frame(Tree::base(), Placement::translation({ground_length, 0, 0}), "C");
@@ -103,9 +103,9 @@ struct Windows {
         for (int i = 0; i <= count; ++i) {
             const FrameId foot =
                 tree.add_frame(Tree::base(), Placement::translation({1.0 * i, 0, 0}), text("foot ", i));
-            const Bar upright = add_bar(tree, text("upright ", i), foot, 1, slender_bar(1, 1));
+            const Bar upright = add_bar(tree, text("upright ", i), foot, 1, bar_along_x(1, 1));
             if (i > 0) loops.add_joint({text("corner ", i), kind, end, upright.end});
-            if (i < count) end = add_bar(tree, text("coupler ", i), upright.end, 1, slender_bar(1, 1)).end;
+            if (i < count) end = add_bar(tree, text("coupler ", i), upright.end, 1, bar_along_x(1, 1)).end;
         }
         ForceSet forces;
         forces.set_gravity({0, -loop_gravity, 0});

@@ -248,8 +248,8 @@ TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in c
     // loop. A load F down at the hinge at angle t: x = 2 cos t, F = 2 k (2 cos t - 1.8) tan t ... with its sign.
     const double k = 1000, rest = 1.8;
     Tree tree;
-    const Bar left = add_bar(tree, "left", Tree::base(), 1, slender_bar(1, 1));
-    const Bar right = add_bar(tree, "right", left.end, 1, slender_bar(1, 1));
+    const Bar left = add_bar(tree, "left", Tree::base(), 1, bar_along_x(1, 1));
+    const Bar right = add_bar(tree, "right", left.end, 1, bar_along_x(1, 1));
     const Link slider = add_joint(tree, {.name = "slider",
                                          .kind = JointKind::prismatic,
                                          .axis = Vec3::UnitX(),
@@ -292,7 +292,7 @@ TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in c
 TEST_CASE("loop equilibria: a loop that cannot be closed is told", "[bad-input]") {
     // A bar of a metre, and a pin three metres away.
     Tree tree;
-    const Bar one = add_bar(tree, "one", Tree::base(), 1, slender_bar(1, 1));
+    const Bar one = add_bar(tree, "one", Tree::base(), 1, bar_along_x(1, 1));
     LoopSet far;
     far.add_joint(
         {"pin", CutKind::spherical, one.end, tree.add_frame(Tree::base(), Placement::translation({3, 0, 0}), "C")});

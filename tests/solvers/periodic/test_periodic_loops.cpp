@@ -71,7 +71,7 @@ struct ElasticDrive {
         Link guide;
     };
     static Parts parts(Tree& tree, ForceSet& forces, double mass) {
-        const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, slender_bar(1, crank_arm));
+        const Bar crank = add_bar(tree, "crank", Tree::base(), crank_arm, bar_along_x(1, crank_arm));
         const Link guide = add_joint(tree, {.name = "slider",
                                             .kind = JointKind::prismatic,
                                             .axis = Vec3::UnitX(),

@@ -155,12 +155,11 @@ void AirEvaluation::find_inductions() {
 void AirEvaluation::find_loads() {
     find_inductions();
     const std::size_t count = parts_.profile->sections();
-    scratch_.levers.resize(scratch_.sections.size());
     for (std::size_t blade = 0; blade < parts_.blades.size(); ++blade) {
         const double along = parts_.options.skew == Skew::none ? 0 : sine(blade);
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {
             SectionState& s = scratch_.sections[i];
-            s.wake = {mean_.angle, scratch_.levers[i] = s.annulus.radius / parts_.radius * along};
+            s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
         }
     }
     if (parts_.lags)
@@ -184,8 +183,11 @@ void AirEvaluation::find_lagging_air() {
 }
 
 void AirEvaluation::find_steady_air() {
-    if (parts_.options.skew != Skew::none)
+    if (parts_.options.skew != Skew::none) {
+        scratch_.levers.clear();
+        for (const SectionState& s : scratch_.sections) scratch_.levers.push_back(s.wake.lever);
         skew_inductions(scratch_.inductions, scratch_.inflows, mean_.angle, scratch_.levers);
+    }
     for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
         SectionState& s = scratch_.sections[i];
         const auto& [annulus, V_x, V_y] = scratch_.inflows[i];

@@ -1,0 +1,24 @@
+/// @file
+/// Tells the compiler of the vector versions that glibc has of these functions (libmvec; some from 2.35 on), so that
+/// loops may call them: `::sin(x[i])`. They do not set errno: sources that include this are compiled without it
+/// (-fno-math-errno, in CMakeLists.txt).
+#pragma once
+
+#include "mbs/base/vectorised.hpp"
+
+#include <cmath>
+
+#ifdef CARDAN_HAS_CLONES
+#include <features.h>
+extern "C" {
+__attribute__((__simd__("notinbranch"))) double sin(double) noexcept;
+__attribute__((__simd__("notinbranch"))) double cos(double) noexcept;
+__attribute__((__simd__("notinbranch"))) double exp(double) noexcept;
+__attribute__((__simd__("notinbranch"))) double pow(double, double) noexcept;
+#if __GLIBC_PREREQ(2, 35)
+__attribute__((__simd__("notinbranch"))) double acos(double) noexcept;
+__attribute__((__simd__("notinbranch"))) double tan(double) noexcept;
+__attribute__((__simd__("notinbranch"))) double atan2(double, double) noexcept;
+#endif
+}
+#endif
