@@ -10,7 +10,8 @@ cardan_build_packages=(
 cardan_peer_packages=(libsimbody-dev libmujoco-dev python3-xarray python3-netcdf4 python3-h5netcdf netcdf-bin)
 cardan_format_packages=(clang-format)
 cardan_reference_packages=(doxygen graphviz libjs-mathjax python3)
-cardan_check_packages=(clang clang-tidy libclang-rt-14-dev)
+cardan_clang_packages=(clang)
+cardan_check_packages=(clang-tidy libclang-rt-14-dev)
 cardan_debian_packages=(debootstrap dpkg-dev)
 
 # require_packages <package>...: installs what is missing and says which. Without apt, or without root and sudo, prints

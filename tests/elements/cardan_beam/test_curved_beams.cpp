@@ -5,6 +5,7 @@
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/elements/cardan_beam/rods.hpp"
 #include "tests/oracles/quadrature.hpp"
+#include "tests/oracles/tilted_rod.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 
@@ -184,7 +185,7 @@ TEST_CASE("curved beam: with shear flexibility the bend converges to the Cossera
             const auto error = [&](const CardanBeamOptions& options) {
                 return (loaded_tip(bend, options) - exact).norm();
             };
-            const double tilted = (exact_tip(limit_of_elements(bend.rod(), delta)) - exact).norm();
+            const double tilted = (exact_tip(oracles::limit_of_elements(bend.rod(), delta)) - exact).norm();
             const double n32 = error(chords(32, CurvedFlexibility::chord, delta)),
                          n64 = error(chords(64, CurvedFlexibility::chord, delta));
             CAPTURE(softer, delta, tilted, n32, n64, error(plain_springs(64, delta)));
@@ -197,7 +198,7 @@ TEST_CASE("curved beam: with shear flexibility the bend converges to the Cossera
 TEST_CASE("curved beam: plain springs converge to a rod whose joints are tilted by the shear", "[analytic][discrete]") {
     const Bend bend;
     for (const double delta : {sixth, delta_gauss}) {
-        const Vec3 limit = exact_tip(limit_of_elements(bend.rod(), delta));
+        const Vec3 limit = exact_tip(oracles::limit_of_elements(bend.rod(), delta));
         std::vector<Vec3> tip;
         for (int n : {16, 32, 64}) tip.push_back(loaded_tip(bend, plain_springs(n, delta)));
         CAPTURE(delta, limit);
@@ -207,7 +208,7 @@ TEST_CASE("curved beam: plain springs converge to a rod whose joints are tilted 
         CHECK(max_abs((4 * tip[2] - tip[1]) / 3 - limit) < 5e-6);
     }
     // 256 elements, another implementation: as far from the limit as order 2 says. The Cosserat rod ends 2e-3 away.
-    const Vec3 many(47.14961, 15.68269, 53.47594), limit = exact_tip(limit_of_elements(bend.rod(), sixth));
+    const Vec3 many(47.14961, 15.68269, 53.47594), limit = exact_tip(oracles::limit_of_elements(bend.rod(), sixth));
     CHECK(max_abs(many - limit) < 4e-5);
     CHECK((exact_tip(bend.rod()) - limit).norm() == Approx(2.1e-3).epsilon(0.02));
 }
@@ -222,7 +223,7 @@ TEST_CASE("curved beam: the distance of that rod from the Cosserat rod is propor
     };
     const auto of_limit = [](double GA, double GJ, const Vec3& force) {
         const Bend soft{.GA = GA, .GJ = GJ};
-        return Vec3(exact_tip(limit_of_elements(soft.rod(), sixth), force) - exact_tip(soft.rod(), force));
+        return Vec3(exact_tip(oracles::limit_of_elements(soft.rod(), sixth), force) - exact_tip(soft.rod(), force));
     };
     // Not a matter of torsion alone: a torsionally rigid rod has it too, from bending about z.
     const double GA = Bend{}.GA;
