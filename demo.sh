@@ -6,12 +6,11 @@ usage() {
     cat <<'TEXT'
 usage: ./demo.sh [--help]
 
-Builds the library and two programs (release; with clang where it is installed, which takes half the time, in build/clang,
-else with GCC in build/release), computes the Campbell diagram of the 600 kW turbine and
-simulates its emergency stop. Files go to out/ (wt600_campbell.h5, .csv, .svg, .png and the mode shapes;
-wt600_emergency_stop.h5, .svg, .png and the pictures of energies and spectra). Missing Debian packages are installed
-(root or passwordless sudo); otherwise the command that installs them is printed. CARDAN_SKIP_PACKAGES=1 leaves out the
-check.
+Builds the library and two programs (with clang where it is installed, in build/clang, which takes half the time, else with
+GCC in build/release), computes the Campbell diagram of the 600 kW turbine and simulates its emergency stop. Files go to
+out/ (wt600_campbell.h5, .csv, .svg, .png and the mode shapes; wt600_emergency_stop.h5, .svg, .png and the pictures of
+energies and spectra). Missing Debian packages are installed (root or passwordless sudo); otherwise the command that
+installs them is printed. CARDAN_SKIP_PACKAGES=1 leaves out the check.
 TEXT
 }
 

@@ -74,9 +74,9 @@ check_format() {
     clang-format --dry-run --Werror "${files[@]}" && echo "${#files[@]} files are formatted"
 }
 
-# The preset of the release build.
-release=clang
-if ((full)); then release=release; fi
+# Of the release build.
+preset=clang
+if ((full)); then preset=release; fi
 
 build() { # <preset> [options of cmake]
     cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" --parallel "$jobs"
@@ -86,7 +86,7 @@ build() { # <preset> [options of cmake]
 check_package() {
     local prefix="$PWD/build/packaging/prefix" consumer="$PWD/build/packaging/consumer"
     rm -rf build/packaging &&
-        cmake --install "build/$release" --prefix "$prefix" >/dev/null &&
+        cmake --install "build/$preset" --prefix "$prefix" >/dev/null &&
         cmake -S tests/packaging -B "$consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" &&
         cmake --build "$consumer" --parallel "$jobs" &&
         (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
@@ -113,9 +113,9 @@ if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_p
 
 step "Packages" require_packages "${packages[@]}"
 step "Format" check_format
-step "Build, preset $release" build "$release" -D CARDAN_BUILD_STUDIES="$( ((full)) && echo ON || echo OFF)"
+step "Build, preset $preset" build "$preset" -D CARDAN_BUILD_STUDIES="$( ((full)) && echo ON || echo OFF)"
 step "Installed package" check_package
-step "Tests, preset $release" ctest --preset "$release" --parallel "$jobs"
+step "Tests, preset $preset" ctest --preset "$preset" --parallel "$jobs"
 if ((full)); then
     step "Headers, each by itself" check_headers
     step "Reference" cmake --build --preset release --target reference

@@ -1,5 +1,7 @@
 #include "solvers/campbell/detail/state_vibrations.hpp"
 
+#include "solvers/campbell/detail/floquet_point.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
