@@ -14,19 +14,21 @@ namespace {
 
 constexpr int at_once = 8;
 constexpr double least_angle = 1e-6;                           // rad, from where sine or cosine vanish
-constexpr double no_loss = 40;                                 // exponent from which Prandtl's factor is 1 at any angle
+constexpr double no_loss = 40;                                 // over sin(phi): from there on Prandtl's factor is 1
 constexpr double least_factor = 1e-4, glauert_from = 2.0 / 3;  // as in Balance
-constexpr double usual_share = 2.0 / 3;                        // of the wind that is left
+constexpr double least_share = 0.1;                            // of the wind that is left, to begin with
 constexpr int most_steps = 16;
+constexpr double last_step = 1e-8, last_but_one = 3e-6;  // of phi; the error of Newton's method is squared by a step
 
 using Lanes = double[at_once];
 
 // Sections side by side: what is given, and what an evaluation at the angles phi finds.
 struct alignas(64) Group {
-    Lanes V_x, V_y, angle, solidity, tip, hub;
+    Lanes V_x, V_y, angle, tip, hub, chords, radius;
+    Lanes solidity;
     Lanes phi;
     Lanes s, c, attack, decay;
-    Lanes lift, drag, lift_slope, drag_slope;
+    Lanes lift, drag, lift_slope, drag_slope, room;
     Lanes F, F_slope;
     Lanes k, k_slope, turn, turn_slope, along, along_slope;  // along: 1 / (1 - a)
     Lanes step;
@@ -37,10 +39,16 @@ struct Terms {
     double axial_drag, tangential_drag, rotation;
 };
 
-// An angle near atan(t), to begin with.
-CARDAN_VECTORISED void guess_angles(Group* __restrict g, double share) {
+// The inflow that lift along its line and momentum agree on, for small angles without losses, drag and rotation:
+//
+//     phi (x - phi) = sigma (slope (phi - angle) + offset) / 4,    x = V_x / V_y.
+CARDAN_VECTORISED void guess_angles(Group* __restrict g) {
     for (int i = 0; i < at_once; ++i) {
-        const double t = share * g->V_x[i] / g->V_y[i], by_t = 1 / t;
+        g->solidity[i] = g->chords[i] / (2 * pi * g->radius[i]);
+        const double x = g->V_x[i] / g->V_y[i], part = g->solidity[i] / 4, p = (x - part * g->lift_slope[i]) / 2,
+                     source = part * (g->lift_slope[i] * g->angle[i] - g->lift[i]),
+                     t = std::max(p + std::sqrt(std::max(p * p + source, 0.0)), least_share * x), by_t = 1 / t;
+        // An angle near atan(t).
         g->phi[i] = t < 1 ? t / (1 + 0.28 * t * t) : pi / 2 - by_t / (1 + 0.28 * by_t * by_t);
     }
 }
@@ -61,7 +69,8 @@ CARDAN_VECTORISED void add_loss(Group* __restrict g, const double* __restrict ex
     for (int i = 0; i < at_once; ++i) g->decay[i] = ::exp(-exponent[i] / g->s[i]);
     for (int i = 0; i < at_once; ++i) {
         constexpr double unit = 2 / pi;
-        const double e = g->decay[i], loss = unit * ::acos(e),
+        const bool counts = exponent[i] < no_loss * g->s[i];
+        const double e = g->decay[i], of_e = unit * ::acos(e), loss = counts ? of_e : 1.0,
                      slope = -unit * e * exponent[i] * g->c[i] / (g->s[i] * g->s[i] * std::sqrt((1 - e) * (1 + e)));
         g->F_slope[i] = g->F_slope[i] * loss + g->F[i] * slope;
         g->F[i] *= loss;
@@ -133,20 +142,16 @@ public:
     void solve(std::span<const SectionInflow> sections, std::span<Induction> out) {
         count_ = static_cast<int>(sections.size());
         for (int i = 0; i < at_once; ++i) load(i, sections[static_cast<std::size_t>(std::min(i, count_ - 1))]);
-        has_tip_ = std::ranges::any_of(g_.tip, [](double x) { return x < no_loss; });
-        has_hub_ = std::ranges::any_of(g_.hub, [](double x) { return x < no_loss; });
-        guess_angles(&g_, share_);
+        guess_angles(&g_);
         for (int step = 0; step < most_steps; ++step) {
             evaluate();
             if (move()) break;
         }
         for (int i = 0; i < count_; ++i) {
             const SectionInflow& own = sections[static_cast<std::size_t>(i)];
-            Induction& found = out[static_cast<std::size_t>(i)];
-            const bool holds = state_[i] == State::at_rest && g_.k[i] >= -1;
-            found = holds ? induction(i) : solve_induction(*own.annulus, own.V_x, own.V_y, options_);
+            out[static_cast<std::size_t>(i)] =
+                state_[i] == State::at_rest ? found_[i] : solve_induction(*own.annulus, own.V_x, own.V_y, options_);
         }
-        keep_share();
     }
 
 private:
@@ -165,23 +170,46 @@ private:
         g_.tip[i] = usual ? tip : no_loss;
         g_.hub[i] = usual ? hub : no_loss;
         g_.angle[i] = a.angle;
-        g_.solidity[i] = a.blades * a.chord / (2 * pi) / a.radius;
+        moved_[i] = g_.room[i] = 0;
+        g_.lift_slope[i] = a.polar->lift_line().slope;
+        g_.lift[i] = a.polar->lift_line().offset;
+        g_.chords[i] = a.blades * a.chord;
+        g_.radius[i] = a.radius;
     }
 
     void evaluate() {
         find_angles(&g_);
-        if (has_tip_) add_loss(&g_, g_.tip);
-        if (has_hub_) add_loss(&g_, g_.hub);
-        for (int i = 0; i < at_once; ++i) {
-            const Polar::Point p = point_of(*annulus_[i]->polar, g_.attack[i], reynolds_[i]);
-            g_.lift[i] = p.lift;
-            g_.drag[i] = p.drag;
-            g_.lift_slope[i] = p.lift_slope;
-            g_.drag_slope[i] = p.drag_slope;
-        }
+        if (is_lost(g_.tip)) add_loss(&g_, g_.tip);
+        if (is_lost(g_.hub)) add_loss(&g_, g_.hub);
+        for (int i = 0; i < count_; ++i) find_coefficients(i);
+        for (Lanes* lanes : {&g_.lift, &g_.drag, &g_.lift_slope, &g_.drag_slope, &g_.room})
+            std::fill(*lanes + count_, *lanes + at_once, (*lanes)[count_ - 1]);
         find_balance(&g_, &terms_);
         if (std::ranges::any_of(g_.k, [](double k) { return k > glauert_from; })) follow_buhl(&g_);
         find_steps(&g_);
+    }
+
+    // At most steps they are linear from where they were.
+    void find_coefficients(int i) {
+        if (std::abs(moved_[i]) < g_.room[i]) {
+            g_.lift[i] += moved_[i] * g_.lift_slope[i];
+            g_.drag[i] += moved_[i] * g_.drag_slope[i];
+            g_.room[i] -= std::abs(moved_[i]);
+            return;
+        }
+        const Polar::Point p = point_of(*annulus_[i]->polar, g_.attack[i], reynolds_[i]);
+        g_.lift[i] = p.lift;
+        g_.drag[i] = p.drag;
+        g_.lift_slope[i] = p.lift_slope;
+        g_.drag_slope[i] = p.drag_slope;
+        g_.room[i] = p.room;
+    }
+
+    // Is Prandtl's factor of these exponents anywhere below 1?
+    bool is_lost(const Lanes& exponent) const {
+        bool any = false;
+        for (int i = 0; i < at_once; ++i) any |= exponent[i] < no_loss * g_.s[i];
+        return any;
     }
 
     // As newton_root(). True: none is on its way any more.
@@ -197,20 +225,29 @@ private:
             } else if (next > least_angle && next < pi / 2 - least_angle) {
                 moved_[i] = next - phi;
                 phi = next;
-                if (std::abs(g_.step[i]) < 1e-8 * phi) state_[i] = State::at_rest;
+                if (is_last(i)) settle(i);
             } else {
                 phi = (phi + (next <= least_angle ? least_angle : pi / 2 - least_angle)) / 2;
+                g_.room[i] = 0;
             }
             done = done && state_[i] != State::moving;
         }
         return done;
     }
 
-    // For the next group, from the last section: its neighbours are much like it.
-    void keep_share() {
-        const int last = count_ - 1;
-        if (state_[last] != State::at_rest || !(g_.along[last] > 1 && g_.along[last] < 10)) return;
-        share_ = g_.s[last] * g_.V_y[last] / (g_.c[last] * g_.V_x[last]);
+    // Has the step come to the solution? Where nothing bends on its way the next one would be as the square of this
+    // one.
+    bool is_last(int i) const {
+        const double step = std::abs(g_.step[i]), phi = g_.phi[i], k = g_.k[i];
+        if (step < last_step * phi) return true;
+        const bool same_relation = (k > glauert_from) == (k + moved_[i] * g_.k_slope[i] > glauert_from);
+        return step < last_but_one * phi && step < g_.room[i] && same_relation;
+    }
+
+    // What is found does not depend on how long the others of the group take.
+    void settle(int i) {
+        state_[i] = g_.k[i] >= -1 ? State::at_rest : State::lost;
+        found_[i] = induction(i);
     }
 
     // The last step is so small that slopes take k' and 1 / (1 - a) with it.
@@ -230,13 +267,12 @@ private:
 
     Group g_{};  // first: the others fill what its alignment leaves
     const MomentumOptions& options_;
-    double share_ = usual_share;
     Terms terms_;
     const Annulus* annulus_[at_once]{};
     double reynolds_[at_once]{}, moved_[at_once]{};
     int count_ = 0;
-    bool has_tip_ = false, has_hub_ = false;
     State state_[at_once]{};
+    Induction found_[at_once]{};
 };
 
 }  // namespace

@@ -59,9 +59,8 @@ struct SectionInflow {
 };
 /// solve_induction() for each, the same but for rounding, in a third of the time: Newton's method for eight of them
 /// side by side, in the usual bracket, 0 ... pi/2. What it does not find there, and sections without a balance, are
-/// left to that function. Each search begins where the one before ended, so sections along a blade need the fewest
-/// steps; and where a section has several solutions, as one in deep stall may, which of them is found depends on its
-/// neighbours.
+/// left to that function. Each search begins from the lift at small angles and does not depend on the other sections;
+/// where a section has several solutions, as one in deep stall may, it may find another one than that function.
 /// @param out  as many; nothing is allocated
 void solve_inductions(std::span<const SectionInflow> sections, const MomentumOptions& options,
                       std::span<Induction> out);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double slack = 1e-6;  // rad, of the ends of a table
 constexpr double same = 1e-9;   // rad, of points of two tables
+constexpr double attached_angle = 0.08;
 
 void check(const std::string& here, const Polar::Table& table) {
     const std::vector<double>& angles = table.angles;
@@ -75,13 +76,14 @@ Polar::Point Polar::IndexedTable::at(double x) const {
     std::size_t i = first[cell];
     while (i + 1 < intervals.size() && x >= intervals[i + 1].from) ++i;
     const Interval& own = intervals[i];
-    const double t = x - own.from;
-    return {own.lift + own.lift_slope * t,
-            own.drag + own.drag_slope * t,
-            own.moment + own.moment_slope * t,
-            own.lift_slope,
-            own.drag_slope,
-            own.moment_slope};
+    const double t = x - own.from, end = i + 1 < intervals.size() ? intervals[i + 1].from : pi;
+    return {.lift = own.lift + own.lift_slope * t,
+            .drag = own.drag + own.drag_slope * t,
+            .moment = own.moment + own.moment_slope * t,
+            .lift_slope = own.lift_slope,
+            .drag_slope = own.drag_slope,
+            .moment_slope = own.moment_slope,
+            .room = std::min(t, end - x)};
 }
 
 Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name)) {
@@ -97,6 +99,8 @@ Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name
             throw InputError(place, "Reynolds number", table.reynolds, text("above ", least, ", finite"));
         tables_.emplace_back(std::move(table));
     }
+    const Point attached = at(attached_angle);
+    lift_line_ = {attached.lift_slope, attached.lift - attached.lift_slope * attached_angle};
 }
 
 Polar::Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,
@@ -162,7 +166,8 @@ Polar::Point Polar::between(double x, double reynolds) const {
             mean(from.moment_slope, to.moment_slope),
             by * (to.lift - from.lift),
             by * (to.drag - from.drag),
-            by * (to.moment - from.moment)};
+            by * (to.moment - from.moment),
+            std::min(from.room, to.room)};
 }
 
 }  // namespace cardan

@@ -22,6 +22,7 @@ public:
     struct Point {
         double lift = 0, drag = 0, moment = 0, lift_slope = 0, drag_slope = 0, moment_slope = 0;
         double lift_reynolds = 0, drag_reynolds = 0, moment_reynolds = 0;
+        double room = 0;  ///< rad: so far to either side all are linear in the angle
     };
 
     /// @throws InputError naming profile, table and angle unless there is a table, all have at least two points,
@@ -42,6 +43,11 @@ public:
     bool over_reynolds() const { return tables_.size() > 1; }
     std::vector<double> reynolds() const;                         ///< of the tables
     const Table& table() const { return tables_.front().table; }  ///< the first one
+    /// Lift at small angles, slope * angle + offset: of the first table at 0.08 rad, where flow is attached.
+    struct LiftLine {
+        double slope = 0, offset = 0;
+    };
+    const LiftLine& lift_line() const { return lift_line_; }
 
 private:
     static constexpr std::size_t cells = 512;
@@ -60,6 +66,7 @@ private:
 
     std::string name_;
     std::vector<IndexedTable> tables_;
+    LiftLine lift_line_;
 };
 
 }  // namespace cardan

@@ -1,6 +1,7 @@
 /// @file
 /// Tells the compiler of the vector versions that glibc has of these functions (libmvec; some from 2.35 on), so that
-/// loops may call them: `::sin(x[i])`. They do not set errno: sources that include this are compiled without it
+/// loops over arrays may call them by their global names. They do not set errno: sources that include this are compiled
+/// without it
 /// (-fno-math-errno, in CMakeLists.txt).
 #pragma once
 

@@ -1,13 +1,49 @@
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
 #include "mbs/base/elementary.hpp"
-#include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/base/vectorised.hpp"
+#include "turbines/aerodynamics/detail/packed_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace cardan::turbines {
+
+namespace {
+
+using Packed = Packed3<double>;
+
+// Places, axes and velocities of sections, and their chords' components; a vector fills a register.
+CARDAN_VECTORISED void place_blade(std::size_t count, const AirSection* __restrict sections,
+                                   const Workspace::Frame* frames, const BodyRate* rates, const double* shaft,
+                                   const double* hub, SectionState* __restrict out, double* __restrict along_x,
+                                   double* __restrict along_y) {
+    const Packed e = packed_of(shaft), h = packed_of(hub);
+    for (std::size_t i = 0; i < count; ++i) {
+        const AirSection& own = sections[i];
+        const Workspace::Frame& frame = frames[own.body];
+        const BodyRate& rate = rates[own.body];
+        const Packed arm = frame.E * packed_of(own.place.data()), place = frame.o + arm,
+                     span = frame.E * packed_of(own.span.data()), chord = frame.E * packed_of(own.chord.data()),
+                     side = cross(span, e), y = (1 / std::sqrt(dot(side, side))) * side, x = cross(y, span),
+                     velocity = packed_of(rate.origin.data()) + cross(packed_of(rate.angular.data()), arm),
+                     from_hub = place - h, radial = from_hub - dot(from_hub, e) * e;
+        const double radius = std::sqrt(dot(radial, radial));
+        SectionState& s = out[i];
+        s.place = place.vector();
+        s.span = span.vector();
+        s.x = x.vector();
+        s.y = y.vector();
+        s.velocity = velocity.vector();
+        s.radial = ((1 / radius) * radial).vector();
+        s.annulus = own.annulus;
+        s.annulus.radius = radius;
+        along_x[i] = dot(chord, x);
+        along_y[i] = dot(chord, y);
+    }
+}
+
+}  // namespace
 
 AirEvaluation::AirEvaluation(const AirParts& parts, const FieldInput& at, AirScratch& scratch)
     : parts_(parts),
@@ -25,11 +61,6 @@ AirEvaluation::AirEvaluation(const AirParts& parts, const FieldInput& at, AirScr
     find_loads();
 }
 
-std::span<const SectionState> AirEvaluation::sections(std::size_t blade) const {
-    const std::size_t count = parts_.profile->sections();
-    return std::span(scratch_.sections).subspan(blade * count, count);
-}
-
 double AirEvaluation::power(const Wrench& wrench, int body, const Vec3& place) const {
     return wrench.force.dot(motion_.velocity(body, place)) + wrench.moment.dot(motion_.angular(body));
 }
@@ -43,25 +74,11 @@ void AirEvaluation::place_sections() {
     scratch_.sections.resize(all);
     for (std::vector<Vec3>* places : {&scratch_.places, &scratch_.winds}) places->resize(all);
     for (std::vector<double>* numbers : {&scratch_.along_x, &scratch_.along_y, &scratch_.angles}) numbers->resize(all);
-    for (std::size_t i = 0; i < all; ++i) {
-        const AirSection& own = parts_.blades[i / count].sections[i % count];
-        SectionState& s = scratch_.sections[i];
-        const auto& frame = entry(kin_.workspace().frame, own.body);
-        const Mat3 R = frame.E.matrix();
-        s.place = frame.o.vector() + R * own.place;
-        s.span = R * own.span;
-        s.y = cross<double>(s.span, shaft_).normalized();
-        s.x = cross<double>(s.y, s.span);
-        s.velocity = motion_.velocity(own.body, s.place);
-        s.radial = across(s.place - hub_, shaft_);
-        s.annulus = own.annulus;
-        s.annulus.radius = s.radial.norm();
-        s.radial /= s.annulus.radius;
-        const Vec3 chord = R * own.chord;
-        scratch_.places[i] = s.place;
-        scratch_.along_x[i] = chord.dot(s.x);
-        scratch_.along_y[i] = chord.dot(s.y);
-    }
+    for (std::size_t k = 0; k < parts_.blades.size(); ++k)
+        place_blade(count, parts_.blades[k].sections.data(), kin_.workspace().frame.data(), scratch_.rates.data(),
+                    shaft_.data(), hub_.data(), scratch_.sections.data() + k * count,
+                    scratch_.along_x.data() + k * count, scratch_.along_y.data() + k * count);
+    for (std::size_t i = 0; i < all; ++i) scratch_.places[i] = scratch_.sections[i].place;
     WindAtPlaces(wind_).at(scratch_.places, scratch_.winds);
     arc_tangents(scratch_.along_x, scratch_.along_y, scratch_.angles);
     for (std::size_t i = 0; i < all; ++i) {
@@ -145,11 +162,7 @@ void AirEvaluation::find_inductions() {
             scratch_.inductions[i] = {.phi = std::atan2(scratch_.inflows[i].V_x, scratch_.inflows[i].V_y)};
         return;
     }
-    // Blade by blade, so that equal blades have the same to the last digit.
-    const std::size_t own = parts_.profile->sections();
-    for (std::size_t first = 0; first < count; first += own)
-        solve_inductions(std::span(scratch_.inflows).subspan(first, own), parts_.options.momentum,
-                         std::span(scratch_.inductions).subspan(first, own));
+    solve_inductions(scratch_.inflows, parts_.options.momentum, scratch_.inductions);
 }
 
 void AirEvaluation::find_loads() {
@@ -194,11 +207,6 @@ void AirEvaluation::find_steady_air() {
         const Induction& found = scratch_.inductions[i];
         s.air = {V_x, V_y, found, section_force(*annulus, V_x, V_y, found, wind_.density)};
     }
-}
-
-Wrench AirEvaluation::wrench(std::size_t blade, const AirPoint& point) const {
-    const SectionState& s = scratch_.sections[blade * parts_.profile->sections() + point.section];
-    return {point.length * s.force, point.length * s.moment};
 }
 
 }  // namespace cardan::turbines

@@ -88,9 +88,15 @@ class AirEvaluation {
 public:
     AirEvaluation(const AirParts& parts, const FieldInput& at, AirScratch& scratch);
 
-    std::span<const SectionState> sections(std::size_t blade) const;
+    std::span<const SectionState> sections(std::size_t blade) const {
+        const std::size_t count = parts_.profile->sections();
+        return std::span(scratch_.sections).subspan(blade * count, count);
+    }
     /// Of the point: force and moment about it.
-    Wrench wrench(std::size_t blade, const AirPoint& point) const;
+    Wrench wrench(std::size_t blade, const AirPoint& point) const {
+        const SectionState& s = sections(blade)[point.section];
+        return {point.length * s.force, point.length * s.moment};
+    }
     const Vec3& shaft() const { return shaft_; }
     const Vec3& hub() const { return hub_; }
     double speed() const;  ///< of the rotor about the shaft, rad/s

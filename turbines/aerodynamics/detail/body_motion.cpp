@@ -1,31 +1,47 @@
 #include "turbines/aerodynamics/detail/body_motion.hpp"
 
+#include "mbs/base/vectorised.hpp"
+#include "turbines/aerodynamics/detail/packed_vector.hpp"
+
 #include <algorithm>
 
 namespace cardan::turbines {
 
+namespace {
+
+using Packed = Packed3<double>;
+
 // Angular velocities and velocities of the joints' origins, from the base out. Those of the body before stay in
 // registers for the next one, which it carries as a rule.
+CARDAN_VECTORISED void find_rates(std::size_t count, const int* bodies, const Model::Link* links,
+                                  const Workspace::Frame* frames, const double* qd, BodyRate* rates) {
+    int last = -1;
+    Packed w = Packed::zero(), v = w, o = w;
+    for (std::size_t i = 0; i < count; ++i) {
+        const int k = bodies[i];
+        const Model::Link& link = links[k];
+        const Workspace::Frame& frame = frames[k];
+        if (link.parent != last) {
+            const bool on_base = link.parent < 0;
+            w = on_base ? Packed::zero() : packed_of(rates[link.parent].angular.data());
+            v = on_base ? Packed::zero() : packed_of(rates[link.parent].origin.data());
+            o = on_base ? Packed::zero() : frames[link.parent].o;
+        }
+        v += cross(w, frame.o - o);
+        (link.revolute ? w : v) += qd[k] * frame.E[2];
+        o = frame.o;
+        rates[k] = {w.vector(), v.vector()};
+        last = k;
+    }
+}
+
+}  // namespace
+
 BodyMotion::BodyMotion(const ForceInput& at, std::span<const int> bodies, std::vector<BodyRate>& rates)
     : kin_(at.kinematics), rates_(rates) {
     rates_.resize(model().links().size());
-    int last = -1;
-    Vec3 w = Vec3::Zero(), v = w, o = w;
-    for (const int k : bodies) {
-        const Model::Link& link = entry(model().links(), k);
-        const auto& frame = entry(kin_.workspace().frame, k);
-        if (link.parent != last) {
-            w = angular(link.parent);
-            o = place(link.parent, Vec3::Zero());
-            v = velocity(link.parent, o);
-        }
-        const Vec3 origin = frame.o.vector(), turn = at.qd(k) * frame.E[2].vector();
-        v += cross<double>(w, Vec3(origin - o));
-        (link.revolute ? w : v) += turn;
-        o = origin;
-        entry(rates_, k) = {w, v};
-        last = k;
-    }
+    find_rates(bodies.size(), bodies.data(), model().links().data(), kin_.workspace().frame.data(), at.qd.data(),
+               rates_.data());
 }
 
 Mat3 BodyMotion::rotation(int body) const {
