@@ -6,7 +6,7 @@ usage() {
     cat <<'TEXT'
 usage: ./demo.sh [--help]
 
-Builds the library and two programs (with clang where it is installed, in build/clang, which takes half the time, else with
+Builds the library and two programs (with clang where it is installed, in build/clang, which is quicker, else with
 GCC in build/release), computes the Campbell diagram of the 600 kW turbine and simulates its emergency stop. Files go to
 out/ (wt600_campbell.h5, .csv, .svg, .png and the mode shapes; wt600_emergency_stop.h5, .svg, .png and the pictures of
 energies and spectra). Missing Debian packages are installed (root or passwordless sudo); otherwise the command that

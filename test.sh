@@ -6,7 +6,7 @@ usage() {
     cat <<'TEXT'
 usage: ./test.sh [--full] [--keep-going] [--help]
 
-  (nothing)  format check, release build with clang, which takes three fifths of GCC's time, installed-package consumer, all
+  (nothing)  format check, release build with clang, which takes two thirds of GCC's time, installed-package consumer, all
              tests but the slow ones and those of the studies (other beams to compare with, papers, the teetered machine),
              which are not built
   --full     the same with GCC and the studies, then each header by itself, the reference, clang-tidy, clang's build and the

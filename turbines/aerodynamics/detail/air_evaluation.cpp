@@ -1,8 +1,8 @@
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
 #include "mbs/base/elementary.hpp"
+#include "mbs/base/packed.hpp"
 #include "mbs/base/vectorised.hpp"
-#include "turbines/aerodynamics/detail/packed_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +15,19 @@ using Packed = Packed3<double>;
 
 // Places, axes and velocities of sections, and their chords' components; a vector fills a register.
 CARDAN_VECTORISED void place_blade(std::size_t count, const AirSection* __restrict sections,
-                                   const Workspace::Frame* frames, const BodyRate* rates, const double* shaft,
-                                   const double* hub, SectionState* __restrict out, double* __restrict along_x,
+                                   const Workspace::Frame* frames, const BodyRate* rates, const Vec3& shaft,
+                                   const Vec3& hub, SectionState* __restrict out, double* __restrict along_x,
                                    double* __restrict along_y) {
-    const Packed e = packed_of(shaft), h = packed_of(hub);
+    const Packed e = Packed::of(shaft), h = Packed::of(hub);
     for (std::size_t i = 0; i < count; ++i) {
         const AirSection& own = sections[i];
         const Workspace::Frame& frame = frames[own.body];
         const BodyRate& rate = rates[own.body];
-        const Packed arm = frame.E * packed_of(own.place.data()), place = frame.o + arm,
-                     span = frame.E * packed_of(own.span.data()), chord = frame.E * packed_of(own.chord.data()),
+        const Packed arm = frame.E * Packed::of(own.place), place = frame.o + arm,
+                     span = frame.E * Packed::of(own.span), chord = frame.E * Packed::of(own.chord),
                      side = cross(span, e), y = (1 / std::sqrt(dot(side, side))) * side, x = cross(y, span),
-                     velocity = packed_of(rate.origin.data()) + cross(packed_of(rate.angular.data()), arm),
-                     from_hub = place - h, radial = from_hub - dot(from_hub, e) * e;
+                     velocity = Packed::of(rate.origin) + cross(Packed::of(rate.angular), arm), from_hub = place - h,
+                     radial = from_hub - dot(from_hub, e) * e;
         const double radius = std::sqrt(dot(radial, radial));
         SectionState& s = out[i];
         s.place = place.vector();
@@ -76,8 +76,8 @@ void AirEvaluation::place_sections() {
     for (std::vector<double>* numbers : {&scratch_.along_x, &scratch_.along_y, &scratch_.angles}) numbers->resize(all);
     for (std::size_t k = 0; k < parts_.blades.size(); ++k)
         place_blade(count, parts_.blades[k].sections.data(), kin_.workspace().frame.data(), scratch_.rates.data(),
-                    shaft_.data(), hub_.data(), scratch_.sections.data() + k * count,
-                    scratch_.along_x.data() + k * count, scratch_.along_y.data() + k * count);
+                    shaft_, hub_, scratch_.sections.data() + k * count, scratch_.along_x.data() + k * count,
+                    scratch_.along_y.data() + k * count);
     for (std::size_t i = 0; i < all; ++i) scratch_.places[i] = scratch_.sections[i].place;
     WindAtPlaces(wind_).at(scratch_.places, scratch_.winds);
     arc_tangents(scratch_.along_x, scratch_.along_y, scratch_.angles);

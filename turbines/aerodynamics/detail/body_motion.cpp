@@ -1,7 +1,7 @@
 #include "turbines/aerodynamics/detail/body_motion.hpp"
 
+#include "mbs/base/packed.hpp"
 #include "mbs/base/vectorised.hpp"
-#include "turbines/aerodynamics/detail/packed_vector.hpp"
 
 #include <algorithm>
 
@@ -23,8 +23,8 @@ CARDAN_VECTORISED void find_rates(std::size_t count, const int* bodies, const Mo
         const Workspace::Frame& frame = frames[k];
         if (link.parent != last) {
             const bool on_base = link.parent < 0;
-            w = on_base ? Packed::zero() : packed_of(rates[link.parent].angular.data());
-            v = on_base ? Packed::zero() : packed_of(rates[link.parent].origin.data());
+            w = on_base ? Packed::zero() : Packed::of(rates[link.parent].angular);
+            v = on_base ? Packed::zero() : Packed::of(rates[link.parent].origin);
             o = on_base ? Packed::zero() : frames[link.parent].o;
         }
         v += cross(w, frame.o - o);
