@@ -152,7 +152,7 @@ Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element,
     const Mat6 F = joint_flexibility(span, element.hinges, options.curved_flexibility);
     std::vector<int> free;
     for (ElementCoordinate kind : element.kinds) free.push_back(static_cast<int>(kind));
-    Matrix D = element.stiffness * F(free, free) * element.stiffness;
+    Matrix D = element.stiffness * Matrix(F(free, free)) * element.stiffness;
     // A coordinate without dissipation has rounding on its diagonal, relative to its stiffness.
     const double largest = *std::max_element(tau.begin(), tau.end());
     for (Eigen::Index i = 0; i < D.rows(); ++i)

@@ -63,5 +63,7 @@ namespace cardan {
 Matrix orthogonal_factor(const Matrix& A);
 /// Q of A P = Q R.
 Matrix orthogonal_factor(const Eigen::ColPivHouseholderQR<Matrix>& qr);
+/// Estimate of 1 / (|A| |A^-1|) in the norm of column sums; 0 if A is singular. Compiled once, too.
+double reciprocal_condition(const Eigen::PartialPivLU<Matrix>& lu);
 
 }  // namespace cardan

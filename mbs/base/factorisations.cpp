@@ -14,4 +14,8 @@ Matrix orthogonal_factor(const Eigen::ColPivHouseholderQR<Matrix>& qr) {
     return qr.householderQ();
 }
 
+double reciprocal_condition(const Eigen::PartialPivLU<Matrix>& lu) {
+    return lu.rcond();
+}
+
 }  // namespace cardan

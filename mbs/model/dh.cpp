@@ -1,7 +1,5 @@
 #include "mbs/model/dh.hpp"
 
-#include "mbs/base/decompositions.hpp"
-
 namespace cardan {
 
 Placement DhParameters::placement() const {
@@ -22,10 +20,11 @@ DhParameters dh_parameters(const Placement& placement) {
         dh.alpha = std::atan2(sine, R(2, 2));
         dh.gamma = std::atan2(R(0, 2), -R(1, 2));
         dh.theta0 = std::atan2(R(2, 0), R(2, 1));
-        Mat3 directions;
-        directions << Vec3::UnitZ(), rot_z(dh.gamma).col(0), R.col(2);
-        const Vec3 lengths = directions.partialPivLu().solve(p);
-        dh.b = lengths(0), dh.d = lengths(1), dh.r0 = lengths(2);
+        // p = b z_i + d n + r0 z_j; n x z_i is normal to all but z_j, with which its product is sine.
+        const Vec3 n = rot_z(dh.gamma).col(0);
+        dh.d = n.dot(p);
+        dh.r0 = cross<double>(n, Vec3::UnitZ()).dot(p) / sine;
+        dh.b = p(2) - dh.r0 * R(2, 2);
         return dh;
     }
     dh.alpha = R(2, 2) > 0 ? 0.0 : pi;

@@ -94,8 +94,9 @@ ForcedResponse forced_response(const PeriodicSystem& system, const std::function
     rows = rows.replicate(terms, 1).eval();
     columns = columns.replicate(terms, 1).eval();
     const Eigen::PartialPivLU<Matrix> lu(rows.asDiagonal() * A * columns.asDiagonal());
-    if (!(lu.rcond() > 1e-15))
-        throw NumericalError(text(in_forced_response, ": the equations are singular (reciprocal condition ", lu.rcond(),
+    const double condition = reciprocal_condition(lu);
+    if (!(condition > 1e-15))
+        throw NumericalError(text(in_forced_response, ": the equations are singular (reciprocal condition ", condition,
                                   "): an undamped natural frequency coincides with a harmonic of ", 1 / system.period(),
                                   " Hz, or nothing holds a coordinate"));
     const Vector x = columns.cwiseProduct(lu.solve(rows.cwiseProduct(b)));

@@ -217,7 +217,7 @@ bool Balance::solve(Matrix& J, Vector& r, const Vector& unit, const std::vector<
         r(row) = 0;
     }
     const Eigen::PartialPivLU<Matrix> lu(J);
-    r = lu.rcond() > 1e-14 ? Vector(lu.solve(r)) : shortest_solution(J, r);
+    r = reciprocal_condition(lu) > 1e-14 ? Vector(lu.solve(r)) : shortest_solution(J, r);
     r = unit.cwiseProduct(r).eval();
     return true;
 }
@@ -315,7 +315,7 @@ bool Balance::accelerated_steps() {
             const Index column = (k - 1) % depth, known = std::min<Index>(k, depth);
             dX.col(column) = x.reshaped() - last_x;
             dF.col(column) = f - last_f;
-            const Vector part = dF.leftCols(known).colPivHouseholderQr().solve(f);
+            const Vector part = Matrix(dF.leftCols(known)).completeOrthogonalDecomposition().solve(f);
             next -= (dX.leftCols(known) + dF.leftCols(known)) * part;
         }
         last_x = x.reshaped();

@@ -35,7 +35,7 @@ HarmonicFactors::HarmonicFactors(const Matrix& A, const Matrix& B, const std::ve
         groups_.reserve(groups.size());
         for (const std::vector<Index>& rows : groups) {
             groups_.push_back({rows, Factors(embedded(A(rows, rows), complex_ ? Matrix(B(rows, rows)) : Matrix()))});
-            if (!(groups_.back().factors.rcond() > 0)) return;
+            if (!(reciprocal_condition(groups_.back().factors) > 0)) return;
         }
         A_qs_ = A.topRightCorner(n, m);
         Matrix right = Matrix::Zero(A.rows(), complex_ ? 2 * n : n);  // c and s of P_sq, its columns side by side
@@ -59,7 +59,7 @@ HarmonicFactors::HarmonicFactors(const Matrix& A, const Matrix& B, const std::ve
         }
     }
     if (n > 0) of_coordinates_ = Factors(embedded(A_qq, B_qq));
-    rcond_ = n > 0 ? of_coordinates_.rcond() : 1;
+    rcond_ = n > 0 ? reciprocal_condition(of_coordinates_) : 1;
 }
 
 Matrix HarmonicFactors::embedded(const Matrix& A, const Matrix& B) const {

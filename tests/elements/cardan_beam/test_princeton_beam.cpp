@@ -77,10 +77,6 @@ double twist(const Tip& tip) {
     return std::atan2(tip.rotation(2, 1), tip.rotation(1, 1));  // of the section's y axis out of the horizontal
 }
 
-}  // namespace princeton_tests
-
-using namespace princeton_tests;
-
 TEST_CASE("princeton beam: tip under three weights at angles, against a geometrically exact rod", "[analytic]") {
     for (const double P : {4.448, 8.896, 13.345})
         for (const double degrees : {0.0, 30.0, 60.0, 90.0}) {
@@ -97,3 +93,5 @@ TEST_CASE("princeton beam: tip under three weights at angles, against a geometri
             if (turned_coarse > 1e-6) CHECK(turned < 0.3 * turned_coarse);
         }
 }
+
+}  // namespace princeton_tests

@@ -277,13 +277,18 @@ FrameId Assembler::add_pitch_axis(FrameId hub, int number, const BladeDescriptio
     return tree.add_frame(hub, root, text("blade ", number, " pitch axis"));
 }
 
+// Axes with x along a direction; the others do not matter to what slides along x.
+Mat3 axes_along(const Vec3& direction) {
+    const Vec3 x = direction.normalized(), y = x.unitOrthogonal();
+    return (Mat3() << x, y, cross<double>(x, y)).finished();
+}
+
 // The actuator slides on the hub; the rod closes the loop.
 BodyId Assembler::add_linkage(FrameId pitch_axis, FrameId blade_side, int number, const PitchLinkage& linkage) {
     const std::string name = text("blade ", number, " pitch ");
-    const Mat3 onto_line = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), linkage.direction).toRotationMatrix();
-    const FrameId line =
-        tree.add_frame(pitch_axis, Placement::translation(linkage.actuator_pin) * Placement::rotation(onto_line),
-                       name + "actuator line");
+    const Placement at_pin =
+        Placement::translation(linkage.actuator_pin) * Placement::rotation(axes_along(linkage.direction));
+    const FrameId line = tree.add_frame(pitch_axis, at_pin, name + "actuator line");
     const JointedFrame actuator =
         jointed(line, JointKind::prismatic, Axis::x, name + "actuator", {"pitch", number}, linkage.actuator);
     tree.weld(actuator.frame, {linkage.mass, Vec3::Zero(), Mat3::Zero()}, "pitch actuators");
