@@ -7,13 +7,13 @@
 
 namespace {
 
-std::function<int(const cardan::test::WriteCall&)> before;
+std::function<int(const cardan::test::WriteCall&)> answer;
 bool inside = false;
 
 int ask(const cardan::test::WriteCall& call) {
-    if (!before || inside) return 0;
+    if (!answer || inside) return 0;
     inside = true;
-    const int reason = before(call);
+    const int reason = answer(call);
     inside = false;
     return reason;
 }
@@ -39,11 +39,11 @@ extern "C" int ftruncate(int fd, off_t length) noexcept {
 namespace cardan::test {
 
 WriteHook::WriteHook(std::function<int(const WriteCall&)> function) {
-    before = std::move(function);
+    answer = std::move(function);
 }
 
 WriteHook::~WriteHook() {
-    before = nullptr;
+    answer = nullptr;
 }
 
 }  // namespace cardan::test
