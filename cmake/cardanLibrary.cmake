@@ -24,22 +24,32 @@ function(cardan_precompile target)
     endif()
 endfunction()
 
+# What cardan_compile_quickly() precompiles headers for.
+function(cardan_quick_headers)
+    if(TARGET cardan_quick_headers)
+        return()
+    endif()
+    set(nothing ${PROJECT_BINARY_DIR}/generated/quick_headers.cpp)
+    file(CONFIGURE OUTPUT ${nothing} CONTENT "// What the headers are precompiled for.\n")
+    add_library(cardan_quick_headers OBJECT ${nothing})
+    target_compile_options(cardan_quick_headers PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_link_libraries(cardan_quick_headers PRIVATE cardan_mbs cardan_warnings)
+    set_target_properties(cardan_quick_headers PROPERTIES CXX_EXTENSIONS OFF)
+    cardan_precompile(cardan_quick_headers)
+endfunction()
+
 # cardan_compile_quickly(<targets>...): in Release with -O1, which takes a compiler three quarters of -O3's time. For what
 # reads, writes, describes and asks: its run time is that of the kernels it calls. GCC's precompiled headers carry the level
-# they were made with, so these targets have headers of their own.
+# they were made with, so there these targets have headers of their own.
 function(cardan_compile_quickly)
-    if(NOT TARGET cardan_quick_headers)
-        set(nothing ${PROJECT_BINARY_DIR}/generated/quick_headers.cpp)
-        file(CONFIGURE OUTPUT ${nothing} CONTENT "// What the headers are precompiled for.\n")
-        add_library(cardan_quick_headers OBJECT ${nothing})
-        target_compile_options(cardan_quick_headers PRIVATE $<$<CONFIG:Release>:-O1>)
-        target_link_libraries(cardan_quick_headers PRIVATE cardan_mbs cardan_warnings)
-        set_target_properties(cardan_quick_headers PROPERTIES CXX_EXTENSIONS OFF)
-        cardan_precompile(cardan_quick_headers)
+    set(headers cardan_mbs)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        set(headers cardan_quick_headers)
+        cardan_quick_headers()
     endif()
     foreach(target IN LISTS ARGN)
         target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-        cardan_precompile(${target} FROM cardan_quick_headers)
+        cardan_precompile(${target} FROM ${headers})
     endforeach()
 endfunction()
 
