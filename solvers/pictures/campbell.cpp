@@ -65,6 +65,7 @@ public:
             plots +=
                 text(plots.empty() ? "" : ", ", n, "*", per_rev(), " with lines lc rgb '#999999' dt 3 lw 1 notitle");
         for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 2, 4, true);
+        if (any_doubtful()) plots += ", keyentry with points lc rgb '#000000' pt 6 ps 0.7 title 'name in doubt'";
         if (const Campbell* blade = options_.isolated_blade)
             for (std::size_t b = 0; b < blade->branches.size(); ++b) {
                 const Branch& branch = blade->branches[b];
@@ -112,6 +113,12 @@ private:
     }
     bool long_names() const {
         return std::any_of(branches_.begin(), branches_.end(), [](const Branch* b) { return b->name.size() > 30; });
+    }
+
+    bool any_doubtful() const {
+        return std::any_of(branches_.begin(), branches_.end(), [](const Branch* branch) {
+            return std::find(branch->doubtful.begin(), branch->doubtful.end(), true) != branch->doubtful.end();
+        });
     }
 
     // Columns: rpm, frequency, damping in %, and both again where doubtful only.

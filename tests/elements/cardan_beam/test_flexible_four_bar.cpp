@@ -178,7 +178,7 @@ TEST_CASE("closed loops: a four-bar with flexible links and a skew hinge, by a f
     }
 }
 
-TEST_CASE("closed loops: the four-bar with a hinge skew by 5 degrees in motion", "[property]") {
+TEST_CASE("closed loops: the four-bar with a hinge skew by 5 degrees in motion", "[property][slow]") {
     // At 0.6 rad/s nearly as at rest at every position; with half the elements nearly the same.
     const double skew = 5 * units::degree, speed = 0.6;
     const FourBarMachine machine(4, skew);

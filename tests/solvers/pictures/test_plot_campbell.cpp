@@ -1,0 +1,62 @@
+#include "solvers/pictures/campbell.hpp"
+#include "tests/solvers/small_rotor.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/files.hpp"
+
+#include <algorithm>
+
+using namespace cardan;
+using namespace cardan::solvers;
+using namespace cardan::testing;
+using cardan::test::bytes_of;
+using cardan::test::Folder;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Campbell without_doubt() {
+    Campbell diagram = diagram_of(small_rotor({.stiffness = {2000, 2000, 2000}, .damping = 3}), {0, 1, 2, 3});
+    for (Branch& branch : diagram.branches) std::fill(branch.doubtful.begin(), branch.doubtful.end(), false);
+    return diagram;
+}
+
+std::string drawn(const Campbell& diagram, const CampbellPlotOptions& options = {}) {
+    const Folder folder;
+    plot(diagram, folder.path / "a.svg", options);
+    return bytes_of(folder / "a.svg");
+}
+
+int count(const std::string& text, const std::string& part) {
+    int found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+const std::string hollow = "#gpPt5' transform";  // an open circle in gnuplot's SVG
+
+}  // namespace
+
+TEST_CASE("Campbell pictures: axes with units, multiples of the rotor speed, every branch by name", "[property]") {
+    const Campbell diagram = without_doubt();
+    const std::string svg = drawn(diagram, {.title = "a small_rotor"});
+    for (const char* expected :
+         {"a small_rotor", "rotor speed, rev/min", "damped frequency, Hz", "damping ratio, %", ">1P<", ">3P<", ">6P<"})
+        CHECK_THAT(svg, Contains(expected));
+    REQUIRE(diagram.branches.size() >= 3);
+    for (const Branch& branch : diagram.branches) CHECK_THAT(svg, Contains(branch.name));
+    CHECK(count(svg, "damping ratio") == 1);
+    CHECK(count(drawn(diagram, {.damping_panel = false}), "damping ratio") == 0);
+}
+
+TEST_CASE("Campbell pictures: a doubtful name is a hollow point in both panels, and the legend says what it is",
+          "[property]") {
+    Campbell diagram = without_doubt();
+    const std::string sure = drawn(diagram);
+    CHECK(sure.find("name in doubt") == std::string::npos);
+    CHECK(count(sure, hollow) == 0);
+    diagram.branches[0].doubtful[1] = diagram.branches[1].doubtful[2] = diagram.branches[1].doubtful[3] = true;
+    const std::string doubtful = drawn(diagram);
+    CHECK_THAT(doubtful, Contains(">name in doubt<"));
+    CHECK(count(doubtful, hollow) == 2 * 3 + 1);
+    CHECK(count(drawn(diagram, {.damping_panel = false}), hollow) == 3 + 1);
+}
