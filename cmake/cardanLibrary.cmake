@@ -39,8 +39,8 @@ function(cardan_quick_headers)
 endfunction()
 
 # cardan_compile_quickly(<targets>...): in Release with -O1, which takes a compiler three quarters of -O3's time. For what
-# reads, writes, describes and asks: its run time is that of the kernels it calls. GCC's precompiled headers carry the level
-# they were made with, so there these targets have headers of their own.
+# reads, writes, describes and asks, and for solvers whose run time is that of the kernels they call. GCC's precompiled
+# headers carry the level they were made with, so there these targets have headers of their own.
 function(cardan_compile_quickly)
     set(headers cardan_mbs)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
