@@ -94,7 +94,12 @@ check_package() {
         "$prefix/bin/cardan-wt600-campbell" --help >/dev/null
 }
 
-check_headers() { cmake --build build/packaging/consumer --target consumer_headers --parallel "$jobs"; }
+# With clang, which reads Eigen in less time.
+check_headers() {
+    cmake -S tests/packaging -B build/packaging/headers -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
+        -DCMAKE_CXX_COMPILER=clang++ &&
+        cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
+}
 
 check_tidy() {
     # The library and the programs, as joined sources: their headers are read once for two dozen sources. Hence the check of

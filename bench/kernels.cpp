@@ -75,7 +75,7 @@ void forward_dynamics_articulated_body(benchmark::State& state) {
 void inverse_dynamics_partial_derivatives(benchmark::State& state) {
     Fixture f(state);
     for (auto _ : state) {
-        inverse_dynamics_derivatives<double>(f.kin(), f.qd, f.qdd, f.A, f.B);
+        inverse_dynamics_derivatives(f.kin(), f.qd, f.qdd, f.A, f.B);
         benchmark::ClobberMemory();
     }
 }

@@ -61,7 +61,7 @@ struct Pair {
             case 2:
                 return metric<double>(kin(), A);
             case 3:
-                return inverse_dynamics_derivatives<double>(kin(), qd, qdd, A, B);
+                return inverse_dynamics_derivatives(kin(), qd, qdd, A, B);
             default:
                 return christoffel_first_kind(kin(), *gamma);
         }
@@ -130,7 +130,7 @@ void at_fixed_depth(benchmark::State& state, const Tree& tree, std::size_t quant
     BranchMatrix A(pair.model), B(pair.model);  // full matrices have n^2 zeros
     const auto ours = [&] {
         if (quantity == 2) return metric<double>(pair.kin(), A);
-        if (quantity == 3) return inverse_dynamics_derivatives<double>(pair.kin(), pair.qd, pair.qdd, A, B);
+        if (quantity == 3) return inverse_dynamics_derivatives(pair.kin(), pair.qd, pair.qdd, A, B);
         pair.ours();
     };
     const int calls = bench::calls_per_turn(ours);

@@ -11,12 +11,12 @@ namespace cardan {
 
 namespace {
 
-template <class S>
-CARDAN_INLINE void multiply_branches(int n, const Model::Link* links, const std::size_t* offset, const Packed3<S>* rows,
-                                     const Packed3<S>* columns, const S* x, S* y) {
+CARDAN_VECTORISED void multiply_branches(int n, const Model::Link* links, const std::size_t* offset,
+                                         const Packed3<double>* rows, const Packed3<double>* columns, const double* x,
+                                         double* y) {
     for (int m = 0; m < n; ++m) {
-        const S *const row = numbers(rows + offset[m]), *const column = numbers(columns + offset[m]);
-        S sum = row[links[m].depth - 1] * x[m];
+        const double *const row = numbers(rows + offset[m]), *const column = numbers(columns + offset[m]);
+        double sum = row[links[m].depth - 1] * x[m];
         for_ancestors(links, m, [&](int first, int position, int count) CARDAN_INLINE_LAMBDA {
             sum += dot(row + position, x + first, count);
             add_multiple(count, x[m], column + position, y + first);
@@ -25,59 +25,44 @@ CARDAN_INLINE void multiply_branches(int n, const Model::Link* links, const std:
     }
 }
 
-CARDAN_VECTORISED void multiply_all(int n, const Model::Link* links, const std::size_t* offset,
-                                    const Packed3<double>* rows, const Packed3<double>* columns, const double* x,
-                                    double* y) {
-    multiply_branches<double>(n, links, offset, rows, columns, x, y);
-}
-void multiply_all(int n, const Model::Link* links, const std::size_t* offset, const Packed3<Complex>* rows,
-                  const Packed3<Complex>* columns, const Complex* x, Complex* y) {
-    multiply_branches<Complex>(n, links, offset, rows, columns, x, y);
-}
-
 }  // namespace
 
-template <class S>
-BranchMatrixT<S>::BranchMatrixT(const Model& model) : model_(&model) {
+BranchMatrix::BranchMatrix(const Model& model) : model_(&model) {
     std::size_t blocks = 0;
     for (const Model::Link& link : model.links()) {
         offset_.push_back(blocks);
-        blocks += static_cast<std::size_t>(PathTwists<S>::blocks(link.depth));
+        blocks += static_cast<std::size_t>(PathTwists<double>::blocks(link.depth));
     }
     with_memory(
         [&] {
             return text("a matrix on the branches of ", model.size(), " bodies (",
-                        2e-9 * static_cast<double>(blocks * sizeof(Packed3<S>)), " GB)");
+                        2e-9 * static_cast<double>(blocks * sizeof(Packed3<double>)), " GB)");
         },
         [&] {
-            rows_.assign(blocks, Packed3<S>::zero());
-            columns_.assign(blocks, Packed3<S>::zero());
+            rows_.assign(blocks, Packed3<double>::zero());
+            columns_.assign(blocks, Packed3<double>::zero());
         });
 }
 
-template <class S>
-std::span<const S> BranchMatrixT<S>::row(int m) const {
+std::span<const double> BranchMatrix::row(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
     return {numbers(rows_.data() + entry(offset_, m)), depth};
 }
 
-template <class S>
-std::span<const S> BranchMatrixT<S>::column(int m) const {
+std::span<const double> BranchMatrix::column(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
     return {numbers(columns_.data() + entry(offset_, m)), depth - 1};
 }
 
-template <class S>
-S BranchMatrixT<S>::operator()(int a, int b) const {
+double BranchMatrix::operator()(int a, int b) const {
     require_index("branch matrix", "row", a, size());
     require_index("branch matrix", "column", b, size());
     if (model_->precedes(b, a)) return entry(row(a), model_->body(b).depth - 1);
     if (model_->precedes(a, b)) return entry(column(b), model_->body(a).depth - 1);
-    return S(0);
+    return 0;
 }
 
-template <class S>
-void BranchMatrixT<S>::add(int a, int b, const S& value) {
+void BranchMatrix::add(int a, int b, double value) {
     require_index("branch matrix", "row", a, size());
     const bool left = model_->precedes(b, a);
     if (!left && !model_->precedes(a, b))
@@ -87,44 +72,41 @@ void BranchMatrixT<S>::add(int a, int b, const S& value) {
     (left ? rows_ : columns_)[first + static_cast<std::size_t>(position / 4)].lanes[position % 4] += value;
 }
 
-template <class S>
-void BranchMatrixT<S>::write(Eigen::Ref<MatrixT<S>> A) const {
+void BranchMatrix::write(MatrixOut A) const {
     const int n = size();
     require_size("branch matrix", "A", A, n, n);
     for (int m = 0; m < n; ++m)
         write_branch(model_->links().data(), n, m, row(m).data(), column(m).data(), A.data(), A.outerStride());
 }
 
-template <class S>
-void BranchMatrixT<S>::multiply(const Eigen::Ref<const VectorT<S>>& x, Eigen::Ref<VectorT<S>> y) const {
+void BranchMatrix::multiply(VectorIn x, VectorOut y) const {
     require_size("branch matrix", "x", x, size());
     require_size("branch matrix", "y", y, size());
-    multiply_all(size(), model_->links().data(), offset_.data(), rows_.data(), columns_.data(), x.data(), y.data());
+    multiply_branches(size(), model_->links().data(), offset_.data(), rows_.data(), columns_.data(), x.data(),
+                      y.data());
 }
 
-template <class S>
-bool BranchMatrixT<S>::add(const Eigen::Ref<const MatrixT<S>>& A) {
+bool BranchMatrix::add(MatrixIn A) {
     require_size("branch matrix", "A", A, size(), size());
     Eigen::Index on_branches = 0;
     for (int m = 0; m < size(); ++m) {
-        S* const own_row = numbers(rows_.data() + entry(offset_, m));
-        S* const own_column = numbers(columns_.data() + entry(offset_, m));
+        double* const own_row = numbers(rows_.data() + entry(offset_, m));
+        double* const own_column = numbers(columns_.data() + entry(offset_, m));
         for (int a = m; a >= 0; a = own_parent(*model_, a)) {
             const int position = entry(model_->links(), a).depth - 1;
             own_row[position] += A(m, a);
-            on_branches += A(m, a) != S(0);
+            on_branches += A(m, a) != 0;
             if (a == m) continue;
             own_column[position] += A(a, m);
-            on_branches += A(a, m) != S(0);
+            on_branches += A(a, m) != 0;
         }
     }
-    return on_branches == (A.array() != S(0)).count();
+    return on_branches == (A.array() != 0).count();
 }
 
-template <class S>
-void BranchMatrixT<S>::set_sum(const S& a, const BranchMatrixT& A, const S& b, const BranchMatrixT& B, const S& c,
-                               const BranchMatrixT& C) {
-    for (const BranchMatrixT* m : {&A, &B, &C})
+void BranchMatrix::set_sum(double a, const BranchMatrix& A, double b, const BranchMatrix& B, double c,
+                           const BranchMatrix& C) {
+    for (const BranchMatrix* m : {&A, &B, &C})
         require_model("sum of branch matrices", "matrix", m->model_->serial(), model_->serial());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         rows_[i] = a * A.rows_[i] + b * B.rows_[i] + c * C.rows_[i];
@@ -132,21 +114,17 @@ void BranchMatrixT<S>::set_sum(const S& a, const BranchMatrixT& A, const S& b, c
     }
 }
 
-template <class S>
-void BranchMatrixT<S>::set_unit(int m) {
+void BranchMatrix::set_unit(int m) {
     require_index("branch matrix", "row", m, size());
-    const auto clear = [](S* first, int count) { std::fill(first, first + count, S(0)); };
+    const auto clear = [](double* first, int count) { std::fill(first, first + count, 0.0); };
     const int position = model_->body(m).depth - 1;
     clear(numbers(rows_.data() + entry(offset_, m)), position);
     clear(numbers(columns_.data() + entry(offset_, m)), position);
-    rows_[entry(offset_, m) + static_cast<std::size_t>(position / 4)].lanes[position % 4] = S(1);
+    rows_[entry(offset_, m) + static_cast<std::size_t>(position / 4)].lanes[position % 4] = 1;
     for (int k = m + 1; k < entry(model_->links(), m).subtree_end; ++k) {
         const std::size_t block = entry(offset_, k) + static_cast<std::size_t>(position / 4);
-        rows_[block].lanes[position % 4] = columns_[block].lanes[position % 4] = S(0);
+        rows_[block].lanes[position % 4] = columns_[block].lanes[position % 4] = 0;
     }
 }
-
-template class BranchMatrixT<double>;
-template class BranchMatrixT<Complex>;
 
 }  // namespace cardan

@@ -15,49 +15,45 @@ class Model;
 /// those of the recursions are. Stored by branches: for every coordinate m its row up to and including the diagonal,
 /// and its column above the diagonal. Memory and the cost of filling it grow like n d, where d is the depth of the
 /// tree. Functions throw InputError for indices out of range and arguments of the wrong size.
-template <class S>
-class BranchMatrixT {
+class BranchMatrix {
 public:
     /// @throws MemoryError
-    explicit BranchMatrixT(const Model& model);
-    explicit BranchMatrixT(Model&&) = delete;  // the model must live longer
+    explicit BranchMatrix(const Model& model);
+    explicit BranchMatrix(Model&&) = delete;  // the model must live longer
 
     int size() const { return static_cast<int>(offset_.size()); }
     const Model& model() const { return *model_; }
     /// A_ab, any indices.
-    S operator()(int a, int b) const;
+    double operator()(int a, int b) const;
     /// A_ma for a on the path from the base to m, m itself last: entry depth(a) - 1.
-    std::span<const S> row(int m) const;
+    std::span<const double> row(int m) const;
     /// A_am for a on the path from the base to m, m itself left out.
-    std::span<const S> column(int m) const;
+    std::span<const double> column(int m) const;
     /// The full matrix, zeros included. @param A  out, n x n, overwritten
-    void write(Eigen::Ref<MatrixT<S>> A) const;
+    void write(MatrixOut A) const;
     /// y = A x. @param y  out, size n; must not alias x. Cost O(n d), no allocation.
-    void multiply(const Eigen::Ref<const VectorT<S>>& x, Eigen::Ref<VectorT<S>> y) const;
+    void multiply(VectorIn x, VectorOut y) const;
 
     /// Raw storage for the kernels: rows and columns by coordinate, those of m starting at offset()[m].
-    Packed3<S>* rows() { return rows_.data(); }
-    Packed3<S>* columns() { return columns_.data(); }
-    const Packed3<S>* rows() const { return rows_.data(); }
-    const Packed3<S>* columns() const { return columns_.data(); }
+    Packed3<double>* rows() { return rows_.data(); }
+    Packed3<double>* columns() { return columns_.data(); }
+    const Packed3<double>* rows() const { return rows_.data(); }
+    const Packed3<double>* columns() const { return columns_.data(); }
     const std::size_t* offset() const { return offset_.data(); }
     /// Adds to A_ab; a and b must lie on one path.
-    void add(int a, int b, const S& value);
+    void add(int a, int b, double value);
     /// Adds what a full matrix has on the branches.
     /// @return whether that is all of it: false if it has other entries that are not zero.  Cost O(n^2), no allocation
-    bool add(const Eigen::Ref<const MatrixT<S>>& A);
+    bool add(MatrixIn A);
     /// a A + b B + c C, all of one model; this may be one of them.
-    void set_sum(const S& a, const BranchMatrixT& A, const S& b, const BranchMatrixT& B, const S& c,
-                 const BranchMatrixT& C);
+    void set_sum(double a, const BranchMatrix& A, double b, const BranchMatrix& B, double c, const BranchMatrix& C);
     /// Row and column m of the unit matrix.
     void set_unit(int m);
 
 private:
     const Model* model_;
     std::vector<std::size_t> offset_;
-    std::vector<Packed3<S>> rows_, columns_;
+    std::vector<Packed3<double>> rows_, columns_;
 };
-
-using BranchMatrix = BranchMatrixT<double>;
 
 }  // namespace cardan

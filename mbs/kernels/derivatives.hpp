@@ -25,12 +25,10 @@ namespace cardan {
 /// @param dtau_dq, dtau_dqd  out, n x n, overwritten; two different matrices
 ///
 /// Cost O(n d) and n^2 zeros, no allocation.
-template <class S>
-void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, MatrixOutT<S> dtau_dq,
-                                  MatrixOutT<S> dtau_dqd);
+void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn qdd, MatrixOut dtau_dq,
+                                  MatrixOut dtau_dqd);
 /// As above, without the zeros between branches.
-template <class S>
-void inverse_dynamics_derivatives(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd,
-                                  BranchMatrixT<S>& dtau_dq, BranchMatrixT<S>& dtau_dqd);
+void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn qdd, BranchMatrix& dtau_dq,
+                                  BranchMatrix& dtau_dqd);
 
 }  // namespace cardan

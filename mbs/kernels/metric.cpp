@@ -58,13 +58,11 @@ CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Fra
     fill<double>(n, links, frame, composite, path, g);
 }
 CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
-                           const Workspace::Inertia* composite, const PathTwists<double>& path,
-                           const BranchSink<double>& g) {
+                           const Workspace::Inertia* composite, const PathTwists<double>& path, const BranchSink& g) {
     fill<double>(n, links, frame, composite, path, g);
 }
-template <class Sink>
 void run(int n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
-         const WorkspaceT<Complex>::Inertia* composite, const PathTwists<Complex>& path, const Sink& g) {
+         const WorkspaceT<Complex>::Inertia* composite, const PathTwists<Complex>& path, const DenseSink<Complex>& g) {
     fill<Complex>(n, links, frame, composite, path, g);
 }
 
@@ -82,17 +80,16 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     add_armatures<S>(model, g);
 }
 
-template <class S>
-void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g) {
+void metric(const Kinematics& kin, BranchMatrix& g) {
     const Model& model = kin.model();
     require_model("metric", "branch matrix", g.model().serial(), model.serial());
     composites(kin);
-    WorkspaceT<S>& ws = kin.workspace();
+    Workspace& ws = kin.workspace();
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-        PathTwists<S>(ws.branch.data(), ws.stride), BranchSink<S>{g.rows(), g.columns(), g.offset()});
+        PathTwists<double>(ws.branch.data(), ws.stride), BranchSink{g.rows(), g.columns(), g.offset()});
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, sa] : armature.spin)
-            for (const auto& [b, sb] : armature.spin) g.add(a, b, S(armature.inertia * (sa * sb)));
+            for (const auto& [b, sb] : armature.spin) g.add(a, b, armature.inertia * (sa * sb));
 }
 
 std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale) {
@@ -138,10 +135,9 @@ double kinetic_energy(const Kinematics& kin, VectorIn qd) {
     return twice / 2;
 }
 
-#define CARDAN_INSTANTIATE(S)                                      \
-    template void add_armatures<S>(const Model&, MatrixOutT<S>);   \
-    template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>); \
-    template void metric<S>(const KinematicsT<S>&, BranchMatrixT<S>&);
+#define CARDAN_INSTANTIATE(S)                                    \
+    template void add_armatures<S>(const Model&, MatrixOutT<S>); \
+    template void metric<S>(const KinematicsT<S>&, MatrixOutT<S>);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)
 #undef CARDAN_INSTANTIATE

@@ -21,8 +21,7 @@ namespace cardan {
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
 /// As above, without the zeros between branches, which in large trees cost more than the entries.
-template <class S>
-void metric(const KinematicsT<S>& kin, BranchMatrixT<S>& g);
+void metric(const Kinematics& kin, BranchMatrix& g);
 
 /// Adds J s s^T of every armature to a metric.
 template <class S>

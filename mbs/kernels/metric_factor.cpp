@@ -174,7 +174,7 @@ double MetricFactor::operator()(int a, int b) const {
 
 PivotStatus MetricFactor::factorise(const Kinematics& kin) {
     require_model("metric factor", "kinematics", kin.model().serial(), model_->serial());
-    metric<double>(kin, g_);
+    metric(kin, g_);
     return factorise(g_);
 }
 

@@ -131,13 +131,12 @@ struct DenseSink {
 };
 
 /// Copies them into the memory of a BranchMatrix.
-template <class S>
 struct BranchSink {
-    Packed3<S>*rows, *columns;
+    Packed3<double>*rows, *columns;
     const std::size_t* offset;
 
-    CARDAN_INLINE Packed3<S>* row_of(int m) const { return rows + offset[m]; }
-    CARDAN_INLINE Packed3<S>* column_of(int m) const { return columns + offset[m]; }
+    CARDAN_INLINE Packed3<double>* row_of(int m) const { return rows + offset[m]; }
+    CARDAN_INLINE Packed3<double>* column_of(int m) const { return columns + offset[m]; }
     CARDAN_INLINE void written(int) const {}
 };
 

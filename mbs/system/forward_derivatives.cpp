@@ -19,11 +19,11 @@ ForwardDynamicsDerivatives::ForwardDynamicsDerivatives(const Model& model, std::
 PivotStatus ForwardDynamicsDerivatives::compute(const Kinematics& kin, VectorIn qd, VectorIn qdd,
                                                 const ForceDerivatives* forces) {
     require_model("derivatives of the forward dynamics", "kinematics", kin.model().serial(), factor_.model().serial());
-    metric<double>(kin, g_);
+    metric(kin, g_);
     const PivotStatus status = factor_.factorise(g_);
     if (!status) return status;
     // residual = d(tau - Q)/dx at fixed qdd; ForceDerivatives hold -dQ/dx. (Armatures depend on qdd alone.)
-    inverse_dynamics_derivatives<double>(kin, qd, qdd, residual_q_, residual_qd_);
+    inverse_dynamics_derivatives(kin, qd, qdd, residual_q_, residual_qd_);
     if (forces != nullptr) {
         const Eigen::Index n = kin.model().size();
         for (const Matrix* m : {&forces->elastic, &forces->gravity, &forces->loads, &forces->damping})

@@ -71,7 +71,7 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
     for (Matrix* m : {&out.mass, &out.gyroscopic, &out.inertial, &out.elastic, &out.gravity, &out.loads, &out.damping})
         m->resize(n, n);
     metric(kin, out.mass);
-    inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, out.inertial, out.gyroscopic);
+    inverse_dynamics_derivatives(kin, at.qd, at.qdd, out.inertial, out.gyroscopic);
     if (system_.forces.has_states()) {
         out.states = system_.forces.states();
         if (at.s.size() == 0) out.at.s = out.states.initial();

@@ -267,8 +267,8 @@ void EquationsOfMotion::differentiate() {
         forces_->derivatives(input(), forces, state_derivatives_);
     else
         forces_->derivatives(kin, time_, q_, qd_, forces);
-    metric<double>(kin, g_);
-    inverse_dynamics_derivatives<double>(kin, qd_, qdd_, tau_q_, tau_qd_);
+    metric(kin, g_);
+    inverse_dynamics_derivatives(kin, qd_, qdd_, tau_q_, tau_qd_);
     stiffness_ = tau_q_;
     damping_ = tau_qd_;
     on_branches_ = damping_.add(forces.damping);

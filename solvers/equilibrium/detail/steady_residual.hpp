@@ -91,7 +91,7 @@ public:
     /// @param J  out, over the unknowns, column-major
     void jacobian(double* J) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
-        inverse_dynamics_derivatives<double>(kin, at.qd, at.qdd, by_q_, by_qd_);
+        inverse_dynamics_derivatives(kin, at.qd, at.qdd, by_q_, by_qd_);
         if (system_.forces.has_states())
             system_.forces.derivatives({at.time, at.q, at.qd, kin, at.s, at.u}, forces_, by_states_);
         else

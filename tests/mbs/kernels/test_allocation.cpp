@@ -34,14 +34,14 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
         const Kinematics kin = kinematics(model, q, workspace);
         CHECK(allocations([&] { frame_jacobian<double>(kin, tip, J); }) == 0);
         CHECK(allocations([&] { metric(kin, g); }) == 0);
-        CHECK(allocations([&] { metric<double>(kin, packed_g); }) == 0);
-        CHECK(allocations([&] { inverse_dynamics_derivatives<double>(kin, qd, qdd, packed_q, packed_qd); }) == 0);
+        CHECK(allocations([&] { metric(kin, packed_g); }) == 0);
+        CHECK(allocations([&] { inverse_dynamics_derivatives(kin, qd, qdd, packed_q, packed_qd); }) == 0);
         CHECK(allocations([&] { christoffel_first_kind(kin, gamma); }) == 0);
         CHECK(allocations([&] { gamma.contract(qd, h); }) == 0);
         CHECK(allocations([&] { gamma.coriolis(qd, g); }) == 0);
         CHECK(allocations([&] { inertial_forces<double>(kin, qd, h); }) == 0);
         CHECK(allocations([&] { inverse_dynamics<double>(kin, qd, qdd, tau); }) == 0);
-        CHECK(allocations([&] { inverse_dynamics_derivatives<double>(kin, qd, qdd, by_q, by_qd); }) == 0);
+        CHECK(allocations([&] { inverse_dynamics_derivatives(kin, qd, qdd, by_q, by_qd); }) == 0);
         CHECK(allocations([&] { forward.solve(kin, qd, Q, qdd, actuator); }) == 0);
         CHECK(allocations([&] { system.forces.generalised_forces(kin, 0, q, qd, tau); }) == 0);
         CHECK(allocations([&] { system.forces.derivatives(kin, 0, q, qd, derivatives); }) == 0);

@@ -32,8 +32,8 @@ TEST_CASE("branch factors: the solution of the tangents of random trees has no r
         Workspace workspace(model);
         const Kinematics kin = kinematics(model, q, workspace);
         BranchMatrix g(model), S(model), C(model);
-        metric<double>(kin, g);
-        inverse_dynamics_derivatives<double>(kin, qd, qdd, S, C);
+        metric(kin, g);
+        inverse_dynamics_derivatives(kin, qd, qdd, S, C);
         BranchLu factors(model);
         factors.matrix().set_sum(1, g, 1e-2, C, 1e-4, S);
         const Matrix A = full(factors.matrix());
@@ -65,7 +65,7 @@ TEST_CASE("branch matrix: a full matrix is added where there are branches, and t
         const int n = model.size();
         Workspace workspace(model);
         BranchMatrix A(model);
-        metric<double>(kinematics(model, random_state(random, n), workspace), A);
+        metric(kinematics(model, random_state(random, n), workspace), A);
         const Matrix g = full(A);
         CAPTURE(seed, n);
         REQUIRE(A.add(g));

@@ -18,9 +18,9 @@ TEST_CASE("branch matrix: metric and derivatives are those written into full mat
         BranchMatrix packed_g(model), packed_q(model), packed_qd(model);
         for (int round = 0; round < 2; ++round) {  // nothing is left of the first
             metric<double>(kin, g);
-            metric<double>(kin, packed_g);
-            inverse_dynamics_derivatives<double>(kin, qd, qdd, by_q, by_qd);
-            inverse_dynamics_derivatives<double>(kin, qd, qdd, packed_q, packed_qd);
+            metric(kin, packed_g);
+            inverse_dynamics_derivatives(kin, qd, qdd, by_q, by_qd);
+            inverse_dynamics_derivatives(kin, qd, qdd, packed_q, packed_qd);
         }
         CAPTURE(seed, n);
         for (const auto& [full, packed] :

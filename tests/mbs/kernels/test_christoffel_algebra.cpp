@@ -135,7 +135,7 @@ TEST_CASE("christoffel: gyroscopic matrix of a steady spin and rate of the metri
         Matrix G(s.n, s.n), by_q(s.n, s.n), by_qd(s.n, s.n);
         gyroscopic_matrix(s.kin, spin, omega, G);
         const Vector qd = omega * Vector::Unit(s.n, spin);
-        inverse_dynamics_derivatives<double>(s.kin, qd, Vector::Zero(s.n), by_q, by_qd);
+        inverse_dynamics_derivatives(s.kin, qd, Vector::Zero(s.n), by_q, by_qd);
         constexpr double h = 1e-40;
         WorkspaceT<Complex> workspace(s.model);
         ComplexVector q = s.q.cast<Complex>();

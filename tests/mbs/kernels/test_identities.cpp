@@ -148,7 +148,7 @@ TEST_CASE("derivatives: inverse dynamics by the analytic recursion equals the co
     for (unsigned seed = 0; seed < 200; ++seed) {
         SampledTree s(seed, {.bodies = bodies(seed), .armatures = seed % 2 == 0});
         Matrix by_q(s.n, s.n), by_qd(s.n, s.n), expected_q(s.n, s.n), expected_qd(s.n, s.n);
-        inverse_dynamics_derivatives<double>(s.kin, s.qd, s.qdd, by_q, by_qd);
+        inverse_dynamics_derivatives(s.kin, s.qd, s.qdd, by_q, by_qd);
         WorkspaceT<Complex> workspace(s.model);
         ComplexVector tau(s.n), qdd = s.qdd.cast<Complex>();
         for (int j = 0; j < s.n; ++j) {

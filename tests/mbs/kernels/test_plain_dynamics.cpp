@@ -117,7 +117,7 @@ TEST_CASE("plain dynamics: complex steps through Newton-Euler equal the derivati
     for_all_trees(30, {Armatures::none, Armatures::geared}, [](Sample& s) {
         const ComplexVector q = s.q.cast<Complex>(), qd = s.qd.cast<Complex>(), qdd = s.qdd.cast<Complex>();
         Matrix by_q(s.n, s.n), by_qd(s.n, s.n);
-        inverse_dynamics_derivatives<double>(s.kin, s.qd, s.qdd, by_q, by_qd);
+        inverse_dynamics_derivatives(s.kin, s.qd, s.qdd, by_q, by_qd);
         const auto tau = [&](const ComplexVector& at_q, const ComplexVector& at_qd) {
             return plain::inverse_dynamics<Complex>(s.model, at_q, at_qd, qdd);
         };
