@@ -19,6 +19,7 @@ function(cardan_precompile target)
             <string>
             <vector>
             ${PROJECT_SOURCE_DIR}/mbs/base/decompositions.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/base/detail/products.hpp
             ${PROJECT_SOURCE_DIR}/mbs/system/system.hpp
             ${arg_HEADERS})
     endif()
