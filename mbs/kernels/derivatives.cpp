@@ -178,7 +178,7 @@ CARDAN_INLINE void differentiate(const Arguments& x, const Sink& by_q, const Sin
         for (int k = first; k < end; ++k) set_rates(x.path, x.links[k].depth - 1, x.rates[k]);
         for (int k = first; k < end; ++k) {
             const Subtree s = subtree_of(x.links[k], x.frame[k], x.composite[k], x.momentum[k], x.load[k], x.rates[k]);
-            branch_products(x.path, x.path.blocks(x.links[k].depth), s, by_q.row_of(k), by_qd.row_of(k),
+            branch_products(x.path, PathTwists<double>::blocks(x.links[k].depth), s, by_q.row_of(k), by_qd.row_of(k),
                             by_q.column_of(k), by_qd.column_of(k));
             by_q.written(k);
             by_qd.written(k);
