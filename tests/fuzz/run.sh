@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tests/fuzz/run.sh [seconds] [target]...: runs the targets in build/fuzz, 60 s each, as many at a time as there are
+# tests/fuzz/run.sh [seconds] [target]...: runs the targets in build/sanitize, 60 s each, as many at a time as there are
 # processors (CARDAN_JOBS: another number). Seeds: those in tests/fuzz/seeds, the models of tests/data, and what earlier
 # runs found worth keeping (build/fuzz/corpus). A finding ends it: the input lies in build/fuzz/findings.
 set -euo pipefail
@@ -41,7 +41,7 @@ fuzz() { # <target>
         urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
         *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
     esac
-    if ! nice -n 19 "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 \
+    if ! nice -n 19 "build/sanitize/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 \
         -max_len=16384 -artifact_prefix=build/fuzz/findings/ -print_final_stats=1 "$corpus" "$seeds" >"$log" 2>&1; then
         tail -40 "$log" >&2
         echo "fuzzing: $target has a finding, see build/fuzz/findings and $log" >&2
