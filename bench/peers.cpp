@@ -129,7 +129,7 @@ void at_fixed_depth(benchmark::State& state, const Tree& tree, std::size_t quant
     Pair pair(tree, quantity);
     BranchMatrix A(pair.model), B(pair.model);  // full matrices have n^2 zeros
     const auto ours = [&] {
-        if (quantity == 2) return metric<double>(pair.kin(), A);
+        if (quantity == 2) return metric(pair.kin(), A);
         if (quantity == 3) return inverse_dynamics_derivatives(pair.kin(), pair.qd, pair.qdd, A, B);
         pair.ours();
     };
