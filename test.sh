@@ -9,9 +9,9 @@ usage: ./test.sh [--full] [--keep-going] [--help]
   (nothing)  format check, release build with clang, which takes two thirds of GCC's time, installed-package consumer, all
              tests but the slow ones and those of the studies (other beams to compare with, papers, the teetered machine),
              which are not built
-  --full     the same with GCC and the studies, then each header by itself, the reference, clang-tidy, clang's build and the
-             tests without studies under its address and undefined-behaviour sanitizers, two sweeps at once under the thread
-             sanitizer, one minute of fuzzing for each reader, and the slow tests
+  --full     the same with GCC and the studies, then each header by itself, the reference, clang-tidy, the benchmarks parsed,
+             clang's build and the tests without studies under its address and undefined-behaviour sanitizers, two sweeps
+             at once under the thread sanitizer, one minute of fuzzing for each reader, and the slow tests
   --keep-going
              a step that fails does not end the run; the failed ones are named at its end
 
@@ -110,6 +110,13 @@ check_tidy() {
         { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 
+# Interfaces move; nothing else here compiles the benchmarks. Read by the parser only: one check that finds nothing in them.
+check_benchmarks() {
+    cmake --preset tidy >/dev/null && grep -q bench_kernels build/tidy/compile_commands.json &&
+        run-clang-tidy -quiet -j "$jobs" -p build/tidy -checks='-*,misc-unused-using-decls' "^$PWD/build/tidy/bench/" 2>&1 |
+        { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
+}
+
 check_threads() { build thread && build/thread/tests/two_sweeps; }
 
 packages=("${cardan_build_packages[@]}" "${cardan_clang_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
@@ -124,6 +131,7 @@ if ((full)); then
     step "Headers, each by itself" check_headers
     step "Reference" cmake --build --preset release --target reference
     step "clang-tidy" check_tidy
+    step "Benchmarks, parsed" check_benchmarks
     step "Build with clang and sanitizers" build sanitize -D CARDAN_BUILD_STUDIES=OFF
     step "Tests, sanitizers" ctest --preset sanitize --parallel "$jobs"
     step "Thread sanitizer" check_threads
