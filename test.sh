@@ -101,20 +101,23 @@ check_headers() {
         cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
 }
 
+# run-clang-tidy <options>... <regular expression of sources>, on the compile commands of preset tidy: sources joined across
+# targets (cmake/cardanTidy.cmake).
+tidy() {
+    run-clang-tidy -quiet -j "$jobs" -p build/tidy "$@" 2>&1 | { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
+}
+
+# The library and the programs. A joined source includes .cpp files, which are no mistake and "headers" to report.
 check_tidy() {
-    # The library and the programs, as joined sources: their headers are read once for two dozen sources. Hence the check of
-    # included .cpp files makes no sense, and those are "headers" to report.
     local ours='(mbs|elements|turbines|solvers|examples)/[a-z0-9_/]+\.[ch]pp$'
-    cmake --preset tidy >/dev/null && run-clang-tidy -quiet -j "$jobs" -p build/tidy -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" \
-        "^$PWD/(build/tidy/)?(mbs|elements|turbines|solvers|examples)/.*\.c(pp|xx)\$" 2>&1 |
-        { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
+    cmake --preset tidy >/dev/null &&
+        tidy -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" '^(?!.*(tests/peers|bench_))'
 }
 
 # Interfaces move; nothing else here compiles the benchmarks. Read by the parser only: one check that finds nothing in them.
 check_benchmarks() {
-    cmake --preset tidy >/dev/null && grep -q bench_kernels build/tidy/compile_commands.json &&
-        run-clang-tidy -quiet -j "$jobs" -p build/tidy -checks='-*,misc-unused-using-decls' "^$PWD/build/tidy/bench/" 2>&1 |
-        { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
+    cmake --preset tidy >/dev/null && grep -q bench_air build/tidy/compile_commands.json &&
+        tidy -checks='-*,misc-unused-using-decls' bench_
 }
 
 check_threads() { build thread && build/thread/tests/two_sweeps; }

@@ -32,7 +32,7 @@ UnitWrench<double> wrench_of(const PairMeasure& measure, const FrameEnds<double>
     return {sum.force + measure.weights[1] * more.force, sum.moment + measure.weights[1] * more.moment};
 }
 
-double value_of(const PairMeasure& measure, const FrameEnds<double>& ends) {
+double value_of_measure(const PairMeasure& measure, const FrameEnds<double>& ends) {
     double sum = measure.weights[0] * measured<double>(measure.parts[0], ends);
     if (measure.weights[1] != 0) sum += measure.weights[1] * measured<double>(measure.parts[1], ends);
     return sum;
@@ -64,7 +64,7 @@ void evaluate(const PairLaw& pair, const FieldInput& at, const FrameEnds<double>
     m.state.v.resize(k);
     for (Eigen::Index i = 0; i < k; ++i) {
         m.wrenches.push_back(wrench_of(entry(pair.measures, i), ends));
-        m.state.x(i) = value_of(entry(pair.measures, i), ends);
+        m.state.x(i) = value_of_measure(entry(pair.measures, i), ends);
         m.state.v(i) = m.wrenches.back().on({motion.w, motion.v});
     }
     m.forces.f.setZero(k);

@@ -176,17 +176,17 @@ void ColemanTransform::add_states(const RotorMap& rotor, const StateTable& state
 namespace {
 
 using Index = Eigen::Index;
-constexpr Index strip = 16;  // rows or columns that are transformed together
+constexpr Index strip_width = 16;  // rows or columns that are transformed together
 
 // x_j = sum_k x_k T_kj for every entry of a strip; T by columns.
 CARDAN_VECTORISED void combine(const double* x, double* out, Index blades, const double* T) {
     for (Index j = 0; j < blades; ++j) {
-        double* __restrict y = out + j * strip;
-        for (Index c = 0; c < strip; ++c) y[c] = 0;
+        double* __restrict y = out + j * strip_width;
+        for (Index c = 0; c < strip_width; ++c) y[c] = 0;
         for (Index k = 0; k < blades; ++k) {
             const double t = T[k + j * blades];
-            const double* __restrict in = x + k * strip;
-            for (Index c = 0; c < strip; ++c) y[c] += in[c] * t;
+            const double* __restrict in = x + k * strip_width;
+            for (Index c = 0; c < strip_width; ++c) y[c] += in[c] * t;
         }
     }
 }
@@ -211,13 +211,13 @@ private:
 
 // A T: every row alike.
 void ColemanTransform::transform_columns(const Part& part, double psi, Matrix& A) const {
-    std::array<double, max_blades * strip> x{}, y{};
+    std::array<double, max_blades * strip_width> x{}, y{};
     for (const std::vector<int>& rows : part.at)
-        for (Index i = 0; i < A.rows(); i += strip) {
-            const Index count = std::min<Index>(strip, A.rows() - i);
-            for (Index k = 0; k < blades_; ++k) std::copy_n(&A(i, entry(rows, k)), count, &entry(x, k * strip));
+        for (Index i = 0; i < A.rows(); i += strip_width) {
+            const Index count = std::min<Index>(strip_width, A.rows() - i);
+            for (Index k = 0; k < blades_; ++k) std::copy_n(&A(i, entry(rows, k)), count, &entry(x, k * strip_width));
             combine(x.data(), y.data(), blades_, blade_block_.data());
-            for (Index k = 0; k < blades_; ++k) std::copy_n(&entry(y, k * strip), count, &A(i, entry(rows, k)));
+            for (Index k = 0; k < blades_; ++k) std::copy_n(&entry(y, k * strip_width), count, &A(i, entry(rows, k)));
         }
     if (psi == 0) return;
     Turn turn(psi);
@@ -233,16 +233,16 @@ void ColemanTransform::transform_columns(const Part& part, double psi, Matrix& A
 
 // T^T A: every column alike.
 void ColemanTransform::transform_rows(const Part& part, double psi, Matrix& A) const {
-    std::array<double, max_blades * strip> x{}, y{};
+    std::array<double, max_blades * strip_width> x{}, y{};
     Turn turn(psi);
-    for (Index from = 0; from < A.cols(); from += strip) {
-        const Index count = std::min<Index>(strip, A.cols() - from);
+    for (Index from = 0; from < A.cols(); from += strip_width) {
+        const Index count = std::min<Index>(strip_width, A.cols() - from);
         for (const std::vector<int>& rows : part.at) {
             for (Index k = 0; k < blades_; ++k)
-                for (Index c = 0; c < count; ++c) entry(x, k * strip + c) = A(entry(rows, k), from + c);
+                for (Index c = 0; c < count; ++c) entry(x, k * strip_width + c) = A(entry(rows, k), from + c);
             combine(x.data(), y.data(), blades_, blade_block_.data());
             for (Index k = 0; k < blades_; ++k)
-                for (Index c = 0; c < count; ++c) A(entry(rows, k), from + c) = entry(y, k * strip + c);
+                for (Index c = 0; c < count; ++c) A(entry(rows, k), from + c) = entry(y, k * strip_width + c);
         }
         if (psi == 0) continue;
         for (const TurningPair& pair : part.pairs) {

@@ -50,7 +50,7 @@ std::vector<double> numbers_or_zeros(const YamlNode& node, std::string_view key,
 
 // Of the schema only bending, K44 and K55, has to be there.
 constexpr std::array<Eigen::Index, 4> rigid_if_missing{0, 1, 2, 5};
-constexpr std::array<const char*, 4> in_words{"shear along x", "shear along y", "extension", "torsion"};
+constexpr std::array<const char*, 4> direction_names{"shear along x", "shear along y", "extension", "torsion"};
 
 bool has_to_be_there(Eigen::Index i) {
     return std::find(rigid_if_missing.begin(), rigid_if_missing.end(), i) == rigid_if_missing.end();
@@ -116,7 +116,7 @@ void make_rigid(Matrices& sections, WindioFile& file, const YamlNode& stiffness)
             m.stiffness.col(i).setZero();
             m.stiffness(i, i) = std::numeric_limits<double>::infinity();
         }
-        rigid += (rigid.empty() ? "" : ", ") + std::string(entry(in_words, k));
+        rigid += (rigid.empty() ? "" : ", ") + std::string(entry(direction_names, k));
     }
     if (!rigid.empty()) file.note(stiffness, "", text("rigid, since no stiffness or no inertia is given: ", rigid));
 }
