@@ -54,11 +54,13 @@ function(cardan_compile_quickly)
     endforeach()
 endfunction()
 
-# cardan_join_fewer(<target> <sources>): no more joined sources in an object, so that it takes a compiler no longer than 25 s;
-# half as many with GCC, which takes longer.
-function(cardan_join_fewer target sources)
+# cardan_join_fewer(<target> CLANG <sources> GCC <sources>): no more joined sources in an object, so that it takes the
+# compiler no longer than 25 s.
+function(cardan_join_fewer target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "CLANG;GCC" "")
+    set(sources ${arg_CLANG})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        math(EXPR sources "${sources} / 2")
+        set(sources ${arg_GCC})
     endif()
     if(CMAKE_UNITY_BUILD_BATCH_SIZE GREATER sources)
         set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${sources})

@@ -57,11 +57,15 @@ public:
                    nrel5mw_aero_blade(), options(losses)) {}
 
     const WindOperation& operation() const { return machine_; }
-    WindPoint at(const Operation& operation) {
-        WindPoint point = machine_.at(operation);
-        CAPTURE(point.message);
-        REQUIRE(point.converged);
-        return point;
+    // Found once: wakes and profiles share it.
+    const WindPoint& at(const Operation& operation) {
+        const auto [entry, is_new] = points_.try_emplace(operation.wind);
+        if (is_new) entry->second = machine_.at(operation);
+        CAPTURE(entry->second.message);
+        REQUIRE(entry->second.converged);
+        REQUIRE(entry->second.operation.pitch == operation.pitch);
+        REQUIRE(entry->second.operation.rotor_speed == operation.rotor_speed);
+        return entry->second;
     }
     Frequencies modes(const Operation& operation, const AeroelasticOptions& air) {
         const std::array points{at(operation)};
@@ -84,7 +88,13 @@ private:
     }
 
     WindOperation machine_;
+    std::map<double, WindPoint> points_;  // of a wind speed
 };
+
+LevelMachine& shared_machine() {
+    static LevelMachine machine;
+    return machine;
+}
 
 // The same modes, to a part of their eigenvalues.
 void check_alike(const Frequencies& a, const Frequencies& b, double tolerance) {
@@ -103,7 +113,7 @@ void check_modes(const std::string& file, const std::vector<UnsteadyProfile>& pr
     const CsvTable table = CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/" + file);
     std::map<double, Frequencies> vacuo;
     std::map<std::pair<double, bool>, Frequencies> windy;
-    LevelMachine machine;
+    LevelMachine& machine = shared_machine();
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
         const bool frozen = at("frozen") != 0;
@@ -152,7 +162,7 @@ std::vector<solvers::Mode> modes_in_shapes(const AeroelasticPoint& point, double
 // Every mode of the table beside the one whose eigenvalue is next to it.
 void check_modes_in_shapes(const std::string& file, const std::vector<UnsteadyProfile>& profiles) {
     const CsvTable table = CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/" + file);
-    LevelMachine machine;
+    LevelMachine& machine = shared_machine();
     std::map<std::pair<double, bool>, std::vector<solvers::Mode>> known;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
