@@ -10,8 +10,9 @@ usage: ./test.sh [--full] [--keep-going] [--help]
              tests but the slow ones and those of the studies (other beams to compare with, papers, the teetered machine),
              which are not built
   --full     the same with GCC and the studies, then each header by itself, the reference, clang-tidy, the benchmarks parsed,
-             clang's build and the tests without studies under its address and undefined-behaviour sanitizers, two sweeps
-             at once under the thread sanitizer, one minute of fuzzing for each reader, and the slow tests
+             clang's build and the tests without studies under its address and undefined-behaviour sanitizers, C++ blocks
+             of the documents, two sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and the
+             slow tests
   --keep-going
              a step that fails does not end the run; the failed ones are named at its end
 
@@ -120,6 +121,9 @@ check_benchmarks() {
     grep -q bench_air build/tidy/compile_commands.json && tidy -checks='-*,misc-unused-using-decls' bench_
 }
 
+# The blocks of C++ in the documents. With clang, which reads them in three quarters of GCC's time.
+check_documents() { ctest --test-dir build/sanitize --output-on-failure --no-tests=error --tests-regex '^document_snippets$'; }
+
 check_threads() { build thread && build/thread/tests/two_sweeps; }
 
 packages=("${cardan_build_packages[@]}" "${cardan_clang_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
@@ -137,10 +141,11 @@ if ((full)); then
     step "Benchmarks, parsed" check_benchmarks
     step "Build with clang and sanitizers" build sanitize -D CARDAN_BUILD_STUDIES=OFF
     step "Tests, sanitizers" ctest --preset sanitize --parallel "$jobs"
+    step "C++ in documents" check_documents
     step "Thread sanitizer" check_threads
     step "Fuzzing" tests/fuzz/run.sh 60
     step "Slow tests" ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$' \
-        --parallel "$jobs"
+        --exclude-regex '^document_snippets$' --parallel "$jobs"
 fi
 
 if ((${#failed[@]} > 0)); then
