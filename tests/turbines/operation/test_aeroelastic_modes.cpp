@@ -59,12 +59,10 @@ public:
     const WindOperation& operation() const { return machine_; }
     // Found once: wakes and profiles share it.
     const WindPoint& at(const Operation& operation) {
-        const auto [entry, is_new] = points_.try_emplace(operation.wind);
+        const auto [entry, is_new] = points_.try_emplace({operation.wind, operation.rotor_speed, operation.pitch});
         if (is_new) entry->second = machine_.at(operation);
         CAPTURE(entry->second.message);
         REQUIRE(entry->second.converged);
-        REQUIRE(entry->second.operation.pitch == operation.pitch);
-        REQUIRE(entry->second.operation.rotor_speed == operation.rotor_speed);
         return entry->second;
     }
     Frequencies modes(const Operation& operation, const AeroelasticOptions& air) {
@@ -88,7 +86,7 @@ private:
     }
 
     WindOperation machine_;
-    std::map<double, WindPoint> points_;  // of a wind speed
+    std::map<std::array<double, 3>, WindPoint> points_;  // of wind, rotor speed and pitch
 };
 
 LevelMachine& shared_machine() {
