@@ -11,6 +11,7 @@ function(cardan_precompile target)
             <algorithm>
             <array>
             <cmath>
+            <filesystem>
             <functional>
             <iostream>
             <limits>
@@ -20,6 +21,9 @@ function(cardan_precompile target)
             <vector>
             ${PROJECT_SOURCE_DIR}/mbs/base/decompositions.hpp
             ${PROJECT_SOURCE_DIR}/mbs/base/detail/products.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/base/error.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/system/channel.hpp
+            ${PROJECT_SOURCE_DIR}/mbs/system/joint_loads.hpp
             ${PROJECT_SOURCE_DIR}/mbs/system/system.hpp
             ${arg_HEADERS})
     endif()
