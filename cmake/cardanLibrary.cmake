@@ -23,7 +23,6 @@ function(cardan_precompile target)
             ${PROJECT_SOURCE_DIR}/mbs/base/detail/products.hpp
             ${PROJECT_SOURCE_DIR}/mbs/base/error.hpp
             ${PROJECT_SOURCE_DIR}/mbs/system/channel.hpp
-            ${PROJECT_SOURCE_DIR}/mbs/system/joint_loads.hpp
             ${PROJECT_SOURCE_DIR}/mbs/system/system.hpp
             ${arg_HEADERS})
     endif()
@@ -89,15 +88,18 @@ function(cardan_rooms out)
     set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# cardan_add_library(<name> [COMPILE_QUICKLY] [ROOMS <folders>] [SOURCES <files>] [PUBLIC <targets>] [PRIVATE <targets>])
+# cardan_add_library(<name> [COMPILE_QUICKLY] [ROOMS <folders>] [WITHOUT <files>] [SOURCES <files>] [PUBLIC <targets>]
+#                    [PRIVATE <targets>])
 #
-# Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms. Without any it is a
-# name for several libraries. COMPILE_QUICKLY: see above. Users include headers as <cardan/<folder>/<room>/<file>.hpp>, from include/ installed or from
-# links in generated/include; sources and tests of our own as "<folder>/<room>/<file>.hpp".
+# Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms, those of WITHOUT left
+# out, and of SOURCES. Without any it is a name for several libraries. COMPILE_QUICKLY: see above. Users include headers as
+# <cardan/<folder>/<room>/<file>.hpp>, from include/ installed or from links in generated/include; sources and tests of our
+# own as "<folder>/<room>/<file>.hpp".
 function(cardan_add_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "COMPILE_QUICKLY" "" "ROOMS;SOURCES;PUBLIC;PRIVATE")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "COMPILE_QUICKLY" "" "ROOMS;WITHOUT;SOURCES;PUBLIC;PRIVATE")
     set(target cardan_${name})
     cardan_rooms(sources ${arg_ROOMS})
+    list(REMOVE_ITEM sources ${arg_WITHOUT})
     list(APPEND sources ${arg_SOURCES})
     if(sources)
         add_library(${target} ${sources})
