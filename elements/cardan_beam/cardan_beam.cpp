@@ -66,6 +66,17 @@ double shear_share(const BeamLine& line) {
     return mean(1) > 0 ? mean(0) / (mean(1) * line.length * line.length) : 0;
 }
 
+// From the inboard end to the outboard one, without those that are condensed out.
+std::vector<ElementCoordinate> free_coordinates(const CardanBeamOptions& options) {
+    using enum ElementCoordinate;
+    std::vector<ElementCoordinate> kinds{ay1, az1};
+    if (options.extension) kinds.push_back(u);
+    if (options.torsion) kinds.push_back(phi);
+    const bool mirrored = options.order == CardanOrder::mirrored;
+    kinds.insert(kinds.end(), {mirrored ? az2 : ay2, mirrored ? ay2 : az2});
+    return kinds;
+}
+
 // Adds the joints and bodies of one element.
 class ElementBuilder {
 public:
@@ -74,17 +85,17 @@ public:
         : tree_(tree), at_(start), name_(name), label_(label), options_(options) {}
 
     /// Returns the frame at the outboard end, element axes.
-    FrameId build(double L, const ElementInertia& inertia) {
-        const double x1 = inertia.hinges.first * L, x2 = inertia.hinges.second * L, middle = inertia.hinges.middle * L;
-        weld(inertia.body[0], 0);
+    FrameId build(double L, const Hinges& hinges, const std::array<RigidInertia, 4>& inertia) {
+        const double x1 = hinges.first * L, x2 = hinges.second * L, middle = hinges.middle * L;
+        weld(inertia[0], 0);
         rotate(Axis::y, ElementCoordinate::ay1, "bending y1", x1);
         rotate(Axis::z, ElementCoordinate::az1, "bending z1", 0);
-        weld(inertia.body[1], x1);
+        weld(inertia[1], x1);
         step_ = middle - x1;
         if (options_.extension) joint(JointKind::prismatic, Axis::x, ElementCoordinate::u, "extension");
         if (options_.torsion) joint(JointKind::revolute, Axis::x, ElementCoordinate::phi, "torsion");
         const double reached = middle - step_;  // the frame reached sits at the middle, or still at the first hinge
-        weld(inertia.body[2], reached);
+        weld(inertia[2], reached);
         const bool mirrored = options_.order == CardanOrder::mirrored;
         const auto second = [&](bool z) {
             rotate(z ? Axis::z : Axis::y, z ? ElementCoordinate::az2 : ElementCoordinate::ay2,
@@ -93,12 +104,11 @@ public:
         step_ += x2 - middle;
         second(mirrored);
         second(!mirrored);
-        weld(inertia.body[3], x2);
+        weld(inertia[3], x2);
         return tree_.add_frame(at_, Placement::translation({L - x2, 0, 0}), name_ + " end");
     }
 
-    std::vector<ElementCoordinate> kinds;
-    std::vector<BodyId> bodies;
+    std::vector<BodyId> bodies;  ///< one per joint, in the order of free_coordinates()
     std::vector<CardanBeam::Segment> segments;
 
 private:
@@ -114,7 +124,6 @@ private:
                                              held ? CoordinateRole::driven : CoordinateRole::free);
         at_ = added.frame;
         step_ = 0;
-        kinds.push_back(kind);
         bodies.push_back(added.body);
     }
     // Inertias are given from the inboard end of the element; the frame reached sits at x.
@@ -163,14 +172,14 @@ Matrix element_damping(const BeamLine& line, const CardanBeam::Element& element,
     return (D + D.transpose()) / 2;
 }
 
-void add_armatures(Tree& tree, const CardanBeam::Element& element, const ElementInertia& inertia,
-                   const CardanBeamOptions& options, const std::string& name) {
+void add_armatures(Tree& tree, const CardanBeam::Element& element, const CardanBeamOptions& options,
+                   const std::string& name) {
     for (std::size_t i = 0; i < element.kinds.size(); ++i) {
         const ElementCoordinate kind = element.kinds[i];
         double J = 0;
-        if (kind == ElementCoordinate::phi) J = options.torsion_armature * inertia.polar_inertia;
+        if (kind == ElementCoordinate::phi) J = options.torsion_armature * element.polar_inertia;
         if (kind >= ElementCoordinate::ay1)
-            J = options.bending_armature * inertia.mass * element.length * element.length;
+            J = options.bending_armature * element.mass * element.length * element.length;
         if (J != 0) tree.add_armature({text(name, " armature ", i + 1), J, {{element.bodies[i], 1.0}}});
     }
 }
@@ -194,15 +203,16 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
     if (!elements.empty()) forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
 }
 
+CardanBeam add_bodies(Tree& tree, ForceSet& forces, FrameId root, CardanBeam beam, const PartLabel& label);
+
 // Modal damping of the beam alone: the modes are those of the beam clamped at its root.
-void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::string& name) {
+void add_component_damping(ForceSet& forces, const CardanBeam& beam) {
     if (!beam.options.damping.needs_modes()) return;
-    CardanBeamOptions undamped = beam.options;
-    undamped.damping = {};
-    undamped.hinge_law = {};
+    CardanBeam alone = beam;
+    alone.options.damping = {};
     Tree tree;
     ForceSet springs;
-    const CardanBeam clamped = add_cardan_beam(tree, springs, Tree::base(), beam.line, name, {"beam"}, undamped);
+    const CardanBeam clamped = add_bodies(tree, springs, Tree::base(), std::move(alone), {"beam"});
     const Model model(tree);
     const Eigen::Index n = model.size();
     Matrix M(n, n), K = Matrix::Zero(n, n);
@@ -221,17 +231,60 @@ void add_component_damping(ForceSet& forces, const CardanBeam& beam, const std::
     }
     Workspace workspace(model);
     metric(kinematics(model, Vector::Zero(n), workspace), M);
-    forces.add_law({name + " damping of modes",
+    forces.add_law({beam.name + " damping of modes",
                     bodies,
                     Matrix::Zero(n, n),
                     component_damping(M, K, direction, beam.options.damping),
                     {}});
 }
 
-}  // namespace
+// What is lost without free extension.
+void warn_of_condensed_extension(CardanBeam& beam, const std::vector<double>& ends) {
+    if (const double offset = shear_centre_offset(beam.line, ends); offset > 2.5e-3 * beam.line.length)
+        beam.warnings.push_back(text(beam.name, ": the shear centre lies up to ", offset,
+                                     " m off the reference line while extension is condensed out, so that the hinges "
+                                     "stay on the reference line: bodies between them are tilted by torsion, which "
+                                     "more elements do not remove; keep the extension free"));
+    if (const double share = shear_share(beam.line); share > 5e-3)
+        beam.warnings.push_back(
+            text(beam.name, ": EI / GA L^2 = ", share,
+                 " while extension is condensed out: under an axial "
+                 "force N the beam is as stiff in shear as GA + ",
+                 1 / (1 - 2 * beam.options.hinge_delta()),
+                 " N (N < 0 in compression), not GA, with any number of elements; keep the extension "
+                 "free where N is more than a few per cent of GA"));
+}
 
-CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,
-                           const PartLabel& label, const CardanBeamOptions& options) {
+CardanBeam::Element calculated_element(const ElementLine& span, const ElementInertia& inertia,
+                                       const CardanBeamOptions& options, const std::string& name) {
+    CardanBeam::Element element{free_coordinates(options),
+                                {},
+                                joint_flexibility(span, inertia.hinges, options.curved_flexibility),
+                                {},
+                                {},
+                                {},
+                                span.start(),
+                                span.chord(),
+                                span.end() - span.start(),
+                                inertia.mass,
+                                inertia.polar_inertia,
+                                span.hinge_line(),
+                                span.axes(),
+                                {},
+                                inertia.hinges,
+                                inertia.body,
+                                inertia.rotary_split,
+                                inertia.shape_share};
+    element.stiffness = joint_stiffness(element.flexibility, element.kinds, name);
+    element.damping = element_damping(span.line(), element, options);
+    if (options.hinge_law.rod_strains)
+        element.tilt = shear_tilt(span, inertia.hinges, options.curved_flexibility, element.kinds, element.stiffness,
+                                  options.order == CardanOrder::mirrored);
+    return element;
+}
+
+// Everything about the elements but their bodies and frames, which are those of a tree.
+CardanBeam calculated(const BeamLine& line, const std::string& name, const CardanBeamOptions& options) {
     line.check();
     const double delta = options.hinge_delta();
     if (!(delta > 0 && delta < 0.5)) throw InputError(name, "delta", delta, "0 < delta < 0.5");
@@ -241,32 +294,9 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
     beam.name = name;
     beam.line = line;
     beam.options = options;
-    Placement reached;                                                // axes of the frame `at` in beam axes at rest
-    FrameId at = tree.add_frame(root, Placement{}, name + " start");  // its own, on whatever body carries it
-    const auto turn_to = [&](const Placement& axes, const std::string& frame_name) {
-        at = tree.add_frame(at, reached.inverse() * axes, frame_name);
-        reached = axes;
-    };
-    const auto add_node = [&](std::size_t i) {
-        const Placement axes = line.pose(ends[i]);
-        beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", i)));
-    };
-    add_node(0);
     if (const std::string unsuited = unsuited_delta(options); !unsuited.empty())
         beam.warnings.push_back(text(name, ": ", unsuited));
-    if (const double offset = options.extension ? 0 : shear_centre_offset(line, ends); offset > 2.5e-3 * line.length)
-        beam.warnings.push_back(text(name, ": the shear centre lies up to ", offset,
-                                     " m off the reference line while extension is condensed out, so that the hinges "
-                                     "stay on the reference line: bodies between them are tilted by torsion, which "
-                                     "more elements do not remove; keep the extension free"));
-    if (const double share = options.extension ? 0 : shear_share(line); share > 5e-3)
-        beam.warnings.push_back(
-            text(name, ": EI / GA L^2 = ", share,
-                 " while extension is condensed out: under an axial "
-                 "force N the beam is as stiff in shear as GA + ",
-                 1 / (1 - 2 * delta),
-                 " N (N < 0 in compression), not GA, with any number of elements; keep the extension "
-                 "free where N is more than a few per cent of GA"));
+    if (!options.extension) warn_of_condensed_extension(beam, ends);
     double tilted_moment = 0;
     for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
         const std::string element_name = text(name, " element ", e + 1);
@@ -281,42 +311,12 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
         if (!inertia.warning.empty()) beam.warnings.push_back(inertia.warning);
         tilted_moment = std::max(tilted_moment, inertia.tilted_moment);
         beam.mass += inertia.mass;
-        const Mat6 flexibility = joint_flexibility(span, inertia.hinges, options.curved_flexibility);
-        if (!options.extension && extension_is_coupled(flexibility))
+        beam.elements.push_back(calculated_element(span, inertia, options, element_name));
+        if (!options.extension && extension_is_coupled(beam.elements.back().flexibility))
             beam.warnings.push_back(text(element_name,
                                          ": extension is condensed out although the tension centre lies "
                                          "off the reference line: under a large axial force (a rotating blade) its "
                                          "moment about the tension centre is lost; keep the extension free"));
-
-        if (!line.is_straight() || (span.axes().p - reached.p).norm() > 1e-9 * line.length)
-            turn_to(span.axes(), element_name + " start");
-        ElementBuilder builder(tree, at, element_name, label, options);
-        at = builder.build(span.chord(), inertia);
-        reached = reached * Placement::translation({span.chord(), 0, 0});
-        CardanBeam::Element element{builder.kinds,
-                                    builder.bodies,
-                                    flexibility,
-                                    joint_stiffness(flexibility, builder.kinds, element_name),
-                                    {},
-                                    {},
-                                    ends[e],
-                                    span.chord(),
-                                    ends[e + 1] - ends[e],
-                                    hinge_line,
-                                    span.axes(),
-                                    {},
-                                    inertia.hinges,
-                                    inertia.body,
-                                    inertia.rotary_split,
-                                    inertia.shape_share};
-        element.damping = element_damping(line, element, options);
-        if (options.hinge_law.rod_strains)
-            element.tilt = shear_tilt(span, inertia.hinges, options.curved_flexibility, builder.kinds,
-                                      element.stiffness, options.order == CardanOrder::mirrored);
-        std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
-        add_armatures(tree, element, inertia, options, element_name);
-        beam.elements.push_back(std::move(element));
-        add_node(e + 1);
     }
     if (tilted_moment > 0.01)
         beam.warnings.push_back(text(name,
@@ -327,9 +327,55 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
                                      "more elements do not remove what that does to the higher frequencies (several "
                                      "per cent of them at 100 %); give the sections their rotary inertia, or make "
                                      "them rigid in shear"));
-    add_elastic_law(forces, beam, name);
-    add_component_damping(forces, beam, name);
     return beam;
+}
+
+// Gives the elements their bodies and frames.
+CardanBeam add_bodies(Tree& tree, ForceSet& forces, FrameId root, CardanBeam beam, const PartLabel& label) {
+    const std::string& name = beam.name;
+    const BeamLine& line = beam.line;
+    Placement reached;                                                // axes of the frame `at` in beam axes at rest
+    FrameId at = tree.add_frame(root, Placement{}, name + " start");  // its own, on whatever body carries it
+    const auto add_node = [&](double x) {
+        const Placement axes = line.pose(x);
+        beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", beam.nodes.size())));
+    };
+    beam.nodes.clear();
+    add_node(beam.elements.front().start);
+    for (std::size_t e = 0; e < beam.elements.size(); ++e) {
+        CardanBeam::Element& element = beam.elements[e];
+        const std::string element_name = text(name, " element ", e + 1);
+        if (!line.is_straight() || (element.axes.p - reached.p).norm() > 1e-9 * line.length) {
+            at = tree.add_frame(at, reached.inverse() * element.axes, element_name + " start");
+            reached = element.axes;
+        }
+        ElementBuilder builder(tree, at, element_name, label, beam.options);
+        at = builder.build(element.length, element.hinges, element.inertia);
+        reached = reached * Placement::translation({element.length, 0, 0});
+        element.bodies = builder.bodies;
+        std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
+        add_armatures(tree, element, beam.options, element_name);
+        add_node(element.start + element.arc);
+    }
+    add_elastic_law(forces, beam, name);
+    add_component_damping(forces, beam);
+    return beam;
+}
+
+}  // namespace
+
+CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,
+                           const PartLabel& label, const CardanBeamOptions& options) {
+    return add_bodies(tree, forces, root, calculated(line, name, options), label);
+}
+
+CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const CardanBeam& like, const std::string& name,
+                           const PartLabel& label) {
+    CardanBeam beam = like;
+    beam.name = name;
+    for (std::string& warning : beam.warnings)
+        if (warning.starts_with(like.name)) warning.replace(0, like.name.size(), name);
+    return add_bodies(tree, forces, root, std::move(beam), label);
 }
 
 }  // namespace cardan

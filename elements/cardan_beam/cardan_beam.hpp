@@ -64,6 +64,8 @@ struct CardanBeam {
         ShearTilt tilt;        ///< over `bodies`; empty unless flexible in shear with extension free
         double start, length;  ///< m along the reference line; of the chord
         double arc;            ///< m along the reference line
+        double mass;           ///< kg
+        double polar_inertia;  ///< about the hinge line, kg m^2; see ElementInertia
         Vec3 hinge_line;       ///< (0, y, z) seen from the chord, element axes, m
         Placement axes;        ///< element axes in beam axes at rest, origin on the hinge line at the inboard end
         std::array<Segment, 4> segments;
@@ -92,5 +94,10 @@ struct CardanBeam {
 /// bad line, bad damping.
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const BeamLine& line, const std::string& name,
                            const PartLabel& label, const CardanBeamOptions& options = {});
+
+/// One more beam of the same line with the same options as `like`, in the same tree or in another. What a turbine's
+/// blades have in common need not be integrated anew for each of them.
+CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const CardanBeam& like, const std::string& name,
+                           const PartLabel& label);
 
 }  // namespace cardan

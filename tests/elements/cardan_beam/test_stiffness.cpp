@@ -1,6 +1,8 @@
 // The elastic law of the element: what test_flexibility.cpp leaves out.
 #include "elements/cardan_beam/cardan_beam.hpp"
+#include "elements/sections/reference_line.hpp"
 #include "mbs/base/decompositions.hpp"
+#include "mbs/model/summary.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
@@ -129,4 +131,35 @@ TEST_CASE("stiffness: torsion locked leaves bending as it is where the shear cen
     const Matrix A = chain(bending, bending), B = exact(bending, bending);
     CHECK((A - B).norm() < 1e-12 * B.norm());
     CHECK(chain.row(0).norm() < 1e-14 * chain.norm());
+}
+
+TEST_CASE("stiffness: a beam like another is the one that its line and options would give", "[property]") {
+    CardanBeamOptions options = with(3, 0.2, false);
+    options.bending_armature = 1e-3, options.torsion_armature = 0.1;
+    options.damping = BeamDamping::of_modes({.all = {0.01, 0.02}});
+    options.damping.time_constants = {1e-3, 1e-3, 1e-3, 2e-3, 1e-3, 1e-3};
+    for (const bool curved : {false, true}) {
+        const BeamLine straight = general_line(),
+                       line = curved ? along(straight, ReferenceLine::through({{0, 0, 0}, {1.5, 0, 0}, {2.3, 0.6, 0}},
+                                                                              LineShape::polyline))
+                                     : straight;
+        Tree fresh, again;
+        ForceSet fresh_forces, again_forces;
+        const CardanBeam first = add_cardan_beam(again, again_forces, Tree::base(), line, "a", {"blade", 1}, options);
+        const CardanBeam like = add_cardan_beam(again, again_forces, first.tip(), first, "b", {"blade", 2});
+        const CardanBeam below = add_cardan_beam(fresh, fresh_forces, Tree::base(), line, "a", {"blade", 1}, options);
+        const CardanBeam anew = add_cardan_beam(fresh, fresh_forces, below.tip(), line, "b", {"blade", 2}, options);
+        CHECK(summary(again) == summary(fresh));
+        CHECK_FALSE(anew.warnings.empty());
+        CHECK(like.warnings == anew.warnings);
+        CHECK(like.mass == anew.mass);
+        const System one(again, again_forces), other(fresh, fresh_forces);
+        const Vector q = Vector::LinSpaced(one.model.size(), -0.1, 0.2), zero = Vector::Zero(one.model.size());
+        const solvers::Linearisation a = solvers::linearise(one, {q, zero, zero, 0}),
+                                     b = solvers::linearise(other, {q, zero, zero, 0});
+        CHECK(a.mass == b.mass);
+        CHECK(a.elastic == b.elastic);
+        CHECK(a.damping == b.damping);
+        CHECK(a.damping.norm() > 0);
+    }
 }

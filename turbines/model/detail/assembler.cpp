@@ -298,6 +298,18 @@ BodyId Assembler::add_linkage(FrameId pitch_axis, FrameId blade_side, int number
     return actuator.body;
 }
 
+// Blades that share a description share their damping, and so their elements.
+CardanBeam Assembler::add_blade_beam(FrameId root, int number, const BladeDescription& blade) {
+    const std::string name = text("blade ", number);
+    for (std::size_t i = 0; i < layout.blades.size(); ++i)
+        if (d_.blade_at(layout.blade_numbers[i]) == &blade)
+            return add_cardan_beam(tree, forces, root, layout.blades[i], name, {"blade", number});
+    const auto damping = damping_.blades.find(number);
+    return add_cardan_beam(tree, forces, root, blade.line, name, {"blade", number},
+                           beam_options(options_, options_.blade_elements, options_.blade_beam,
+                                        damping == damping_.blades.end() ? BeamDamping() : damping->second));
+}
+
 void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade, bool with_pitch_joint) {
     const std::string name = text("blade ", number);
     const FrameId pitch_axis = add_pitch_axis(hub, number, blade);
@@ -320,11 +332,7 @@ void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade
     }
     const double setting = options_.pitch + blade.pitch_setting;
     const FrameId axes = tree.add_frame(root, Placement::rotation(rot_x(-setting)), name + " root");
-    const auto damping = damping_.blades.find(number);
-    const CardanBeam beam =
-        add_cardan_beam(tree, forces, axes, blade.line, name, {"blade", number},
-                        beam_options(options_, options_.blade_elements, options_.blade_beam,
-                                     damping == damping_.blades.end() ? BeamDamping() : damping->second));
+    const CardanBeam beam = add_blade_beam(axes, number, blade);
     if (blade.tip_mass > 0) {
         RigidInertia tip;
         tip.mass = blade.tip_mass;

@@ -60,6 +60,7 @@ private:
     FrameId add_hub(FrameId rotor_centre);
     FrameId add_teeter(FrameId rotor_centre, const TeeterDescription& teeter);
     void add_blades(FrameId hub);
+    CardanBeam add_blade_beam(FrameId root, int number, const BladeDescription& blade);
     void add_blade(FrameId hub, int number, const BladeDescription& blade, bool with_pitch_joint);
     BodyId add_linkage(FrameId pitch_axis, FrameId blade_side, int number, const PitchLinkage& linkage);
     FrameId add_pitch_axis(FrameId hub, int number, const BladeDescription& blade);
