@@ -203,6 +203,7 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
     if (!elements.empty()) forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
 }
 
+// Below; damping of modes needs a tree in which the beam is clamped.
 CardanBeam add_bodies(Tree& tree, ForceSet& forces, FrameId root, CardanBeam beam, const PartLabel& label);
 
 // Modal damping of the beam alone: the modes are those of the beam clamped at its root.
@@ -371,6 +372,8 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
 
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const CardanBeam& like, const std::string& name,
                            const PartLabel& label) {
+    if (like.elements.empty())
+        throw InputError(name, "number of elements of the beam to be like", 0, ">= 1, by add_cardan_beam()");
     CardanBeam beam = like;
     beam.name = name;
     for (std::string& warning : beam.warnings)

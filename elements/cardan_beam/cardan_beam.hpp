@@ -97,6 +97,7 @@ CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const Bea
 
 /// One more beam of the same line with the same options as `like`, in the same tree or in another. What a turbine's
 /// blades have in common need not be integrated anew for each of them.
+/// @throws InputError if `like` has no elements
 CardanBeam add_cardan_beam(Tree& tree, ForceSet& forces, FrameId root, const CardanBeam& like, const std::string& name,
                            const PartLabel& label);
 

@@ -7,6 +7,7 @@
 #include "tests/oracles/quadrature.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
+#include "tests/support/refusal.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -162,4 +163,11 @@ TEST_CASE("stiffness: a beam like another is the one that its line and options w
         CHECK(a.damping == b.damping);
         CHECK(a.damping.norm() > 0);
     }
+}
+
+TEST_CASE("stiffness: a beam cannot be like one that was not made", "[property]") {
+    Tree tree;
+    ForceSet forces;
+    check_refused([&] { (void)add_cardan_beam(tree, forces, Tree::base(), CardanBeam{}, "b", {"beam"}); },
+                  {"b: number of elements of the beam to be like", "add_cardan_beam()"});
 }
