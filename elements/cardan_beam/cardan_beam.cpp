@@ -203,42 +203,6 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
     if (!elements.empty()) forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
 }
 
-// Below; damping of modes needs a tree in which the beam is clamped.
-CardanBeam add_bodies(Tree& tree, ForceSet& forces, FrameId root, CardanBeam beam, const PartLabel& label);
-
-// Modal damping of the beam alone: the modes are those of the beam clamped at its root.
-void add_component_damping(ForceSet& forces, const CardanBeam& beam) {
-    if (!beam.options.damping.needs_modes()) return;
-    CardanBeam alone = beam;
-    alone.options.damping = {};
-    Tree tree;
-    ForceSet springs;
-    const CardanBeam clamped = add_bodies(tree, springs, Tree::base(), std::move(alone), {"beam"});
-    const Model model(tree);
-    const Eigen::Index n = model.size();
-    Matrix M(n, n), K = Matrix::Zero(n, n);
-    std::vector<int> direction(static_cast<std::size_t>(n));
-    std::vector<BodyId> bodies(static_cast<std::size_t>(n));
-    for (std::size_t e = 0; e < clamped.elements.size(); ++e) {
-        const CardanBeam::Element& element = clamped.elements[e];
-        std::vector<int> at;
-        for (std::size_t i = 0; i < element.bodies.size(); ++i) {
-            at.push_back(model.index(element.bodies[i]));
-            constexpr std::array<int, 6> of_kind{0, 1, 2, 2, 3, 3};
-            entry(direction, at.back()) = entry(of_kind, element.kinds[i]);
-            entry(bodies, at.back()) = beam.elements[e].bodies[i];
-        }
-        K(at, at) += element.stiffness;
-    }
-    Workspace workspace(model);
-    metric(kinematics(model, Vector::Zero(n), workspace), M);
-    forces.add_law({beam.name + " damping of modes",
-                    bodies,
-                    Matrix::Zero(n, n),
-                    component_damping(M, K, direction, beam.options.damping),
-                    {}});
-}
-
 // What is lost without free extension.
 void warn_of_condensed_extension(CardanBeam& beam, const std::vector<double>& ends) {
     if (const double offset = shear_centre_offset(beam.line, ends); offset > 2.5e-3 * beam.line.length)
@@ -282,6 +246,72 @@ CardanBeam::Element calculated_element(const ElementLine& span, const ElementIne
         element.tilt = shear_tilt(span, inertia.hinges, options.curved_flexibility, element.kinds, element.stiffness,
                                   options.order == CardanOrder::mirrored);
     return element;
+}
+
+// Gives the elements their bodies and frames.
+CardanBeam add_bodies(Tree& tree, ForceSet& forces, FrameId root, CardanBeam beam, const PartLabel& label) {
+    const std::string& name = beam.name;
+    const BeamLine& line = beam.line;
+    Placement reached;                                                // axes of the frame `at` in beam axes at rest
+    FrameId at = tree.add_frame(root, Placement{}, name + " start");  // its own, on whatever body carries it
+    const auto add_node = [&](double x) {
+        const Placement axes = line.pose(x);
+        beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", beam.nodes.size())));
+    };
+    beam.nodes.clear();
+    add_node(beam.elements.front().start);
+    for (std::size_t e = 0; e < beam.elements.size(); ++e) {
+        CardanBeam::Element& element = beam.elements[e];
+        const std::string element_name = text(name, " element ", e + 1);
+        if (!line.is_straight() || (element.axes.p - reached.p).norm() > 1e-9 * line.length) {
+            at = tree.add_frame(at, reached.inverse() * element.axes, element_name + " start");
+            reached = element.axes;
+        }
+        ElementBuilder builder(tree, at, element_name, label, beam.options);
+        at = builder.build(element.length, element.hinges, element.inertia);
+        reached = reached * Placement::translation({element.length, 0, 0});
+        element.bodies = builder.bodies;
+        std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
+        add_armatures(tree, element, beam.options, element_name);
+        add_node(element.start + element.arc);
+    }
+    add_elastic_law(forces, beam, name);
+    if (beam.modal_damping.size() > 0) {
+        std::vector<BodyId> bodies;
+        for (const CardanBeam::Element& element : beam.elements)
+            bodies.insert(bodies.end(), element.bodies.begin(), element.bodies.end());
+        forces.add_law({name + " damping of modes",
+                        bodies,
+                        Matrix::Zero(beam.modal_damping.rows(), beam.modal_damping.cols()),
+                        beam.modal_damping,
+                        {}});
+    }
+    return beam;
+}
+
+// The modes are those of the beam alone, clamped at its root.
+Matrix modal_damping(const CardanBeam& beam) {
+    if (!beam.options.damping.needs_modes()) return {};
+    Tree tree;
+    ForceSet springs;
+    const CardanBeam clamped = add_bodies(tree, springs, Tree::base(), beam, {"beam"});
+    const Model model(tree);
+    const Eigen::Index n = model.size();
+    Matrix M(n, n), K = Matrix::Zero(n, n);
+    std::vector<int> direction(static_cast<std::size_t>(n)), all;
+    for (const CardanBeam::Element& element : clamped.elements) {
+        std::vector<int> at;
+        for (std::size_t i = 0; i < element.bodies.size(); ++i) {
+            at.push_back(model.index(element.bodies[i]));
+            constexpr std::array<int, 6> of_kind{0, 1, 2, 2, 3, 3};
+            entry(direction, at.back()) = entry(of_kind, element.kinds[i]);
+        }
+        K(at, at) += element.stiffness;
+        all.insert(all.end(), at.begin(), at.end());
+    }
+    Workspace workspace(model);
+    metric(kinematics(model, Vector::Zero(n), workspace), M);
+    return component_damping(M, K, direction, beam.options.damping)(all, all);
 }
 
 // Everything about the elements but their bodies and frames, which are those of a tree.
@@ -328,38 +358,7 @@ CardanBeam calculated(const BeamLine& line, const std::string& name, const Carda
                                      "more elements do not remove what that does to the higher frequencies (several "
                                      "per cent of them at 100 %); give the sections their rotary inertia, or make "
                                      "them rigid in shear"));
-    return beam;
-}
-
-// Gives the elements their bodies and frames.
-CardanBeam add_bodies(Tree& tree, ForceSet& forces, FrameId root, CardanBeam beam, const PartLabel& label) {
-    const std::string& name = beam.name;
-    const BeamLine& line = beam.line;
-    Placement reached;                                                // axes of the frame `at` in beam axes at rest
-    FrameId at = tree.add_frame(root, Placement{}, name + " start");  // its own, on whatever body carries it
-    const auto add_node = [&](double x) {
-        const Placement axes = line.pose(x);
-        beam.nodes.push_back(tree.add_frame(at, reached.inverse() * axes, text(name, " node ", beam.nodes.size())));
-    };
-    beam.nodes.clear();
-    add_node(beam.elements.front().start);
-    for (std::size_t e = 0; e < beam.elements.size(); ++e) {
-        CardanBeam::Element& element = beam.elements[e];
-        const std::string element_name = text(name, " element ", e + 1);
-        if (!line.is_straight() || (element.axes.p - reached.p).norm() > 1e-9 * line.length) {
-            at = tree.add_frame(at, reached.inverse() * element.axes, element_name + " start");
-            reached = element.axes;
-        }
-        ElementBuilder builder(tree, at, element_name, label, beam.options);
-        at = builder.build(element.length, element.hinges, element.inertia);
-        reached = reached * Placement::translation({element.length, 0, 0});
-        element.bodies = builder.bodies;
-        std::copy(builder.segments.begin(), builder.segments.end(), element.segments.begin());
-        add_armatures(tree, element, beam.options, element_name);
-        add_node(element.start + element.arc);
-    }
-    add_elastic_law(forces, beam, name);
-    add_component_damping(forces, beam);
+    beam.modal_damping = modal_damping(beam);
     return beam;
 }
 

@@ -76,8 +76,9 @@ struct CardanBeam {
     std::string name;
     std::vector<Element> elements;
     std::vector<FrameId>
-        nodes;        ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
-    double mass = 0;  ///< kg
+        nodes;             ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
+    double mass = 0;       ///< kg
+    Matrix modal_damping;  ///< over the bodies of all elements, one after the other; empty: none of modes or masses
     std::vector<std::string> warnings;
     BeamLine line;              ///< the line it was made from
     CardanBeamOptions options;  ///< and the options
