@@ -72,7 +72,8 @@ check_format() {
         echo "no C++ files found" >&2
         return 1
     fi
-    clang-format --dry-run --Werror "${files[@]}" && echo "${#files[@]} files are formatted"
+    printf '%s\0' "${files[@]}" | xargs -0 -P "$jobs" -n 100 clang-format --dry-run --Werror &&
+        echo "${#files[@]} files are formatted"
 }
 
 # Of the release build.
@@ -81,6 +82,15 @@ if ((full)); then preset=release; fi
 
 build() { # <preset> [options of cmake]
     cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" --parallel "$jobs"
+}
+
+# quickly <command>...: for clang outside of our CMake project; within it, cmake/cardanQuickBuild.cmake says why.
+quickly() {
+    if [[ "$(/sbin/ldconfig -p)" == *libmimalloc.so.2* ]]; then
+        env LD_PRELOAD=libmimalloc.so.2 MIMALLOC_LARGE_OS_PAGES=1 "$@"
+    else
+        "$@"
+    fi
 }
 
 # A project of its own, with find_package(cardan) and the compiler's default flags, against an installed copy.
@@ -99,13 +109,13 @@ check_package() {
 check_headers() {
     cmake -S tests/packaging -B build/packaging/headers -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
         -DCMAKE_CXX_COMPILER=clang++ &&
-        cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
+        quickly cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
 }
 
 # run-clang-tidy <options>... <regular expression of sources>, on the compile commands of preset tidy: sources joined across
 # targets (cmake/cardanTidy.cmake).
 tidy() {
-    run-clang-tidy -quiet -j "$jobs" -p build/tidy "$@" 2>&1 | { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
+    quickly run-clang-tidy -quiet -j "$jobs" -p build/tidy "$@" 2>&1 | { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 
 # The library and the programs. A joined source includes .cpp files, which are no mistake and "headers" to report.
