@@ -76,9 +76,10 @@ struct CardanBeam {
     std::string name;
     std::vector<Element> elements;
     std::vector<FrameId>
-        nodes;             ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
-    double mass = 0;       ///< kg
-    Matrix modal_damping;  ///< over the bodies of all elements, one after the other; empty: none of modes or masses
+        nodes;        ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
+    double mass = 0;  ///< kg
+    /// By modes or masses, over the bodies of all elements, one after the other; empty: none of these.
+    Matrix modal_damping;
     std::vector<std::string> warnings;
     BeamLine line;              ///< the line it was made from
     CardanBeamOptions options;  ///< and the options
