@@ -96,6 +96,7 @@ public:
     std::vector<double> breaks() const;
     /// Motions are evaluated on the smooth piece that is active at this time, until the next call.
     void set_piece(double inside) { inside_ = inside; }
+    double piece() const { return inside_; }
 
     /// Accelerations of the unknowns and rates of the states.
     /// @param x    length(): positions, rates, states
@@ -144,6 +145,8 @@ public:
     /// Time, positions and rates alone.
     void positions(double time, const double* x, DynamicState& out);
     bool powers(double time, const double* x, Powers& out);
+    /// Those at the last state that was evaluated, which must be the preceding call.
+    Powers powers_here();
     double kinetic_energy(const DynamicState& at);
     double potential_energy(const DynamicState& at);
     /// Stored in elements with states, J.

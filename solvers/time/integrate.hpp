@@ -6,9 +6,11 @@
 #include "solvers/time/equations_of_motion.hpp"
 #include "solvers/time/sampled.hpp"
 
+#include <array>
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,8 @@ namespace cardan::solvers {
 
 enum class Method : std::uint8_t {
     /// ARKODE, diagonally implicit Runge-Kutta method of order 5, L-stable, Newton with the exact Jacobian: for elastic
-    /// machines at any accuracy; the default.                                              [Kennedy and Carpenter 2019]
+    /// machines at any accuracy; the default. Of order 4, with five implicit stages instead of six, under sampled
+    /// controllers, whose samples are its steps.                                           [Kennedy and Carpenter 2019]
     dirk,
     /// CVODE, BDF of order 1 to 5, Newton with the exact Jacobian: for strongly damped stiff systems and loose
     /// tolerances. Weakly damped fast modes limit its steps, since the higher orders are unstable for them.
@@ -46,7 +49,7 @@ struct IntegrationStatistics {
     long jacobians = 0;       ///< or tangents
     long factorisations = 0;  ///< of the matrix of Newton's method
     long iterations = 0;      ///< nonlinear
-    long restarts = 0;        ///< at breaks of motions and loads and after events, not counting the first start
+    long restarts = 0;        ///< after events and changes, not counting the first start
     int order = 0;            ///< of the last step
     double last_step = 0;     ///< s
 };
@@ -77,14 +80,13 @@ struct IntegrationOptions {
     Method method = Method::dirk;
     Tolerances tolerances = {};
     double max_step = 0;  ///< s; 0: no limit
-    /// Highest order of bdf (up to 5) and adams (up to 12); 0: no further limit.
+    /// Highest order of bdf (up to 5) and adams (up to 12), order of dirk (4 or 5); 0: as described there.
     int max_order = 0;
     double first_step = 0;  ///< s; 0: chosen by the method
     /// s; if positive, steps have this length (shorter only to end at a break): dirk, erk, generalised_alpha
     double fixed_step = 0;
     double spectral_radius = 0.8;  ///< of generalised_alpha at infinite frequency, 0 ... 1 (1: no dissipation)
-    /// Integrates the work done along with the motion by Gauss quadrature, which costs two evaluations per step (three
-    /// with dirk and erk).
+    /// Integrates the work done along with the motion by quadrature, which costs two or three evaluations per step.
     bool integrate_work = true;
     Vector states = {};               ///< states at the start; empty: as their table says
     std::vector<double> breaks = {};  ///< further times, ascending, at which to restart: jumps of user forces
@@ -163,9 +165,10 @@ struct Checkpoint {
 
 class Stepper;
 
-/// Integrates the equations of motion and those of the states beside them. It restarts at breaks of the motions and of
-/// loads over time (FrameLoad::breaks), so that the method sees only smooth functions; outputs between steps come from
-/// the method's own interpolation.
+/// Integrates the equations of motion and those of the states beside them. It ends a step at breaks of the motions and
+/// of loads over time (FrameLoad::breaks), so that the method sees only smooth functions; one-step methods go on from
+/// there with the step and the Jacobian that they have, the others begin anew. Outputs between steps come from the
+/// method's own interpolation.
 ///
 /// Forces may change in the action of an event and between two calls of advance(), not within one. By then the method
 /// has stepped beyond the output time: if accelerations have changed, at that time or at the end of the step, advance()
@@ -271,6 +274,7 @@ private:
     int first_event(double to, double& at);
     double root(std::size_t event, double to);
     double event_value(std::size_t event, double time);
+    bool find_powers();
     bool accumulate(double to);
     void complete(Advance& result);
     bool due(std::size_t event) const;
@@ -284,7 +288,7 @@ private:
     Vector u_;
     std::unique_ptr<Stepper> stepper_;
     std::vector<double> breaks_;
-    double break_ = 0, piece_end_ = 0;  ///< s, of the next break, and of that or the next sample
+    double piece_end_ = 0;  ///< s, the next break or sample
     bool start_pending_ = true, go_on_pending_ = false, repeat_pending_ = false;
     long starts_ = 0;
     Doing doing_ = Doing::nothing;
@@ -298,6 +302,13 @@ private:
     std::vector<int> sides_;                                     ///< last sign of each event function that was not zero
     DynamicState state_, between_;
     Work work_;
+    struct StepPowers {
+        bool known = false;
+        double from = 0, to = 0;  ///< s, of the step
+        std::span<const double> places = {};
+        std::array<Powers, 4> at = {};
+    };
+    StepPowers powers_;  ///< of the last step
     double kinetic_at_start_ = 0, potential_at_start_ = 0, stored_at_start_ = 0;
     std::map<std::string, double> notes_;
     IntegrationStatistics earlier_;  ///< up to the checkpoint it started from, less those that were repeated

@@ -4,6 +4,9 @@
 
 #include <nvector/nvector_serial.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace cardan::solvers {
 
 namespace {
@@ -17,6 +20,9 @@ SUNLinearSolver_Type solver_type(SUNLinearSolver) {
 SUNLinearSolver_ID solver_id(SUNLinearSolver) {
     return SUNLINEARSOLVER_CUSTOM;
 }
+// Factors for steps that differ by less than this, relative, are the same to Newton's method.
+constexpr double same_step = 1e-6;
+
 int no_setup(SUNLinearSolver, SUNMatrix) {
     return 0;  // factorised when it was formed
 }
@@ -29,6 +35,7 @@ int solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, re
 
 NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
     : equations_(equations),
+      point_{.x = Vector::Zero(equations.length()), .u = equations.inputs()},
       start_(equations.size()),
       change_(equations.size()),
       rates_(equations.rates()),
@@ -47,15 +54,61 @@ NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
 
 bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
     if (fresh || !has_jacobian_) {
-        has_jacobian_ = false;
-        if (!equations_.linearise(time, x)) return false;
-        has_jacobian_ = true;
+        if (!take_jacobian(time, x)) return false;
         ++jacobians;
+    } else if (std::abs(c - c_) < same_step * c) {
+        return true;
     }
-    c_ = c;
-    reduced_.form({.qdd = 1, .qd = c, .q = c * c, .s_rate = 1, .s = c});
+    factorise(c);
     ++factorisations;
     return true;
+}
+
+bool NewtonMatrix::take_jacobian(double time, const double* x) {
+    has_jacobian_ = false;
+    if (!equations_.linearise(time, x)) return false;
+    has_jacobian_ = true;
+    point_.time = time;
+    point_.piece = equations_.piece();
+    std::copy_n(x, point_.x.size(), point_.x.data());
+    point_.u = equations_.inputs();
+    return true;
+}
+
+void NewtonMatrix::factorise(double c) {
+    c_ = c;
+    reduced_.form({.qdd = 1, .qd = c, .q = c * c, .s_rate = 1, .s = c});
+}
+
+int NewtonMatrix::memory(const EquationsOfMotion& equations) {
+    return 3 + equations.length() + static_cast<int>(equations.inputs().size());
+}
+
+void NewtonMatrix::remember(double* out) const {
+    *out++ = has_jacobian_ ? c_ : 0;
+    *out++ = point_.time;
+    *out++ = point_.piece;
+    out = std::copy(point_.x.begin(), point_.x.end(), out);
+    std::copy(point_.u.begin(), point_.u.end(), out);
+}
+
+void NewtonMatrix::recall(const double* memory) {
+    const double c = memory[0], *const x = memory + 3, *const u = x + point_.x.size();
+    if (c == 0) {
+        has_jacobian_ = false;
+        return;
+    }
+    const bool same = has_jacobian_ && c_ == c && point_.time == memory[1] && point_.piece == memory[2] &&
+                      std::equal(point_.x.begin(), point_.x.end(), x) &&
+                      std::equal(point_.u.begin(), point_.u.end(), u);
+    if (same) return;
+    const Vector inputs = equations_.inputs();
+    const double piece = equations_.piece();
+    equations_.set_inputs(Eigen::Map<const Vector>(u, inputs.size()));
+    equations_.set_piece(memory[2]);
+    if (take_jacobian(memory[1], x)) factorise(c);
+    equations_.set_inputs(inputs);
+    equations_.set_piece(piece);
 }
 
 void NewtonMatrix::solve(const double* b, double* x) {

@@ -1,6 +1,8 @@
 #include "solvers/time/detail/stepper.hpp"
 
 #include "mbs/base/entry.hpp"
+#include "solvers/time/detail/newton_help.hpp"
+#include "solvers/time/detail/newton_matrix.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -64,6 +66,7 @@ MethodState Stepper::present(double time, const Vector& x) const {
     now.time = time;
     now.x = x;
     remember(now.memory.data());
+    now.memory(1) = 1;
     return now;
 }
 
@@ -72,6 +75,7 @@ void Stepper::go_on(double time, const double* x, double stop) {
     stop_at_ = stop;
     renew(time, x);
     remember(origin_.memory.data());
+    origin_.memory(1) = 0;
     origin_.steps = 0;
     origin_.time = time;
     std::copy(x, x + origin_.x.size(), origin_.x.data());
@@ -100,10 +104,16 @@ bool Stepper::repeat(const MethodState& from, double stop) {
     if (from.memory(0) > 0) {
         origin_.memory = from.memory;
         do_resume(from.time, from.x.data(), stop, from.memory.data());
+        if (from.memory(1) > 0) go_on(from.time, from.x.data(), stop);
     }
     for (long i = 0; i < from.steps; ++i)
         if (!step(from.horizon)) return false;
     return true;
+}
+
+int step_memory(const EquationsOfMotion& equations) {
+    const int of_alpha = 2 + 3 * equations.rates(), of_newton = Renewal::memory + NewtonMatrix::memory(equations);
+    return 2 + std::max(of_alpha, of_newton);
 }
 
 IntegrationStatistics sum(const IntegrationStatistics& earlier, const IntegrationStatistics& later, int sign) {

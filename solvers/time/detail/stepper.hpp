@@ -56,33 +56,39 @@ public:
     virtual ~Stepper() = default;
     /// Starts without history. Steps will not go beyond `stop` (infinity: no limit).
     void start(double time, const double* x, double stop);
-    /// Goes on from a state at which an input has changed: a one-step method with the step that it would have taken, a
-    /// multistep method from the start.
+    /// Goes on from a state at which inputs, forces or motions have a kink or a jump: a one-step method with the step
+    /// and the matrices that it has, a multistep method from the start.
     void go_on(double time, const double* x, double stop);
     /// One accepted step. @param horizon  the next output time: a scale for the first step, not a limit
     /// @return false: no step was possible, failure() says why. Exceptions of user functions propagate.
     bool step(double horizon);
     /// From what the present state has been computed; for a multistep method: nothing to repeat.
     const MethodState& origin() const { return origin_; }
-    /// A state within the last step with what determines the next ones; for a multistep method: nothing to repeat.
+    /// The state at which go_on() is about to be called; for a multistep method: nothing to repeat.
     MethodState present(double time, const Vector& x) const;
     /// Repeats those steps. @return false if they belong to another method, or if one fails
     bool repeat(const MethodState& from, double stop);
-    /// End of the last step.
+    /// End of the last step, and where it began.
     virtual double time() const = 0;
+    virtual double begin_of_step() const = 0;
+    /// True if forces and accelerations at the ends of a step are known as soon as states between them are.
+    virtual bool knows_ends() const { return false; }
+    /// @param last  at the end, else at the begin  @returns W, of a method that knows_ends()
+    virtual Powers powers_at_end(bool /*last*/) { return {}; }
     /// State within the last step.
     virtual void state_at(double time, double* x) = 0;
     virtual IntegrationStatistics statistics() const = 0;
     const std::string& failure() const { return failure_; }
 
 protected:
-    /// @param memory  how many numbers do_resume() needs, at least one; 0: a multistep method
+    /// @param memory  step_memory(); 0: a multistep method
     Stepper(int unknowns, int memory);
     virtual void do_start(double time, const double* x, double stop) = 0;
     virtual bool do_step(double horizon) = 0;
     /// The state stays, its rates may have changed.
     virtual void renew(double /*time*/, const double* /*x*/) {}
-    /// Writes the next step size, s, and whatever else determines the next steps.
+    /// Writes the next step size, s, leaves the second number alone, and writes whatever else determines the next
+    /// steps.
     virtual void remember(double* /*memory*/) const {}
     /// Drops everything except that.
     virtual void do_resume(double /*time*/, const double* /*x*/, double /*stop*/, const double* /*memory*/) {}
@@ -102,10 +108,8 @@ private:
 };
 
 /// Number of values that one-step methods remember: the same for all, so that a file written by one has room for
-/// another.
-inline int step_memory(const EquationsOfMotion& equations) {
-    return 3 + 3 * equations.rates();
-}
+/// another. The second one is 1 where go_on() is to come.
+int step_memory(const EquationsOfMotion& equations);
 
 /// @throws InputError for options the method does not support; NumericalError if SUNDIALS cannot be set up
 std::unique_ptr<Stepper> make_cvode_stepper(EquationsOfMotion& equations, const IntegrationOptions& options);

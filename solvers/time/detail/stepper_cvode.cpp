@@ -18,6 +18,7 @@ public:
     CvodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
     double time() const override { return time_; }
+    double begin_of_step() const override { return begin_; }
     void state_at(double time, double* x) override;
 
 private:
@@ -33,6 +34,7 @@ private:
     IntegrationStatistics since_start() const override;
     bool local_errors() override;
 
+    double begin_ = 0;  ///< of the last step, s
     SundialsNonlinear fixed_point_;
     std::unique_ptr<void, SundialsDeleter<free_cvode>> cvode_;
 };
@@ -88,6 +90,7 @@ bool CvodeStepper::do_step(double horizon) {
     const double from = time_;
     const int flag = CVode(cvode_.get(), towards(horizon), vector(), &time_, CV_ONE_STEP);
     rethrow();
+    begin_ = from;
     if (flag >= 0 && (time_ == stop_ || !stands_still(from, time_))) return true;
     failure_ = explain(flag, "jumps of forces (give their times as breaks) or a motion that ends in infinity");
     return false;
