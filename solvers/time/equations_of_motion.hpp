@@ -17,6 +17,13 @@ namespace cardan::solvers {
 
 class ConstrainedMotion;
 
+/// What a lock has to hold, beside the other loops and locks.
+struct LockHold {
+    bool beside_loops = false;  ///< loops alone leave its coordinate free to move
+    bool beside_all = false;    ///< so do the loops and the other locks that are engaged
+    double mobility = 0;        ///< acceleration of the coordinate for a force of 1 along it, of the tree without loops
+};
+
 /// The context named in errors of these equations and their integration.
 inline constexpr const char* in_integration = "time integration";
 
@@ -119,6 +126,8 @@ public:
     /// @param K  out, of all coordinates
     /// @return false, K being undefined, if forces couple coordinates that are not on one branch.  Cost O(n d)
     bool tangent_on_branches(double c_qdd, double c_qd, double c_q, BranchMatrix& K) const;
+    /// Gradients of the loops' independent equations there, by unknowns. Empty without loops.
+    auto loop_gradients() const { return loop_gradients_.topRows(loop_rank_); }
     /// y = g v and y -= c S v; v and y by unknowns.
     void multiply_metric(const Vector& v, Vector& y);
     void subtract_stiffness(double c, const Vector& v, Vector& y);
@@ -137,6 +146,9 @@ public:
     /// What the loops do; nullptr: there are none.
     const ConstrainedMotion* loops() const { return loops_.get(); }
     const Loops& system_loops() const { return system_->loops; }
+    /// What a lock that is engaged has to hold, at the state evaluated last.  Allocates.
+    /// @param equation  of the lock, Loops::first_of()
+    LockHold hold(int equation);
 
     /// All coordinates, accelerations and drive forces at a state. @return false, with `out` unchanged, if a number is
     /// not finite; problem() says which
@@ -182,7 +194,8 @@ private:
     ForceDerivatives force_derivatives_;
     BranchMatrix g_, tau_q_, tau_qd_;   ///< of the inertial forces
     BranchMatrix stiffness_, damping_;  ///< with what the forces add on the branches
-    Matrix loop_stiffness_;
+    Matrix loop_stiffness_, loop_gradients_;
+    Eigen::Index loop_rank_ = 0;
     bool on_branches_ = true;  ///< and that is all of it
     double inside_, time_ = 0;
     Vector q_, qd_, qdd_, Q_, tau_, actuator_, all_, product_;

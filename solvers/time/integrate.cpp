@@ -1,7 +1,6 @@
 #include "solvers/time/integrate.hpp"
 
 #include "mbs/base/entry.hpp"
-#include "mbs/model/free_body.hpp"
 #include "solvers/time/detail/stepper.hpp"
 
 #include <algorithm>
@@ -106,7 +105,7 @@ void Integrator::begin_piece() {
 // Within the last step, with loops closed: interpolation leaves them open by the error of the method.
 void Integrator::state_at(double time, Vector& x) {
     stepper_->state_at(time, x.data());
-    if (!equations_.project(time, x.data())) throw NumericalError(text(in_integration, ": ", equations_.problem()));
+    if (!equations_.project(time, x.data())) throw NoState(text(in_integration, ": ", equations_.problem()));
 }
 
 bool Integrator::sample_due() const {
@@ -163,6 +162,7 @@ bool Integrator::accumulate(double to) {
 void Integrator::complete(Advance& result) {
     result.time = state_.time;
     if (equations_.complete(state_.time, x_.data(), state_)) return;
+    if (result.end == Advance::End::failed) return;
     result.end = Advance::End::failed;
     result.message = text("no forces at ", state_.time, " s: ", equations_.problem());
 }
@@ -185,11 +185,11 @@ bool Integrator::process(double to, Advance& result) {
         result.message = text("no forces within the last step: ", equations_.problem());
         return false;
     }
-    state_at(at, x_);
+    state_at(at, x_between_);
+    x_ = x_between_;
     equations_.positions(at, x_.data(), state_);
     if (sides_.empty()) return true;
     if (event >= 0 && at < to) {
-        x_between_ = x_;
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
     // An action that throws is repeated when the run continues.
@@ -226,9 +226,10 @@ bool Integrator::accelerations_changed() {
 }
 
 // A stall: tiny steps in succession.
-bool Integrator::stands_still() {
+bool Integrator::stands_still(double horizon) {
     if (++steps_ < watched_steps) return false;
-    const bool still = stepper_->time() - moved_ < watched_steps * shortest_step(stepper_->time());
+    const double now = stepper_->time(), shortest = shortest_step(now, horizon - now);
+    const bool still = now - moved_ < watched_steps * shortest;
     steps_ = 0;
     moved_ = stepper_->time();
     return still;
@@ -250,7 +251,7 @@ bool Integrator::take_step(double horizon, Advance& result) {
         start_pending_ = go_on_pending_ = false;
         seen_at_ = never;
     }
-    const bool done = stepper_->step(horizon), still = done && stands_still();
+    const bool done = stepper_->step(horizon), still = done && stands_still(horizon);
     if (done && !still) {
         if (options_.progress) options_.progress(stepper_->time(), statistics());
         return true;
@@ -259,7 +260,7 @@ bool Integrator::take_step(double horizon, Advance& result) {
     result.message =
         !done ? stepper_->failure()
               : text("no progress at ", state_.time, " s: ", watched_steps, " steps in less than ",
-                     watched_steps * shortest_step(state_.time),
+                     watched_steps * shortest_step(state_.time, horizon - state_.time),
                      " s; look for forces or stiffnesses that are far too large, or take an implicit method");
     start_pending_ = true;
     return false;
@@ -268,6 +269,21 @@ bool Integrator::take_step(double horizon, Advance& result) {
 Advance Integrator::advance(double target, bool one_step) try {
     const While advancing(doing_, Doing::advancing);
     Advance result;
+    try {
+        advance_until(target, one_step, result);
+    } catch (const NoState& none) {
+        start_pending_ = true;
+        result.end = Advance::End::failed;
+        result.message = none.what();
+    }
+    complete(result);
+    return result;
+} catch (...) {
+    start_pending_ = true;  // the method may have been left in the middle of a step
+    throw;
+}
+
+void Integrator::advance_until(double target, bool one_step, Advance& result) {
     if (repeat_pending_)
         repeat_steps();
     else if (accelerations_changed())
@@ -282,11 +298,6 @@ Advance Integrator::advance(double target, bool one_step) try {
         if (!process(one_step ? stepper_->time() : std::min(target, stepper_->time()), result)) break;
     }
     note_accelerations();
-    complete(result);
-    return result;
-} catch (...) {
-    start_pending_ = true;  // the method may have been left in the middle of a step
-    throw;
 }
 
 void Integrator::check_allowed(const char* what, Doing latest) const {
@@ -361,28 +372,6 @@ void Integrator::update() {
     check_allowed("update()", Doing::acting);
     if (!equations_.complete(state_.time, x_.data(), state_))
         throw NumericalError(text(in_integration, ": no forces at ", state_.time, " s: ", equations_.problem()));
-}
-
-// Their hinges are singular where the second one stands at a right angle: at 60 degrees they are turned anew.
-void Integrator::watch_free_bodies() {
-    for (const Model::Free& body : equations_.model().free_bodies())
-        options_.events.push_back(
-            {.name = text("coordinates of '", body.name, "'"),
-             .function = [&body](const ForceInput& at) { return free_chart_quality(body, at.q) - 0.5; },
-             .direction = -1,
-             .action =
-                 [&body](Integrator& run) {
-                     run.turn_reference(body);
-                     return AfterEvent::restart;
-                 }});
-}
-
-void Integrator::turn_reference(const Model::Free& body) {
-    Vector q = state_.q, qd = state_.qd;
-    set_free_motion(body, free_motion(body, q, qd), q, qd);
-    equations_.set_jump(body.reference, Motion::constant(q(body.reference)));
-    positions_(body.reference) = q(body.reference);
-    set_state(q, qd);
 }
 
 void Integrator::restart() {

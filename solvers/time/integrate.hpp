@@ -193,7 +193,7 @@ public:
     Integrator& operator=(const Integrator&) = delete;
 
     /// Advances exactly to the time, unless an event stops it, it is cancelled or fails. It also fails if a thousand
-    /// steps have advanced the time by less than 1e-9 s, or by less than its resolution.
+    /// steps have advanced the time by less than a billionth of what is left, or by less than its resolution.
     /// @throws InputError if the time lies before the present one, or if called within advance(): from a force, the
     /// function or action of an event, `progress` or `cancelled`. The same holds for step() and run().
     Advance advance(double time);
@@ -241,6 +241,8 @@ public:
     /// Evaluates accelerations, forces of drives and multipliers of the present state anew: in an action, after what
     /// they depend on has changed.
     void update();
+    /// What a lock that is engaged has to hold: in an action, after update().
+    LockHold hold(int equation) { return equations_.hold(equation); }
     /// Call when forces have changed: results beyond the present time are discarded.
     void restart();
     ///@}
@@ -261,12 +263,13 @@ private:
     bool accelerations_changed();
     bool take_step(double horizon, Advance& result);
     void note_accelerations();
-    bool stands_still();
+    bool stands_still(double horizon);
     void find_breaks();
     void begin_piece();
     void pass_piece_end();
     bool sample_due() const;
     Advance advance(double target, bool one_step);
+    void advance_until(double target, bool one_step, Advance& result);
     bool process(double to, Advance& result);
     int first_event(double to, double& at);
     double root(std::size_t event, double to);

@@ -1,4 +1,5 @@
 // An integrator's past: energies, counters, and continuation from a checkpoint.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/time/detail/stepper.hpp"
 #include "solvers/time/integrate.hpp"
@@ -60,6 +61,15 @@ Integrator::Integrator(const System& system, std::vector<Drive> drives, const Ch
 }
 
 void Integrator::go_on_from(const Checkpoint& from) {
+    // As they are: moved onto the loops once more, positions and rates would differ in their last digits.
+    const Eigen::Index m = equations_.size();
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x_(i) = from.q(entry(equations_.unknowns(), i));
+        x_(m + i) = from.qd(entry(equations_.unknowns(), i));
+    }
+    x_between_ = x_;
+    if (!equations_.complete(from.time, x_.data(), state_))
+        throw NumericalError(text(in_integration, ": no start: ", equations_.problem()));
     work_ = from.work;
     kinetic_at_start_ = from.kinetic_at_start;
     potential_at_start_ = from.potential_at_start;

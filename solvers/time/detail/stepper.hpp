@@ -13,14 +13,24 @@
 
 namespace cardan::solvers {
 
-/// Less than this on average over a thousand steps is not progress, s.
-inline double shortest_step(double time) {
-    return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
+/// No state at a time within a step: a loop that cannot be closed, forces that are not finite. Integrator::advance()
+/// returns it as a failure.
+class NoState : public NumericalError {
+public:
+    using NumericalError::NumericalError;
+};
+
+/// Less than this on average over a thousand steps is not progress, s: the clock cannot tell it, or a trillion such
+/// steps would not get there.
+/// @param left  to the time asked for; infinity: that is not known
+inline double shortest_step(double time, double left) {
+    return std::max(std::isfinite(left) ? 1e-12 * left : 0,
+                    64 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
 /// Two times closer than this are one, s.
 inline double resolution(double time) {
-    return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
+    return 64 * std::numeric_limits<double>::epsilon() * std::abs(time);
 }
 
 /// Weights of the error norm, one per entry of x = (q_f, qd_f, s).

@@ -149,7 +149,7 @@ bool ArkodeStepper::do_step(double horizon) {
 void ArkodeStepper::complete_ends() {
     const auto evaluate = [&](double time, const Vector& x, Vector& xdd, bool& known) {
         if (!known && !equations_.accelerations(time, x.data(), xdd.data()))
-            throw NumericalError(text("time integration: ", equations_.problem()));
+            throw NoState(text("time integration: ", equations_.problem()));
         known = true;
     };
     const bool fresh = !to_.known;
@@ -167,7 +167,7 @@ void ArkodeStepper::complete_states() {
     interpolate(place, between_.data());
     const double h = to_.time - from_.time;
     if (!equations_.accelerations(from_.time + place * h, between_.data(), between_rates_.data()))
-        throw NumericalError(text("time integration: ", equations_.problem()));
+        throw NoState(text("time integration: ", equations_.problem()));
     const Eigen::Index m = equations_.size(), k = equations_.states();
     const double s = place, u = 1 - s;
     for (Eigen::Index i = 0; i < k; ++i) {

@@ -96,7 +96,7 @@ bool CvodeStepper::do_step(double horizon) {
 void CvodeStepper::state_at(double time, double* x) {
     // At the end, or where nothing has been stepped yet, there is nothing to interpolate.
     if (time != time_ && CVodeGetDky(cvode_.get(), time, 0, errors()) != 0)
-        throw NumericalError(text("time integration: no state at ", time, " s, outside of the last step"));
+        throw NoState(text("time integration: no state at ", time, " s, outside of the last step"));
     const double* from = time == time_ ? data() : N_VGetArrayPointer(errors());
     std::copy(from, from + weights_.size(), x);
 }

@@ -77,7 +77,7 @@ void SundialsStepper::begin(double time, const double* x, double stop) {
 
 double SundialsStepper::towards(double horizon) const {
     // One step is taken whatever this is, but the libraries refuse to start toward a time that is almost now.
-    const double nearest = std::min(horizon, stop_), shortest = 1e-6 * std::max(1.0, std::abs(time_));
+    const double nearest = std::min(horizon, stop_), shortest = 1e-6 * std::abs(time_);
     return std::isfinite(nearest) && nearest - time_ > shortest ? nearest : time_ + 1;
 }
 

@@ -1,8 +1,6 @@
 // Loops on random trees: every derivative against the complex step of the one before, multipliers against the work of
 // what they stand for.
-#include "mbs/base/decompositions.hpp"
 #include "mbs/loops/closure.hpp"
-#include "mbs/loops/constraint_factor.hpp"
 #include "mbs/system/system.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
@@ -293,43 +291,6 @@ TEST_CASE("loops: a surface, and two that make a curve", "[closed-form]") {
     const Vector d = step * qd;
     const Vector expected = (gradient(closed.q + d) - gradient(closed.q - d)) * qd / (2 * step);
     CHECK(scaled(bias - expected, expected) < 1e-8);
-}
-
-TEST_CASE("loops: projection and multipliers of redundant constraints", "[property]") {
-    // Random gradients of which some are combinations of others.
-    for (unsigned seed = 0; seed < 10; ++seed) {
-        CAPTURE(seed);
-        Random random(seed);
-        const Model model(random_tree(random, {.bodies = 10}));
-        const int n = model.size(), m = 6, r = 4;
-        const Matrix few = random_matrix(random, r, n);
-        Matrix G(m, n);
-        G << few, random_matrix(random, m - r, r) * few;
-        Workspace workspace(model);
-        const Vector q = random_state(random, n);
-        const Kinematics kin = kinematics(model, q, workspace);
-        Matrix g(n, n);
-        metric(kin, g);
-        MetricFactor metric_factor(model);
-        REQUIRE(metric_factor.factorise(kin).ok());
-        ConstraintFactor factor(model, m);
-        factor.factorise(metric_factor, G, G.cwiseAbs(), 1e-9);
-        REQUIRE(factor.rank() == r);
-        const Matrix inverse = g.inverse(), A = G * inverse * G.transpose();
-        const Vector y = A * random_state(random, m);  // one that can be met
-        Vector x(n), lambda(m);
-        factor.shortest(y, x);
-        factor.multipliers(y, lambda);
-        CHECK(scaled(G * x - y, y) < 1e-9);
-        CHECK(scaled(A * lambda - y, y) < 1e-9);
-        CHECK(scaled(inverse * G.transpose() * lambda - x, x) < 1e-9);  // no way is shorter
-        // No other multipliers are: these have nothing in the null space.
-        Eigen::FullPivLU<Matrix> lu(A);
-        lu.setThreshold(1e-9);
-        const Matrix null = lu.kernel();
-        CHECK(null.cols() == m - r);
-        CHECK((null.transpose() * lambda).norm() < 1e-8 * lambda.norm() * null.norm());
-    }
 }
 
 TEST_CASE("loops: what does not fit is refused with names", "[bad-input]") {
