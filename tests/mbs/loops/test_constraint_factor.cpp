@@ -91,7 +91,7 @@ TEST_CASE("loops: which equations are independent depends on no unit and on no m
 }
 
 TEST_CASE("loops: a gradient all but parallel to another for a light body is independent, one that vanishes is not",
-          "[closed-form]") {
+          "[analytic]") {
     // Two sliders, one of them light: (1, 1) and (1, 2) in the inverse metric diag(1, 1/mass).
     for (const double mass : {1e-3, 1e-9, 1e-15, 1e-21}) {
         CAPTURE(mass);

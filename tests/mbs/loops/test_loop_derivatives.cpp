@@ -138,7 +138,7 @@ TEST_CASE("loops: what joints and rods exert does the work of their multipliers"
 }
 
 TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which leaves it that freedom",
-          "[closed-form]") {
+          "[analytic]") {
     struct Freedoms {
         CutKind kind;
         std::vector<std::pair<JointKind, Vec3>> joints;
@@ -188,7 +188,7 @@ TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which l
     }
 }
 
-TEST_CASE("loops: every kind of joint holds as many directions as it has equations", "[closed-form]") {
+TEST_CASE("loops: every kind of joint holds as many directions as it has equations", "[analytic]") {
     Random random(5);
     for (const CutKind kind : all_kinds) {
         CAPTURE(static_cast<int>(kind));
@@ -210,7 +210,7 @@ TEST_CASE("loops: every kind of joint holds as many directions as it has equatio
     }
 }
 
-TEST_CASE("loops: the closed position is the nearest one in the metric", "[closed-form]") {
+TEST_CASE("loops: the closed position is the nearest one in the metric", "[analytic]") {
     // A point mass on a circle: of all its points the one on the line to the start. With unequal inertia in x and y the
     // metric is diag(m + 3, m), and the nearest point that of an ellipse.
     for (const double more : {0.0, 3.0}) {
@@ -245,7 +245,7 @@ TEST_CASE("loops: the closed position is the nearest one in the metric", "[close
     }
 }
 
-TEST_CASE("loops: a surface, and two that make a curve", "[closed-form]") {
+TEST_CASE("loops: a surface, and two that make a curve", "[analytic]") {
     // The ellipsoid x^2/4 + y^2 + z^2 = 1 in turned axes.
     Random random(11);
     Tree tree;
@@ -332,7 +332,7 @@ TEST_CASE("loops: what does not fit is refused with names", "[bad-input]") {
     check_refused([&] { system.require_no_loops("this"); }, {"this", "rod"});
 }
 
-TEST_CASE("loops: closed the wrong way round is not closed", "[closed-form]") {
+TEST_CASE("loops: closed the wrong way round is not closed", "[analytic]") {
     // A shaft to be welded to ground from half a turn away: all equations of directions are met there, too.
     Tree tree;
     const Link shaft = add_joint(tree, {.name = "shaft", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});

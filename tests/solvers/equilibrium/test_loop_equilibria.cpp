@@ -102,7 +102,7 @@ TEST_CASE("loop equilibria: Bricard's loop at its lowest position", "[discrete]"
 }
 
 TEST_CASE("loop equilibria: natural modes of a closed machine are those of the open one that it equals",
-          "[closed-form]") {
+          "[analytic]") {
     // A mass on a rod about the origin, held by springs in x and y: against the same mass on a hinge.
     const double length = 1.3, m = 2, kx = 30, ky = 70;
     Tree tree;
@@ -139,7 +139,7 @@ TEST_CASE("loop equilibria: natural modes of a closed machine are those of the o
         {"rod", "gap"});
 }
 
-TEST_CASE("loop equilibria: a mass upright on a rod, in a loop, falls at the load of its spring", "[closed-form]") {
+TEST_CASE("loop equilibria: a mass upright on a rod, in a loop, falls at the load of its spring", "[analytic]") {
     // On slides in x and y, held sideways by k: m l^2 phi'' + (k l^2 - F l) phi = 0.
     const double length = 1.3, k = 30, full = 100;
     Tree tree;
@@ -157,7 +157,7 @@ TEST_CASE("loop equilibria: a mass upright on a rod, in a loop, falls at the loa
     CHECK(found.factor * full == Approx(k * length).epsilon(1e-6));
 }
 
-TEST_CASE("loop equilibria: two wheels held by a spring and tied by a coupling only", "[closed-form]") {
+TEST_CASE("loop equilibria: two wheels held by a spring and tied by a coupling only", "[analytic]") {
     // Pinion = -2 wheel; a torque M on the pinion, a spring k on the wheel: k wheel = -2 M.
     Tree tree;
     const Link wheel = add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
@@ -263,7 +263,7 @@ TEST_CASE("loop equilibria: the pitch linkage snaps through along its load curve
     CHECK(behind.at.q(0) == Approx(2.33623656).margin(1e-7));
 }
 
-TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in closed form", "[closed-form]") {
+TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in closed form", "[analytic]") {
     // Bars of 1 m from (0, 0), hinged in the middle, to a slider on x that a spring of 1000 N/m holds at x = 1.8: a
     // loop. A load F down at the hinge at angle t: x = 2 cos t, F = 2 k (2 cos t - 1.8) tan t ... with its sign.
     const double k = 1000, rest = 1.8;

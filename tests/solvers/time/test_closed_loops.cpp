@@ -100,7 +100,7 @@ struct Squeezer {
 
 using namespace closed_loop_tests;
 
-TEST_CASE("closed loops: a mass on a rod is the pendulum, at every order", "[closed-form]") {
+TEST_CASE("closed loops: a mass on a rod is the pendulum, at every order", "[analytic]") {
     const RodPendulum machine;
     const double span = 1.7;
     const oracles::SwingingPendulum pendulum(std::sqrt(loop_gravity / machine.length), machine.start);
@@ -227,7 +227,7 @@ TEST_CASE("closed loops: Andrews' squeezer", "[published]") {
     }
 }
 
-TEST_CASE("closed loops: events, checkpoints and outputs", "[closed-form]") {
+TEST_CASE("closed loops: events, checkpoints and outputs", "[analytic]") {
     const RodPendulum machine;
     const System& system = machine.system;
     const Vector start = machine.position(machine.start);
@@ -282,7 +282,7 @@ TEST_CASE("closed loops: continued from any checkpoint, a run goes on bit for bi
     }
 }
 
-TEST_CASE("closed loops: constraints that move do work, couplings none", "[closed-form]") {
+TEST_CASE("closed loops: constraints that move do work, couplings none", "[analytic]") {
     // A mass m that a constraint x = a sin(w t) moves: force m x'', work the change of kinetic energy.
     Tree tree;
     const Link slide = add_joint(

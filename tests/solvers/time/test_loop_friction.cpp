@@ -60,7 +60,7 @@ struct Engine {
 using namespace loop_friction_tests;
 
 TEST_CASE("friction in a loop: a piston passes its dead centres, where its friction only changes direction",
-          "[closed-form]") {
+          "[analytic]") {
     const Engine engine(5, 0, 0);
     const double start = 1, rate = 10;
     Integrator run = engine.run(start, rate);
@@ -88,7 +88,7 @@ TEST_CASE("friction in a loop: a piston passes its dead centres, where its frict
     CHECK(run.statistics().restarts == 3);  // at dead centres, and nowhere else
 }
 
-TEST_CASE("friction in a loop: a mechanism stops where its energy is used up, and stays", "[closed-form]") {
+TEST_CASE("friction in a loop: a mechanism stops where its energy is used up, and stays", "[analytic]") {
     for (const double bearing : {0.0, 3.0}) {
         CAPTURE(bearing);
         const Engine engine(150, bearing, 0);
@@ -107,7 +107,7 @@ TEST_CASE("friction in a loop: a mechanism stops where its energy is used up, an
     }
 }
 
-TEST_CASE("friction in a loop: contacts that hold the same motion share the load", "[closed-form]") {
+TEST_CASE("friction in a loop: contacts that hold the same motion share the load", "[analytic]") {
     const double start = 1;
     const CrankMotion motion;
     // What the bearing of the crank holds at the piston.
@@ -123,7 +123,7 @@ TEST_CASE("friction in a loop: contacts that hold the same motion share the load
     }
 }
 
-TEST_CASE("friction in a loop: a driven crank carries its piston through the dead centres", "[closed-form]") {
+TEST_CASE("friction in a loop: a driven crank carries its piston through the dead centres", "[analytic]") {
     const Engine engine(5, 0, 0, CoordinateRole::driven);
     // The first start at a dead centre, where the piston stands.
     for (const double start : {0.0, 1.0}) {
@@ -140,7 +140,7 @@ TEST_CASE("friction in a loop: a driven crank carries its piston through the dea
     }
 }
 
-TEST_CASE("friction in a loop: the rocker of a four-bar takes energy at every swing", "[closed-form]") {
+TEST_CASE("friction in a loop: the rocker of a four-bar takes energy at every swing", "[analytic]") {
     // A heavy crank turns through; friction in the hinge of the rocker, at rest in its two dead points.
     constexpr double a = FourBar::crank_length, b = FourBar::coupler_length, c = FourBar::rocker_length,
                      d = FourBar::ground_length, torque = 0.8;

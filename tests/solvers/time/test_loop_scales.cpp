@@ -90,7 +90,7 @@ Vector chain_accelerations(int bars, double gravity) {
 
 using namespace loop_scale_tests;
 
-TEST_CASE("loop scales: a rod of any weight moves with its crank and piston", "[closed-form]") {
+TEST_CASE("loop scales: a rod of any weight moves with its crank and piston", "[analytic]") {
     for (const double weight : {0.3, 1e-3, 1e-6, 5e-9, 1e-12, 1e-15, 1e-18}) {
         for (const CutKind kind : {CutKind::revolute, CutKind::cylindrical}) {
             CAPTURE(weight, static_cast<int>(kind));
@@ -129,7 +129,7 @@ TEST_CASE("loop scales: a rod of any weight moves with its crank and piston", "[
     }
 }
 
-TEST_CASE("loop scales: a straight chain of hinged bars that a slider ends", "[closed-form]") {
+TEST_CASE("loop scales: a straight chain of hinged bars that a slider ends", "[analytic]") {
     for (const int bars : {10, 40, 160}) {
         CAPTURE(bars);
         Tree tree;

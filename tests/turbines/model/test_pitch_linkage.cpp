@@ -47,7 +47,7 @@ AssemblyOptions coarse() {
 
 using namespace pitch_linkage_tests;
 
-TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[closed-form]") {
+TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[analytic]") {
     const Turbine turbine = assemble(machine(linkage(driven_joint), free_joint), coarse());
     const Model& model = turbine.system().model;
     CHECK(turbine.layout().pitch_actuators.size() == 3);
@@ -67,7 +67,7 @@ TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[clo
     }
 }
 
-TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[closed-form]") {
+TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[analytic]") {
     const double k = actuator_stiffness / (angle_by_stroke * angle_by_stroke);
     const Turbine with = assemble(machine(linkage({actuator_stiffness, 0}), free_joint), coarse()),
                   without = assemble(machine(std::nullopt, {k, 0}), coarse());
@@ -89,7 +89,7 @@ TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[c
               Approx(sprung.points.at(0).modes[i].mode.natural_hz()).epsilon(2e-4).margin(1e-9));
 }
 
-TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[closed-form]") {
+TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[analytic]") {
     const Turbine turbine = assemble(machine(linkage(driven_joint), free_joint), coarse());
     const System& system = turbine.system();
     const Model& model = system.model;
