@@ -70,10 +70,16 @@ void add_air_options(CommandLine& app, AirArguments& a) {
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
 }
 
+void add_wake_option(CommandLine& app, AirArguments& a) {
+    app.add_option("--wake", a.wake,
+                   "quasi-steady: induced velocities in equilibrium with the loads; none: there are none")
+        .one_of({"quasi-steady", "none"});
+}
+
 std::string in_words(const AirArguments& a) {
     return text("air ", a.file.empty() ? "of the machine" : a.file, ", shear ", a.shear, ", direction ", a.direction,
                 " deg, upflow ", a.upflow, " deg, density ", a.density ? text(*a.density) : "of the air's file",
-                a.no_skew ? ", no skew" : "", a.no_tower ? ", no tower" : "");
+                a.wake == "none" ? ", no wake" : "", a.no_skew ? ", no skew" : "", a.no_tower ? ", no tower" : "");
 }
 
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments) {
@@ -94,6 +100,7 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
                          "FILE, the main file of AeroDyn, or windIO");
     }
     if (arguments.no_skew) air.options.skew = Skew::none;
+    if (arguments.wake == "none") air.options.induction = false;
     if (arguments.density) air.density = *arguments.density;
     return air;
 }

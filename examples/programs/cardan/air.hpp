@@ -21,10 +21,13 @@ struct AirArguments {
     double direction = 0, upflow = 0;  ///< deg
     std::optional<double> density;
     bool no_skew = false, no_tower = false;
+    std::string wake = "quasi-steady";  ///< "none": no induced velocities
 };
 /// Of these, file and density alone.
 void add_profile_options(CommandLine& app, AirArguments& arguments);
 void add_air_options(CommandLine& app, AirArguments& arguments);
+/// Of commands whose wake is in equilibrium, or none.
+void add_wake_option(CommandLine& app, AirArguments& arguments);
 /// For the file of a run.
 std::string in_words(const AirArguments& arguments);
 

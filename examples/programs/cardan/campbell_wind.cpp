@@ -17,8 +17,8 @@ namespace {
 
 constexpr int azimuths_of_states = 24;
 
-std::string vibration_in_words(const turbines::AeroelasticOptions& air) {
-    return text("wake ", name_of(air.wake), ", profiles ", air.profiles.empty() ? "steady" : "unsteady");
+std::string vibration_in_words(const VibrationArguments& a, const turbines::AeroelasticOptions& air) {
+    return text("wake ", a.wind.air.wake, ", profiles ", air.profiles.empty() ? "steady" : "unsteady");
 }
 
 void write_wind_diagram(const solvers::Campbell& diagram, const std::string& prefix, double max_frequency) {
@@ -33,16 +33,18 @@ void write_wind_diagram(const solvers::Campbell& diagram, const std::string& pre
 
 turbines::AeroelasticOptions air_that_lags(const VibrationArguments& a, const Air& air) {
     turbines::AeroelasticOptions options;
-    options.wake = turbines::wake_named(a.wake, "--wake");
+    // Without induced velocities none can lag.
+    if (a.wind.air.wake != "none") options.wake = turbines::wake_named(a.wind.air.wake, "--wake");
     if (!a.steady_profiles) options.profiles = air.profiles;
     return options;
 }
 
 void add_vibration_options(CommandLine& app, VibrationArguments& a) {
     add_wind_options(app, a.wind);
-    app.add_option("--wake", a.wake,
+    app.add_option("--wake", a.wind.air.wake,
                    "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
-                   "dynamic");
+                   "dynamic; none: there are none")
+        .one_of({"frozen", "quasi-steady", "dynamic", "none"});
     app.add_flag("--steady-profiles", a.steady_profiles,
                  "lift, drag and moment follow the angle of attack at once, also where the profiles' data have lags");
     app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
@@ -66,7 +68,7 @@ int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const 
     if (a.floquet) modes.method = solvers::CampbellMethod::floquet;
     solvers::Campbell diagram = turbines::aeroelastic_campbell(run.operation, run.points, air, modes);
     stop_at_once();
-    diagram.remark = vibration_in_words(air);
+    diagram.remark = vibration_in_words(a, air);
     tell_origin(diagram, machine, run.ready, run_text("campbell", command));
     print_table(diagram);
     if (diagram.points.empty()) return 130;

@@ -11,10 +11,11 @@ namespace cardan::program {
 
 /// What the air does to a vibration.
 struct VibrationArguments {
-    WindArguments wind;
-    std::string wake = "dynamic";
+    WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
     bool steady_profiles = false, floquet = false;
     int harmonics = 4;
+
+    VibrationArguments() { wind.air.wake = "dynamic"; }
 };
 
 void add_vibration_options(CommandLine& app, VibrationArguments& arguments);
