@@ -7,7 +7,7 @@ export LC_ALL=C
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
-archives() { (cd "$1" && find mbs elements turbines solvers -name 'libcardan_*.a' | sort); }
+archives() { (cd "$1" && find . -name 'libcardan_*.a' | sort); }
 
 # "<strong or weak> <symbol>" of what is defined in the archives of a folder. A constructor or destructor has several, and
 # compilers make as many of them as they like.
@@ -32,13 +32,15 @@ for one in first second; do cut -d' ' -f2 "$work/$one" | sort -u >"$work/$one.na
 join -1 2 -o 1.1,1.2 <(sort -k2 "$work/first") <(comm -23 "$work/first.names" "$work/second.names") -2 1 >"$work/first.only"
 join -1 2 -o 1.1,1.2 <(sort -k2 "$work/second") <(comm -13 "$work/first.names" "$work/second.names") -2 1 >"$work/second.only"
 
-# Functions of a .cpp are in both. Of an inline function each compiler keeps what it likes, but not under another name.
+# Functions of a .cpp are in both. Of templates each compiler keeps the instances it likes, but not under another name:
+# "<name without parameters><tab><symbol>".
 grep -h '^strong' "$work/first.only" "$work/second.only" | cut -d' ' -f2 >"$work/differ" || true
 for one in first second; do
-    cut -d' ' -f2 "$work/$one.only" | tee "$work/$one.only.names" | c++filt | paste -d'\t' - "$work/$one.only.names" |
-        sort -t$'\t' -k1,1 >"$work/$one.readable"
+    cut -d' ' -f2 "$work/$one.only" >"$work/symbols"
+    c++filt --no-params <"$work/symbols" >"$work/names"
+    paste "$work/names" "$work/symbols" | grep -E $'>\t' | sort -t$'\t' -k1,1 >"$work/$one.instances" || true
 done
-join -t$'\t' -o 1.2,2.2 "$work/first.readable" "$work/second.readable" | tr '\t' '\n' >>"$work/differ"
+join -t$'\t' -o 1.2,2.2 "$work/first.instances" "$work/second.instances" | tr '\t' '\n' >>"$work/differ"
 
 if [[ -s "$work/differ" ]]; then
     echo "symbols of two compilers: not the same in $1 and in $2:" >&2
