@@ -9,11 +9,11 @@ trap 'rm -rf "$work"' EXIT
 
 archives() { (cd "$1" && find . -name 'libcardan_*.a' | sort); }
 
-# "<strong or weak> <symbol>" of what is defined in the archives of a folder. A constructor or destructor has several, and
-# compilers make as many of them as they like.
+# "<strong or weak> <symbol>" of what archives of a folder define within cardan; instances of the standard library's
+# templates are each compiler's own. A constructor or destructor has several symbols, as many as the compiler likes.
 symbols() { # <build folder> <archives>
     (cd "$1" && xargs nm --defined-only --extern-only <"$2" 2>/dev/null) |
-        awk 'NF == 3 && $3 ~ /^_Z[^G].*6cardan/ { print ($2 ~ /[WVu]/ ? "weak" : "strong"), $3 }' |
+        awk 'NF == 3 && $3 ~ /^_ZN[VKRO]*6cardan/ { print ($2 ~ /[WVu]/ ? "weak" : "strong"), $3 }' |
         sed -E 's/([CD])[0-5]([EI])/\12\2/g' | sort -u
 }
 
