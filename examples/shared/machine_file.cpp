@@ -371,7 +371,7 @@ std::string run_text(const std::string& command, const CommandLine& options) {
 }
 
 std::string in_words(const turbines::Mesh& mesh) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements
         << " in the tower; with twice as many no frequency at rest changes by more than " << std::fixed
         << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3) << mesh.at_hz

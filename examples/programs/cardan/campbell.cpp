@@ -55,8 +55,8 @@ std::vector<double> speeds_of(CampbellArguments& a, const turbines::TurbineFile&
     std::cout << "rotor speeds: 0 to " << 1.2 * rated << " rpm, 1.2 times " << rated << " rpm";
     if (!model.rotor_speed_source.empty()) std::cout << " (" << model.rotor_speed_source << ")";
     std::cout << "\n";
-    const double step = std::stod(text(0.1 * rated));  // in few digits
-    a.rpm = text("0:", in_digits(12 * step), ":", in_digits(step));
+    const double step = read_number(text(0.1 * rated)).value;  // in few digits
+    a.rpm = text("0:", digits(12 * step), ":", digits(step));
     return rotor_speeds(a.rpm);
 }
 
@@ -79,8 +79,8 @@ std::vector<turbines::PitchAt> parse_schedule(const std::string& given) {
 std::string schedule_words(const std::vector<turbines::PitchAt>& schedule) {
     std::string words;
     for (const turbines::PitchAt& one : schedule)
-        words += text(words.empty() ? "" : ",", in_digits(one.rotor_speed * units::to_rpm), ":",
-                      in_digits(one.pitch * units::to_degrees));
+        words += text(words.empty() ? "" : ",", digits(one.rotor_speed * units::to_rpm), ":",
+                      digits(one.pitch * units::to_degrees));
     return words;
 }
 

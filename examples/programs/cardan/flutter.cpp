@@ -75,7 +75,7 @@ SpeedRange speed_range(FlutterArguments& a, const MachineFile& machine) {
     const double own = machine.file.rotor_speed * units::to_rpm;
     if (a.rpm.empty()) {
         if (!(own > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", format);
-        a.rpm = text(in_digits(slowest * own), ":", in_digits(fastest * own));
+        a.rpm = text(digits(slowest * own), ":", digits(fastest * own));
     }
     const std::vector<std::string> words = split(a.rpm, ':');
     if (words.size() != 2) throw InputError("--rpm", "value", a.rpm, format);

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace cardan::solvers {
@@ -87,7 +86,7 @@ void warn_of_instability(const CampbellPoint& point, std::string& warning) {
         if (grows && lambda.real() > fastest.real()) fastest = lambda;
     }
     if (fastest.real() == 0) return;
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out.precision(4);
     out << "unstable at " << point.rotor_speed * units::to_rpm << " rpm: a motion at " << fastest.imag() / (2 * pi)
         << " Hz grows with " << fastest.real() << " 1/s";
