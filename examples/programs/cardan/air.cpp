@@ -5,6 +5,7 @@
 #include "mbs/base/units.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/openfast_file.hpp"
@@ -12,6 +13,7 @@
 
 #include "examples/shared/words.hpp"
 #include <filesystem>
+#include <iostream>
 #include <utility>
 
 namespace cardan::program {
@@ -96,6 +98,18 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
     if (arguments.no_skew) air.options.skew = Skew::none;
     if (arguments.density) air.density = *arguments.density;
     return air;
+}
+
+std::string air_in_words(std::string_view wake, bool profiles_lag) {
+    return text("wake ", wake, ", profiles ", profiles_lag ? "unsteady" : "steady");
+}
+
+std::string air_in_equilibrium() {
+    return air_in_words(turbines::name_of(turbines::Wake::quasi_steady), false);
+}
+
+void tell_air(const char* what, const std::string& words) {
+    std::cout << "air of the " << what << ": " << words << "\n";
 }
 
 AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine) {
