@@ -199,7 +199,7 @@ std::string method_in_words(const Campbell& diagram) {
     return text(diagram.method, diagram.method_reason.empty() ? "" : "; chosen: ", diagram.method_reason);
 }
 
-std::string table(const Campbell& diagram) {
+std::string table(const Campbell& diagram, bool states) {
     std::ostringstream out = text_stream();
     if (diagram.points.empty()) return "no rotor speeds computed\n";
     std::vector<std::size_t> shown{0};
@@ -221,6 +221,7 @@ std::string table(const Campbell& diagram) {
     }
     out << "\n";
     for (const Branch& branch : diagram.branches) {
+        if (branch.of_states && !states) continue;
         out << std::left << std::setw(width) << branch.name << std::right;
         for (std::size_t i : shown) out << cell(diagram, branch, i);
         out << "\n";
@@ -228,7 +229,10 @@ std::string table(const Campbell& diagram) {
     out << state_motions(diagram, shown, width);
     out << margins(diagram, shown, width);
     if (!diagram.accuracy.empty()) out << diagram.accuracy << "\n";
-    out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";
+    out << "\n? doubtful there: the mode is a mixture, was hard to follow, or is so heavily damped (from "
+        << std::setprecision(0) << 100 * heavy_damping << " % on) that its frequency says little\n";
+    const auto left_out = std::ranges::count_if(diagram.branches, &Branch::of_states);
+    if (left_out > 0 && !states) out << left_out << " roots that are mostly states are left out\n";
     if (has_blade_frequencies(diagram)) out << "modes of one blade: frequencies in its rotating frame\n";
     out << crossings(diagram);
     if (!diagram.warning.empty()) out << "\nwarning: " << diagram.warning << "\n";

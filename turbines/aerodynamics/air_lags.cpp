@@ -56,18 +56,18 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
     for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
         const SectionLags& lags = parts.lags->sections[i];
         const int number = blade_numbers[i / count];
-        const auto add = [&](const StateKindOfAir& kind) {
+        const auto add = [&](const StateKindOfAir& kind, const char* part) {
             all.push_back({.name = text("blade ", number, " section ", i % count + 1, " ", kind.name),
                            .unit = kind.unit,
                            .scale = kind.scale,
-                           .part = "air",
+                           .part = part,
                            .blade = number});
         };
         if (lags.inflow_states() > 0)
-            for (const StateKindOfAir& kind : inflow_states) add(kind);
+            for (const StateKindOfAir& kind : inflow_states) add(kind, "wake");
         for (const StateKindOfAir& kind :
              std::span(profile_states).last(static_cast<std::size_t>(lags.profile_states())))
-            add(kind);
+            add(kind, "airfoil lag");
     }
     return all;
 }

@@ -27,6 +27,7 @@ struct CampbellArguments {
     VibrationArguments air;
     std::string rpm, pitch_schedule, out;
     std::optional<double> max_frequency;
+    bool air_roots = false;
 };
 
 void declare(CommandLine& app, CampbellArguments& a) {
@@ -45,6 +46,7 @@ void declare(CommandLine& app, CampbellArguments& a) {
     add_vibration_options(app, a.air);
     app.add_flag("--floquet", a.air.floquet,
                  "with --wind, Floquet's theory about the periodic state in the place of the mean over the azimuth");
+    app.add_flag("--air-roots", a.air_roots, "with --wind, draw the roots that are mostly states of the air as well");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 
@@ -134,7 +136,7 @@ int run_in_wind(CampbellArguments& a, const MachineFile& machine, const CommandL
         throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell_wind");
     if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
-    return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, command);
+    return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, a.air_roots, command);
 }
 
 int run(CampbellArguments& a, const CommandLine& command) {

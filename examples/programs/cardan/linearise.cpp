@@ -229,6 +229,7 @@ int run_in_wind(LineariseArguments& a, const MachineFile& machine, const Command
     turbines::AeroelasticOptions air = air_that_lags(a.air, run.air);
     find_points(run, machine, a.machine, a.air.wind);
     if (run.points.empty()) return run.complete ? 1 : 130;
+    tell_air("vibrations", vibration_in_words(run.air, air));
     const turbines::Operation& operation = run.points.front().operation;
     a.rpm = operation.rotor_speed * units::to_rpm;
 

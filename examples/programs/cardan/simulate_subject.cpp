@@ -60,7 +60,8 @@ std::string options_of(const SimulateArguments& a, double speed, const RotorTorq
     for (const std::string& word : a.qd) changed += ", qd " + word;
     if (a.controller.acts()) changed += ", " + in_words(a.controller);
     if (rotor.acts()) changed += ", " + rotor.in_words();
-    if (!a.wind.empty()) changed += text(", wind ", a.wind, ", ", in_words(a.air));
+    if (!a.wind.empty())
+        changed += text(", wind ", a.wind, ", ", in_words(a.air), ", ", air_in_words(a.air.wake, false));
     return text("start ", a.start, " at ", speed, " rad/s, azimuth ", a.azimuth, " deg", changed, ", ",
                 options_text(a.run));
 }
@@ -79,6 +80,7 @@ std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, con
                                            const SimulateArguments& a) {
     if (a.wind.empty()) return std::nullopt;
     const Air air = air_of(machine, a.machine, a.air);
+    tell_air("run", air_in_equilibrium(air));
     const SteadyWind profile = wind_profile(a.air, air, machine, turbine);
     return turbines::MachineAir(turbine, air.blade, wind_of(a.wind, profile, a.machine.notes), air.options,
                                 support_of(air, machine, turbine));

@@ -213,7 +213,7 @@ void write_csv(const WindResults& results, const std::string& prefix) {
 
 void write_hdf5(const WindResults& results, const std::string& path, const std::string& description) {
     solvers::Hdf5File file = solvers::Hdf5File::create(path);
-    file.set_attribute("/", {"title", "operating points in the wind"});
+    file.set_attribute("/", {"title", text("operating points in the wind: ", air_in_equilibrium())});
     file.write("input_description", std::vector<std::string>{description}, {},
                "how it was made, and the machine that was computed; not the profiles of the air");
     std::vector<double> positions;

@@ -131,6 +131,7 @@ FinerPoint finer_point(const WindRun& run, const MachineFile& machine, MachineOp
 }
 
 void find_points(WindRun& run, const MachineFile& machine, const MachineOptions& options, const WindArguments& wind) {
+    tell_air("operating points", air_in_equilibrium(run.air));
     std::vector<WindPoint> all;
     if (wind.schedule.empty()) {
         all = run.operation.over(run.speeds, law_of(machine, run.asked_pitch, options, wind, run.air));
