@@ -5,6 +5,7 @@
 #include "turbines/machines/nrel5mw_controller.hpp"
 #include "turbines/model/channels.hpp"
 
+#include "examples/shared/words.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -142,6 +143,11 @@ void add_controller_options(CommandLine& app, ControllerOptions& options) {
         .type_name("baseline|LIBRARY");
     app.add_option("--controller-input", options.input, "file that the library reads").type_name("FILE");
     app.add_option("--controller-period", options.period, "time between its calls, s");
+    app.add_option("--pitch-actuator", options.pitch_actuator,
+                   "HZ[:DAMPING[:DEG/S]]: actuators of second order between the demand and the blades, their damping "
+                   "ratio (0.7) and largest rate (none) (default: the springs of the model's pitch drives; without "
+                   "springs the pitch is prescribed, one period behind the demand)")
+        .one_word();
     app.add_option("--generator-efficiency", options.efficiency,
                    "electrical over mechanical power, for the power that is recorded and that the controller measures");
 }
@@ -155,6 +161,9 @@ void check_controller(const ControllerOptions& options, const MachineFile& machi
                          "only with a library as --controller, which reads it");
     if (!options.input.empty() && !std::filesystem::exists(options.input))
         throw FileError(options.input, "cannot be read: there is no such file");
+    if (!options.pitch_actuator.empty() && !options.acts())
+        throw InputError("--pitch-actuator", "value", options.pitch_actuator, "only with --controller");
+    static_cast<void>(actuator_options(options));
     if (!options.acts()) return;
     if (!machine.file.dofs.generator)
         throw InputError("--controller", "rotor", "driven, at constant speed", "free: --generator free");
@@ -173,6 +182,26 @@ void check_controller(const ControllerOptions& options, const MachineFile& machi
                               "own, in a library"));
 }
 
+void make_pitch_drives(const ControllerOptions& options, turbines::TurbineDescription& machine) {
+    if (options.pitch_actuator.empty()) return turbines::give_pitch_drives(machine);
+    turbines::give_pitch_springs(machine);
+}
+
+turbines::ActuatorOptions actuator_options(const ControllerOptions& options) {
+    turbines::ActuatorOptions actuators;
+    if (options.pitch_actuator.empty()) return actuators;
+    constexpr auto option = "--pitch-actuator", allowed = "HZ[:DAMPING[:DEG/S]], all > 0";
+    const std::vector<std::string> parts = split(options.pitch_actuator, ':');
+    std::vector<double> values;
+    for (const std::string& part : parts) values.push_back(number(option, options.pitch_actuator, part, allowed));
+    if (values.size() > 3 || !std::ranges::all_of(values, [](double value) { return value > 0; }))
+        throw InputError(option, "value", options.pitch_actuator, allowed);
+    actuators.pitch_frequency = 2 * pi * values[0];
+    if (values.size() > 1) actuators.pitch_damping = values[1];
+    if (values.size() > 2) actuators.largest_pitch_rate = values[2] * units::degree;
+    return actuators;
+}
+
 double start_torque(const ControllerOptions& options, double ratio, double speed, double pitch, double rotor_torque) {
     if (!options.is_baseline()) return rotor_torque / ratio;
     return VariableSpeedController(baseline(options)).torque(ratio * speed, pitch);
@@ -183,18 +212,22 @@ ControlledMachine controlled_machine(const ControllerOptions& options, const tur
                                      const ControlSignal& more, const turbines::ActuatorOptions& actuators) {
     const turbines::ActuatedForces actuated(machine, actuators);
     const bool individual = !options.is_baseline();
-    const turbines::Turbine turbine = machine.with_forces(actuated.with_inputs(torque, individual, more),
-                                                          text(in_words(options), ", torque ", torque, " N m"));
+    const turbines::Turbine turbine =
+        machine.with_forces(actuated.with_inputs(torque, individual, more),
+                            text(in_words(options), ", torque ", torque, " N m, ", actuated.in_words()));
     solvers::SampledController controller = options.is_baseline() ? baseline_controller(options, turbine)
                                                                   : library_controller(options, turbine, prefix, also);
     controller.inputs = actuated.inputs(individual);
-    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency)};
+    controller.drives = actuated.drives(individual);
+    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency),
+            actuated.in_words()};
 }
 
 std::string in_words(const ControllerOptions& options) {
     if (!options.acts()) return "";
     return text("controller ", options.what, options.input.empty() ? "" : " with ", options.input, ", every ",
-                options.period, " s, efficiency of the generator ", options.efficiency);
+                options.period, " s, efficiency of the generator ", options.efficiency,
+                options.pitch_actuator.empty() ? "" : ", pitch actuator ", options.pitch_actuator);
 }
 
 }  // namespace cardan::program

@@ -17,17 +17,27 @@ struct ControllerOptions {
     std::string input;       ///< file for the library
     double period = 0.0125;  ///< s
     double efficiency = 1;   ///< of the generator
+    /// HZ[:DAMPING[:DEG/S]] of actuators of the pitch; empty: the pitch is prescribed, or as the model's springs have
+    /// it
+    std::string pitch_actuator;
 
     bool acts() const { return !what.empty(); }
     bool is_baseline() const { return what == "baseline"; }
 };
 
-/// --controller, --controller-input, --controller-period, --generator-efficiency.
+/// --controller, --controller-input, --controller-period, --generator-efficiency, --pitch-actuator.
 void add_controller_options(CommandLine& app, ControllerOptions& options);
 
 /// @throws InputError for a period or an efficiency out of range, an input without a controller that reads it, a rotor
 /// that is driven, and the baseline controller on a machine that is another one than the NREL 5 MW machine
 void check_controller(const ControllerOptions& options, const MachineFile& machine);
+
+/// Makes the pitch bearings of a machine that is to be controlled: blades without a spring of their own are prescribed,
+/// or get one for the actuator that is asked for.
+/// @throws InputError for a linkage, and for an actuator of blades without inertia about their pitch axes
+void make_pitch_drives(const ControllerOptions& options, turbines::TurbineDescription& machine);
+/// @throws InputError for what is no actuator
+turbines::ActuatorOptions actuator_options(const ControllerOptions& options);
 
 /// Torque of the generator at which the controller begins, N m: of the baseline controller its own at that speed and
 /// pitch, else that which balances the rotor's.
@@ -40,8 +50,9 @@ struct ControlledMachine {
     turbines::Turbine turbine;  ///< with actuators, whose demands are inputs: of each blade alone by a library
     solvers::SampledController controller;
     ChannelGroup channels;  ///< of ActuatedForces
+    std::string pitch;      ///< how the blades follow, in a line
 };
-/// @param machine  whose pitch bearings have springs: turbines::give_pitch_springs()
+/// @param machine  whose pitch is prescribed or on springs: turbines::give_pitch_drives(), give_pitch_springs()
 /// @param torque   of the generator at the start, N m
 /// @param prefix   of files that a library writes
 /// @param also     channels that a library measures beside those of any machine

@@ -154,7 +154,7 @@ void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::As
     }
     if (d.blades == 0) return;
     o.blade_beam = beam_options(d.blade.line, a.blade_elements, true);
-    o.blade_beam->held_y = o.blade_beam->held_z = !dofs.blades;
+    if (!dofs.blades) o.blade_beam->hold_all();
 }
 
 }  // namespace

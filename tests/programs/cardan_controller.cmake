@@ -1,4 +1,5 @@
 # Machines under a controller: cardan simulate --controller, --rotor-torque.
+set(models ${CMAKE_CURRENT_SOURCE_DIR}/data)
 set(small nrel5mw-fast --blade-elements 1 --tower-elements 1 --tolerance 1e-5 --step 0.05 --no-gravity)
 set(driven --rotor-torque 4.18e6)
 add_example_test(example_controller_baseline cardan 0
@@ -27,6 +28,24 @@ foreach(word IN ITEMS follow individual nan fail)
 endforeach()
 add_example_test(example_controller_library cardan 0 "energy lost.*ok.*files: example_controller_library.h5" simulate ${small} ${driven}
     ${library} --controller-input follow --duration 1 --out example_controller_library)
+# The pitch: prescribed without springs in the model, also of blades of ElastoDyn without inertia about their axes; by
+# the model's drive; by actuators where they are asked for.
+set(small_air --rpm 40 --wind 8 --air ${models}/aerodyn/small_AeroDyn.dat --blade-elements 1 --tower-elements 1 --tolerance 1e-5)
+set(goes_on "energy lost.*ok.*recorded power of generator, air against its work.*ok")
+add_example_test(example_controller_elastodyn cardan 0 "controller: pitch prescribed, one period behind the demand.*${goes_on}" simulate
+    ${models}/openfast/small.fst ${small_air} ${library} --controller-input follow --duration 0.5 --out example_controller_elastodyn)
+add_example_test(example_controller_beamdyn cardan 0
+    "controller: pitch on the spring of its bearing, 2000000 N m/rad and 5000 N m s/rad, which rests at the demand.*${goes_on}" simulate
+    ${models}/openfast/small_BeamDyn.fst ${small_air} ${library} --controller-input follow --duration 0.5 --out example_controller_beamdyn)
+add_example_test(example_controller_actuator cardan 0
+    "controller: pitch actuator of second order, 2 Hz, damping 0.6, at most 8 deg/s, before the spring of the bearing.*energy lost.*ok"
+    simulate ${small} ${driven} --controller baseline --pitch-actuator 2:0.6:8 --duration 0.5 --out example_controller_actuator)
+add_example_test(example_controller_actuator_words cardan 1 "--pitch-actuator: value = 2:0; allowed: HZ.:DAMPING.:DEG/S" simulate ${small}
+    --controller baseline --pitch-actuator 2:0)
+add_example_test(example_controller_actuator_alone cardan 1 "--pitch-actuator: value = 2; allowed: only with --controller" simulate ${small}
+    --pitch-actuator 2)
+add_example_test(example_controller_actuator_inertia cardan 1 "inertia of the blades about their pitch axes .kg m.2. = 0.*can be prescribed"
+    simulate ${models}/openfast/small.fst ${library} --pitch-actuator 2 --rpm 40 --out example_controller_actuator_inertia)
 add_example_test(example_controller_individual cardan 0 "energy lost.*ok" simulate ${small} ${driven} ${library}
     --controller-input individual --duration 0.2 --out example_controller_individual)
 add_example_test(example_controller_nan cardan 1 "controller .*: at 0.5 s it demands a generator torque of nan" simulate ${small} ${library}

@@ -28,7 +28,7 @@ std::string to_text(const FileNote& note);
 /// (DriveTrainDescription::spin) and a tower that is rigid in both directions (TowerDescription::rigid).
 struct FileDofs {
     bool generator = true;  ///< false: the rotor turns at constant speed (RotorSpin::prescribed)
-    /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, both of the blades).
+    /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, hold_all() of the blades).
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
 };
 

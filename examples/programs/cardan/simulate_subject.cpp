@@ -130,8 +130,9 @@ Subject controlled(const SimulateArguments& a, const Pair& machine, double speed
     const turbines::MachineLayout& layout = machine.turbine.layout();
     const double own =
         start_torque(a.controller, layout.gear_ratio, speed, layout.pitch_settings.front(), rotor_torque);
-    ControlledMachine under =
-        controlled_machine(a.controller, machine.turbine, a.torque.value_or(own), a.run.out, measured);
+    ControlledMachine under = controlled_machine(a.controller, machine.turbine, a.torque.value_or(own), a.run.out,
+                                                 measured, signal::constant(0), actuator_options(a.controller));
+    std::cout << "controller: " << under.pitch << "\n";
     return {under.turbine,
             machine.at_start,
             {std::move(under.controller)},
@@ -161,7 +162,7 @@ Subject subject_of(SimulateArguments& a) {
     MachineFile machine = prepared_machine(a.machine);
     check_controller(a.controller, machine);
     const RotorTorque rotor = rotor_torque(a.rotor_torque);
-    if (a.controller.acts()) turbines::give_pitch_springs(machine.file.description);
+    if (a.controller.acts()) make_pitch_drives(a.controller, machine.file.description);
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;
