@@ -23,7 +23,7 @@ set_tests_properties(example_controller_resume PROPERTIES FIXTURES_REQUIRED begu
 set_tests_properties(example_controller_resume_other PROPERTIES FIXTURES_REQUIRED "begun_controlled_run;resumed_controlled_run")
 # A controller in a library; what it reads, and its failures.
 set(library --controller $<TARGET_FILE:test_controller>)
-foreach(word IN ITEMS follow individual nan fail)
+foreach(word IN ITEMS follow individual nan fail off warn brake yaw)
     file(WRITE ${test_output_dir}/${word} "")
 endforeach()
 add_example_test(example_controller_library cardan 0 "energy lost.*ok.*files: example_controller_library.h5" simulate ${small} ${driven}
@@ -46,8 +46,29 @@ add_example_test(example_controller_actuator_alone cardan 1 "--pitch-actuator: v
     --pitch-actuator 2)
 add_example_test(example_controller_actuator_inertia cardan 1 "inertia of the blades about their pitch axes .kg m.2. = 0.*can be prescribed"
     simulate ${models}/openfast/small.fst ${library} --pitch-actuator 2 --rpm 40 --out example_controller_actuator_inertia)
-add_example_test(example_controller_individual cardan 0 "energy lost.*ok" simulate ${small} ${driven} ${library}
-    --controller-input individual --duration 0.2 --out example_controller_individual)
+# What a library is told of the pitch, by the option or by the model: alike, or each blade for itself.
+add_example_test(example_controller_individual cardan 0 "controller: individual pitch; pitch prescribed.*energy lost.*ok" simulate ${small}
+    ${driven} ${library} --controller-input individual --pitch-control individual --duration 0.2 --out example_controller_individual)
+file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/individual_pitch)
+file(READ ${models}/openfast/small_ServoDyn.dat servodyn)
+file(WRITE ${test_output_dir}/individual_pitch/small_ServoDyn.dat "${servodyn}  1   Ptch_Cntrl   - (switch)\n")
+add_example_test(example_controller_individual_model cardan 0 "controller: individual pitch; pitch prescribed" simulate
+    individual_pitch/small.fst ${small_air} ${library} --controller-input individual --duration 0.1 --out example_controller_individual_model)
+add_example_test(example_controller_individual_baseline cardan 1 "--pitch-control: value = individual; allowed: collective" simulate ${small}
+    --controller baseline --pitch-control individual)
+# What it switches, turns and says.
+add_example_test(example_controller_off cardan 0 "energy lost.*ok" simulate ${small} ${driven} ${library} --controller-input off
+    --duration 0.7 --out example_controller_off)
+add_example_test(example_controller_warn cardan 0
+    "at 0.5 s: the wind vane shakes[^a-z]*controller: at 0.5125 s: the oil is cold.*energy lost.*ok" simulate ${small} ${driven} ${library}
+    --controller-input warn --duration 0.7 --out example_controller_warn)
+add_example_test(example_controller_brake cardan 0 "controller: at 0.5 s: it applies the shaft brake .record 36.: the machine has none" simulate
+    ${small} ${driven} ${library} --controller-input brake --duration 0.7 --out example_controller_brake)
+add_example_test(example_controller_no_yaw cardan 0 "controller: at 0 s: it turns the nacelle .record 48.*--yaw driven lets it" simulate ${small}
+    ${driven} ${library} --controller-input yaw --duration 0.2 --out example_controller_no_yaw)
+# 0.02 rad/s: at 1 s the mean of the demands of samples 79 and 78, 0.02 0.0125 (80 + 79) / 2 rad.
+add_example_test(example_controller_yaw cardan 0 "yaw prescribed.*yaw +0.019875 .*energy lost.*ok" simulate ${small} ${driven} ${library}
+    --controller-input yaw --yaw driven --duration 1 --out example_controller_yaw)
 add_example_test(example_controller_nan cardan 1 "controller .*: at 0.5 s it demands a generator torque of nan" simulate ${small} ${library}
     --controller-input nan --duration 1 --out example_controller_nan)
 add_example_test(example_controller_fail cardan 1 "at 0.5 s it reports a failure .-1.: the pitch sensor is dead after 41 calls" simulate

@@ -65,6 +65,7 @@ struct TurbineFile {
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
     FileOperation operation = {};
+    bool individual_pitch = false;  ///< a controller demands the pitch of every blade (Ptch_Cntrl of ServoDyn)
     /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
     std::optional<double> tower_foot = std::nullopt;
 };
