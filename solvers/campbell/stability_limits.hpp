@@ -54,9 +54,9 @@ struct StabilityLimits {
     /// The modes that were followed, and where: frequencies and damping over the parameter. `complete` is false if the
     /// end of the range was not reached.
     Campbell diagram;
-    /// What grows at the first value already, or where it is first found or lost; what grows, or is all there is, beyond
-    /// the largest frequency that is followed; why the end of the range was not reached, or divergence not looked for.
-    /// Usually empty.
+    /// What grows at the first value already, or where it is first found or lost; what grows, or is all there is,
+    /// beyond the largest frequency that is followed; why the end of the range was not reached, or divergence not
+    /// looked for. Usually empty.
     std::string note;
 
     /// The lowest at which a motion of this kind begins to grow; null: there is none.
