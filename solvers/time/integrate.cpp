@@ -47,8 +47,8 @@ private:
 Integrator::Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
                        IntegrationOptions options)
     : options_(std::move(options)),
-      equations_(system, std::move(drives), time, q, qd),
-      controllers_(options_.controllers, system.forces.inputs(), time),
+      equations_(system, with_followers(std::move(drives), options_.controllers, q), time, q, qd),
+      controllers_(options_.controllers, system.forces.inputs(), q, time),
       workspace_(system.model) {
     watch_free_bodies();
     check_options(time);
@@ -121,7 +121,8 @@ void Integrator::pass_piece_end() {
             throw NumericalError(text(in_integration, ": no forces at ", now, " s: ", equations_.problem()));
         u_ = equations_.inputs();
         controllers_.run({0, state_, kinematics(model(), state_.q, workspace_), equations_.forces()}, resolution(now),
-                         u_);
+                         u_,
+                         [&](Drive drive) { equations_.set_motion(drive.coordinate, std::move(drive.motion), now); });
         equations_.set_inputs(u_);
     }
     begin_piece();

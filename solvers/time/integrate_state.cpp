@@ -32,8 +32,18 @@ void check(const Checkpoint& from) {
 }
 
 // Coordinates driven at constant rate by their role continue bit for bit from the first start.
-std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from) {
+// Those that follow a controller go on as they did.
+std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from,
+                               const std::vector<SampledController>& controllers) {
     check(from);
+    for (const SampledController& controller : controllers) {
+        const auto state = std::ranges::find(from.controllers, controller.name, &SampledState::name);
+        if (state == from.controllers.end()) continue;
+        for (Drive& follower : followed_motions(controller, *state)) {
+            std::erase_if(drives, [&](const Drive& drive) { return drive.coordinate == follower.coordinate; });
+            drives.push_back(std::move(follower));
+        }
+    }
     const int n = system.model.size();
     if (from.method.positions.size() != n || from.qd.size() != n) return drives;
     for (int i = 0; i < n; ++i) {
@@ -55,7 +65,7 @@ IntegrationOptions options_from(const System& system, const Checkpoint& from, In
 
 Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                        IntegrationOptions options)
-    : Integrator(system, drives_from(system, std::move(drives), from), from.time, from.q, from.qd,
+    : Integrator(system, drives_from(system, std::move(drives), from, options.controllers), from.time, from.q, from.qd,
                  options_from(system, from, std::move(options))) {
     go_on_from(from);
 }
