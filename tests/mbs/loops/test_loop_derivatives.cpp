@@ -137,8 +137,7 @@ TEST_CASE("loops: what joints and rods exert does the work of their multipliers"
     }
 }
 
-TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which leaves it that freedom",
-          "[analytic]") {
+TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which leaves it that freedom", "[analytic]") {
     struct Freedoms {
         CutKind kind;
         std::vector<std::pair<JointKind, Vec3>> joints;

@@ -101,8 +101,7 @@ TEST_CASE("loop equilibria: Bricard's loop at its lowest position", "[discrete]"
     CHECK(found[0].eigenvalue.imag() == Approx(1.2412987).epsilon(1e-6));
 }
 
-TEST_CASE("loop equilibria: natural modes of a closed machine are those of the open one that it equals",
-          "[analytic]") {
+TEST_CASE("loop equilibria: natural modes of a closed machine are those of the open one that it equals", "[analytic]") {
     // A mass on a rod about the origin, held by springs in x and y: against the same mass on a hinge.
     const double length = 1.3, m = 2, kx = 30, ky = 70;
     Tree tree;
