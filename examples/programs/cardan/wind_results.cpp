@@ -211,9 +211,10 @@ void write_csv(const WindResults& results, const std::string& prefix) {
     write_file(prefix + "_sections.csv", out);
 }
 
-void write_hdf5(const WindResults& results, const std::string& path, const std::string& description) {
+void write_hdf5(const WindResults& results, const std::string& path, const std::string& air,
+                const std::string& description) {
     solvers::Hdf5File file = solvers::Hdf5File::create(path);
-    file.set_attribute("/", {"title", text("operating points in the wind: ", air_in_equilibrium())});
+    file.set_attribute("/", {"title", text("operating points in the wind: ", air)});
     file.write("input_description", std::vector<std::string>{description}, {},
                "how it was made, and the machine that was computed; not the profiles of the air");
     std::vector<double> positions;
