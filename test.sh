@@ -6,13 +6,13 @@ usage() {
     cat <<'TEXT'
 usage: ./test.sh [--full] [--keep-going] [--help]
 
-  (nothing)  format check, release build with clang, which takes two thirds of GCC's time, installed-package consumer, all
-             tests but the slow ones and those of the studies (other beams to compare with, papers, the teetered machine),
-             which are not built
-  --full     the same with GCC and the studies, then each header by itself, the reference, clang-tidy, the benchmarks parsed,
-             clang's build and the tests without studies under its address and undefined-behaviour sanitizers, C++ blocks
-             of the documents, two sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and the
-             slow tests
+  (nothing)  format check, release build with clang, which takes two thirds of GCC's time, installed-package consumer, and
+             one that GCC makes, all tests but the slow ones and those of the studies (other beams to compare with, papers,
+             the teetered machine), which are not built
+  --full     the same with GCC (a consumer that clang makes) and the studies, then each header by itself, the reference,
+             clang-tidy, the benchmarks parsed, clang's build, which has GCC's symbols, and the tests without studies under
+             its address and undefined-behaviour sanitizers, C++ blocks of the documents, two sweeps at once under the
+             thread sanitizer, one minute of fuzzing for each reader, and the slow tests
   --keep-going
              a step that fails does not end the run; the failed ones are named at its end
 
@@ -105,6 +105,21 @@ check_package() {
         "$prefix/bin/cardan-wt600-campbell" --help >/dev/null
 }
 
+# A program made by the compiler that the library is not made by: it finds what it calls.
+check_across_compilers() {
+    local compiler=g++ across="$PWD/build/packaging/across"
+    if ((full)); then compiler=clang++; fi
+    if ! command -v "$compiler" >/dev/null; then
+        echo "there is no $compiler here: that its programs link the library is not tested"
+        return 0
+    fi
+    rm -rf "$across" &&
+        cmake -S tests/packaging/across -B "$across" -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
+            -DCMAKE_CXX_COMPILER="$compiler" &&
+        cmake --build "$across" --parallel "$jobs" &&
+        "$across/across"
+}
+
 # With clang, which reads Eigen in less time.
 check_headers() {
     cmake -S tests/packaging -B build/packaging/headers -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
@@ -143,6 +158,7 @@ step "Packages" require_packages "${packages[@]}"
 step "Format" check_format
 step "Build, preset $preset" build "$preset" -D CARDAN_BUILD_STUDIES="$( ((full)) && echo ON || echo OFF)"
 step "Installed package" check_package
+step "Program of the other compiler" check_across_compilers
 step "Tests, preset $preset" ctest --preset "$preset" --parallel "$jobs"
 if ((full)); then
     step "Headers, each by itself" check_headers
@@ -150,6 +166,7 @@ if ((full)); then
     step "clang-tidy" check_tidy
     step "Benchmarks, parsed" check_benchmarks
     step "Build with clang and sanitizers" build sanitize -D CARDAN_BUILD_STUDIES=OFF
+    step "Symbols of both compilers" tests/packaging/across/symbols.sh build/release build/sanitize
     step "Tests, sanitizers" ctest --preset sanitize --parallel "$jobs"
     step "C++ in documents" check_documents
     step "Thread sanitizer" check_threads

@@ -1,5 +1,5 @@
 # How the libraries Cardan stands on are found. Used by the build and, installed beside the package config, by
-# consumers: both see the same targets.
+# consumers: both see the same targets. Those of a name, SUNDIALS::kinsol, are found by cardan_find_<name>, sundials.
 
 # cardan_not_found(<message>): ends the configuration of the build. In find_package(cardan), which may be QUIET or ask for
 # what is optional, it ends the package config instead; CMake gives the message where it is wanted.
@@ -19,7 +19,7 @@ macro(cardan_need target message)
     endif()
 endmacro()
 
-macro(cardan_find_eigen)
+macro(cardan_find_eigen3)
     if(NOT TARGET Eigen3::Eigen)
         find_package(Eigen3 3.4 QUIET NO_MODULE)
         cardan_need(Eigen3::Eigen "cardan needs Eigen 3.4 (Debian: libeigen3-dev; elsewhere set Eigen3_DIR).")

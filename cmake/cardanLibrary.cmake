@@ -127,6 +127,25 @@ function(cardan_add_library name)
     set_property(GLOBAL APPEND PROPERTY CARDAN_LIBRARIES ${target})
 endfunction()
 
+# cardan_packages(<out> <target>): what a library and those that it links stand on, as Eigen3 and SUNDIALS, the names
+# before :: of their targets. Not what only the build needs.
+function(cardan_packages out target)
+    set(packages "")
+    get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+    foreach(link IN LISTS links)
+        string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" link "${link}")
+        if(link MATCHES "^cardan_[a-z0-9_]+$")
+            cardan_packages(further ${link})
+            list(APPEND packages ${further})
+        elseif(link MATCHES "^([A-Za-z0-9]+)::")
+            list(APPEND packages ${CMAKE_MATCH_1})
+        endif()
+    endforeach()
+    list(REMOVE_DUPLICATES packages)
+    list(SORT packages CASE INSENSITIVE)
+    set(${out} ${packages} PARENT_SCOPE)
+endfunction()
+
 # cardan_add_program(<target> SOURCES <files> LINK <targets>): an executable of ours, with our warnings.
 function(cardan_add_program target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")

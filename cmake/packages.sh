@@ -4,7 +4,7 @@
 cardan_build_packages=(
     g++ cmake ninja-build lld libmimalloc2.0
     libeigen3-dev libsundials-dev liburdfdom-dev libhdf5-dev libmatio-dev libcli11-dev catch2 libbenchmark-dev libboost-dev
-    libtbb-dev libyaml-dev gnuplot-nox help2man
+    libtbb-dev libyaml-dev gnuplot-nox help2man locales
 )
 # Other engines that the tests and benchmarks compare with, and programs that read our files; without them these comparisons are left out.
 cardan_peer_packages=(libsimbody-dev libmujoco-dev python3-xarray python3-netcdf4 python3-h5netcdf netcdf-bin)

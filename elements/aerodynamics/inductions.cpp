@@ -149,8 +149,9 @@ public:
         }
         for (int i = 0; i < count_; ++i) {
             const SectionInflow& own = sections[static_cast<std::size_t>(i)];
-            out[static_cast<std::size_t>(i)] =
-                state_[i] == State::at_rest ? found_[i] : solve_induction(*own.annulus, own.V_x, own.V_y, options_);
+            out[static_cast<std::size_t>(i)] = state_[i] == State::at_rest && is_least(i, own)
+                                                   ? found_[i]
+                                                   : solve_induction(*own.annulus, own.V_x, own.V_y, options_);
         }
     }
 
@@ -163,7 +164,8 @@ private:
         reynolds_[i] = reynolds_of<double>(a, own.V_x, own.V_y);
         const double tip = options_.tip_loss ? std::min(a.tip, no_loss) : no_loss,
                      hub = options_.hub_loss ? std::min(a.hub, no_loss) : no_loss;
-        const bool usual = own.V_x > 0 && own.V_y > 0 && tip > 0 && hub > 0;
+        // Where a and a' are as the balance has them.
+        const bool usual = own.V_y > 0 && own.V_x * Balance<double>::no_swirl > 2 * own.V_y && tip > 0 && hub > 0;
         state_[i] = usual ? State::moving : State::lost;
         g_.V_x[i] = usual ? own.V_x : 1;
         g_.V_y[i] = usual ? own.V_y : 1;
@@ -175,6 +177,12 @@ private:
         g_.lift[i] = a.polar->lift_line().offset;
         g_.chords[i] = a.blades * a.chord;
         g_.radius[i] = a.radius;
+    }
+
+    bool is_least(int i, const SectionInflow& own) const {
+        const double attack = std::remainder(found_[i].root - own.annulus->angle, 2 * pi);
+        return (g_.F[i] > large_loss && own.annulus->polar->is_attached(attack)) ||
+               is_least_attack(own, options_, found_[i].root);
     }
 
     void evaluate() {

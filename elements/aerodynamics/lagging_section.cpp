@@ -17,29 +17,22 @@ UnsteadyProfile::States profile_states(const SectionStates& s, const SectionLags
     return x;
 }
 
-// What is left of the inflow when the wake has taken its share.
-struct Reaching {
-    double u_x, u_y;
-    double attack(const Annulus& annulus) const { return std::atan2(u_x, u_y) - annulus.angle; }
-    ProfileMotion motion(const Annulus& annulus, double rate) const {
-        return {attack(annulus), std::hypot(u_x, u_y), rate, annulus.chord};
-    }
-};
-Reaching reaching(const SectionMotion& motion, const Induction& induction) {
+ProfileMotion motion_of(const Annulus& annulus, const Reaching<double>& u, double rate) {
+    return {std::atan2(u.u_x, u.u_y) - annulus.angle, std::hypot(u.u_x, u.u_y), rate, annulus.chord};
+}
+Reaching<double> reaching(const SectionMotion& motion, const Induction& induction) {
     return {motion.V_x * (1 - induction.axial), motion.V_y * (1 + induction.tangential)};
 }
 
 // Without limits: what the wake's skew has made of an induction may be beyond them.
-Induction frozen_induction(const Eigen::Vector2d& velocity, double V_x, double V_y) {
-    const double axial = V_x == 0 ? 0 : -velocity.x() / V_x, tangential = V_y == 0 ? 0 : velocity.y() / V_y;
-    return {.axial = axial, .tangential = tangential, .phi = std::atan2(V_x * (1 - axial), V_y * (1 + tangential))};
+Induction frozen_induction(const Eigen::Vector2d& velocity, const SectionMotion& motion) {
+    return {.axial = motion.V_x == 0 ? 0 : -velocity.x() / motion.V_x,
+            .tangential = motion.V_y == 0 ? 0 : velocity.y() / motion.V_y,
+            .phi = std::atan2(motion.V_x + velocity.x(), motion.V_y + velocity.y())};
 }
 
-Induction skewed(Induction induction, bool solved, const SectionMotion& motion) {
-    if (!solved || motion.wake.lever == 0) return induction;
-    induction.axial *= redistribution(induction.axial, motion.wake.angle, motion.wake.lever);
-    induction.phi = std::atan2(motion.V_x * (1 - induction.axial), motion.V_y * (1 + induction.tangential));
-    return induction;
+RotorWake unskewed(const RotorWake& wake) {
+    return {.share = wake.share};
 }
 
 // @param first, count  of the profile's states
@@ -65,44 +58,40 @@ public:
           options_(options),
           density_(density),
           lags_(lags),
-          inflow_{velocity(motion.V_x, LaggingSlopes::V_x), velocity(motion.V_y, LaggingSlopes::V_y),
+          inflow_{LagSlope::variable(motion.V_x, LaggingSlopes::V_x),
+                  LagSlope::variable(motion.V_y, LaggingSlopes::V_y),
                   LagSlope::variable(annulus.angle, LaggingSlopes::angle),
                   LagSlope::variable(annulus.radius, LaggingSlopes::radius)},
           rate_(LagSlope::variable(motion.rate, LaggingSlopes::rate)) {}
 
     LaggingSlopes run() {
-        Factors<LagSlope> factors = lags_.wake == WakeLag::frozen ? held_factors() : in_equilibrium();
-        if (lags_.wake == WakeLag::dynamic) {
-            follow_inflow(factors);
-            factors = held_factors();
-        }
-        if (at_.solved && options_.skew != Skew::none)
-            factors.axial *=
-                redistribution(factors.axial, LagSlope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
-                               LagSlope::variable(motion_.wake.lever, LaggingSlopes::wake_lever));
-        if (lags_.has_profile())
-            follow_profile(factors);
-        else
-            follow_table(factors);
+        follow_profile_or_table(lags_.wake == WakeLag::frozen ? frozen_velocity()
+                                                              : reaching<LagSlope>(inflow_, factors()));
         return out_;
     }
 
 private:
-    // Without any air speed nothing depends on it to first order but the angle of attack, which has no meaning then.
-    LagSlope velocity(double value, int column) const {
-        constexpr double still = 1e-9;  // m/s
-        const bool moves = motion_.V_x != 0 || motion_.V_y != 0;
-        return moves ? LagSlope::variable(value, column) : LagSlope(still);
-    }
     static LagSlope state(double value, int i) { return LagSlope::variable(value, LaggingSlopes::first_state + i); }
     void set(int row, const LagSlope& value) { out_.by.row(row) = value.slopes.matrix().transpose(); }
 
-    Factors<LagSlope> in_equilibrium() const {
-        const Induction found{.axial = -at_.velocity.x() / (motion_.V_x == 0 ? 1 : motion_.V_x),
-                              .tangential = at_.velocity.y() / (motion_.V_y == 0 ? 1 : motion_.V_y),
-                              .root = at_.root,
-                              .solved = at_.solved};
-        return factors_of(annulus_, inflow_, found, options_.momentum, LaggingSlopes::wake_angle);
+    Factors<LagSlope> factors() {
+        const bool dynamic = lags_.wake == WakeLag::dynamic;
+        const LagSlope none(0), all(1), share = LagSlope::variable(motion_.wake.share, LaggingSlopes::wake_share);
+        Factors<LagSlope> own =
+            in_wake<LagSlope>(factors_of(annulus_, inflow_, at_.solved, at_.root, options_, LaggingSlopes::wake_angle),
+                              share, none, none, false);
+        if (dynamic) {
+            follow_inflow(own);
+            own = held_factors();
+        }
+        return in_wake<LagSlope>(own, all, LagSlope::variable(motion_.wake.angle, LaggingSlopes::wake_angle),
+                                 LagSlope::variable(motion_.wake.lever, LaggingSlopes::wake_lever),
+                                 (dynamic || at_.solved) && options_.skew != Skew::none);
+    }
+
+    // Velocities that do not change with the motion.
+    Reaching<LagSlope> frozen_velocity() const {
+        return {inflow_.V_x + lags_.velocity.x(), inflow_.V_y + lags_.velocity.y()};
     }
 
     void follow_inflow(const Factors<LagSlope>& steady) {
@@ -116,27 +105,31 @@ private:
         }
     }
 
-    // Of induced velocities that do not change with the motion.
     Factors<LagSlope> held_factors() const {
-        const bool dynamic = lags_.wake == WakeLag::dynamic;
-        const LagSlope axial = dynamic ? state(s_(2), 2) : LagSlope(lags_.velocity.x()),
-                       tangential = dynamic ? state(s_(3), 3) : LagSlope(lags_.velocity.y());
-        Factors<LagSlope> held{motion_.V_x == 0 ? LagSlope(0) : -axial / inflow_.V_x,
-                               motion_.V_y == 0 ? LagSlope(0) : tangential / inflow_.V_y};
-        if (!dynamic) return held;
+        const Factors<LagSlope> held{motion_.V_x == 0 ? LagSlope(0) : -state(s_(2), 2) / inflow_.V_x,
+                                     motion_.V_y == 0 ? LagSlope(0) : state(s_(3), 3) / inflow_.V_y};
         return {limited<LagSlope>(held.axial, -1, 1.5), limited<LagSlope>(held.tangential, -1, 1)};
     }
 
-    void follow_table(const Factors<LagSlope>& factors) {
-        const Loads<LagSlope> loads = loads_of(annulus_, inflow_, factors, density_);
+    void follow_profile_or_table(const Reaching<LagSlope>& u) {
+        if (lags_.has_profile())
+            follow_profile(u);
+        else
+            follow_table(u);
+    }
+
+    void follow_table(const Reaching<LagSlope>& u) {
+        const Loads<LagSlope> loads = loads_of(annulus_, inflow_.angle, u, density_);
         set(0, loads.normal);
         set(1, loads.driving);
         set(2, loads.moment);
     }
 
-    void follow_profile(const Factors<LagSlope>& factors) {
-        const LagSlope u_x = inflow_.V_x * (1 - factors.axial), u_y = inflow_.V_y * (1 + factors.tangential),
-                       speed = sqrt(u_x * u_x + u_y * u_y), attack = atan2(u_x, u_y) - inflow_.angle;
+    void follow_profile(const Reaching<LagSlope>& u) {
+        // Without speed nothing depends on it to first order but the angle of attack, which has no meaning then.
+        const bool flows = value_of(u.u_x) != 0 || value_of(u.u_y) != 0;
+        const LagSlope speed = flows ? sqrt(u.u_x * u.u_x + u.u_y * u.u_y) : LagSlope(0),
+                       attack = (flows ? atan2(u.u_x, u.u_y) : LagSlope(0)) - inflow_.angle;
         const ProfileMotion motion{attack.value, speed.value, motion_.rate, annulus_.chord};
         const UnsteadyProfile::States x = profile_states(s_, lags_);
         const UnsteadyProfile::Slopes slopes = lags_.profile->slopes(x, motion);
@@ -151,8 +144,8 @@ private:
                        drag = value(c.drag, slopes.coefficients.row(1)),
                        moment = value(c.moment, slopes.coefficients.row(2)),
                        pressure = density_ / 2 * annulus_.chord * speed;
-        set(0, pressure * (lift * u_y + drag * u_x));
-        set(1, pressure * (lift * u_x - drag * u_y));
+        set(0, pressure * (lift * u.u_y + drag * u.u_x));
+        set(1, pressure * (lift * u.u_x - drag * u.u_y));
         set(2, pressure * speed * annulus_.chord * moment);
     }
 
@@ -181,31 +174,36 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
 LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const SectionMotion& motion,
                        const SectionStates& s, double density, const SectionLags& lags) {
     const double V_x = motion.V_x, V_y = motion.V_y;
-    const bool frozen = lags.wake == WakeLag::frozen;
-    LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = balance, .force = {}},
-                   .velocity = frozen ? lags.velocity : DynamicInflow::velocity(balance, V_x, V_y),
+    const bool frozen = lags.wake == WakeLag::frozen, dynamic = lags.wake == WakeLag::dynamic;
+    const Induction steady = with_wake(balance, V_x, V_y, unskewed(motion.wake));
+    LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = steady, .force = {}},
+                   .velocity = frozen ? lags.velocity : DynamicInflow::velocity(steady, V_x, V_y),
                    .root = frozen ? 0 : balance.root,
                    .solved = !frozen && balance.solved};
     Induction& now = out.air.induction;
-    if (lags.wake == WakeLag::dynamic) {
-        const DynamicInflow::States inflow = s.head<DynamicInflow::states>();
-        out.rates.head<DynamicInflow::states>() = DynamicInflow::rates(inflow, out.velocity, lags.times);
-        now = DynamicInflow::induction(inflow, V_x, V_y);
-    } else if (frozen) {
-        now = frozen_induction(lags.velocity, V_x, V_y);
+    if (frozen) {
+        now = frozen_induction(lags.velocity, motion);
+    } else {
+        if (dynamic) {
+            const DynamicInflow::States inflow = s.head<DynamicInflow::states>();
+            out.rates.head<DynamicInflow::states>() = DynamicInflow::rates(inflow, out.velocity, lags.times);
+            now = DynamicInflow::induction(inflow, V_x, V_y);
+            now.solved = true;  // for the skew, which it has whatever the balance
+        }
+        now = with_wake(now, V_x, V_y, {motion.wake.angle, motion.wake.lever});
     }
     now.solved = out.solved;
-    now = skewed(now, out.solved, motion);
+    const Reaching<double> u =
+        frozen ? Reaching<double>{V_x + lags.velocity.x(), V_y + lags.velocity.y()} : reaching(motion, now);
     if (lags.has_profile()) {
-        const Reaching u = reaching(motion, now);
-        const ProfileMotion moving = u.motion(annulus, motion.rate);
+        const ProfileMotion moving = motion_of(annulus, u, motion.rate);
         const UnsteadyProfile::States x = profile_states(s, lags);
         out.rates.segment(lags.inflow_states(), lags.profile_states()) =
             lags.profile->rates(x, moving).tail(lags.profile_states());
         const UnsteadyProfile::Coefficients c = lags.profile->coefficients(x, moving);
         out.air.force = force_of(annulus, u.u_x, u.u_y, moving.attack, {c.lift, c.drag, c.moment}, density);
     } else {
-        out.air.force = section_force(annulus, V_x, V_y, now, density);
+        out.air.force = table_force(annulus, u, now.phi - annulus.angle, density);
     }
     return out;
 }
@@ -218,10 +216,12 @@ SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion,
     const LaggingAir at = lagging_air(annulus, motion, SectionStates::Zero(), options, 1, still);
     SectionStates out = SectionStates::Zero();
     if (lags.wake == WakeLag::dynamic) out.head<DynamicInflow::states>() = DynamicInflow::steady(at.velocity);
+    const Reaching<double> reached =
+        lags.wake == WakeLag::frozen ? Reaching<double>{motion.V_x + lags.velocity.x(), motion.V_y + lags.velocity.y()}
+                                     : reaching(motion, at.air.induction);
     if (lags.has_profile())
         out.segment(lags.inflow_states(), lags.profile_states()) =
-            lags.profile->steady(reaching(motion, at.air.induction).motion(annulus, motion.rate))
-                .tail(lags.profile_states());
+            lags.profile->steady(motion_of(annulus, reached, motion.rate)).tail(lags.profile_states());
     return out;
 }
 

@@ -39,7 +39,7 @@ using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;
 struct SectionMotion {
     double V_x = 0, V_y = 0;  ///< air against the section without induction, m/s
     double rate = 0;          ///< of the section about its span, nose up, rad/s
-    SkewedWake wake;
+    RotorWake wake;           ///< of no meaning to a frozen wake, which holds what it was
 };
 
 struct LaggingAir {
@@ -47,7 +47,7 @@ struct LaggingAir {
     SectionStates rates = SectionStates::Zero();
     Eigen::Vector2d velocity;  ///< induced, in equilibrium with the loads, before the wake's skew, m/s
     double root = 0;           ///< of the balance, as Induction::root; for lagging_slopes()
-    bool solved = false;
+    bool solved = false;       ///< likewise
 };
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
                        const RotorAirOptions& options, double density, const SectionLags& lags);
@@ -61,7 +61,7 @@ SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion,
 
 /// Derivatives of normal, driving, moment and the states' rates (rows).
 struct LaggingSlopes {
-    enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, rate, first_state };
+    enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, wake_share, rate, first_state };
     static constexpr int columns = first_state + SectionLags::most, rows = 3 + SectionLags::most;
     Eigen::Matrix<double, rows, columns> by = Eigen::Matrix<double, rows, columns>::Zero();
 };

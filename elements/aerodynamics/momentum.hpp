@@ -38,18 +38,27 @@ struct Annulus {
 struct Induction {
     double axial = 0, tangential = 0;  ///< a, a'
     double phi = 0;                    ///< rad
-    double root = 0;                   ///< of the balance, rad: phi unless a or a' was limited, or changed later
-    bool solved = false;               ///< false: no solution, or nothing to solve; see solve_induction()
+    /// Of the balance, rad, in the mirror image with positive V_x and V_y: there it is phi unless a or a' was limited,
+    /// or changed later.
+    double root = 0;
+    bool solved = false;  ///< false: no solution, or nothing to solve; see solve_induction()
 };
 
 /// The residual in the single unknown phi [Ning 2014], with Buhl's relation [2005] at high thrust and the branch of a
-/// propeller that brakes: solutions are bracketed, so that there is none that is not found.
+/// propeller that brakes: solutions are bracketed, so that there is none that is not found. It is looked for between 0
+/// and pi, then in the propeller's branch. Where several lie in one bracket, as where the lift falls behind the stall,
+/// it is the one of the smallest angle of attack, which is that of attached flow; as the inflow changes, it may come to
+/// an end there (a fold), and the loads of the section jump to those of another one.
+///
+/// Air from behind and a rotor that turns backwards have the solution of the mirror image.
 ///
 /// The Reynolds number within the balance is that of the velocity without induction, that of the forces the one with
 /// it, both as in AeroDyn: the balance keeps its single unknown.
 ///
-/// Where F = 0 (root and tip with losses) a = 1, a' = 0. Where the air has no speed in one direction, or no bracket has
-/// a sign change, a = a' = 0.
+/// Where F = 0 (root and tip with losses) a = 1, a' = 0. Where no bracket has a solution, a = a' = 0. Both are ratios
+/// to the flow through the ring and are faded out, (1 - cos)/2, with it: a' as V_x falls from a 25th of V_y to a 50th,
+/// where the drag would take the air round with the rotor, a from a 100th to a 200th. So still air and wind along the
+/// disc have a = a' = 0 without a jump, and on the way there nothing drives the rotor.
 Induction solve_induction(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
 
 /// A section, and the velocity of the air relative to it without induction, m/s.
@@ -59,19 +68,18 @@ struct SectionInflow {
 };
 /// solve_induction() for each, the same but for rounding, in a third of the time: Newton's method for eight of them
 /// side by side, in the usual bracket, 0 ... pi/2. What it does not find there, and sections without a balance, are
-/// left to that function. Each search begins from the lift at small angles and does not depend on the other sections;
-/// where a section has several solutions, as one in deep stall may, it may find another one than that function.
+/// left to that function. Each search begins from the lift at small angles and does not depend on the other sections.
 /// @param out  as many; nothing is allocated
 void solve_inductions(std::span<const SectionInflow> sections, const MomentumOptions& options,
                       std::span<Induction> out);
 
-/// The same by plain bisection.
+/// The same by plain bisection of a thousand parts of each bracket.
 Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
 
 /// Forces per length, N/m, along x and against y (driving), and the moment about z, N.
 struct SectionForce {
     double normal = 0, driving = 0, moment = 0;
-    double attack = 0;  ///< rad
+    double attack = 0;  ///< rad, -pi ... pi
 };
 /// @param induction  its phi is that of its a and a'
 SectionForce section_force(const Annulus& annulus, double V_x, double V_y, const Induction& induction, double density);

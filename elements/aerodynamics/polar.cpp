@@ -16,6 +16,8 @@ namespace {
 constexpr double slack = 1e-6;  // rad, of the ends of a table
 constexpr double same = 1e-9;   // rad, of points of two tables
 constexpr double attached_angle = 0.08;
+constexpr double gives_way = -0.1;                  // of the steepest slope
+constexpr double usual_angle = 10 * units::degree;  // to both sides of zero the lift is steepest
 
 void check(const std::string& here, const Polar::Table& table) {
     const std::vector<double>& angles = table.angles;
@@ -101,6 +103,36 @@ Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name
     }
     const Point attached = at(attached_angle);
     lift_line_ = {attached.lift_slope, attached.lift - attached.lift_slope * attached_angle};
+    find_stalls();
+}
+
+void Polar::find_stalls() {
+    const auto& intervals = tables_.front().intervals;
+    const Table& first = table();
+    const auto last = intervals.size() - 1;
+    const auto end = [&](std::size_t i) { return first.angles[i + 1]; };
+    double steepest = 0;
+    for (std::size_t i = 0; i <= last; ++i)
+        if (intervals[i].from < usual_angle && end(i) > -usual_angle)
+            steepest = std::max(steepest, intervals[i].lift_slope);
+    attached_from_ = -pi;
+    attached_to_ = pi;
+    if (steepest == 0) return;
+    std::size_t middle = 0;
+    while (middle < last && end(middle) <= 0) ++middle;
+    std::size_t high = middle, low = middle;
+    while (high < last && intervals[high].lift_slope >= steepest / 2) ++high;
+    while (low > 0 && intervals[low].lift_slope >= steepest / 2) --low;
+    attached_to_ = std::max(0.0, intervals[high].from);
+    attached_from_ = std::min(0.0, end(low));
+    for (std::size_t i = std::max<std::size_t>(high, 1); i <= last && intervals[i].from < pi / 2; ++i)
+        if (intervals[i].from > 0 &&
+            intervals[i].lift_slope < std::min(gives_way * steepest, intervals[i - 1].lift_slope))
+            stalls_.push_back(intervals[i].from);
+    for (std::size_t i = low; i + 1 > 0 && end(i) > -pi / 2; --i)
+        if (end(i) < 0 && i < last &&
+            intervals[i].lift_slope < std::min(gives_way * steepest, intervals[i + 1].lift_slope))
+            stalls_.push_back(end(i));
 }
 
 Polar::Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,

@@ -48,6 +48,11 @@ public:
         double slope = 0, offset = 0;
     };
     const LiftLine& lift_line() const { return lift_line_; }
+    /// Does the lift rise at half of its steepest slope, or more, all the way from no angle of attack to this one? Of a
+    /// profile without lift everywhere. Of the first table, between -pi and pi.
+    bool is_attached(double angle) const { return angle >= attached_from_ && angle <= attached_to_; }
+    /// Points of the first table beyond, up to a right angle, at which the lift loses slope away from zero, rad.
+    const std::vector<double>& stalls() const { return stalls_; }
 
 private:
     static constexpr std::size_t cells = 512;
@@ -63,10 +68,13 @@ private:
         Point at(double x) const;
     };
     Point between(double x, double reynolds) const;
+    void find_stalls();
 
     std::string name_;
     std::vector<IndexedTable> tables_;
     LiftLine lift_line_;
+    double attached_from_, attached_to_;
+    std::vector<double> stalls_;
 };
 
 }  // namespace cardan

@@ -21,17 +21,24 @@ class Evaluation {
 public:
     Evaluation(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed, double azimuth,
                double pitch, const RotorAirOptions& options)
-        : blade_(blade), pose_(pose), wind_(wind), options_(options), shaft_(rot_z(pose.yaw) * rot_y(pose.tilt)) {
+        : blade_(blade),
+          pose_(pose),
+          wind_(wind),
+          options_(options),
+          speed_(speed),
+          shaft_(rot_z(pose.yaw) * rot_y(pose.tilt)) {
         for (int k = 0; k < pose.blades; ++k) place(azimuth + 2 * pi * k / pose.blades, speed, pitch);
     }
 
     RotorAir result() {
         RotorAir out;
         const Vec3 wind = mean_wind_ / static_cast<double>(blades_.size() * blade_.sections());
-        const double normal = wind.dot(shaft_.col(0));
-        out.skew = wind.norm() > 0 ? std::acos(std::clamp(normal / wind.norm(), -1.0, 1.0)) : 0;
+        const double normal = wind.dot(shaft_.col(0)), radius = blades_.front().annuli.back().radius;
+        const Vec3 side = wind - normal * shaft_.col(0);
+        out.skew = skew_angle(normal, side.norm());
+        out.induction = options_.induction ? induction_share(speed_ * radius, wind.norm()).value : 0;
         for (PlacedBlade& own : blades_) {
-            find_inductions(own, out.skew, wind - normal * shaft_.col(0));
+            find_inductions(own, {.angle = out.skew, .share = out.induction}, side, radius);
             add_loads(own, out);
             out.sections.push_back(own.sections);
         }
@@ -56,7 +63,7 @@ private:
         blades_.push_back(std::move(own));
     }
 
-    std::vector<Induction> inductions_of(const PlacedBlade& own) const {
+    std::vector<Induction> inductions_of(const PlacedBlade& own, double share) const {
         std::vector<Induction> out(own.sections.size());
         std::vector<SectionInflow> inflows;
         inflows.reserve(out.size());
@@ -64,20 +71,19 @@ private:
             inflows.push_back({&own.annuli[i], own.sections[i].V_x, own.sections[i].V_y});
             out[i].phi = std::atan2(inflows[i].V_x, inflows[i].V_y);
         }
-        if (options_.induction) solve_inductions(inflows, options_.momentum, out);
+        if (share > 0) solve_inductions(inflows, options_.momentum, out);
         return out;
     }
 
-    // @param side  the mean wind in the plane of the rotor
-    void find_inductions(PlacedBlade& own, double skew, const Vec3& side) const {
+    // @param side    the mean wind in the plane of the rotor
+    // @param radius  of the rotor
+    void find_inductions(PlacedBlade& own, RotorWake wake, const Vec3& side, double radius) const {
         const Vec3 span = own.axes.col(2) - own.axes.col(2).dot(shaft_.col(0)) * shaft_.col(0);
-        const double sine = side.norm() > 0 ? span.dot(side) / (span.norm() * side.norm()) : 0,
-                     largest = own.annuli.back().radius;
-        const std::vector<Induction> balances = inductions_of(own);
+        const double sine = side.norm() > 0 ? span.dot(side) / (span.norm() * side.norm()) : 0;
+        const std::vector<Induction> balances = inductions_of(own, wake.share);
         for (std::size_t i = 0; i < own.sections.size(); ++i) {
             const Annulus& annulus = own.annuli[i];
-            SkewedWake wake;
-            if (options_.skew == Skew::pitt_peters) wake = {skew, annulus.radius / largest * sine * std::sin(skew)};
+            if (options_.skew == Skew::pitt_peters) wake.lever = annulus.radius / radius * sine * std::sin(wake.angle);
             SectionAir& section = own.sections[i];
             section = section_air(balances[i], annulus, section.V_x, section.V_y, wake, wind_.density);
         }
@@ -108,6 +114,7 @@ private:
     const RotorPose& pose_;
     const SteadyWind& wind_;
     const RotorAirOptions& options_;
+    double speed_;
     Mat3 shaft_;
     std::vector<PlacedBlade> blades_;
     Vec3 mean_wind_ = Vec3::Zero();

@@ -48,7 +48,8 @@ struct RotorAir {
         Vec3 force, moment;  ///< on the first section, axes of the coned, unpitched blade
     };
     std::vector<Root> roots;
-    double skew = 0;  ///< angle between the mean wind and the shaft, rad
+    double skew = 0;       ///< RotorWake::angle, rad
+    double induction = 1;  ///< RotorWake::share; 0 without induction
 };
 /// @param speed  of the rotor, rad/s;  @param azimuth, pitch  rad
 RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed,

@@ -327,7 +327,7 @@ CardanBeam calculated(const BeamLine& line, const std::string& name, const Carda
     beam.options = options;
     if (const std::string unsuited = unsuited_delta(options); !unsuited.empty())
         beam.warnings.push_back(text(name, ": ", unsuited));
-    if (!options.extension) warn_of_condensed_extension(beam, ends);
+    if (!options.extension && !options.holds_all()) warn_of_condensed_extension(beam, ends);
     double tilted_moment = 0;
     for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
         const std::string element_name = text(name, " element ", e + 1);
@@ -343,13 +343,13 @@ CardanBeam calculated(const BeamLine& line, const std::string& name, const Carda
         tilted_moment = std::max(tilted_moment, inertia.tilted_moment);
         beam.mass += inertia.mass;
         beam.elements.push_back(calculated_element(span, inertia, options, element_name));
-        if (!options.extension && extension_is_coupled(beam.elements.back().flexibility))
+        if (!options.extension && !options.holds_all() && extension_is_coupled(beam.elements.back().flexibility))
             beam.warnings.push_back(text(element_name,
                                          ": extension is condensed out although the tension centre lies "
                                          "off the reference line: under a large axial force (a rotating blade) its "
                                          "moment about the tension centre is lost; keep the extension free"));
     }
-    if (tilted_moment > 0.01)
+    if (tilted_moment > 0.01 && !options.holds_all())
         beam.warnings.push_back(text(name,
                                      ": masses lie farther off the hinge line than the rotary inertia of the "
                                      "sections allows for: up to ",

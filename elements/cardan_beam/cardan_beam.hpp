@@ -46,6 +46,12 @@ struct CardanBeamOptions {
     double bending_armature = 0;
     double torsion_armature = 0;  ///< on the torsion coordinate, times the polar inertia of the element
     double hinge_delta() const { return delta.value_or(recommended_delta(partition)); }
+    /// Rigid in every way: bending held, no torsion, no extension, and so no shear and no coupling of these.
+    void hold_all() {
+        held_y = held_z = true;
+        torsion = extension = false;
+    }
+    bool holds_all() const { return held_y && held_z && !torsion && !extension; }
 };
 
 /// What was added to the tree.

@@ -105,6 +105,9 @@ void BladedController::write(const Measured& now) {
         {7, own_.largest_pitch},
         {8, own_.least_pitch_rate},
         {9, own_.largest_pitch_rate},
+        {10, 0},  // pitch angles, not rates
+        {11, library_->at(own_.individual_pitch ? 42 : 45)},
+        {14, now.generator_torque * now.generator_speed},
         {15, now.power},
         {17, 0},
         {18, own_.rated_speed},
@@ -115,6 +118,8 @@ void BladedController::write(const Measured& now) {
         {23, now.generator_torque},
         {24, now.yaw_error},
         {27, now.wind_speed},
+        {28, own_.individual_pitch ? 1.0 : 0.0},
+        {29, 0},  // yaw rates, not torques
         {37, now.yaw},
         {53, now.tower_acceleration},
         {60, now.azimuth},
@@ -132,14 +137,51 @@ void BladedController::write(const Measured& now) {
     }
 }
 
-void BladedController::call(double status, const Measured& now) {
+void BladedController::remark(const std::string& words, std::vector<std::string>& remarks) {
+    if (told_.insert(words).second) remarks.push_back(words);
+}
+
+void BladedController::call(double status, const Measured& now, std::vector<std::string>& remarks) {
     write(now);
     library_->set(1, status);
     const int fail = library_->call();
-    if (fail >= 0) return;
     const std::string words = library_->message();
+    if (fail > 0) remark(words.empty() ? text("a warning without words (", fail, ")") : words, remarks);
+    if (fail >= 0) return;
     throw NumericalError(text("controller ", path_.string(), ": at ", now.time, " s it reports a failure (", fail, ")",
                               words.empty() ? "" : ": ", words));
+}
+
+// Contactor and brake stay in their records: what was demanded is what is told at the next call.
+BladedController::Demand BladedController::read() const {
+    const Library& swap = *library_;
+    const auto number = [&](std::size_t record, const std::string& what) {
+        const double value = swap.at(record);
+        if (std::isfinite(value)) return value;
+        throw NumericalError(
+            text("controller ", path_.string(), ": at ", last_.time, " s it demands a ", what, " of ", value));
+    };
+    const auto whole = [&](std::size_t record, const char* what, const std::vector<int>& allowed, const char* words) {
+        const double value = number(record, what);
+        for (const int one : allowed)
+            if (std::abs(value - one) < 0.5) return one;
+        throw NumericalError(text("controller ", path_.string(), ": at ", last_.time, " s it demands a ", what, " of ",
+                                  value, " (record ", record, "); allowed: ", words));
+    };
+    Demand out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool asked = static_cast<int>(k) < own_.blades;
+        out.pitch.at(k) = asked ? number(own_.individual_pitch ? 42 + k : 45, "pitch") : 0;
+    }
+    out.generator_connected = whole(35, "contactor", {0, 1}, "1, the generator, or 0, none") == 1;
+    out.torque = number(47, "generator torque");
+    if (!out.generator_connected) out.torque = 0;
+    const int brake = whole(36, "shaft brake", {0, 1, 16}, "0, off, 1, on, or 16, the torque of record 107");
+    out.brake.status = brake == 0 ? Brake::Status::off : brake == 1 ? Brake::Status::on : Brake::Status::torque;
+    if (out.brake.status == Brake::Status::torque) out.brake.torque = number(107, "brake torque");
+    out.yaw_rate = number(48, "yaw rate");
+    out.message = swap.message();
+    return out;
 }
 
 BladedController::Demand BladedController::step(const Measured& now) {
@@ -150,30 +192,30 @@ BladedController::Demand BladedController::step(const Measured& now) {
         for (std::size_t k = 0; k < 3; ++k) library_->set(42 + k, now.pitch.at(k));
         library_->set(45, now.pitch[0]);
         library_->set(47, now.generator_torque);
+        library_->set(35, 1);
     }
-    call(started_ ? 1 : 0, now);
+    std::vector<std::string> remarks;
+    call(started_ ? 1 : 0, now, remarks);
     started_ = true;
-    Demand out;
-    const Library& swap = *library_;
-    const bool individual = swap.at(28) != 0;
-    for (std::size_t k = 0; k < 3; ++k) out.pitch.at(k) = swap.at(individual ? 42 + k : 45);
-    out.torque = swap.at(47);
-    out.yaw_rate = swap.at(48);
-    out.message = swap.message();
-    const auto require = [&](double value, const char* what) {
-        if (std::isfinite(value)) return;
-        throw NumericalError(
-            text("controller ", path_.string(), ": at ", now.time, " s it demands a ", what, " of ", value));
+    struct Unheard {
+        std::size_t record;
+        const char* what;
     };
-    for (const double pitch : out.pitch) require(pitch, "pitch");
-    require(out.torque, "generator torque");
+    static constexpr std::array unheard{Unheard{55, "pitch of the machine's own (record 55)"},
+                                        Unheard{56, "torque of the machine's own (record 56)"},
+                                        Unheard{102, "stiffness, damping or torque of the yaw drive (record 102)"}};
+    for (const auto& [record, what] : unheard)
+        if (library_->at(record) != 0) remark(text("it asks for a ", what, ", which there is not"), remarks);
+    Demand out = read();
+    out.remarks = std::move(remarks);
     return out;
 }
 
 void BladedController::finish() {
     if (!started_ || finished_) return;
     finished_ = true;
-    call(-1, last_);
+    std::vector<std::string> last_words;
+    call(-1, last_, last_words);
 }
 
 }  // namespace cardan

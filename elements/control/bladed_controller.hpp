@@ -4,14 +4,22 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace cardan {
 
 /// A controller in a shared library. It keeps its memory to itself: two controllers in one process need two copies of
 /// the library's file, and a run with one cannot continue from a checkpoint.
+///
+/// Records count from 1, as in the manuals; units are SI. What the machine decides is told before the first call and
+/// stays: pitch angles are demanded, not rates (record 10 = 0), yaw rates, not torques (29 = 0), of the blades alike or
+/// each (28). What the controller switches is told back to it as it stands: the contactor of the generator (35, on at
+/// first) and the shaft brake (36, off at first).
 class BladedController {
 public:
     struct Options {
@@ -19,7 +27,8 @@ public:
         std::string output = "cardan";  ///< prefix of files that it writes (avcOUTNAME)
         std::string function = "DISCON";
         int blades = 3;
-        double period = 0;  ///< s, between two calls
+        double period = 0;              ///< s, between two calls
+        bool individual_pitch = false;  ///< 28: every blade has a demand of its own
         double fine_pitch = 0, largest_pitch = 1.5707963267948966, least_pitch_rate = -0.1396,
                largest_pitch_rate = 0.1396;  ///< rad, rad/s: told to the controller, which may have its own
         double rated_speed = 0;              ///< of the generator, rad/s
@@ -40,11 +49,21 @@ public:
         double nacelle_nodding = 0;                   ///< 83, angular acceleration
         double azimuth = 0;                           ///< 60
     };
+    struct Brake {
+        enum class Status : std::uint8_t { off, on, torque };
+        Status status = Status::off;  ///< 36: 0, 1, or 16 with a torque of its own
+        double torque = 0;            ///< 107, N m, where that is asked for
+    };
     struct Demand {
-        std::array<double, 3> pitch{};  ///< 42 ... 44, or 45 for all where the controller pitches collectively (28 = 0)
-        double torque = 0;              ///< 47, of the generator
-        double yaw_rate = 0;            ///< 48
-        std::string message = {};       ///< what the controller says (avcMSG), if anything
+        std::array<double, 3> pitch{};    ///< 42 ... 44, or 45 for all where the pitch is collective
+        bool generator_connected = true;  ///< 35: 1, or 0 for off
+        double torque = 0;                ///< 47, of the generator; 0 where it is off
+        Brake brake = {};                 ///< of the shaft
+        double yaw_rate = 0;              ///< 48
+        std::string message = {};         ///< what the controller says (avcMSG), if anything
+        /// What a user should know, each text once in a run: warnings of the controller (aviFAIL > 0), and demands that
+        /// are not obeyed, because nothing here can: overrides of pitch and torque (55, 56), control of the yaw (102).
+        std::vector<std::string> remarks = {};
     };
 
     /// @throws FileError if the library cannot be loaded or has no such function; InputError for bad options
@@ -54,22 +73,25 @@ public:
     BladedController& operator=(const BladedController&) = delete;
 
     /// The next call; the first one is an initialisation as well (record 1 = 0).
-    /// @throws NumericalError, with the time: the controller reports a failure (aviFAIL < 0) or demands what is no
-    /// number
+    /// @throws NumericalError, with the time: the controller reports a failure (aviFAIL < 0), demands what is no
+    /// number, or a contactor or a brake that there is not
     Demand step(const Measured& now);
     /// The last call (record 1 = -1), which lets the controller close its files. Done by the destructor otherwise.
     void finish();
 
 private:
     class Library;
-    void call(double status, const Measured& now);
+    void call(double status, const Measured& now, std::vector<std::string>& remarks);
     void write(const Measured& now);
+    Demand read() const;
+    void remark(const std::string& words, std::vector<std::string>& remarks);
 
     std::filesystem::path path_;
     Options own_;
     std::unique_ptr<Library> library_;
     Measured last_;
     bool started_ = false, finished_ = false;
+    std::set<std::string> told_;  ///< remarks
 };
 
 }  // namespace cardan

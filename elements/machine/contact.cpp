@@ -95,7 +95,7 @@ UserForce friction_force(std::string name, BodyId coordinate, const StribeckFric
 
 DryFriction add_dry_friction(ForceSet& forces, LoopSet& loops, const std::string& name, BodyId coordinate,
                              const StribeckFriction& law, double surface_speed) {
-    DryFriction friction{name, coordinate, law.static_force, surface_speed};
+    DryFriction friction{name, coordinate, law.static_force, surface_speed, 1e-6 * law.regularisation};
     const auto at_present = [law, state = friction.state](double speed) {
         if (state->engaged) return StribeckFriction::Force{};
         return state->direction == 0 ? law.at(speed) : law.sliding(speed, state->direction);

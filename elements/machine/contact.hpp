@@ -49,7 +49,7 @@ struct StribeckFriction {
     double coulomb_force = 0;      ///< Fc, >= 0
     double stribeck_speed = 0;     ///< vs, m/s or rad/s, >= 0; 0: from Fs to Fc at once, where it truly sticks
     double viscous = 0;            ///< c, N s/m or N m s/rad, >= 0
-    double regularisation = 1e-4;  ///< vr, m/s or rad/s, > 0
+    double regularisation = 1e-4;  ///< vr, m/s or rad/s, > 0; where it truly sticks, a millionth of it is standstill
 
     struct Force {
         double force = 0, by_speed = 0;

@@ -2,6 +2,7 @@
 /// Joints along the axes of a frame; several of them make cardan, cylindrical and planar joints.
 #pragma once
 
+#include "mbs/base/text.hpp"
 #include "mbs/model/tree.hpp"
 
 namespace cardan {
@@ -13,7 +14,7 @@ struct PartLabel {
     std::string part = {};
     int blade = 0;
     /// "blade 2", "tower".
-    std::string name() const { return blade > 0 ? part + " " + std::to_string(blade) : part; }
+    std::string name() const { return blade > 0 ? part + " " + text(blade) : part; }
 };
 
 /// A body on a joint, and the frame on it whose axes coincide with the carrier's at q = 0.

@@ -10,6 +10,7 @@
 
 #include "examples/shared/program.hpp"
 #include "examples/shared/words.hpp"
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <vector>
@@ -41,8 +42,8 @@ inline solvers::CampbellOptions campbell_options(double max_frequency_hz) {
 }
 
 /// To standard output.  @throws FileError
-inline void print_table(const solvers::Campbell& diagram) {
-    if (!(std::cout << solvers::table(diagram) << std::flush))
+inline void print_table(const solvers::Campbell& diagram, bool states = false) {
+    if (!(std::cout << solvers::table(diagram, states) << std::flush))
         throw FileError("standard output", "the table could not be written");
 }
 
@@ -62,9 +63,18 @@ inline void write_files_and_roots(const solvers::Campbell& diagram, const solver
     solvers::write_csv(diagram, prefix + ".csv");
     for (const char* kind : {".svg", ".png"}) {
         solvers::plot(shown, prefix + kind, picture);
-        solvers::plot_roots(shown, prefix + "_roots" + kind,
-                            {.title = picture.title, .max_frequency_hz = picture.max_frequency_hz});
+        solvers::plot_roots(
+            shown, prefix + "_roots" + kind,
+            {.title = picture.title, .max_frequency_hz = picture.max_frequency_hz, .states = picture.states});
     }
+    std::ptrdiff_t left_out = 0;
+    if (!picture.states) {
+        left_out = std::ranges::count_if(shown.branches, &solvers::Branch::of_states);
+        for (const solvers::CampbellPoint& point : shown.points)
+            left_out = std::max(left_out, std::ssize(point.state_motions));
+    }
+    if (left_out > 0)
+        std::printf("up to %td roots that are mostly states of the air are not drawn: --air-roots\n", left_out);
     std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
 }
 

@@ -69,7 +69,7 @@ std::string harmonics(const solvers::FloquetMode& mode) {
             shares.emplace_back(mode.participation(i), mode.first_harmonic + static_cast<int>(i));
     std::sort(shares.begin(), shares.end(), std::greater<>());
     if (shares.size() > 4) shares.resize(4);
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     for (const auto& [share, j] : shares)
         out << (out.tellp() > 0 ? ", " : "") << (j > 0 ? "+" : "") << j << ": " << std::fixed << std::setprecision(2)
             << 100 * share << " %";
@@ -138,7 +138,7 @@ private:
 };
 
 void write_harmonics(const solvers::Campbell& diagram, const std::string& path) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << "# shares of the energy; harmonic j: frequency of the mode plus j per revolution\n"
         << "mode,frequency[1/rev],growth[1/rev],harmonic,share\n"
         << std::setprecision(10);

@@ -1,18 +1,11 @@
 #include "examples/shared/command_line.hpp"
 
+#include "mbs/base/text.hpp"
 #include "mbs/base/version.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <array>
-#include <charconv>
-
 namespace cardan::program {
-
-std::string in_digits(double value) {
-    std::array<char, 40> digits{};
-    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
 
 Option& Option::required() {
     option_->required();
@@ -79,18 +72,18 @@ void CommandLine::remember(const std::string& name, std::function<void(Words&)> 
 }
 
 Option CommandLine::add_option(const std::string& name, int& target, const std::string& what) {
-    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + std::to_string(target)); });
+    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + text(target)); });
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
 Option CommandLine::add_option(const std::string& name, double& target, const std::string& what) {
-    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + in_digits(target)); });
+    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + digits(target)); });
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
 Option CommandLine::add_option(const std::string& name, std::optional<double>& target, const std::string& what) {
     remember(name, [name, &target](Words& all) {
-        if (target) all.push_back(name + "=" + in_digits(*target));
+        if (target) all.push_back(name + "=" + digits(*target));
     });
     return Option(*app_->add_option(name, target, what));
 }

@@ -18,9 +18,6 @@ class Option;
 
 namespace cardan::program {
 
-/// The shortest text that is read back as the same number.
-std::string in_digits(double value);
-
 /// A handle of an option or flag; it is good as long as its command line. What it refuses is wrong usage.
 class Option {
 public:

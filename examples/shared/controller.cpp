@@ -5,11 +5,16 @@
 #include "turbines/machines/nrel5mw_controller.hpp"
 #include "turbines/model/channels.hpp"
 
+#include "examples/shared/program.hpp"
+#include "examples/shared/words.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace cardan::program {
@@ -108,27 +113,81 @@ solvers::SampledController baseline_controller(const ControllerOptions& options,
     return controller;
 }
 
+constexpr const char* yaw_input = "yaw demand";
+
+// The coordinate of a yaw that is prescribed; -1: there is none.
+int driven_yaw(const turbines::Turbine& turbine) {
+    const Model& model = turbine.system().model;
+    const std::optional<BodyId>& yaw = turbine.layout().yaw;
+    if (!yaw || model.coordinates()[model.index(*yaw)].role != CoordinateRole::driven) return -1;
+    return model.index(*yaw);
+}
+
+// A library on a machine: its sensors, its demands as inputs, and what it says.
+class LibraryRun {
+public:
+    LibraryRun(const ControllerOptions& options, const turbines::Turbine& turbine, const std::string& prefix,
+               const std::vector<ChannelGroup>& also)
+        : library_(options.what, {.input = options.input,
+                                  .output = prefix,
+                                  .blades = static_cast<int>(turbine.layout().pitch.size()),
+                                  .period = options.period,
+                                  .individual_pitch = options.is_individual()}),
+          sensors_(turbine, also),
+          layout_(turbine.layout()),
+          efficiency_(options.efficiency),
+          period_(options.period),
+          torque_(turbine.system().forces.states().index(turbines::torque_state)),
+          yaw_(driven_yaw(turbine)) {}
+
+    /// @param u  pitch of each blade, torque, and the yaw if it is prescribed
+    void update(const solvers::SampleInput& in, VectorOut u) {
+        sensors_.measure(in);
+        BladedController::Measured now = measured(sensors_, layout_);
+        now.time = in.state.time;
+        now.generator_torque = in.state.s(torque_);
+        now.power = efficiency_ * now.generator_torque * now.generator_speed;
+        const BladedController::Demand demand = library_.step(now);
+        const auto blades = std::ssize(layout_.pitch);
+        for (Eigen::Index k = 0; k < blades; ++k) u(k) = entry(demand.pitch, k);
+        u(blades) = demand.torque;
+        for (const std::string& words : demand.remarks) say(now.time, words);
+        if (demand.brake.status != BladedController::Brake::Status::off)
+            say_once(now.time, "it applies the shaft brake (record 36): the machine has none");
+        if (yaw_ < 0) {
+            if (demand.yaw_rate != 0)
+                say_once(now.time,
+                         "it turns the nacelle (record 48), whose yaw is not prescribed: --yaw driven lets it");
+            return;
+        }
+        if (!yawed_) u(blades + 1) = in.state.q(yaw_);
+        yawed_ = true;
+        u(blades + 1) += demand.yaw_rate * period_;
+    }
+
+private:
+    static void say(double time, const std::string& words) {
+        progress("\r                              \r");
+        std::cout << "controller: at " << time << " s: " << words << "\n";
+    }
+    void say_once(double time, const std::string& words) {
+        if (told_.insert(words).second) say(time, words);
+    }
+
+    BladedController library_;
+    Sensors sensors_;
+    turbines::MachineLayout layout_;
+    double efficiency_, period_;
+    int torque_, yaw_;
+    bool yawed_ = false;
+    std::set<std::string> told_;
+};
+
 solvers::SampledController library_controller(const ControllerOptions& options, const turbines::Turbine& turbine,
                                               const std::string& prefix, const std::vector<ChannelGroup>& also) {
-    const turbines::MachineLayout& layout = turbine.layout();
-    const auto blades = static_cast<int>(layout.pitch.size());
-    const auto library = std::make_shared<BladedController>(
-        options.what, BladedController::Options{
-                          .input = options.input, .output = prefix, .blades = blades, .period = options.period});
-    const auto sensors = std::make_shared<Sensors>(turbine, also);
-    const int state = turbine.system().forces.states().index(turbines::torque_state);
+    const auto run = std::make_shared<LibraryRun>(options, turbine, prefix, also);
     solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = options.period};
-    controller.update = [=, efficiency = options.efficiency, layout = layout](const solvers::SampleInput& in,
-                                                                              VectorOut u) {
-        sensors->measure(in);
-        BladedController::Measured now = measured(*sensors, layout);
-        now.time = in.state.time;
-        now.generator_torque = in.state.s(state);
-        now.power = efficiency * now.generator_torque * now.generator_speed;
-        const BladedController::Demand demand = library->step(now);
-        for (int k = 0; k < blades; ++k) u(k) = demand.pitch.at(static_cast<std::size_t>(k));
-        u(blades) = demand.torque;
-    };
+    controller.update = [run](const solvers::SampleInput& in, VectorOut u) { run->update(in, u); };
     controller.keeps_to_itself = true;
     return controller;
 }
@@ -142,11 +201,21 @@ void add_controller_options(CommandLine& app, ControllerOptions& options) {
         .type_name("baseline|LIBRARY");
     app.add_option("--controller-input", options.input, "file that the library reads").type_name("FILE");
     app.add_option("--controller-period", options.period, "time between its calls, s");
+    app.add_option(
+           "--pitch-control", options.pitch_control,
+           "what the library is told of the pitch: collective, or individual, a demand for each blade (default: "
+           "Ptch_Cntrl of ServoDyn, else collective)")
+        .one_of({"collective", "individual"});
+    app.add_option("--pitch-actuator", options.pitch_actuator,
+                   "HZ[:DAMPING[:DEG/S]]: actuators of second order between the demand and the blades, their damping "
+                   "ratio (0.7) and largest rate (none) (default: the springs of the model's pitch drives; without "
+                   "springs the pitch is prescribed, one period behind the demand)")
+        .one_word();
     app.add_option("--generator-efficiency", options.efficiency,
                    "electrical over mechanical power, for the power that is recorded and that the controller measures");
 }
 
-void check_controller(const ControllerOptions& options, const MachineFile& machine) {
+void check_controller(ControllerOptions& options, const MachineFile& machine) {
     require_positive("--controller-period", "value [s]", options.period);
     if (!(options.efficiency > 0 && options.efficiency <= 1))
         throw InputError("--generator-efficiency", "value", options.efficiency, "0 ... 1, not 0");
@@ -155,6 +224,14 @@ void check_controller(const ControllerOptions& options, const MachineFile& machi
                          "only with a library as --controller, which reads it");
     if (!options.input.empty() && !std::filesystem::exists(options.input))
         throw FileError(options.input, "cannot be read: there is no such file");
+    if (options.is_individual() && (!options.acts() || options.is_baseline()))
+        throw InputError("--pitch-control", "value", options.pitch_control,
+                         "collective: individual pitch needs a library as --controller");
+    if (options.acts() && options.pitch_control.empty())
+        options.pitch_control = !options.is_baseline() && machine.file.individual_pitch ? "individual" : "collective";
+    if (!options.pitch_actuator.empty() && !options.acts())
+        throw InputError("--pitch-actuator", "value", options.pitch_actuator, "only with --controller");
+    static_cast<void>(actuator_options(options));
     if (!options.acts()) return;
     if (!machine.file.dofs.generator)
         throw InputError("--controller", "rotor", "driven, at constant speed", "free: --generator free");
@@ -173,6 +250,26 @@ void check_controller(const ControllerOptions& options, const MachineFile& machi
                               "own, in a library"));
 }
 
+void make_pitch_drives(const ControllerOptions& options, turbines::TurbineDescription& machine) {
+    if (options.pitch_actuator.empty()) return turbines::give_pitch_drives(machine);
+    turbines::give_pitch_springs(machine);
+}
+
+turbines::ActuatorOptions actuator_options(const ControllerOptions& options) {
+    turbines::ActuatorOptions actuators;
+    if (options.pitch_actuator.empty()) return actuators;
+    constexpr auto option = "--pitch-actuator", allowed = "HZ[:DAMPING[:DEG/S]], all > 0";
+    const std::vector<std::string> parts = split(options.pitch_actuator, ':');
+    std::vector<double> values;
+    for (const std::string& part : parts) values.push_back(number(option, options.pitch_actuator, part, allowed));
+    if (values.size() > 3 || !std::ranges::all_of(values, [](double value) { return value > 0; }))
+        throw InputError(option, "value", options.pitch_actuator, allowed);
+    actuators.pitch_frequency = 2 * pi * values[0];
+    if (values.size() > 1) actuators.pitch_damping = values[1];
+    if (values.size() > 2) actuators.largest_pitch_rate = values[2] * units::degree;
+    return actuators;
+}
+
 double start_torque(const ControllerOptions& options, double ratio, double speed, double pitch, double rotor_torque) {
     if (!options.is_baseline()) return rotor_torque / ratio;
     return VariableSpeedController(baseline(options)).torque(ratio * speed, pitch);
@@ -183,18 +280,29 @@ ControlledMachine controlled_machine(const ControllerOptions& options, const tur
                                      const ControlSignal& more, const turbines::ActuatorOptions& actuators) {
     const turbines::ActuatedForces actuated(machine, actuators);
     const bool individual = !options.is_baseline();
-    const turbines::Turbine turbine = machine.with_forces(actuated.with_inputs(torque, individual, more),
-                                                          text(in_words(options), ", torque ", torque, " N m"));
+    ForceSet forces = actuated.with_inputs(torque, individual, more);
+    const int yaw = individual ? driven_yaw(machine) : -1;
+    if (yaw >= 0) forces.add_input({.name = yaw_input, .unit = "rad", .scale = 1, .initial = 0});
+    const turbines::Turbine turbine =
+        machine.with_forces(forces, text(in_words(options), ", torque ", torque, " N m, ", actuated.in_words()));
     solvers::SampledController controller = options.is_baseline() ? baseline_controller(options, turbine)
                                                                   : library_controller(options, turbine, prefix, also);
     controller.inputs = actuated.inputs(individual);
-    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency)};
+    controller.drives = actuated.drives(individual);
+    if (yaw >= 0) {
+        controller.inputs.emplace_back(yaw_input);
+        controller.drives.push_back({yaw, yaw_input});
+    }
+    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, options.efficiency),
+            text(options.is_individual() ? "individual pitch; " : "", actuated.in_words())};
 }
 
 std::string in_words(const ControllerOptions& options) {
     if (!options.acts()) return "";
     return text("controller ", options.what, options.input.empty() ? "" : " with ", options.input, ", every ",
-                options.period, " s, efficiency of the generator ", options.efficiency);
+                options.period, " s, efficiency of the generator ", options.efficiency,
+                options.is_individual() ? ", individual pitch" : "",
+                options.pitch_actuator.empty() ? "" : ", pitch actuator ", options.pitch_actuator);
 }
 
 }  // namespace cardan::program

@@ -104,6 +104,7 @@ void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
     if (!a.blades.empty()) model.dofs.blades = a.blades == "bend";
     set_tower(a.tower, model);
     if (a.yaw == "locked") yaw = turbines::rigid_joint;
+    if (a.yaw == "driven") yaw = turbines::driven_joint;
     if (a.yaw != "free" || !yaw.is_rigid()) return;
     if (model.yaw_drive.is_rigid())
         throw InputError("--yaw", "value", "free", "locked: the model gives no spring of a yaw drive");
@@ -113,7 +114,8 @@ void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
 void tell_dofs(const turbines::TurbineFile& model, MachineOptions& a) {
     const turbines::FileDofs& f = model.dofs;
     a.generator = f.generator ? "free" : "locked";
-    a.yaw = model.description.yaw.rotation.is_rigid() ? "locked" : "free";
+    const turbines::Bearing& yaw = model.description.yaw.rotation;
+    a.yaw = yaw.is_rigid() ? "locked" : yaw.hold == turbines::Bearing::Hold::driven ? "driven" : "free";
     a.blades = f.blades ? "bend" : "rigid";
     a.tower =
         f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
@@ -135,7 +137,9 @@ void free_beams_if_nothing_moves(turbines::TurbineFile& model) {
 std::string dofs_in_words(const turbines::TurbineFile& model) {
     const turbines::FileDofs& f = model.dofs;
     std::string locked = f.generator ? "" : ", generator locked";
-    if (model.description.yaw.rotation.is_rigid()) locked += ", yaw bearing locked";
+    const turbines::Bearing& yaw = model.description.yaw.rotation;
+    if (yaw.is_rigid()) locked += ", yaw bearing locked";
+    if (yaw.hold == turbines::Bearing::Hold::driven) locked += ", yaw prescribed";
     if (model.description.drive_train.main_shaft.is_rigid()) locked += ", main shaft rigid";
     if (!f.tower_fore_aft) locked += ", tower rigid fore-aft";
     if (!f.tower_side_side) locked += ", tower rigid side-side";
@@ -154,7 +158,7 @@ void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::As
     }
     if (d.blades == 0) return;
     o.blade_beam = beam_options(d.blade.line, a.blade_elements, true);
-    o.blade_beam->held_y = o.blade_beam->held_z = !dofs.blades;
+    if (!dofs.blades) o.blade_beam->hold_all();
 }
 
 }  // namespace
@@ -224,9 +228,9 @@ void add_source_options(CommandLine& app, MachineOptions& options) {
                    "of ElastoDyn; else free)")
         .one_of(free_or_locked);
     app.add_option("--yaw", options.yaw,
-                   "yaw bearing: free on the spring of the yaw drive, or locked (default: the model's, YawDOF of "
-                   "ElastoDyn)")
-        .one_of(free_or_locked);
+                   "yaw bearing: free on the spring of the yaw drive, locked, or driven, as a controller in a library "
+                   "turns it (default: the model's, YawDOF of ElastoDyn)")
+        .one_of({"free", "locked", "driven"});
     app.add_option("--tower", options.tower,
                    "tower: it bends, only in one direction, or is rigid (default: the model's, TwFADOF and TwSSDOF of "
                    "ElastoDyn)")
@@ -371,7 +375,7 @@ std::string run_text(const std::string& command, const CommandLine& options) {
 }
 
 std::string in_words(const turbines::Mesh& mesh) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements
         << " in the tower; with twice as many no frequency at rest changes by more than " << std::fixed
         << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3) << mesh.at_hz

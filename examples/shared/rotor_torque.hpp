@@ -9,7 +9,6 @@
 
 #include "examples/shared/command_line.hpp"
 #include "examples/shared/words.hpp"
-#include <charconv>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -57,12 +56,9 @@ inline void add_rotor_torque(CommandLine& app, std::string& given) {
 /// @throws FileError, ParseError, InputError
 inline RotorTorque rotor_torque(const std::string& given) {
     if (given.empty()) return {};
-    double value = 0;
-    const char* const end = given.data() + given.size();
-    if (const auto [at, error] = std::from_chars(given.data(), end, value); error == std::errc() && at == end) {
-        if (!std::isfinite(value)) throw InputError("--rotor-torque", "value [N m]", given, "finite");
-        return {{0, 1}, {value, value}};
-    }
+    const ReadNumber read = read_number(given);
+    if (read.good()) return {{0, 1}, {read.value, read.value}};
+    if (read.fault != ReadNumber::no_number) throw InputError("--rotor-torque", "value [N m]", given, "finite");
     const turbines::CsvTable table = turbines::CsvTable::read(given);
     const auto times = table.column("time", "s"), torques = table.column("torque", "N m");
     RotorTorque torque{{times.begin(), times.end()}, {torques.begin(), torques.end()}};

@@ -51,7 +51,7 @@ std::string input_description(const std::filesystem::path& result) {
 }
 
 RunRecord read_run_record(const std::filesystem::path& result) {
-    std::istringstream lines(input_description(result));
+    std::istringstream lines = text_reader(input_description(result));
     std::string first;
     std::getline(lines, first);
     const std::size_t colon = first.find(": cardan ");

@@ -5,8 +5,6 @@
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,11 +12,9 @@ namespace cardan::program {
 
 /// A finite number, all of the text.
 inline double number(const char* option, const std::string& given, const std::string& word, const char* allowed) {
-    double value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [at, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || at != end || !std::isfinite(value)) throw InputError(option, "value", given, allowed);
-    return value;
+    const ReadNumber read = read_number(word);
+    if (!read.good()) throw InputError(option, "value", given, allowed);
+    return read.value;
 }
 
 /// What stands between separators, empty words included; at least one.

@@ -100,7 +100,7 @@ std::vector<Column> frequencies(const Models& models, int elements) {
 }
 
 std::string hertz(double value) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     if (value > 0) out << std::fixed << std::setprecision(4) << value;
     return value > 0 ? out.str() : "-";
 }

@@ -3,26 +3,16 @@
 /// limit.
 #pragma once
 
+#include "mbs/base/text.hpp"
+
 #include <cmath>
-#include <locale>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace cardan {
-
-/// Concatenates its arguments as a stream would print them, with 10 significant digits.
-template <class... Parts>
-std::string text(const Parts&... parts) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(10);
-    (out << ... << parts);
-    return out.str();
-}
 
 /// Base of all exceptions of the library.
 class Error : public std::runtime_error {

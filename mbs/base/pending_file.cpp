@@ -181,7 +181,9 @@ void write_file(const fs::path& path, std::string_view contents) {
     const PendingFile pending(path);
     try {
         errno = 0;
-        std::ofstream out(pending.partial(), std::ios::binary | std::ios::trunc);
+        std::ofstream out;
+        out.imbue(std::locale::classic());
+        out.open(pending.partial(), std::ios::binary | std::ios::trunc);
         out << contents;
         out.close();
         if (!out)

@@ -50,7 +50,9 @@ std::string text_file(const std::filesystem::path& path) {
     if (std::error_code code; std::filesystem::is_directory(path, code))
         throw FileError(path.string(), "is a folder, not a file");
     errno = 0;
-    std::ifstream in(path, std::ios::binary);
+    std::ifstream in;
+    in.imbue(std::locale::classic());
+    in.open(path, std::ios::binary);
     std::string all;
     constexpr std::size_t piece = std::size_t{1} << 16;
     while (in && all.size() <= longest_text) {
@@ -85,13 +87,6 @@ void require_text(std::string_view text, std::string_view file, TextRules rules)
     if (rules == TextRules::any_bytes) return;
     if (const std::size_t end = utf8_length(text); end < text.size())
         refuse(text, end, file, cardan::text("is not UTF-8: byte ", hexadecimal(text[end]), "; save it as UTF-8"));
-}
-
-std::string lower_case(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
 }
 
 }  // namespace cardan

@@ -2,6 +2,8 @@
 /// Texts from outside: reading a file's bytes and checking that they are text.
 #pragma once
 
+#include "mbs/base/text.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -31,8 +33,5 @@ enum class TextRules { utf8, any_bytes };
 /// @throws ParseError with file, line and character column: a NUL character; longer than longest_text; and, with
 /// TextRules::utf8, what is not UTF-8
 void require_text(std::string_view text, std::string_view file, TextRules rules = TextRules::utf8);
-
-/// Converts A ... Z to a ... z and leaves everything else as it is, independently of the locale.
-[[nodiscard]] std::string lower_case(std::string_view text);
 
 }  // namespace cardan

@@ -11,7 +11,6 @@
 #include <compare>
 #include <complex>
 #include <numbers>
-#include <type_traits>
 #include <vector>
 
 namespace cardan {
@@ -39,14 +38,21 @@ using Complex = std::complex<double>;
 using ComplexVector = VectorT<Complex>;
 using ComplexMatrix = MatrixT<Complex>;
 
-/// Arguments of kernels: contiguous vectors and column-major matrices, which are never copied. (The scalar is taken
-/// from the Kinematics argument, so it does not take part in template deduction.)
+/// Arguments of kernels: contiguous vectors and column-major matrices, which are never copied. They are members, so
+/// that the scalar is that of the Kinematics argument alone, and so that all compilers make the same symbol of a
+/// kernel's signature: of Eigen::Ref, whose default arguments depend on the scalar, GCC and clang do not.
 template <class S>
-using VectorInT = const Eigen::Ref<const VectorT<std::type_identity_t<S>>>&;
+struct ArgumentsT {
+    using VectorIn = const Eigen::Ref<const VectorT<S>>&;
+    using VectorOut = Eigen::Ref<VectorT<S>>;
+    using MatrixOut = Eigen::Ref<MatrixT<S>>;
+};
 template <class S>
-using VectorOutT = Eigen::Ref<VectorT<std::type_identity_t<S>>>;
+using VectorInT = typename ArgumentsT<S>::VectorIn;
 template <class S>
-using MatrixOutT = Eigen::Ref<MatrixT<std::type_identity_t<S>>>;
+using VectorOutT = typename ArgumentsT<S>::VectorOut;
+template <class S>
+using MatrixOutT = typename ArgumentsT<S>::MatrixOut;
 
 using VectorIn = VectorInT<double>;
 using VectorOut = VectorOutT<double>;

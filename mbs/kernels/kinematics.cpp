@@ -71,7 +71,7 @@ void run(std::ptrdiff_t n, const Model::Link* links, const Complex* q, const Com
 }  // namespace
 
 template <class S>
-KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace) {
+KinematicsT<S> kinematics(const Model& model, VectorInT<S> q, WorkspaceT<S>& workspace) {
     require_size("kinematics", "q", q, model.size());
     require_model("kinematics", "workspace", workspace.model_serial, model.serial());
     ++workspace.generation;
@@ -115,11 +115,11 @@ void frame_jacobian(const KinematicsT<S>& kin, FrameId frame, MatrixOutT<S> J) {
     }
 }
 
-#define CARDAN_INSTANTIATE(S)                                                                                 \
-    template class WorkspaceT<S>;                                                                             \
-    template KinematicsT<S> kinematics<S>(const Model&, const Eigen::Ref<const VectorT<S>>&, WorkspaceT<S>&); \
-    template BasisFunctions<S> basis_functions<S>(const KinematicsT<S>&, int, int);                           \
-    template Pose<S> pose<S>(const KinematicsT<S>&, FrameId);                                                 \
+#define CARDAN_INSTANTIATE(S)                                                          \
+    template class WorkspaceT<S>;                                                      \
+    template KinematicsT<S> kinematics<S>(const Model&, VectorInT<S>, WorkspaceT<S>&); \
+    template BasisFunctions<S> basis_functions<S>(const KinematicsT<S>&, int, int);    \
+    template Pose<S> pose<S>(const KinematicsT<S>&, FrameId);                          \
     template void frame_jacobian<S>(const KinematicsT<S>&, FrameId, MatrixOutT<S>);
 CARDAN_INSTANTIATE(double)
 CARDAN_INSTANTIATE(Complex)

@@ -37,8 +37,7 @@ private:
     KinematicsT(const Model& model, WorkspaceT<S>& workspace)
         : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
     template <class T>
-    friend KinematicsT<T> kinematics(const Model& model, const Eigen::Ref<const VectorT<T>>& q,
-                                     WorkspaceT<T>& workspace);
+    friend KinematicsT<T> kinematics(const Model& model, VectorInT<T> q, WorkspaceT<T>& workspace);
 
     const Model* model_;
     WorkspaceT<S>* workspace_;
@@ -53,10 +52,7 @@ using Kinematics = KinematicsT<double>;
 /// Cost O(n), no allocation.
 /// @throws InputError if q has the wrong size or the workspace belongs to another model
 template <class S>
-KinematicsT<S> kinematics(const Model& model, const Eigen::Ref<const VectorT<S>>& q, WorkspaceT<S>& workspace);
-inline Kinematics kinematics(const Model& model, VectorIn q, Workspace& workspace) {
-    return kinematics<double>(model, q, workspace);
-}
+KinematicsT<S> kinematics(const Model& model, VectorInT<S> q, WorkspaceT<S>& workspace);
 
 /// Kinematic basis functions of body k for coordinate a, in components of body k; both zero unless a precedes k.
 ///

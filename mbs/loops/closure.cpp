@@ -14,6 +14,8 @@ namespace {
 constexpr const char* in_closure = "closing of loops";
 // Gradients less independent than this are taken for dependent.
 constexpr double dependent_below = 1e-9;
+// Rates over their terms that mean that a loop opens.
+constexpr double open_from = 1e-9;
 
 std::vector<bool> kept(const Model& model, const std::vector<int>& held) {
     std::vector<bool> flags = model.coordinates().driven();
@@ -37,26 +39,35 @@ public:
     Place(const Model& model, const Loops& loops, const std::vector<int>& held, double time)
         : phi(Vector::Zero(loops.size())),
           G(loops.size(), model.size()),
+          magnitudes(loops.size(), model.size()),
           model_(model),
           loops_(loops),
           time_(time),
-          magnitudes_(loops.size(), model.size()),
+          allowed_(loops.size()),
           workspace_(model),
           metric_(model, kept(model, held)),
           factor_(model, loops.size()) {}
 
+    // How far the loops are open, over what is allowed at the position factorised last.
     double gap_at(const Vector& q) {
         const Kinematics kin = kinematics(model_, q, workspace_);
         loops_.residual<double>(kin, time_, q, phi);
-        return phi.allFinite() ? phi.lpNorm<Eigen::Infinity>() : std::numeric_limits<double>::infinity();
+        return phi.allFinite() ? phi.cwiseQuotient(allowed_).lpNorm<Eigen::Infinity>()
+                               : std::numeric_limits<double>::infinity();
     }
-    void factorise(const Vector& q) {
+    void factorise(const Vector& q, double tolerance) {
         const Kinematics kin = kinematics(model_, q, workspace_);
-        extent = loops_.extent(kin);
-        loops_.gradient(kin, time_, q, G, magnitudes_);
+        loops_.tolerances(kin, time_, q, tolerance, allowed_);
+        loops_.gradient(kin, time_, q, G, magnitudes);
         if (const PivotStatus status = metric_.factorise(kin); !status)
             throw NumericalError(text(in_closure, ": ", status.message()));
-        factor_.factorise(metric_, G, magnitudes_, dependent_below);
+        factor_.factorise(metric_, G, magnitudes, dependent_below);
+    }
+    // The equation that is open the furthest.
+    int widest() const {
+        Eigen::Index worst = 0;
+        phi.cwiseQuotient(allowed_).cwiseAbs().maxCoeff(&worst);
+        return static_cast<int>(worst);
     }
     int turned_over(const Vector& q) { return loops_.turned_over(kinematics(model_, q, workspace_)); }
     Vector shortest(const Vector& y) {
@@ -77,48 +88,40 @@ public:
     const ConstraintFactor& factor() const { return factor_; }
 
     Vector phi;
-    Matrix G;
-    double extent = 1;
+    Matrix G, magnitudes;
 
 private:
     const Model& model_;
     const Loops& loops_;
     double time_;
-    Matrix magnitudes_;
+    Vector allowed_;
     Workspace workspace_;
     MetricFactor metric_;
     ConstraintFactor factor_;
 };
 
-int widest(const Vector& phi) {
-    Eigen::Index worst = 0;
-    phi.cwiseAbs().maxCoeff(&worst);
-    return static_cast<int>(worst);
-}
-
 // Newton's method; steps that open the loops further are halved. True: closed.
 bool close(Place& place, Closure& state, const ClosureOptions& options) {
-    state.gap = place.gap_at(state.q);
     bool polished = false;
-    for (; state.iterations < options.iterations; ++state.iterations) {
-        place.factorise(state.q);
-        const bool closed = state.gap <= options.tolerance * place.extent;
-        if (closed && (polished || state.gap == 0)) return true;
-        place.gap_at(state.q);
+    double gap = 0;  // over what is allowed
+    for (;; ++state.iterations) {
+        place.factorise(state.q, options.tolerance);
+        gap = place.gap_at(state.q);
+        const bool closed = gap <= 1;
+        if (closed && (polished || gap == 0)) return true;
+        if (state.iterations >= options.iterations) return closed;
         const Vector step = place.shortest(place.phi);
-        double fraction = 1, gap = 0;
+        double fraction = 1, gap_there = 0;
         Vector trial;
         for (int halving = 0; halving < 12; ++halving, fraction /= 2) {
             trial = state.q - fraction * step;
-            gap = place.gap_at(trial);
-            if (gap < state.gap) break;
+            gap_there = place.gap_at(trial);
+            if (gap_there < gap) break;
         }
         polished = closed;  // one step more than needed, for quadratic convergence makes it the last
-        if (!(gap < state.gap)) return closed;
+        if (!(gap_there < gap)) return closed;
         state.q = trial;
-        state.gap = gap;
     }
-    return state.gap <= options.tolerance * place.extent;
 }
 
 // From one closed position to another that is nearer to the start, along the part of the way back that lies in the
@@ -126,7 +129,7 @@ bool close(Place& place, Closure& state, const ClosureOptions& options) {
 // 1988]
 void approach(Place& place, const Vector& start, Closure& state, const ClosureOptions& options) {
     const auto way_back = [&](const Vector& q) {
-        place.factorise(q);
+        place.factorise(q, options.tolerance);
         const Vector back = start - q;
         return Vector(back - place.shortest(place.G * back));
     };
@@ -162,14 +165,16 @@ Closure close_loops(const Model& model, const Loops& loops, const Vector& q, con
     Place place(model, loops, options.held, options.time);
     result.converged = close(place, result, options);
     if (result.converged && options.nearest) approach(place, q, result, options);
-    place.factorise(result.q);
+    place.factorise(result.q, options.tolerance);
     result.rank = place.factor().rank();
-    result.gap = place.gap_at(result.q);
+    place.gap_at(result.q);
+    result.gap = place.phi.lpNorm<Eigen::Infinity>();
     if (!result.converged) {
-        const Loops::Equation& worst = entry(loops.equations(), widest(place.phi));
+        const int widest = place.widest();
+        const Loops::Equation& worst = entry(loops.equations(), widest);
         result.message =
-            text("the loops cannot be closed from here: ", loops.describe(worst.loop), " leaves ", result.gap, " ",
-                 worst.unit, " (", worst.name, ") after ", result.iterations,
+            text("the loops cannot be closed from here: ", loops.describe(worst.loop), " leaves ", place.phi(widest),
+                 " ", worst.unit, " (", worst.name, ") after ", result.iterations,
                  " iterations; start from a position that is nearer, hold fewer coordinates, or look for a "
                  "length that does not fit");
     } else if (const int turned = place.turned_over(result.q); turned >= 0) {
@@ -186,21 +191,22 @@ Vector close_rates(const Model& model, const Loops& loops, const Vector& q, cons
     require_finite_entries(model, "rate", qd);
     if (loops.empty()) return qd;
     Place place(model, loops, options.held, options.time);
-    place.factorise(q);
-    Vector opening(loops.size());
+    place.factorise(q, options.tolerance);
+    Vector opening(loops.size()), own(loops.size());
+    loops.time_rates(options.time, q, own);
     Vector closed = qd;
     for (int pass = 0; pass < 2; ++pass) {
-        loops.time_rates(options.time, q, opening);
-        opening += place.G * closed;
+        opening = own + place.G * closed;
         closed -= place.shortest(opening);
     }
-    loops.time_rates(options.time, q, opening);
-    opening += place.G * closed;
-    const int worst = widest(opening);
-    if (std::abs(opening(worst)) > 1e-9 * place.extent * (1 + qd.lpNorm<Eigen::Infinity>()))
-        throw InputError(text(in_closure, ": ", loops.describe(entry(loops.equations(), worst).loop)),
-                         "rate at which it opens", opening(worst),
-                         "0: prescribed rates contradict each other, or the position is a dead point");
+    opening = own + place.G * closed;
+    // Beside the terms of which the rates of the equations are sums.
+    const Vector terms = own.cwiseAbs() + place.magnitudes * closed.cwiseAbs();
+    for (int i = 0; i < loops.size(); ++i)
+        if (std::abs(opening(i)) > open_from * terms(i))
+            throw InputError(text(in_closure, ": ", loops.describe(entry(loops.equations(), i).loop)),
+                             "rate at which it opens", opening(i),
+                             "0: prescribed rates contradict each other, or the position is a dead point");
     return closed;
 }
 

@@ -13,7 +13,7 @@ struct ClosureOptions {
     double time = 0;             ///< s
     std::vector<int> held = {};  ///< coordinates that stay, by index; driven ones stay anyway
     int iterations = 200;
-    /// Largest residual that is left, m (or in the equation's unit), per metre of the loops' extent.
+    /// Largest residual that is left, over the size of what an equation compares: Loops::tolerances().
     double tolerance = 1e-13;
     /// Whether to go on, once the loops are closed, to the closed position nearest to the start in the metric.
     bool nearest = true;

@@ -1,13 +1,15 @@
 #include "mbs/loops/gradient_rates.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/extent.hpp"
 
 namespace cardan {
 
 namespace {
 
 constexpr double complex_step = 1e-30;
-// Of differences of fourth order: their error, h^4, and rounding, 1e-16 / h, are about alike.
+// Of differences of fourth order, in rad or over the extent of the tree: their error, h^4, and rounding, 1e-16 / h, are
+// about alike.
 constexpr double real_step = 1e-3;
 
 // phi' and phi'' at a position, for rates and accelerations that do not change.
@@ -48,6 +50,9 @@ void GradientRates::at(double time, VectorIn q, VectorIn qd, VectorIn qdd, Matri
     const ComplexVector qd_c = qd.cast<Complex>(), qdd_c = qdd.cast<Complex>();
     ComplexVector q_c = q.cast<Complex>();
     Vector moved = q;
+    const bool by_differences = !loops_.empty() && loops_.has_own_functions();
+    double length = by_differences ? extent(kinematics(model_, q, real_)) : 0;
+    if (!(length > 0)) length = 1;
     for (int a = 0; a < n; ++a) {
         if (!loops_.involves(a)) continue;
         if (!loops_.has_own_functions()) {
@@ -58,11 +63,12 @@ void GradientRates::at(double time, VectorIn q, VectorIn qd, VectorIn qdd, Matri
             q_c(a) = q(a);
             continue;
         }
+        const double h = real_step * (model_.body(a).revolute ? 1 : length);
         for (const auto& [step, weight] : {std::pair{1, 8.0}, {-1, -8.0}, {2, -1.0}, {-2, 1.0}}) {
-            moved(a) = q(a) + step * real_step;
+            moved(a) = q(a) + step * h;
             const ConstraintRates<double> there(model_, loops_, real_, time, moved, qd, qdd);
-            first.col(a) += weight / (12 * real_step) * there.first;
-            second.col(a) += weight / (12 * real_step) * there.second;
+            first.col(a) += weight / (12 * h) * there.first;
+            second.col(a) += weight / (12 * h) * there.second;
         }
         moved(a) = q(a);
     }

@@ -1,10 +1,12 @@
 #include "mbs/loops/loops.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/extent.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -13,129 +15,18 @@ namespace cardan {
 namespace {
 
 constexpr const char* in_loops = "loops";
-constexpr std::array<char, 3> axis_names = {'x', 'y', 'z'};
+// What rounding leaves of an equation that is as good as met, over the size of what it compares.
+constexpr double closest = 16 * std::numeric_limits<double>::epsilon();
+// Of the forms of which the equations of one loop are made.
+constexpr std::size_t most_equations = 6;
 
-const char* name_of(CutKind kind) {
-    switch (kind) {
-        case CutKind::revolute:
-            return "revolute";
-        case CutKind::prismatic:
-            return "prismatic";
-        case CutKind::cylindrical:
-            return "cylindrical";
-        case CutKind::cardan:
-            return "cardan";
-        case CutKind::spherical:
-            return "spherical";
-        case CutKind::planar:
-            return "planar";
-        case CutKind::weld:
-            break;
-    }
-    return "weld";
+bool turns(const Kinematics& kin, const PathStep& step) {
+    return entry(kin.model().links(), step.coordinate).revolute;
 }
 
 }  // namespace
 
 using Kind = RelativeMeasure::Kind;
-
-// ---- what it is made of
-
-Loops::Loops(const LoopSet& set, const Model& model) : model_(model.serial()), coordinates_(model.size()) {
-    involved_.assign(static_cast<std::size_t>(model.size()), false);
-    for (const CutJoint& joint : set.joints()) {
-        const bool aligned = joint.kind != CutKind::spherical && joint.kind != CutKind::cardan;
-        const bool fixed = joint.kind == CutKind::weld || joint.kind == CutKind::prismatic;
-        std::vector<RelativeMeasure> equations;
-        if (joint.kind != CutKind::planar) equations = {{Kind::along, 0}, {Kind::along, 1}};
-        if (joint.kind != CutKind::prismatic && joint.kind != CutKind::cylindrical)
-            equations.push_back({Kind::along, 2});
-        if (aligned) equations.insert(equations.end(), {{Kind::square, 0, 2}, {Kind::square, 1, 2}});
-        if (fixed) equations.push_back({Kind::square, 0, 1});
-        if (joint.kind == CutKind::cardan) equations.push_back({Kind::square, 0, 1});
-        add_loop(joint.name, model, {joint.a, joint.b, -1, -1, 0, -1, aligned, fixed, {}, equations, size()});
-        places_.back() = text(name_of(joint.kind), " joint ", places_.back());
-    }
-    for (const FixedDistance& rod : set.distances()) {
-        add_loop(rod.name, model, {rod.a, rod.b, -1, -1, rod.length, -1, false, false, {}, {{Kind::distance}}, size()});
-        places_.back() = text("rod ", places_.back());
-    }
-    for (const PointOnSurface& contact : set.surfaces()) {
-        const int index = static_cast<int>(surfaces_.size());
-        surfaces_.push_back(contact);
-        add_loop(contact.name, model,
-                 {contact.surface, contact.point, -1, -1, 0, index, false, false, {}, {{}}, size()});
-        places_.back() = text("surface ", places_.back());
-    }
-    for (const Coupling& coupling : set.couplings()) {
-        Linear linear{{}, coupling.offset, size()};
-        std::string place = "coupling of";
-        for (const auto& [body, factor] : coupling.factors) {
-            const int at = model.index(body);
-            linear.factors.emplace_back(at, factor);
-            place += text(" '", model.coordinates()[at].name, "'");
-        }
-        couplings_.push_back(std::move(linear));
-        add_single(coupling.name, coupling.unit, std::move(place));
-    }
-    for (const UserConstraint& user : set.users()) {
-        users_.push_back({user, size()});
-        involved_.assign(involved_.size(), true);
-        add_single(user.name, user.unit, "constraint of one's own");
-    }
-    for (const Lock& lock : set.locks()) {
-        const int at = model.index(lock.coordinate);
-        locks_.push_back({lock.state, at, size()});
-        add_single(lock.name, model.coordinates()[at].unit, text("lock of '", model.coordinates()[at].name, "'"));
-    }
-}
-
-void Loops::add_single(const std::string& name, const std::string& unit, std::string place) {
-    names_.push_back(name);
-    places_.push_back(std::move(place));
-    equations_.push_back({name, unit, static_cast<int>(names_.size()) - 1});
-    first_.push_back(size());
-}
-
-void Loops::add_loop(const std::string& name, const Model& model, Loop loop) {
-    loop.body_a = model.frame(loop.a).body;
-    loop.body_b = model.frame(loop.b).body;
-    const auto body_name = [&](int body) { return body < 0 ? std::string("base") : model.body(body).name; };
-    const std::string bodies = text("between '", body_name(loop.body_a), "' and '", body_name(loop.body_b), "'");
-    path_between(model, loop.body_a, loop.body_b, loop.path);
-    if (loop.path.empty())
-        throw InputError(text("loop '", name, "' ", bodies), "number of coordinates that move it", 0,
-                         ">= 1: frames of two bodies");
-    for (const PathStep& step : loop.path) involved_[static_cast<std::size_t>(step.coordinate)] = true;
-    for (const RelativeMeasure& equation : loop.equations) {
-        const char i = entry(axis_names, equation.i), j = entry(axis_names, equation.j);
-        if (loop.surface >= 0)
-            add_equation(text(name, ": on the surface"), "m");
-        else if (equation.kind == Kind::along)
-            add_equation(text(name, ": ", i, " together"), "m");
-        else if (equation.kind == Kind::square)
-            add_equation(text(name, ": ", i, " square to ", j), "1");
-        else
-            add_equation(text(name, ": length"), "m");
-    }
-    names_.push_back(name);
-    places_.push_back(bodies);
-    loops_.push_back(std::move(loop));
-    first_.push_back(size());
-}
-
-void Loops::add_equation(const std::string& name, std::string unit) {
-    equations_.push_back({name, std::move(unit), static_cast<int>(names_.size())});
-}
-
-const std::string& Loops::name(int loop) const {
-    require_index(in_loops, "loop", loop, std::ssize(names_));
-    return entry(names_, loop);
-}
-
-std::string Loops::describe(int loop) const {
-    return text("'", name(loop), "' (", entry(places_, loop), ")");
-}
 
 // ---- equations
 
@@ -220,8 +111,7 @@ void Loops::for_each_entry(const KinematicsT<S>& kin, const Visit& visit) const 
         const FrameEnds<S> ends(kin, loop.a, loop.b);
         for (int k = loop.first; const RelativeMeasure& equation : loop.equations) {
             const UnitWrench<S> pair = wrench<S>(loop, equation, ends);
-            for (const PathStep& step : loop.path)
-                visit(loop, equation, k, step, pair, own_twist_at<S>(kin, step.coordinate, ends.p));
+            for (const PathStep& step : loop.path) visit(k, step, pair, own_twist_at<S>(kin, step.coordinate, ends.p));
             ++k;
         }
     }
@@ -241,9 +131,9 @@ void Loops::gradient(const KinematicsT<S>& kin, double time, VectorInT<S> q, Mat
     check<S>(kin, q);
     require_size(in_loops, "gradient", G, size(), coordinates_);
     G.setZero();
-    for_each_entry<S>(kin,
-                      [&](const Loop&, const RelativeMeasure&, int k, const PathStep& step, const UnitWrench<S>& pair,
-                          const PointTwist<S>& twist) { G(k, step.coordinate) = step.sign * pair.on(twist); });
+    for_each_entry<S>(kin, [&](int k, const PathStep& step, const UnitWrench<S>& pair, const PointTwist<S>& twist) {
+        G(k, step.coordinate) = step.sign * pair.on(twist);
+    });
     add_linear_rows<S>(time, q, G);
 }
 
@@ -254,14 +144,27 @@ void Loops::gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G
     G.setZero();
     add_linear_rows<double>(time, q, G);
     magnitudes = G.cwiseAbs();
-    for_each_entry<double>(kin, [&](const Loop& loop, const RelativeMeasure& equation, int k, const PathStep& step,
-                                    const UnitWrench<double>& pair, const PointTwist<double>& twist) {
-        G(k, step.coordinate) = step.sign * pair.on(twist);
-        // Directions are square to one another where the equation is met.
-        const bool directions = loop.surface < 0 && equation.kind == Kind::square;
-        const double force = pair.force.norm(), moment = directions ? 1 : 0;
-        magnitudes(k, step.coordinate) = moment * twist.w.norm() + force * twist.v.norm();
-    });
+    for (const Loop& loop : loops_) {
+        const FrameEnds<double> ends(kin, loop.a, loop.b);
+        std::array<UnitWrench<double>, most_equations> pairs;
+        for (std::size_t i = 0; i < loop.equations.size(); ++i)
+            pairs[i] = wrench<double>(loop, loop.equations[i], ends);
+        double longest = 0;
+        for (const PathStep& step : loop.path) {
+            const PointTwist<double> twist = own_twist_at<double>(kin, step.coordinate, ends.p);
+            if (turns(kin, step)) longest = std::max(longest, twist.v.norm());
+            for (std::size_t i = 0; i < loop.equations.size(); ++i)
+                G(loop.first + static_cast<int>(i), step.coordinate) = step.sign * pairs[i].on(twist);
+        }
+        for (std::size_t i = 0; i < loop.equations.size(); ++i) {
+            // Directions are square to one another where the equation is met.
+            const bool directions = loop.surface < 0 && loop.equations[i].kind == Kind::square;
+            const double turning = directions ? 1 : pairs[i].force.norm() * longest;
+            const double sliding = directions ? 0 : pairs[i].force.norm();
+            for (const PathStep& step : loop.path)
+                magnitudes(loop.first + static_cast<int>(i), step.coordinate) = turns(kin, step) ? turning : sliding;
+        }
+    }
 }
 
 void Loops::time_rates(double time, VectorIn q, VectorOut out) const {
@@ -344,13 +247,48 @@ int Loops::turned_over(const Kinematics& kin) const {
     return -1;
 }
 
-double Loops::extent(const Kinematics& kin) const {
-    double largest = 1;
+double Loops::size_of(const Loop& loop, const Kinematics& kin, VectorIn q, const FrameEnds<double>& ends) const {
+    double size = loop.length;
+    for (const PathStep& step : loop.path) {
+        const PointTwist<double> twist = own_twist_at<double>(kin, step.coordinate, ends.p);
+        size = std::max(size, turns(kin, step) ? twist.v.norm() : std::abs(q(step.coordinate)));
+    }
+    return size;
+}
+
+void Loops::tolerances(const Kinematics& kin, double time, VectorIn q, double fraction, VectorOut out) const {
+    check<double>(kin, q);
+    require_size(in_loops, "tolerances", out, size());
     for (const Loop& loop : loops_) {
         const FrameEnds<double> ends(kin, loop.a, loop.b);
-        largest = std::max({largest, ends.p.norm(), (ends.p - ends.d).norm()});
+        const double far = std::max(ends.p.norm(), (ends.p - ends.d).norm()), length = size_of(loop, kin, q, ends);
+        for (int k = loop.first; const RelativeMeasure& equation : loop.equations) {
+            const bool directions = loop.surface < 0 && equation.kind == Kind::square;
+            const double size = directions ? 1 : length;
+            out(k++) = std::max({fraction * size, closest * (directions ? 1 : std::max(far, length)),
+                                 std::numeric_limits<double>::min()});
+        }
     }
-    return largest;
+    if (couplings_.empty() && locks_.empty() && users_.empty()) return;
+    const double tree = extent(kin);
+    const auto of_coordinate = [&](int at) {
+        const bool angle = entry(kin.model().links(), at).revolute;
+        return std::max(std::abs(q(at)), angle ? 1.0 : tree);
+    };
+    const auto set = [&](int equation, double size) {
+        out(equation) = std::max(std::max(fraction, closest) * size, std::numeric_limits<double>::min());
+    };
+    for (const Linear& linear : couplings_) {
+        double sum = std::abs(linear.offset);
+        for (const auto& [at, factor] : linear.factors) sum += std::abs(factor) * of_coordinate(at);
+        set(linear.equation, sum);
+    }
+    for (const Held& held : locks_) set(held.equation, of_coordinate(held.coordinate));
+    for_each_user(time, q, [&](int k, const ConstraintTerms& terms) {
+        double sum = 0;
+        for (int a = 0; a < coordinates_; ++a) sum += std::abs(terms.gradient(a)) * of_coordinate(a);
+        set(k, sum);
+    });
 }
 
 bool Loops::holds_directions(int pair) const {

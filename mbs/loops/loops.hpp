@@ -54,6 +54,8 @@ public:
     std::string describe(int loop) const;
     /// Where a loop's equations begin; loops(): their number.
     int first_of(int loop) const { return entry(first_, loop); }
+    /// Locks come last.
+    bool is_lock(int loop) const { return loop >= loops() - static_cast<int>(locks_.size()); }
     /// @name Joints, rods and surfaces, which come first among the loops
     /// Loads that they exert have a place; those of couplings and constraints of one's own do not.
     ///@{
@@ -78,9 +80,10 @@ public:
     /// phi_a.  @param G  out, size() x n
     template <class S>
     void gradient(const KinematicsT<S>& kin, double time, VectorInT<S> q, MatrixOutT<S> G) const;
-    /// With the magnitudes that its entries would have if nothing cancelled: what a gradient that vanishes at a
-    /// singular position is measured by.
-    /// @param magnitudes  out, size() x n, >= 0
+    /// With the magnitudes that its entries may have: what a gradient that vanishes at a singular position is measured
+    /// by. Those of joints, rods and surfaces have the longest lever of their loop, about whatever hinge; others, which
+    /// do not change with the position, or nobody knows how, have their own.
+    /// @param magnitudes  out, size() x n, >= |G|
     void gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G, MatrixOut magnitudes) const;
     /// phi_t, of those that change with time by themselves.  @param out  size()
     void time_rates(double time, VectorIn q, VectorOut out) const;
@@ -93,9 +96,13 @@ public:
     /// Whether directions that have to agree point against each other, a second way to fulfil the same equations.
     /// @return the loop, -1: none
     int turned_over(const Kinematics& kin) const;
-    /// How long the loops are: the largest distance of their points from the base, at least 1 m. Rounding errors of
-    /// phi grow with it.
-    double extent(const Kinematics& kin) const;
+    /// How much of phi counts as closed: a fraction of the size of what each equation compares, or as much as rounding
+    /// may leave. Of lengths, the size is the longest lever or stroke on the way from a to b, or the length of the rod;
+    /// of directions 1; of couplings, locks and constraints of one's own the sum of the entries of their gradients,
+    /// each times 1 rad, or the larger of stroke and extent of the tree.
+    /// @param fraction  > 0
+    /// @param out       size(), > 0, in units of the equations
+    void tolerances(const Kinematics& kin, double time, VectorIn q, double fraction, VectorOut out) const;
 
     /// What a joint, rod or surface exerts on the bodies of b and a, from the multipliers of its equations; couplings
     /// and user constraints have no place where they act and add nothing.
@@ -141,6 +148,7 @@ private:
     template <class S>
     S value(const Loop& loop, const RelativeMeasure& equation, const FrameEnds<S>& ends) const;
     Mat3 surface_bend(const Loop& loop, const FrameEnds<double>& ends) const;
+    double size_of(const Loop& loop, const Kinematics& kin, VectorIn q, const FrameEnds<double>& ends) const;
     template <class Visit>
     void for_each_user(double time, VectorIn q, const Visit& visit) const;
     template <class S>

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <sstream>
 
 namespace cardan {
 
@@ -27,7 +26,7 @@ std::vector<PartMass> masses_by_part(const Tree& tree) {
 }
 
 std::string summary(const Tree& tree) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     int massless = 0;
     for (const Tree::Body& body : tree.bodies()) massless += body.spec.inertia.is_massless();
     out << "bodies: " << tree.bodies().size() << " (" << massless

@@ -22,6 +22,7 @@ struct DryFriction {
     BodyId coordinate = {};
     double static_force = 0;   ///< that it holds at most, N or N m
     double surface_speed = 0;  ///< m/s or rad/s
+    double standstill = 0;     ///< sliding at less than this is standing still, m/s or rad/s, > 0
     std::shared_ptr<FrictionState> state = std::make_shared<FrictionState>();
 };
 

@@ -3,21 +3,15 @@
 #include "mbs/urdf/detail/reading.hpp"
 #include "mbs/urdf/urdf.hpp"
 
-#include <array>
-#include <charconv>
-
 namespace cardan {
 
 namespace {
 
 using urdf_impl::ExportPlan;
 
-// The shortest digits that give the same double again.
 std::string number(double value) {
     if (std::isinf(value)) value = std::copysign(std::numeric_limits<double>::max(), value);
-    std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-    return {digits.data(), end};
+    return digits(value);
 }
 
 std::string number(const Vec3& v) {

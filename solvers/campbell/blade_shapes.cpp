@@ -6,9 +6,9 @@
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
 #include "mbs/model/spatial.hpp"
+#include "solvers/campbell/csv.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 namespace cardan::solvers {
 
@@ -60,10 +60,10 @@ BladeShapes blade_shapes(const Campbell& diagram, std::span<const std::string> n
 }
 
 void write_csv(std::span<const BladeShapes> shapes, const std::filesystem::path& path) {
-    const PendingFile pending(path);
-    std::ofstream out(pending.partial());
+    std::ostringstream out = text_stream();
     out.precision(10);
-    if (!shapes.empty()) out << "# Blade mode shapes: " << shapes.front().machine << "; cardan " << version() << "\n";
+    if (!shapes.empty())
+        out << csv_comment(text("Blade mode shapes: ", shapes.front().machine, "; cardan ", version()));
     out << "# Per metre of the largest flap or edge displacement of the mode, which is 1 and real. flap: along the "
            "rotor "
            "axis, downwind; edge: in the rotor plane, toward the leading edge; radial: outward; twist: leading edge "
@@ -75,14 +75,12 @@ void write_csv(std::span<const BladeShapes> shapes, const std::filesystem::path&
             for (std::size_t i = 0; i < mode.radius.size(); ++i) {
                 const Vec3T<Complex>& u = mode.displacement[i];
                 const Complex twist = mode.rotation[i].x() * units::to_degrees;
-                out << at.rotor_speed * units::to_rpm << ',' << mode.name << ',' << mode.natural_hz << ','
+                out << at.rotor_speed * units::to_rpm << ',' << csv_field(mode.name) << ',' << mode.natural_hz << ','
                     << mode.radius[i] << ',' << u.z().real() << ',' << u.y().real() << ',' << u.x().real() << ','
                     << twist.real() << ',' << u.z().imag() << ',' << u.y().imag() << ',' << u.x().imag() << ','
                     << twist.imag() << '\n';
             }
-    out.close();
-    if (!out) throw FileError(path.string(), "the table could not be written completely (is the disk full?)");
-    pending.commit();
+    write_file(path, out.str());
 }
 
 }  // namespace cardan::solvers

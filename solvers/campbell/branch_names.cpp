@@ -1,10 +1,12 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
+#include "solvers/campbell/detail/state_names.hpp"
 #include "solvers/campbell/detail/tracking.hpp"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -106,6 +108,10 @@ std::string motion_name(const std::string& row, const std::string& kind, const s
     return text(row, " (", number, number.empty() ? "" : " ", kind, tendency.empty() ? "" : " and ", tendency, ")");
 }
 
+bool heavily_damped(const CampbellMode& mode) {
+    return mode.kind() == FloquetKind::oscillation && mode.mode.damping_ratio() >= heavy_damping;
+}
+
 class Naming {
 public:
     Naming(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
@@ -119,7 +125,11 @@ public:
     std::vector<Branch> name(std::vector<Branch> branches) {
         for (const Branch& branch : branches)
             if (const int row = usual_row(branch); row >= 0) labels_.push_back({.row = row});
-        if (labels_.empty()) return {};
+        if (labels_.empty()) {  // nothing is elastic
+            for (Branch& branch : branches) set(branch, {.row = moving_row(branch)});
+            name_motions(branches);
+            return branches;
+        }
         if (neighbour_) neighbour_->pair(branches);
         Matrix score = scores(branches);
         if (neighbour_) continue_names(branches, score);
@@ -154,6 +164,7 @@ private:
         return static_cast<double>(
             std::count_if(branch.mode.begin(), branch.mode.end(), [](int mode) { return mode >= 0; }));
     }
+    int moving_row(const Branch& branch) const;
     int usual_row(const Branch& branch) const;
     std::string usual_kind(const Branch& branch) const;
     Matrix scores(const std::vector<Branch>& branches) const;
@@ -175,6 +186,17 @@ private:
     NeighbourNames* neighbour_;  // may be null
     std::vector<Label> labels_;
 };
+
+// Over its first shape.
+int Naming::moving_row(const Branch& branch) const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        if (const CampbellMode* m = mode(branch, i)) {
+            Eigen::Index most = 0;
+            m->mode.shape.cwiseAbs().maxCoeff(&most);
+            return static_cast<int>(most);
+        }
+    return 0;
+}
 
 // The one that most of its points are named after; -1: elastic energy.
 int Naming::usual_row(const Branch& branch) const {
@@ -297,7 +319,7 @@ void Naming::set(Branch& branch, const Label& label) const {
         const CampbellMode* m = mode(branch, i);
         if (!m) continue;
         const Label best = strongest(i, *m, label);
-        branch.doubtful.back() = branch.mac[i] < min_reliable_mac ||
+        branch.doubtful.back() = branch.mac[i] < min_reliable_mac || heavily_damped(*m) ||
                                  held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
                                  ((points_[i].rotor_speed != 0 || label.pattern == RotorPattern::single) &&
                                   own_pattern(*m, label) < sure_pattern);
@@ -353,15 +375,17 @@ void Naming::name_motions(std::vector<Branch>& branches) const {
 }  // namespace
 
 std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
-                                      const std::vector<std::string>& rows, bool whirl,
-                                      NeighbourNames* neighbour) const {
+                                      const std::vector<std::string>& rows, const std::vector<NamedState>& states,
+                                      bool whirl, NeighbourNames* neighbour) const {
     std::vector<Branch> tracked;
     for (const Track& track : tracks_) {
         Branch& branch = tracked.emplace_back();
         branch.mode = track.mode;
         branch.mac = track.mac;
     }
+    std::vector<Branch> of_states = take_branches_of_states(points, states, tracked);
     std::vector<Branch> branches = Naming(points, energy_shares, rows, whirl, neighbour).name(std::move(tracked));
+    std::ranges::move(of_states, std::back_inserter(branches));
     // By frequency but for rounding, what decays before what grows.
     const auto place = [&](const Branch& branch) {
         for (std::size_t i = 0; i < points.size(); ++i) {

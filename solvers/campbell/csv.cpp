@@ -5,20 +5,13 @@
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
 
-#include <fstream>
-
 namespace cardan::solvers {
 
-namespace {
-
-// A comment is one line.
-std::string one_line(std::string words) {
+std::string csv_comment(std::string words) {
     for (char& c : words)
         if (c == '\n' || c == '\r') c = ' ';
-    return words;
+    return "# " + words + "\n";
 }
-
-}  // namespace
 
 std::string csv_field(std::string_view words) {
     if (words.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(words);
@@ -28,15 +21,14 @@ std::string csv_field(std::string_view words) {
 }
 
 void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
-    PendingFile pending(path);
-    std::ofstream out(pending.partial());
+    std::ostringstream out = text_stream();
     out.precision(10);
-    out << "# Campbell diagram: " << one_line(diagram.machine) << "; " << method_in_words(diagram) << "; cardan "
-        << version() << "\n";
+    out << csv_comment(
+        text("Campbell diagram: ", diagram.machine, "; ", method_in_words(diagram), "; cardan ", version()));
     for (const std::string& line : {diagram.remark, diagram.accuracy})
-        if (!line.empty()) out << "# " << one_line(line) << "\n";
-    if (!diagram.warning.empty()) out << "# warning: " << one_line(diagram.warning) << "\n";
-    if (!diagram.complete) out << "# the sweep was interrupted\n";
+        if (!line.empty()) out << csv_comment(line);
+    if (!diagram.warning.empty()) out << csv_comment("warning: " + diagram.warning);
+    if (!diagram.complete) out << csv_comment("the sweep was interrupted");
     out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"
            "mostly[-],kind[-],growth_rate[1/s],stability_margin[1/s]"
         << (diagram.parameter.empty() ? "" : ",") << csv_field(diagram.parameter) << "\n";
@@ -52,9 +44,7 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
             if (!diagram.parameters.empty()) out << ',' << diagram.parameters[i];
             out << '\n';
         }
-    out.close();
-    if (!out) throw FileError(path.string(), "the table could not be written completely (is the disk full?)");
-    pending.commit();
+    write_file(path, out.str());
 }
 
 }  // namespace cardan::solvers

@@ -20,4 +20,7 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path);
 /// section 2]
 std::string csv_field(std::string_view words);
 
+/// A line before the table: "# words", whatever line ends are in them.
+std::string csv_comment(std::string words);
+
 }  // namespace cardan::solvers

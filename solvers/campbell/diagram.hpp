@@ -122,6 +122,11 @@ struct CampbellPoint {
     std::optional<PeriodicSteadyState> periodic = {};  ///< where the method is `floquet` or `averaged`
 };
 
+/// Damping ratio from which on a frequency says little, whatever the name. There the natural frequency is 9 % from the
+/// damped one and the band of half power as wide as four fifths of it; a period leaves 6 % of the motion. More than
+/// that lies between models of the air for the flap modes of a blade, which have such damping.
+inline constexpr double heavy_damping = 0.4;
+
 /// A mode tracked over rotor speed.
 struct Branch {
     std::string name;    ///< "1st blade flap (backward)", "1st blade flap (symmetric)", "yaw (rigid)"
@@ -134,10 +139,13 @@ struct Branch {
     std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
     std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
     /// True where the mode was tracked with a MAC below `min_reliable_mac`, another name clearly holds more energy, the
-    /// blades do not move in the named pattern, another branch has the name ("another"), or the neighbouring variant of
-    /// the machine does not confirm it (CampbellOptions::neighbour).
+    /// blades do not move in the named pattern, another branch has the name ("another"), the neighbouring variant of
+    /// the machine does not confirm it (CampbellOptions::neighbour), or an oscillation has `heavy_damping`.
     std::vector<bool> doubtful;
     std::vector<std::string> mostly;  ///< the name with most elastic energy at the point; empty without a mode
+    /// At most of its points it is a motion of states rather than of the machine, which stability_limits() follows
+    /// too. Its family is the part of the states that move most, "wake", "airfoil lag", and its name has a number.
+    bool of_states = false;
 };
 
 /// A branch crosses a multiple of the rotor speed.
@@ -247,7 +255,8 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
 std::string method_in_words(const Campbell& diagram);
 
 /// Table of names, frequencies and damping at the first, middle and last rotor speed, and of the crossings in the upper
-/// half of the range, for a terminal.
-std::string table(const Campbell& diagram);
+/// half of the range, for a terminal. Branches of states are counted in its foot.
+/// @param states  these as well
+std::string table(const Campbell& diagram, bool states = false);
 
 }  // namespace cardan::solvers

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <sstream>
 
 namespace cardan::solvers {
 
@@ -67,7 +66,7 @@ std::string difference_table(const Campbell& diagram, const Campbell& reference)
     const std::size_t points = std::min(diagram.points.size(), reference.points.size());
     if (points == 0 || list.empty()) return "no modes to compare\n";
     const std::vector<std::size_t> shown = shown_points(diagram, points);
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << diagram.method << "\nagainst " << reference.method
         << ":\ndamped frequency, Hz (difference, mHz; of the damping ratio, 1e-3 %)\n\n"
         << std::left << std::setw(34) << "mode" << std::right << std::fixed;

@@ -65,6 +65,21 @@ bool differing_blades(const Linearisation& lin, const Model& model, const RotorM
     return !blades_alike(model, rotor, lin);
 }
 
+// Those of the map. What belongs to none of them is one part each by the names that the coordinates have, or, without a
+// name, all together: a machine whose map has no parts has "1st mode", "2nd mode".
+std::vector<PartAxes> all_parts(const RotorMap& rotor, const Linearisation& lin, const std::vector<int>& coordinates) {
+    std::vector<PartAxes> parts = rotor.parts;
+    for (const int coordinate : coordinates) {
+        const std::string& part = lin.coordinates[coordinate].part;
+        if (std::ranges::find(parts, part, &PartAxes::part) != parts.end()) continue;
+        PartAxes own{.part = part, .axes = Tree::base(), .translation = {}, .rotation = {}};
+        own.translation.fill(part.empty() ? "mode" : part);
+        own.rotation = own.translation;
+        parts.push_back(std::move(own));
+    }
+    return parts;
+}
+
 // No row is a multi-blade coordinate.
 bool has_plain_blade_rows(const RotorMap& rotor, const std::vector<MultiBladeRow>& rows) {
     const auto is_multi_blade = [](const MultiBladeRow& row) { return row.blade_coordinate >= 0; };
@@ -83,7 +98,7 @@ EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const R
     for (const std::vector<int>& blade : rotor.blades)
         blade_numbers_.push_back(blade.empty() ? 0 : model.coordinates()[blade.front()].blade);
     const bool apart = blades_differ_ || plain_;
-    for (const PartAxes& part : rotor.parts) {
+    for (const PartAxes& part : all_parts(rotor, lin, coordinates)) {
         if (apart) add_blades(lin, model, rotor, {part, coordinates, rows});
         Block block{}, shaft{};
         std::vector<int> own_plane;  // of rotating pairs: the one plane tells the component modes of both

@@ -70,6 +70,8 @@ public:
     /// @param lin   linearisation whose elastic stiffness and mass define the component modes (e.g. at standstill)
     /// @param rows  what the rows of the system are (ColemanTransform::rows); without kinds the blades have no
     ///              multi-blade coordinates
+    /// Coordinates of a part that the map does not name make a part of their own, called after it; those without a part
+    /// are one together, of the family "mode".
     EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
                  const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 

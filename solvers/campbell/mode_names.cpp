@@ -1,8 +1,9 @@
 #include "solvers/campbell/mode_names.hpp"
 
+#include "mbs/base/text.hpp"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace cardan::solvers {
 
@@ -24,7 +25,7 @@ const Pair* find(const std::array<Pair, n>& pairs, std::string_view name) {
 std::string capitals(std::string_view words) {
     std::string out(words);
     for (std::size_t i = 0; i < out.size(); ++i)
-        if (i == 0 || out[i - 1] == ' ') out[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[i])));
+        if (i == 0 || out[i - 1] == ' ') out[i] = upper_case(out[i]);
     return out;
 }
 
@@ -45,7 +46,7 @@ std::string community_name(std::string_view name) {
     if (name.empty()) return {};
     if (is_of_platform(name)) return capitals(name);
     std::string ordinal = "1st";
-    if (std::isdigit(static_cast<unsigned char>(name[0]))) {
+    if (is_digit(name[0])) {
         const std::size_t blank = std::min(name.find(' '), name.size());
         ordinal = name.substr(0, blank);
         name.remove_prefix(std::min(blank + 1, name.size()));

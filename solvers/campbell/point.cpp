@@ -6,6 +6,7 @@
 #include "mbs/base/units.hpp"
 #include "mbs/loops/closure.hpp"
 #include "solvers/campbell/detail/floquet_point.hpp"
+#include "solvers/campbell/detail/rotor_speed.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/problem_size.hpp"
@@ -211,7 +212,11 @@ void PointSolver::set_modes(std::size_t count, CampbellPoint& point) {
         mode_solver_->energy_by_row(i, m.row_shares);
         energy_shares_->shares(m.mode, m.shares);
         // In a closed loop the rotor oscillates with hardly any spring.
-        m.row = current_.states.size() > 0 ? naming_row(current_, m.mode) : -1;
+        m.row = -1;
+        if (current_.states.size() > 0) {
+            const int spin = row_of(unknowns_, rotor_.spin);
+            m.row = is_motion_of_speed(current_, m.mode, spin) ? spin : naming_row(current_, m.mode);
+        }
         m.floquet.reset();
         m.blade_shares.resize(0);
     }

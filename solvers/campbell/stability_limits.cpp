@@ -4,6 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/detail/floquet_point.hpp"
 #include "solvers/campbell/detail/method.hpp"
+#include "solvers/campbell/detail/search_notes.hpp"
 #include "solvers/campbell/detail/state_vibrations.hpp"
 #include "solvers/campbell/detail/static_name.hpp"
 #include "solvers/campbell/detail/sweep.hpp"
@@ -41,15 +42,6 @@ void check_search(const MachineFamily& machines, const std::string& parameter, d
                          "none: modes are followed from one machine to the next");
 }
 
-void add_note(std::string& note, const std::string& more) {
-    note += text(note.empty() ? "" : "; ", more);
-}
-
-// Motions that may flutter; of Floquet's theory also those that are locked to the rotor.
-bool vibrates(const CampbellMode& mode) {
-    return mode.kind() != FloquetKind::rigid && (mode.mode.oscillates() || mode.floquet);
-}
-
 int number_below_zero(const StaticRoots& roots) {
     return static_cast<int>(
         std::ranges::count_if(roots.values, [](double value) { return value < -least_static_root; }));
@@ -59,6 +51,11 @@ int number_below_zero(const StaticRoots& roots) {
 // a spring.
 double static_root(const StaticRoots& roots, int i) {
     return i < std::ssize(roots.values) ? entry(roots.values, i) + least_static_root : 1;
+}
+
+int nearest_to_zero(const StaticRoots& roots) {
+    const auto size = [](double value) { return std::abs(value); };
+    return static_cast<int>(std::ranges::min_element(roots.values, {}, size) - roots.values.begin());
 }
 
 // Of an iteration: CampbellCase::start. The points themselves are handed over before the limits are sought.
@@ -72,7 +69,7 @@ struct Probe {
     double parameter;
     std::unique_ptr<PointMethod> solver;
     CampbellPoint point = {};
-    StaticRoots roots = {};
+    std::optional<StaticRoots> roots = {};  // none: they were not looked for, or could not be found
 };
 
 class LimitSearch {
@@ -83,6 +80,7 @@ public:
           parameter_(parameter),
           options_(options),
           modes_(with_method(options.modes, choice.method)),
+          notes_(parameter, options.growth, options.modes.max_frequency_hz),
           sweep_(modes_, choice.reason, 0, parameter) {}
 
     StabilityLimits run(double from, double to);
@@ -93,7 +91,6 @@ private:
         modes.keep_shapes = false;
         return modes;
     }
-    std::string at(double parameter) const;
     void start(PointMethod& solver, const CampbellCase& one) const;
     std::optional<Probe> probe(double parameter);
     Probe certain_probe(double parameter);
@@ -105,19 +102,17 @@ private:
     void find_limits();
     void find_flutter(const Branch& branch, std::size_t i);
     void find_divergence(std::size_t i);
-    bool is_continuous(int k, double parameter, std::size_t i);
-    void add_divergence(double parameter, bool begins);
+    StaticRoots certain_roots(double parameter);
+    void add_divergence(double parameter, std::size_t i);
+    double beside() const { return 10 * options_.tolerance * width_; }
     template <class F>
     double root(const F& f, std::size_t i, double first, double second) const;
-    double excess(const Mode& mode) const {
-        return mode.eigenvalue.real() - options_.growth * std::abs(mode.eigenvalue);
-    }
-    void note_growth();
 
     const MachineFamily& machines_;
     std::string parameter_;
     const StabilityOptions& options_;
     CampbellOptions modes_;
+    SearchNotes notes_;
     Sweep sweep_;
     RotorMap rotor_;  // of the first machine
     std::vector<std::string> rows_;
@@ -128,14 +123,9 @@ private:
     std::vector<double> parameters_;
     std::vector<Start> starts_;
     std::vector<std::unique_ptr<PointMethod>> solvers_;
-    std::vector<StaticRoots> roots_;
+    std::vector<std::optional<StaticRoots>> roots_;
     StabilityLimits found_;
 };
-
-// "wind speed, m/s 12"
-std::string LimitSearch::at(double parameter) const {
-    return text(parameter_.empty() ? "rotor speed, rad/s" : parameter_, " ", parameter);
-}
 
 void LimitSearch::check_machine(const CampbellCase& one, const PointMethod& solver) {
     if (rows_.empty()) {
@@ -144,7 +134,7 @@ void LimitSearch::check_machine(const CampbellCase& one, const PointMethod& solv
         sweep_.set_machine(*one.system, *one.rotor, solver);
     }
     if (solver.row_names() != rows_)
-        throw InputError(one.rotor->machine, text("rows at ", at(one.parameter)), solver.unknowns().size(),
+        throw InputError(one.rotor->machine, text("rows at ", notes_.at(one.parameter)), solver.unknowns().size(),
                          "those of the first machine");
 }
 
@@ -152,8 +142,8 @@ void LimitSearch::find_static_roots(Probe& probe) {
     try {
         probe.roots = static_roots(probe.solver->system());
     } catch (const NumericalError& error) {
-        if (found_.note.find(error.what()) == std::string::npos)
-            add_note(found_.note, text("divergence was not looked for at ", at(probe.parameter), ": ", error.what()));
+        if (notes_.words().find(error.what()) == std::string::npos)
+            notes_.add(text("divergence was not looked for at ", notes_.at(probe.parameter), ": ", error.what()));
     }
 }
 
@@ -187,13 +177,15 @@ std::optional<Probe> LimitSearch::probe(double parameter) {
     if (modes_.method != CampbellMethod::floquet || out.point.rotor_speed == 0) {
         take_vibrations_of_states(*out.solver, out.point);
         find_static_roots(out);
+    } else {
+        notes_.add("divergence was not looked for where the rotor turns, by Floquet's theory");
     }
     return out;
 }
 
 Probe LimitSearch::certain_probe(double parameter) {
     std::optional<Probe> out = probe(parameter);
-    if (!out) throw NumericalError(cancelled_ ? "it was cancelled" : text(at(parameter), ": ", failure_));
+    if (!out) throw NumericalError(cancelled_ ? "it was cancelled" : text(notes_.at(parameter), ": ", failure_));
     return std::move(*out);
 }
 
@@ -203,6 +195,7 @@ void LimitSearch::accept(Probe probe, const PeriodicMac& likeness) {
         starts_.push_back({point.periodic->coefficients, point.periodic->state_coefficients});
     else
         starts_.push_back({point.at.q, point.at.s});
+    notes_.see(probe.parameter, point);
     sweep_.add(*probe.solver, std::move(probe.point), likeness);
     parameters_.push_back(probe.parameter);
     solvers_.push_back(std::move(probe.solver));
@@ -227,7 +220,7 @@ bool LimitSearch::follow(std::optional<Probe> next, double to, int halvings) {
 
 void LimitSearch::follow_all(double from, double to) {
     std::optional<Probe> first = probe(from);
-    if (!first && !cancelled_) throw NumericalError(text(at(from), ": ", failure_));
+    if (!first && !cancelled_) throw NumericalError(text(notes_.at(from), ": ", failure_));
     if (!first) return;
     const PeriodicMac likeness = sweep_.likeness(*first->solver, first->point);
     accept(std::move(*first), likeness);
@@ -236,8 +229,8 @@ void LimitSearch::follow_all(double from, double to) {
         if (!follow(probe(next), next, options_.halvings)) break;
         if (modes_.progress) modes_.progress(i, options_.steps);
     }
-    if (!cancelled_ && parameters_.back() < to)
-        add_note(found_.note, text("no further than ", at(parameters_.back()), ": ", failure_));
+    if (parameters_.back() < to)
+        notes_.add(text("no further than ", notes_.at(parameters_.back()), ": ", cancelled_ ? "cancelled" : failure_));
 }
 
 // In the step behind point i, from the values of f at its ends.
@@ -254,87 +247,73 @@ double LimitSearch::root(const F& f, std::size_t i, double first, double second)
 void LimitSearch::find_flutter(const Branch& branch, std::size_t i) {
     const CampbellMode *before = found_.diagram.mode(branch, i), *after = found_.diagram.mode(branch, i + 1);
     if (!before || !after || !vibrates(*before) || !vibrates(*after)) return;
-    const double first = excess(before->mode), second = excess(after->mode);
-    if ((first > 0) == (second > 0)) return;
+    const bool begins = excess(after->mode, options_.growth) > 0;
+    if (begins == (excess(before->mode, options_.growth) > 0)) return;
+    // The limit is zero growth where the other end decays, by more than rounding; else where growth is no more
+    // rounding.
+    const Mode& calm = (begins ? before : after)->mode;
+    const double rounding = excess(calm, -options_.growth) < 0 ? 0 : options_.growth;
     const auto between = [&](double parameter) {
         Probe there = certain_probe(parameter);
         std::erase_if(there.point.modes, [](const CampbellMode& mode) { return !vibrates(mode); });
-        if (there.point.modes.empty()) throw NumericalError(text(at(parameter), ": nothing vibrates"));
+        if (there.point.modes.empty()) throw NumericalError(text(notes_.at(parameter), ": nothing vibrates"));
         const PeriodicMac alike = periodic_mac(there.solver->system(), {before, after}, there.point.modes);
         Eigen::Index most = 0;
         alike.score.colwise().sum().maxCoeff(&most);
         return std::pair(std::move(entry(there.point.modes, most).mode), there.point.rotor_speed);
     };
     StabilityLimit limit{.kind = Instability::flutter,
-                         .begins = second > 0,
+                         .begins = begins,
                          .name = branch.name,
                          .doubtful = branch.doubtful[i] || branch.doubtful[i + 1]};
-    limit.parameter = root([&](double parameter) { return excess(between(parameter).first); }, i, first, second);
+    limit.parameter = root([&](double parameter) { return excess(between(parameter).first, rounding); }, i,
+                           excess(before->mode, rounding), excess(after->mode, rounding));
     const auto [mode, speed] = between(limit.parameter);
     limit.eigenvalue = mode.eigenvalue;
     limit.rotor_speed = speed;
     found_.limits.push_back(std::move(limit));
 }
 
-// A pair of complex roots may become two real ones, of which both are negative, or the other way round: nothing passes
-// through zero then.
-bool LimitSearch::is_continuous(int k, double parameter, std::size_t i) {
-    constexpr double small = 1e-5;
-    const double beside = 10 * options_.tolerance * width_;
-    const double low = std::max(parameter - beside, parameters_[i]),
-                 high = std::min(parameter + beside, parameters_[i + 1]);
-    return std::abs(static_root(certain_probe(high).roots, k) - static_root(certain_probe(low).roots, k)) < small;
+StaticRoots LimitSearch::certain_roots(double parameter) {
+    Probe there = certain_probe(parameter);
+    if (!there.roots) throw NumericalError(text(notes_.at(parameter), ": no static stiffness"));
+    return std::move(*there.roots);
 }
 
-void LimitSearch::add_divergence(double parameter, bool begins) {
+// In which direction a root passes through zero is seen next to it: at the ends of the step others may be below zero.
+void LimitSearch::add_divergence(double parameter, std::size_t i) {
     const Probe there = certain_probe(parameter);
-    StabilityLimit limit{.kind = Instability::divergence,
-                         .begins = begins,
-                         .parameter = parameter,
-                         .rotor_speed = there.point.rotor_speed};
-    const auto nearest = std::ranges::min_element(there.roots.values, {}, [](double value) { return std::abs(value); });
-    if (nearest != there.roots.values.end())
-        limit.name =
-            static_name(*there.solver, there.roots, static_cast<int>(nearest - there.roots.values.begin()), rows_);
-    found_.limits.push_back(std::move(limit));
+    const StaticRoots beyond = certain_roots(std::min(parameter + beside(), parameters_[i + 1])),
+                      before = certain_roots(std::max(parameter - beside(), parameters_[i]));
+    const int k = nearest_to_zero(*there.roots);
+    const auto root_of = [](const StaticRoots& roots) { return entry(roots.values, nearest_to_zero(roots)); };
+    const bool falls = root_of(beyond) < root_of(before);
+    found_.limits.push_back({.kind = Instability::divergence,
+                             .begins = falls == grows_below_zero(there.solver->system(), *there.roots, k),
+                             .name = static_name(*there.solver, *there.roots, k, rows_),
+                             .parameter = parameter,
+                             .rotor_speed = there.point.rotor_speed});
 }
 
 void LimitSearch::find_divergence(std::size_t i) {
-    const int before = number_below_zero(roots_[i]), after = number_below_zero(roots_[i + 1]);
+    if (!roots_[i] || !roots_[i + 1]) return;  // as the note says
+    constexpr double small = 1e-5;
+    const StaticRoots &first = *roots_[i], &last = *roots_[i + 1];
+    const auto [least, most] = std::minmax({number_below_zero(first), number_below_zero(last)});
     int found = 0;
-    for (int k = std::min(before, after); k < std::max(before, after); ++k) {
-        const double parameter = root([&](double at) { return static_root(certain_probe(at).roots, k); }, i,
-                                      static_root(roots_[i], k), static_root(roots_[i + 1], k));
-        if (!is_continuous(k, parameter, i)) continue;
-        add_divergence(parameter, after > before);
+    for (int k = least; k < most; ++k) {
+        const auto root_at = [&](double at) { return static_root(certain_roots(at), k); };
+        const double parameter = root(root_at, i, static_root(first, k), static_root(last, k));
+        // A pair of complex roots may become two real ones, of which both are negative, or the other way round: nothing
+        // passes through zero then.
+        const double low = root_at(std::max(parameter - beside(), parameters_[i])),
+                     high = root_at(std::min(parameter + beside(), parameters_[i + 1]));
+        if (!(std::abs(high - low) < small)) continue;
+        add_divergence(parameter, i);
         ++found;
     }
-    const double first = roots_[i].product, second = roots_[i + 1].product;
-    const bool another = (first > 0) != (second > 0) && found % 2 == 0;
-    if (another)
-        add_divergence(root([&](double at) { return certain_probe(at).roots.product; }, i, first, second),
-                       after == before ? first > 0 : after > before);
-}
-
-// What has no limit of its own in the range.
-void LimitSearch::note_growth() {
-    const Campbell& diagram = found_.diagram;
-    const auto grows = [&](const Branch& branch, std::size_t i) {
-        const CampbellMode* mode = diagram.mode(branch, i);
-        return mode && vibrates(*mode) && excess(mode->mode) > 0;
-    };
-    for (std::size_t i = 0; i < parameters_.size(); ++i)
-        for (const Branch& branch : diagram.branches) {
-            if (!grows(branch, i)) continue;
-            if (i == 0)
-                add_note(found_.note, text(branch.name, " grows at ", at(parameters_[0]), " already"));
-            else if (!diagram.mode(branch, i - 1))
-                add_note(found_.note, text(branch.name, " grows at ", at(parameters_[i]), ", where it is first found"));
-            if (i + 1 < parameters_.size() && !diagram.mode(branch, i + 1))
-                add_note(found_.note, text(branch.name, ", which grows, is lost beyond ", at(parameters_[i])));
-        }
-    if (number_below_zero(roots_[0]) > 0)
-        add_note(found_.note, text("the machine diverges at ", at(parameters_[0]), " already"));
+    if ((first.product > 0) != (last.product > 0) && found % 2 == 0)
+        add_divergence(root([&](double at) { return certain_roots(at).product; }, i, first.product, last.product), i);
 }
 
 void LimitSearch::find_limits() {
@@ -344,7 +323,7 @@ void LimitSearch::find_limits() {
             find_divergence(i);
         }
     } catch (const NumericalError& error) {
-        add_note(found_.note, text("not all limits were found: ", error.what()));
+        notes_.add(text("not all limits were found: ", error.what()));
         found_.diagram.complete = false;
     }
     std::ranges::stable_sort(found_.limits, {}, &StabilityLimit::parameter);
@@ -354,6 +333,8 @@ StabilityLimits LimitSearch::run(double from, double to) {
     width_ = to - from;
     follow_all(from, to);
     if (parameters_.empty()) {
+        notes_.add("cancelled before the first point");
+        found_.note = notes_.words();
         found_.diagram.complete = false;
         return std::move(found_);
     }
@@ -362,8 +343,9 @@ StabilityLimits LimitSearch::run(double from, double to) {
     found_.diagram = sweep_.finish(rotor_, solvers);
     found_.diagram.complete = parameters_.back() == to;
     if (!parameter_.empty()) found_.diagram.parameters = parameters_;
-    note_growth();
+    notes_.tell_growth(found_.diagram);
     find_limits();
+    found_.note = notes_.words();
     return std::move(found_);
 }
 

@@ -54,8 +54,9 @@ struct StabilityLimits {
     /// The modes that were followed, and where: frequencies and damping over the parameter. `complete` is false if the
     /// end of the range was not reached.
     Campbell diagram;
-    /// What grows at the first value already, or where it is first found or lost; why the end of the range was not
-    /// reached, or divergence not looked for. Usually empty.
+    /// What grows at the first value already, or where it is first found or lost; what grows, or is all there is,
+    /// beyond the largest frequency that is followed; why the end of the range was not reached, or divergence not
+    /// looked for. Usually empty.
     std::string note;
 
     /// The lowest at which a motion of this kind begins to grow; null: there is none.
@@ -68,7 +69,8 @@ struct StabilityLimits {
 /// - flutter: the growth rate of an oscillating mode passes through zero. Oscillations of states of first order
 ///   (Mode::is_state_motion()), as those of air that lags, are followed as all others;
 /// - divergence: a real eigenvalue of the complete state matrix passes through zero, that is, one of the stiffness with
-///   all states where they come to rest, K + Q_s f_s^-1 f_q.
+///   all states where they come to rest, K + Q_s f_s^-1 f_q. Whether it begins or ceases is the sign of the real
+///   eigenvalue beyond: under loads without a potential the number of negative roots of the stiffness does not tell.
 ///
 /// In multi-blade coordinates a divergence is one of the whole rotor; of blades that diverge by themselves the
 /// collective one is found as such, while their whirling relatives oscillate at the rotor speed there and count as

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace cardan::solvers {
 
@@ -87,7 +86,7 @@ namespace {
 
 // "    0.9581 ( -4.53) ?", "-" without a mode.
 std::string cell(const Campbell& diagram, const Branch& branch, std::size_t point) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     if (branch.mode[point] < 0) {
         out << std::setw(21) << "-";
         return out.str();
@@ -111,7 +110,7 @@ bool has_blade_frequencies(const Campbell& diagram) {
 
 std::string margins(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
     if (!std::isfinite(diagram.points[0].stability_margin)) return {};
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << "\n" << std::left << std::setw(width) << "stability margin, 1/s" << std::right << std::setprecision(4);
     for (std::size_t i : shown) {
         out << std::setw(19) << diagram.points[i].stability_margin << "  ";
@@ -122,7 +121,7 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
 
 // Of more states than fit on a screen, the motions that decay most slowly and fastest.
 std::string many_state_motions(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << "\nmotions of states rather than of the machine (all of them are in the file)\n" << std::setprecision(4);
     const auto row = [&](const char* what, const auto& value) {
         out << std::left << std::setw(width) << what << std::right;
@@ -152,7 +151,7 @@ std::string state_motions(const Campbell& diagram, const std::vector<std::size_t
     for (std::size_t i = 0; i < shown.size(); ++i)
         for (const StateMotion& motion : diagram.points[shown[i]].state_motions)
             entry(found, motion.state)[i].push_back(motion.mode.eigenvalue);
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     for (std::size_t k = 0; k < found.size(); ++k) {
         std::size_t lines = 0;
         for (const auto& at : found[k]) lines = std::max(lines, at.size());
@@ -176,7 +175,7 @@ std::string crossings(const Campbell& diagram) {
     if (diagram.crossings.empty()) return "";
     const double half =
         std::max(std::abs(diagram.points.front().rotor_speed), std::abs(diagram.points.back().rotor_speed)) / 2;
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out << std::fixed << "\ncrossings with multiples of the rotor speed\n";
     long lower = 0;
     for (const Crossing& crossing : diagram.crossings) {
@@ -200,8 +199,8 @@ std::string method_in_words(const Campbell& diagram) {
     return text(diagram.method, diagram.method_reason.empty() ? "" : "; chosen: ", diagram.method_reason);
 }
 
-std::string table(const Campbell& diagram) {
-    std::ostringstream out;
+std::string table(const Campbell& diagram, bool states) {
+    std::ostringstream out = text_stream();
     if (diagram.points.empty()) return "no rotor speeds computed\n";
     std::vector<std::size_t> shown{0};
     for (std::size_t i : {diagram.points.size() / 2, diagram.points.size() - 1})
@@ -222,6 +221,7 @@ std::string table(const Campbell& diagram) {
     }
     out << "\n";
     for (const Branch& branch : diagram.branches) {
+        if (branch.of_states && !states) continue;
         out << std::left << std::setw(width) << branch.name << std::right;
         for (std::size_t i : shown) out << cell(diagram, branch, i);
         out << "\n";
@@ -229,7 +229,10 @@ std::string table(const Campbell& diagram) {
     out << state_motions(diagram, shown, width);
     out << margins(diagram, shown, width);
     if (!diagram.accuracy.empty()) out << diagram.accuracy << "\n";
-    out << "\n? the name is doubtful there: the mode is a mixture or was hard to follow\n";
+    out << "\n? doubtful there: the mode is a mixture, was hard to follow, or is so heavily damped (from "
+        << std::setprecision(0) << 100 * heavy_damping << " % on) that its frequency says little\n";
+    const auto left_out = std::ranges::count_if(diagram.branches, &Branch::of_states);
+    if (left_out > 0 && !states) out << left_out << " roots that are mostly states are left out\n";
     if (has_blade_frequencies(diagram)) out << "modes of one blade: frequencies in its rotating frame\n";
     out << crossings(diagram);
     if (!diagram.warning.empty()) out << "\nwarning: " << diagram.warning << "\n";

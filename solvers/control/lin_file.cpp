@@ -5,8 +5,7 @@
 #include "mbs/base/pending_file.hpp"
 #include "mbs/base/version.hpp"
 
-#include <array>
-#include <cstdio>
+#include <algorithm>
 #include <string>
 
 namespace cardan::solvers {
@@ -15,10 +14,15 @@ namespace {
 
 using Index = Eigen::Index;
 
+std::string right(const std::string& words, std::size_t width) {
+    return std::string(width - std::min(width, words.size()), ' ') + words;
+}
+
+// As Fortran's ES25.16E2 and printf's %25.16E.
 std::string number(double value) {
-    std::array<char, 48> digits{};
-    std::snprintf(digits.data(), digits.size(), "%25.16E", value);
-    return digits.data();
+    std::string all = digits(value, std::chars_format::scientific, 16);
+    for (char& c : all) c = upper_case(c);
+    return right(all, 25);
 }
 
 // "rad s-1" -> "rad/s", as the readers know it; others with a point between factors: "N-m".
@@ -52,11 +56,9 @@ void add_table(std::string& out, const std::string& title, const char* first, co
     heading(first, "Operating Point", "Rotating Frame?", "Derivative Order", "Description");
     heading("----------", "---------------", "---------------", "----------------", "-----------");
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        std::array<char, 64> count{}, flags{};
-        std::snprintf(count.data(), count.size(), "   %8zu   ", i + 1);
-        std::snprintf(flags.data(), flags.size(), " %8s        %8d         ", rows[i].rotating ? "T" : "F",
-                      rows[i].order);
-        out += count.data() + number(rows[i].value) + flags.data() + rows[i].description + "\n";
+        out += "   " + right(text(i + 1), 8) + "   " + number(rows[i].value) + " " +
+               right(rows[i].rotating ? "T" : "F", 8) + "        " + right(text(rows[i].order), 8) + "         " +
+               rows[i].description + "\n";
     }
     out += "\n";
 }

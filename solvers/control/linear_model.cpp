@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 namespace cardan::solvers {
@@ -77,8 +76,8 @@ std::vector<Complex> ConstantModel::poles() const {
 
 void check_names(const std::vector<NamedModel>& models, const char* file, std::set<std::string> taken) {
     for (const NamedModel& named : models) {
-        const auto good = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-        if (named.name.empty() || named.name.size() > 63 || !std::isalpha(static_cast<unsigned char>(named.name[0])) ||
+        const auto good = [](char c) { return is_letter(c) || is_digit(c) || c == '_'; };
+        if (named.name.empty() || named.name.size() > 63 || !is_letter(named.name[0]) ||
             !std::ranges::all_of(named.name, good) || !taken.insert(named.name).second)
             throw InputError(file, "name of a model", text("'", named.name, "'"),
                              "letters, digits and '_' after a letter, at most 63, each once");

@@ -3,6 +3,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/extent.hpp"
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/modes.hpp"
@@ -54,7 +55,12 @@ Matrix above_rounding(const Matrix& K, const Matrix& sizes) {
 // shear measure their elongation with the square of the shear. Half the difference of the states on both sides has no
 // error for a law with a stiffness that is quadratic in the coordinates, whatever the step.
 Matrix prestress(const System& system, const Vector& q, const Vector& deflection) {
-    const double largest = deflection.cwiseAbs().maxCoeff(), step = 1e-3;
+    Workspace workspace(system.model);
+    const double length = extent(kinematics(system.model, q, workspace)), step = 1e-3;
+    double largest = 0;  // in rad, or over the extent
+    for (int i = 0; i < system.model.size(); ++i)
+        largest =
+            std::max(largest, std::abs(deflection(i)) / (system.model.body(i).revolute || !(length > 0) ? 1 : length));
     if (!(largest > 0)) return Matrix::Zero(q.size(), q.size());
     const Vector zero = Vector::Zero(q.size()), d = step / largest * deflection;
     const Matrix there = linearise(system, {q + d, zero, zero, 0}).elastic,
@@ -114,7 +120,7 @@ public:
         q = found.at.q;
         LoadStabilityPoint point{factor, Instability::none, {}};
         double worst = -2;  // Re / |.| lies between -1 and 1
-        for (const Mode& mode : modes(restrict_to(linearise(loaded, found.at), unknowns_))) {
+        for (const Mode& mode : modes(reduce_loops(linearise(loaded, found.at), unknowns_).system)) {
             const double growth = mode.eigenvalue.real() / std::abs(mode.eigenvalue);
             if (growth <= worst) continue;
             worst = growth;

@@ -80,6 +80,10 @@ struct [[nodiscard]] LoadStability : Outcome {
 ///
 /// With rotation the linearisation is taken at one azimuth, without a multi-blade transformation: use it for systems
 /// that do not depend on the azimuth.
+///
+/// With loops the modes are those of the closed machine, the forces of the loops being part of its stiffness; the first
+/// equilibrium starts from the closed position next to `state.initial`. In rotation no loop may turn with the spin:
+/// linearise() says so.
 /// @throws InputError: from, to not finite or not from < to, steps < 1, tolerance or growth not positive.
 /// @throws NumericalError: as steady_state() (periodic states in rotation) and modes().
 LoadStability load_stability(const System& system, const LoadStabilityOptions& options = {});

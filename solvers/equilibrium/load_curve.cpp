@@ -3,6 +3,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/dynamics.hpp"
+#include "mbs/kernels/extent.hpp"
 #include "solvers/equilibrium/detail/closed_start.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 
@@ -29,8 +30,8 @@ void check(const System& system, const LoadCurveOptions& options) {
     system.forces.require_no_states(in_load_curve);
 }
 
-// A point of the curve as one vector: unknown coordinates, multipliers of the loops' independent equations, and the
-// load factor over its range.
+// A point of the curve as one vector: unknown coordinates over their units, multipliers of the loops' independent
+// equations, and the load factor over its range.
 class Curve {
 public:
     Curve(const System& system, const LoadCurveOptions& options)
@@ -50,8 +51,9 @@ public:
         at_ = found.at;
         if (!system_.loops.empty())
             equations_ = loop_start(system_, options_.spin, 0, at_.q, Vector::Zero(at_.q.size())).equations;
+        set_units();
         z.resize(size());
-        for (Eigen::Index i = 0; i < coordinates(); ++i) z(i) = at_.q(entry(unknowns_, i));
+        for (Eigen::Index i = 0; i < coordinates(); ++i) z(i) = at_.q(entry(unknowns_, i)) / units_(i);
         for (Eigen::Index k = 0; k < multipliers(); ++k) z(coordinates() + k) = at_.lambda(entry(equations_, k));
         z(size() - 1) = options_.from / range();
         return true;
@@ -83,8 +85,12 @@ public:
             const int a = entry(unknowns_, i);
             r(i) = unbalance(a);
             J(i, n + m) = more(a) - unbalance(a);  // forces are linear in the factor
-            for (Eigen::Index j = 0; j < n; ++j) J(i, j) = K(a, entry(unknowns_, j));
-            for (Eigen::Index k = 0; k < m; ++k) J(i, n + k) = -(J(n + k, i) = G(entry(equations_, k), a));
+            for (Eigen::Index j = 0; j < n; ++j) J(i, j) = K(a, entry(unknowns_, j)) * units_(j);
+            for (Eigen::Index k = 0; k < m; ++k) {
+                const double gradient = G(entry(equations_, k), a);
+                J(i, n + k) = -gradient;
+                J(n + k, i) = gradient * units_(i);
+            }
         }
         for (Eigen::Index k = 0; k < m; ++k) r(n + k) = phi(entry(equations_, k));
     }
@@ -102,8 +108,16 @@ public:
     }
 
 private:
+    // 1 rad, or the extent of the tree; of a tree without any, how far it has moved.
+    void set_units() {
+        double length = extent(kinematics(system_.model, at_.q, workspace_));
+        if (!(length > 0)) length = at_.q.lpNorm<Eigen::Infinity>();
+        units_.setOnes(coordinates());
+        for (Eigen::Index i = 0; i < coordinates(); ++i)
+            if (!system_.model.body(entry(unknowns_, i)).revolute && length > 0) units_(i) = length;
+    }
     void set(const Vector& z) {
-        for (Eigen::Index i = 0; i < coordinates(); ++i) at_.q(entry(unknowns_, i)) = z(i);
+        for (Eigen::Index i = 0; i < coordinates(); ++i) at_.q(entry(unknowns_, i)) = z(i) * units_(i);
         for (Eigen::Index k = 0; k < multipliers(); ++k) at_.lambda(entry(equations_, k)) = z(coordinates() + k);
     }
     // On the way loops are open by what Newton's method has not closed yet: the tree, and the stiffness of its loops.
@@ -134,6 +148,7 @@ private:
     const System& system_;
     const LoadCurveOptions& options_;
     std::vector<int> unknowns_, equations_;
+    Vector units_;  ///< of the unknown coordinates in z
     Workspace workspace_;
     OperatingPoint at_;
 };

@@ -35,8 +35,9 @@ struct [[nodiscard]] LoadCurve : Outcome {
 
 /// The curve r(q, factor) = 0, phi(q) = 0 by its arc length s,
 ///
-///     ds^2 = sum of dq_a^2 (rad, m) + (d factor / (to - from))^2,
+///     ds^2 = sum of dq_a^2 + (d factor / (to - from))^2,
 ///
+/// angles in rad, lengths over the extent of the tree at the first point,
 /// predicted along the tangent and corrected by Newton's method across it. The equations are those of steady_state(),
 /// with the exact stiffness and, with loops, their multipliers.                     [Riks 1979; Crisfield 1981]
 /// @throws InputError: factors that are not finite or alike, steps and numbers out of range, states (which it does not

@@ -35,7 +35,7 @@ struct LoadPathPoint {
     double factor = 0;    ///< on the loads
     OperatingPoint at;    ///< q, and with rotation the rate of the spin coordinate
     int iterations = 0;   ///< of Newton's method in the step that led here
-    double residual = 0;  ///< residual over stiffness, rad or m, largest entry
+    double residual = 0;  ///< SteadyState::residual
     /// Number of negative pivots of the tangent stiffness dr/dq on the unknowns: of its symmetric part, counted as
     /// negative eigenvalues (Sylvester). 0: statically stable. Under loads without potential (follower forces, moments
     /// about fixed axes) it proves stability against divergence only; for flutter see load_stability().

@@ -7,8 +7,8 @@
 
 namespace cardan::solvers {
 
-NaturalModes natural_modes(const System& system, int spin, double rotor_speed) {
-    SteadyState state = steady_state(system, spin, {.rotor_speed = rotor_speed});
+NaturalModes natural_modes(const System& system, int spin, double rotor_speed, const Vector& start) {
+    SteadyState state = steady_state(system, spin, {.rotor_speed = rotor_speed, .initial = start});
     require_result(state);
     NaturalModes result{std::move(state.at), system.model.coordinates().free_without(spin), {}};
     check_number_of_unknowns("natural modes", result.unknowns.size());

@@ -89,7 +89,9 @@ public:
 private:
     void check(const SteadyOptions& options) const;
     void set_scale();
+    void set_units();
     void set_loop_scales();
+    int run(const SteadyOptions& options, long& iterations);
     double largest_residual();
     void check_constant(const SteadyOptions& options);
     bool check_closed(SteadyState& result);
@@ -97,6 +99,7 @@ private:
     int spin_, coordinates_;
     SteadyResidual residual_;
     Vector scale_, r_;
+    Vector units_;  ///< what counts as much of the unknown coordinates: 1 rad, or the extent of the tree
     // The order matters: members are destroyed in reverse, KINSOL first, the context last.
     SundialsContext context_;
     SundialsVector x_, x_scale_, f_scale_;
@@ -111,6 +114,7 @@ SteadySolver::Memory::Memory(const System& system, int spin, bool trimmed, std::
     if (n == 0) return;
     scale_.resize(n);
     r_.resize(n);
+    units_.setOnes(std::ssize(residual_.unknowns));
     context_ = make_sundials_context();
     SUNContext context = context_.get();
     for (SundialsVector* v : {&x_, &x_scale_, &f_scale_}) v->reset(N_VNew_Serial(n, context));
@@ -125,7 +129,7 @@ SteadySolver::Memory::Memory(const System& system, int spin, bool trimmed, std::
                     KINSetErrHandlerFn(kin, sundials_quiet, nullptr) == 0 &&
                     KINSetLinearSolver(kin, linear_->handle(), J_.get()) == 0 &&
                     KINSetJacFn(kin, jacobian_callback) == 0 && KINSetMaxSetupCalls(kin, 1) == 0 &&
-                    KINSetScaledStepTol(kin, 1e-14) == 0 && KINSetMaxNewtonStep(kin, 10.0) == 0;
+                    KINSetScaledStepTol(kin, 1e-14) == 0;
     if (!ok) throw NumericalError("SUNDIALS: KINSOL could not be set up");
 }
 
@@ -158,44 +162,75 @@ void SteadySolver::Memory::check(const SteadyOptions& options) const {
     if (options.iterations < 1) throw InputError("steady state", "limit of iterations", options.iterations, ">= 1");
 }
 
-// Residuals are measured by the stiffness on the diagonal, so that they read as rad or m; by a millionth of the
-// springs at least, for at a critical load they and the loads cancel.
+// Lengths are measured by the extent of the tree; of a tree without any, by where it is and how far the first step of
+// Newton's method would go.
+void SteadySolver::Memory::set_units() {
+    const Eigen::Index size = scale_.size();
+    double length = residual_.tree_extent();
+    if (!(length > 0)) {
+        residual_.evaluate(r_.data());
+        for (Eigen::Index i = 0; i < units_.size(); ++i) {
+            if (residual_.is_angle(i)) continue;
+            const double stiffness = std::abs(SUNDenseMatrix_Data(J_.get())[i * (size + 1)]);
+            length = std::max(length, std::abs(residual_.at.q(entry(residual_.unknowns, i))));
+            if (stiffness > 0) length = std::max(length, std::abs(r_(i)) / stiffness);
+        }
+    }
+    for (Eigen::Index i = 0; i < units_.size(); ++i) {
+        units_(i) = residual_.is_angle(i) || !(length > 0) ? 1 : length;
+        N_VGetArrayPointer(x_scale_.get())[i] = 1 / units_(i);
+    }
+}
+
+// Residuals are measured by the stiffness on the diagonal, so that they read as coordinates in their units; by a
+// millionth of the springs at least, for at a critical load they and the loads cancel.
 void SteadySolver::Memory::set_scale() {
     if (residual_.trimmed) N_VGetArrayPointer(x_scale_.get())[residual_.size() - 1] = 1 / residual_.scale_of_trim();
     residual_.jacobian(SUNDenseMatrix_Data(J_.get()));
+    set_units();
     const Eigen::Index size = scale_.size(), n = std::ssize(residual_.unknowns);
-    const auto stiffness = [&](Eigen::Index i) { return std::abs(SUNDenseMatrix_Data(J_.get())[i * (size + 1)]); };
-    const auto spring = [&](Eigen::Index i) { return std::abs(residual_.elastic_diagonal(i)); };
+    // Energies at one unit.
+    const auto stiffness = [&](Eigen::Index i) {
+        return std::abs(SUNDenseMatrix_Data(J_.get())[i * (size + 1)]) * units_(i) * units_(i);
+    };
+    const auto spring = [&](Eigen::Index i) { return std::abs(residual_.elastic_diagonal(i)) * units_(i) * units_(i); };
     double stiffest = 1e-280;
     for (Eigen::Index i = 0; i < n; ++i) stiffest = std::max({stiffest, stiffness(i), spring(i)});
     for (Eigen::Index i = 0; i < n; ++i) {
-        const double scale = 1 / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
+        const double scale = units_(i) / std::max({stiffness(i), 1e-6 * spring(i), 1e-12 * stiffest});
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = scale;
     }
     if (!residual_.loops.empty()) set_loop_scales();
-    // Of states and a trim, by how much rate or torque changes with what counts as much of everything it depends on:
-    // 1 rad, 1 m, the scales of the states.
+    // Of states and a trim, by how much rate or torque changes with what counts as much of everything it depends on.
     const Eigen::Map<const Matrix> J(SUNDenseMatrix_Data(J_.get()), size, size);
     const Eigen::Map<const Vector> units(N_VGetArrayPointer(x_scale_.get()), size);
     const Eigen::Index first_loop = n + std::ssize(residual_.states), end = first_loop + std::ssize(residual_.loops);
     for (Eigen::Index i = n; i < size; ++i) {
         if (i >= first_loop && i < end) continue;
-        const double sensitivity = J.row(i).cwiseAbs().dot(units.cwiseInverse());
+        double sensitivity = 0;
+        for (Eigen::Index j = 0; j < size; ++j)
+            if (j < first_loop || j >= end) sensitivity += std::abs(J(i, j)) / units(j);
         scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = 1 / std::max(sensitivity, 1e-280);
     }
 }
 
 // Mechanisms may have no stiffness: there the loads that balance one another are what a residual is measured by, so
-// that it reads as an angle or a length all the same. Equations of loops are lengths already.
+// that it reads as an angle or a length all the same. Equations of loops are measured by their size. Multipliers enter
+// linearly and must not limit a step: what counts as much of them is a million times what moves a coordinate by a unit.
 void SteadySolver::Memory::set_loop_scales() {
+    constexpr double much = 1e6;
     const Eigen::Index n = std::ssize(residual_.unknowns), first = n + std::ssize(residual_.states);
     for (Eigen::Index i = 0; i < n; ++i)
         if (const double load = residual_.load(i); load > 0)
             scale_(i) = N_VGetArrayPointer(f_scale_.get())[i] = std::min(scale_(i), 1 / load);
-    const double largest = residual_.at.lambda.size() > 0 ? residual_.at.lambda.lpNorm<Eigen::Infinity>() : 0;
-    for (Eigen::Index i = 0; i < std::ssize(residual_.loops); ++i) {
-        scale_(first + i) = N_VGetArrayPointer(f_scale_.get())[first + i] = 1;
-        N_VGetArrayPointer(x_scale_.get())[first + i] = largest > 0 ? 1 / largest : 1 / scale_.head(n).minCoeff();
+    const Vector sizes = residual_.loop_sizes();
+    for (Eigen::Index k = 0; k < std::ssize(residual_.loops); ++k) {
+        const int equation = entry(residual_.loops, k);
+        double moves = 1e-280;
+        for (Eigen::Index i = 0; i < n; ++i)
+            moves = std::max(moves, std::abs(residual_.loop_gradient(equation, i)) * scale_(i));
+        scale_(first + k) = N_VGetArrayPointer(f_scale_.get())[first + k] = 1 / sizes(equation);
+        N_VGetArrayPointer(x_scale_.get())[first + k] = moves / much;
     }
 }
 
@@ -214,7 +249,7 @@ void SteadySolver::Memory::check_constant(const SteadyOptions& options) {
             throw NumericalError(text(
                 "no constant steady state at ", residual_.speed(), " rad/s: with the rotor turned by ", turn,
                 " rad the forces leave a residual of ", largest,
-                " (residual over stiffness, rad or m; allowed 1e-7). Gravity in rotation, an unbalanced or a "
+                " (residual over stiffness; allowed 1e-7). Gravity in rotation, an unbalanced or a "
                 "two-bladed rotor have a periodic steady state: see harmonic_balance(); or leave gravity out or stop "
                 "the rotor"));
     }
@@ -230,11 +265,32 @@ LoopStart SteadySolver::Memory::loops_at(const SteadyOptions& options) {
 // Also of the equations that were left out as redundant.
 bool SteadySolver::Memory::check_closed(SteadyState& result) {
     if (residual_.at.lambda.size() == 0) return true;
-    const auto [gap, loop] = residual_.gap();
-    if (gap < 1e-8) return true;
-    result.message = text("steady state with an open loop: ", loop, " leaves ", gap,
-                          " of the loops' extent; its equations contradict those of others");
+    double gap = 0;
+    const int open = residual_.open_by(1e-8, gap);
+    if (open < 0) return true;
+    const Loops::Equation& equation = entry(residual_.system_loops().equations(), open);
+    result.message =
+        text("steady state with an open loop: ", residual_.system_loops().describe(equation.loop), " leaves ", gap, " ",
+             equation.unit, " (", equation.name, "); its equations contradict those of others");
     return false;
+}
+
+// A single step of Newton's method goes no further than ten units, which keeps angles from going round and round; where
+// one such step after the other is taken the solution is far away, and they become longer.
+int SteadySolver::Memory::run(const SteadyOptions& options, long& iterations) {
+    void* kin = kinsol_.get();
+    iterations = 0;
+    for (double longest = 10;; longest *= 10) {
+        const bool ok = KINSetNumMaxIters(kin, options.iterations - iterations) == 0 &&
+                        KINSetFuncNormTol(kin, options.tolerance) == 0 && KINSetMaxNewtonStep(kin, longest) == 0;
+        if (!ok) throw NumericalError("SUNDIALS: KINSOL could not be set up");
+        const int flag = KINSol(kin, x_.get(), KIN_LINESEARCH, x_scale_.get(), f_scale_.get());
+        if (residual_.thrown) std::rethrow_exception(residual_.thrown);
+        long now = 0;
+        KINGetNumNonlinSolvIters(kin, &now);
+        iterations += now;
+        if (flag != KIN_MXNEWT_5X_EXCEEDED || iterations >= options.iterations) return flag;
+    }
 }
 
 void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& result, const Vector& lambda) {
@@ -252,14 +308,8 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
     set_scale();
     double* x = N_VGetArrayPointer(x_.get());
     residual_.get(x);
-    void* kin = kinsol_.get();
-    if (KINSetNumMaxIters(kin, options.iterations) != 0 || KINSetFuncNormTol(kin, options.tolerance) != 0)
-        throw NumericalError("SUNDIALS: KINSOL could not be set up");
-    const int flag = KINSol(kin, x_.get(), KIN_LINESEARCH, x_scale_.get(), f_scale_.get());
-    if (residual_.thrown) std::rethrow_exception(residual_.thrown);
-
     long iterations = 0;
-    KINGetNumNonlinSolvIters(kin, &iterations);
+    const int flag = run(options, iterations);
     residual_.set(x);
     result.residual = largest_residual();
     result.iterations = static_cast<int>(iterations);

@@ -27,20 +27,23 @@ struct SteadyOptions {
     Vector states = {};      ///< of the states; empty: as their table says. Those of kind `angle` stay there
     Vector inputs = {};      ///< of the system; empty: as their table says
     std::optional<SteadyTrim> trim = {};
-    double tolerance = 1e-11;  ///< residual over stiffness (rad, m; of states: over their scale), largest entry
+    /// Largest entry of the residual over the stiffness, in rad, or as a fraction of the extent of the tree; of states
+    /// over their scale.
+    double tolerance = 1e-11;
     int iterations = 60;
 };
 
 /// Result of steady_state(); `at` is the last iterate also if it did not converge.
 struct [[nodiscard]] SteadyState : Outcome {
     OperatingPoint at;
-    double residual = 0;  ///< largest residual over stiffness, rad or m; of states, over their scale
+    double residual = 0;  ///< as SteadyOptions::tolerance
     int iterations = 0;
 };
 
 /// Constant free coordinates and states while only the spin coordinate moves: r(q) = Gamma_abc qd^b qd^c - Q_a = 0 on
 /// the free coordinates, the spin being prescribed, and f = 0 of the states; with a trim, r = 0 on the spin too.
-/// KINSOL's Newton iteration with line search and the exact Jacobian.
+/// KINSOL's Newton iteration with line search and the exact Jacobian. Angles count as they are, lengths by the extent
+/// of the tree (of a tree without any, by where it starts and how far its springs give), so that units do not matter.
 ///
 /// With loops, their multipliers are unknowns as well, OperatingPoint::lambda, and phi = 0 their equations; the start
 /// is closed first, the spin held. Redundant equations are left out, their multipliers zero.

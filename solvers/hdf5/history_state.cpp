@@ -164,6 +164,7 @@ void put_controller(Hdf5File& file, const SampledState& controller) {
     list("pending", {controller.pending.data(), static_cast<std::size_t>(controller.pending.size())}, "output",
          "what is put out at the next sample, if it is delayed");
     list("memory", controller.memory, "number", "what the controller keeps for itself");
+    list("followed", controller.followed, "demand", "last three demands of each coordinate that follows them");
 }
 
 SampledState controller_of(const Hdf5File& file, const std::string& name) {
@@ -171,6 +172,7 @@ SampledState controller_of(const Hdf5File& file, const std::string& name) {
     SampledState out{name, static_cast<long>(file.read_ints(group + "next").at(0))};
     if (file.has(group + "pending")) out.pending = vector_of(file, group + "pending");
     if (file.has(group + "memory")) out.memory = file.read_doubles(group + "memory");
+    if (file.has(group + "followed")) out.followed = file.read_doubles(group + "followed");
     return out;
 }
 

@@ -99,12 +99,16 @@ void Lineariser::check_loops(const Kinematics& kin, const Linearisation& out) co
         if (loops_ == LoopState::at_rest && loops.involves(i) && at.qd(i) != 0)
             throw InputError(text(in_linearisation, ": coordinate '", out.coordinates[i].name, "' of a loop"), "rate",
                              at.qd(i), "0: a loop in motion has no constant linearisation");
-    Vector phi(loops.size());
+    Vector phi(loops.size()), allowed(loops.size());
     loops.residual<double>(kin, at.time, at.q, phi);
-    Eigen::Index worst = 0;
-    if (const double gap = phi.cwiseAbs().maxCoeff(&worst); !(gap < 1e-6 * loops.extent(kin)))
-        throw InputError(text(in_linearisation, ": ", loops.describe(entry(loops.equations(), worst).loop)), "gap", gap,
-                         "less than 1e-6 of the loops' extent: see close_loops()");
+    loops.tolerances(kin, at.time, at.q, 1e-6, allowed);
+    for (int i = 0; i < loops.size(); ++i)
+        if (!(std::abs(phi(i)) <= allowed(i))) {
+            const Loops::Equation& equation = entry(loops.equations(), i);
+            throw InputError(text(in_linearisation, ": ", loops.describe(equation.loop)),
+                             text("gap [", equation.unit, "], ", equation.name), phi(i),
+                             text(allowed(i), " at most: see close_loops()"));
+        }
 }
 
 void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) {
@@ -115,7 +119,14 @@ void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) {
     require_size(in_linearisation, "multipliers of loops", at.lambda, loops.size());
     if (loops_ != LoopState::open) check_loops(kin, out);
     out.constraints.resize(loops.size(), n);
-    loops.gradient<double>(kin, at.time, at.q, out.constraints);
+    if (loops_ == LoopState::open) {
+        loops.gradient<double>(kin, at.time, at.q, out.constraints);
+    } else {
+        // What is rounding of its terms is zero, so that rows can be measured by themselves.
+        Matrix terms(loops.size(), n);
+        loops.gradient(kin, at.time, at.q, out.constraints, terms);
+        out.constraints = (out.constraints.array().abs() > 1e-13 * terms.array()).select(out.constraints, 0);
+    }
     out.reactions.setZero(n, n);
     loops.add_second_gradient(kin, at.time, at.q, -at.lambda, out.reactions);
     if (gradient_rates_)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace cardan::solvers {
@@ -13,6 +14,19 @@ namespace cardan::solvers {
 namespace {
 
 constexpr double dependent_below = 1e-9;
+
+// Factors that make the rows of a matrix, and then its columns, of length 1, so that ranks do not depend on units: some
+// rows are in m and some are directions, some columns per m and some per rad. Zero remains zero.
+struct Scales {
+    Vector rows, columns;
+
+    explicit Scales(const Matrix& G) {
+        const auto over = [](double length) { return length > 0 ? 1 / length : 1.0; };
+        rows = G.rowwise().norm().unaryExpr(over);
+        columns = (rows.asDiagonal() * G).colwise().norm().transpose().unaryExpr(over);
+    }
+    Matrix of(const Matrix& G) const { return rows.asDiagonal() * G * columns.asDiagonal(); }
+};
 
 // The coordinates among some that follow the independent ones, by the gradients of loops.
 class Dependence {
@@ -29,8 +43,10 @@ public:
             }
         }
         if (own_.empty()) return;
+        const Matrix own = constraints(Eigen::all, own_);
+        scales_.emplace(own);
         qr_.setThreshold(dependent_below);
-        qr_.compute(Matrix(constraints(Eigen::all, own_)));
+        qr_.compute(scales_->of(own));
         if (qr_.rank() < std::ssize(own_))
             throw NumericalError(text("reduction of loops: ", std::ssize(own_), " coordinates should follow ",
                                       std::ssize(independent), " others, but ", std::ssize(own_) - qr_.rank(),
@@ -41,7 +57,7 @@ public:
         Matrix x = Matrix::Zero(rows_, right.cols());
         for (const auto& [row, column] : independent_) x(row, column) = own;
         if (own_.empty()) return x;
-        const Matrix follow = -qr_.solve(right);
+        const Matrix follow = -(scales_->columns.asDiagonal() * qr_.solve(scales_->rows.asDiagonal() * right));
         for (Eigen::Index k = 0; k < follow.rows(); ++k) x.row(entry(dependent_, k)) = follow.row(k);
         return x;
     }
@@ -51,6 +67,7 @@ private:
     std::vector<int> own_;                                            // those that follow
     std::vector<Eigen::Index> dependent_;                             // their rows
     std::vector<std::pair<Eigen::Index, Eigen::Index>> independent_;  // rows and columns of the others
+    std::optional<Scales> scales_;
     Eigen::ColPivHouseholderQR<Matrix> qr_;
 };
 
@@ -76,7 +93,8 @@ std::vector<int> independent_coordinates(const Linearisation& lin, const std::ve
         // What is preferred counts as heavy: it becomes a pivot last.
         G.col(i) = lin.constraints.col(a) / std::sqrt(lin.mass(a, a)) * (a == preferred ? 1e-6 : 1.0);
     }
-    Eigen::ColPivHouseholderQR<Matrix> qr(G);
+    const Vector rows = Scales(G).rows;
+    Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(rows.asDiagonal() * G));
     qr.setThreshold(dependent_below);
     std::vector<int> independent;
     for (Eigen::Index i = qr.rank(); i < n; ++i)
@@ -99,7 +117,8 @@ double following_quality(const Matrix& constraints, const std::vector<int>& coor
         if (std::ranges::find(independent, a) == independent.end()) dependent.push_back(a);
     if (dependent.empty()) return 1;
     if (constraints.rows() < std::ssize(dependent)) return 0;
-    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(constraints(Eigen::all, dependent)));
+    const Matrix own = constraints(Eigen::all, dependent);
+    const Eigen::ColPivHouseholderQR<Matrix> qr(Scales(own).of(own));
     const Vector pivots = qr.matrixR().diagonal().head(std::ssize(dependent)).cwiseAbs();
     return pivots(0) > 0 ? pivots.minCoeff() / pivots(0) : 0;
 }
@@ -141,14 +160,17 @@ Followers followers(const Linearisation& lin, const std::vector<int>& coordinate
 }
 
 Matrix follow(const Matrix& constraints, const std::vector<int>& dependent, const Matrix& right) {
-    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(constraints(Eigen::all, dependent)));
-    return -qr.solve(right);
+    const Matrix own = constraints(Eigen::all, dependent);
+    const Scales scales(own);
+    const Eigen::ColPivHouseholderQR<Matrix> qr(scales.of(own));
+    return -(scales.columns.asDiagonal() * qr.solve(scales.rows.asDiagonal() * right));
 }
 
 Matrix multipliers_on(const Matrix& constraints, const std::vector<int>& coordinates, const Matrix& load) {
-    const Matrix transposed = constraints(Eigen::all, coordinates).transpose();
-    const Eigen::CompleteOrthogonalDecomposition<Matrix> factor(transposed);
-    return factor.solve(load);
+    const Matrix own = constraints(Eigen::all, coordinates);
+    const Scales scales(own);
+    const Eigen::CompleteOrthogonalDecomposition<Matrix> factor(scales.of(own).transpose());
+    return scales.rows.asDiagonal() * factor.solve(scales.columns.asDiagonal() * load);
 }
 
 void condense_loops(Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent) {

@@ -7,8 +7,8 @@
 namespace cardan::solvers {
 
 /// As many of some coordinates as are independent where G dx = 0; the others follow. Those that move most for the least
-/// inertia do: pivots of the gradients over the root of the mass. Dependent constraints (below 1e-9 of the largest
-/// pivot) count once. All of them without loops.
+/// inertia do: pivots of the gradients over the root of the mass, each gradient over its length. Dependent constraints
+/// (below 1e-9 of the largest pivot) count once. All of them without loops.
 /// @param preferred  a coordinate that is independent wherever the others can follow it, such as the spin; -1: none
 /// @throws InputError for coordinates out of range
 std::vector<int> independent_coordinates(const Linearisation& lin, const std::vector<int>& coordinates,
@@ -45,7 +45,7 @@ Followers followers(const Linearisation& lin, const std::vector<int>& coordinate
 /// How dependent coordinates move for what the others do: G_d x = -right, the shortest x.
 /// @param right  G times what the others do
 Matrix follow(const Matrix& constraints, const std::vector<int>& dependent, const Matrix& right);
-/// Multipliers with G^T lambda = load on some coordinates, the shortest.
+/// Multipliers with G^T lambda = load on some coordinates, the shortest, each measured by its gradient there.
 Matrix multipliers_on(const Matrix& constraints, const std::vector<int>& coordinates, const Matrix& load);
 
 /// The system over independent coordinates: dx = shape dy, so that M = shape^T M shape and so on.

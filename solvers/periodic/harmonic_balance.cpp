@@ -21,10 +21,6 @@ constexpr double small_residual = 1e-8;
 // fall to less than the other, the step is no use.
 constexpr double good_reduction = 0.1, least_reduction = 0.5;
 
-// A residual beside that of the harmonics that are left out, and the largest Jacobian of all coefficients, 0.5 GB.
-constexpr double immaterial = 1e-2;
-constexpr Index most_unknowns = 8000;
-
 // Unknowns are the coefficients column after column: entry l n + i is coefficient l of unknown i.
 class Balance {
 public:
@@ -48,7 +44,6 @@ private:
     void note_open(std::string words);
     bool search(const Matrix& dx);
     bool advance();
-    bool is_negligible();
     bool mean_step();
     bool accelerated_steps();
     void finish(PeriodicSteadyState& result, bool small);
@@ -61,12 +56,9 @@ private:
     std::vector<Index> held_;
     std::optional<MeanJacobian> mean_;  // none: Newton's steps only
     std::optional<HalfTurn> half_;      // of two alike blades, as long as the residual has no other harmonics
-    bool enough_ = false;               // no step is worth it
-    double fresh_reduction_ = std::numeric_limits<double>::infinity();  // by the last step with a fresh mean Jacobian
-    bool limited_ = false;     // and no other would reduce it more: what changes with the azimuth limits it
-    bool stale_ = true;        // it belongs to another state
-    bool accelerates_ = true;  // its steps together are of use where single ones are not
-    Vector scale_, unit_;      // of residuals, per unknown; of entries for the linear system
+    bool stale_ = true;                 // it belongs to another state
+    bool accelerates_ = true;           // its steps together are of use where single ones are not
+    Vector scale_, unit_;               // of residuals, per unknown; of entries for the linear system
     Matrix x_, R_;
     std::string why_ = "the limit of iterations was reached";
     std::vector<std::string> open_;  // what the equations do not determine
@@ -298,12 +290,7 @@ bool Balance::mean_step() {
     if (after < least_reduction * before) {
         x_ = x;
         R_ = R;
-        const double reduction = after / before;
-        if (fresh) {
-            limited_ = reduction > 0.5 * fresh_reduction_;
-            fresh_reduction_ = reduction;
-        }
-        stale_ = reduction > good_reduction && !(limited_ && reduction < 1.5 * fresh_reduction_);
+        stale_ = after > good_reduction * before;
         return true;
     }
     stale_ = true;
@@ -345,32 +332,10 @@ bool Balance::accelerated_steps() {
     return accelerates_;
 }
 
-// The balanced harmonics leave so little beside those that are left out that no step makes the state better.
-bool Balance::is_negligible() {
-    PeriodicSteadyState rest;
-    equations_.set_remainders(x_, samples(), scale_, rest);
-    const Index n = equations_.states_from();
-    const Matrix over = (R_.array().colwise() / scale_.array()).abs();
-    const double coordinates = n > 0 ? over.topRows(n).maxCoeff() : 0,
-                 states = over.rows() > n ? over.bottomRows(over.rows() - n).maxCoeff() : 0;
-    if (getenv("CB_DEBUG"))
-        fprintf(stderr, "rest: %g of %g, states %g of %g\n", coordinates, rest.remainder, states, rest.state_remainder);
-    return coordinates <= immaterial * rest.remainder && states <= immaterial * rest.state_remainder;
-}
-
 // False if nothing makes the residual smaller.
 bool Balance::advance() {
     if (mean_ && mean_step()) return true;
-    if (getenv("CB_DEBUG")) fprintf(stderr, "mean step fails at %g\n", largest(R_));
     if (mean_ && accelerates_ && accelerated_steps()) return true;
-    if (getenv("CB_DEBUG")) fprintf(stderr, "accelerated fails at %g\n", largest(R_));
-    if (mean_ && x_.size() > most_unknowns) {
-        enough_ = is_negligible();
-        if (!enough_)
-            why_ = text("steps with a mean Jacobian do not make the residual smaller, and ", x_.size(),
-                        " unknowns are too many for others (", most_unknowns, ")");
-        return false;
-    }
     Matrix dx;
     return step(dx) && search(dx);
 }
@@ -381,13 +346,11 @@ PeriodicSteadyState Balance::solve() {
     bool finite = evaluate(x_, R_);
     if (!finite) why_ = "the residual at the start is not finite";
     while (finite && largest(R_) > options_.tolerance && result.iterations < options_.iterations) {
-        if (getenv("CB_DEBUG"))
-            fprintf(stderr, "%d: %g, %ld unknowns\n", result.iterations, largest(R_), (long)x_.size());
         finite = advance();
         ++result.iterations;
     }
     // If no step reduces it, a small residual is as good as the arithmetic allows.
-    finish(result, enough_ || largest(R_) <= std::max(options_.tolerance, finite ? 0 : small_residual));
+    finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : small_residual));
     return result;
 }
 

@@ -5,7 +5,6 @@
 #include "solvers/pictures/gnuplot.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace cardan::solvers {
@@ -70,13 +69,6 @@ constexpr std::array<Quantity, 3> quantities{{{"flap (+ downwind)", 2, 1, 7, 0, 
                                               {"edge (+ toward leading edge)", 3, 2, 5, 1, "x1y1"},
                                               {"twist (+ leading edge downwind)", 4, 4, 9, 2, "x1y2"}}};
 
-std::string hertz(double frequency) {
-    std::array<char, 32> digits{};
-    const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), frequency, std::chars_format::fixed, 4);
-    return {digits.data(), end.ptr};
-}
-
 std::string panel(const BladeShape& shape, std::size_t number, bool left, bool right, bool bottom) {
     // A mode that hardly twists should look that way: the right axis extends to at least 1 deg per m.
     double twist = 1;
@@ -90,13 +82,14 @@ std::string panel(const BladeShape& shape, std::size_t number, bool left, bool r
                       q.dash, " lw 2 notitle, $n", number, " using 1:", q.column, " axes ", q.axes,
                       " with points lc rgb '", hex, "' pt ", q.symbol, " ps 0.55 notitle");
     }
-    return text(
-        "set title ",
-        gnuplot_text(text(shape.name, shape.doubtful ? " (doubtful)" : "", ", ", hertz(shape.natural_hz), " Hz")),
-        "\nset xrange [0:", 1.05 * shape.radius.back(), "]\nset y2range [", -1.1 * twist, ":", 1.1 * twist,
-        "]\nset y2tics ", twist / 2, "\n", bottom ? "set xlabel 'radius, m'\n" : "unset xlabel\n",
-        left ? "set ylabel 'displacement, largest = 1'\n" : "unset ylabel\n",
-        right ? "set y2label 'twist, deg per m of largest displacement'\n" : "unset y2label\n", "plot ", plots, "\n");
+    return text("set title ",
+                gnuplot_text(text(shape.name, shape.doubtful ? " (doubtful)" : "", ", ",
+                                  digits(shape.natural_hz, std::chars_format::fixed, 4), " Hz")),
+                "\nset xrange [0:", 1.05 * shape.radius.back(), "]\nset y2range [", -1.1 * twist, ":", 1.1 * twist,
+                "]\nset y2tics ", twist / 2, "\n", bottom ? "set xlabel 'radius, m'\n" : "unset xlabel\n",
+                left ? "set ylabel 'displacement, largest = 1'\n" : "unset ylabel\n",
+                right ? "set y2label 'twist, deg per m of largest displacement'\n" : "unset y2label\n", "plot ", plots,
+                "\n");
 }
 
 // An empty plot across the foot of the picture: the legend in one row, line and symbol together.

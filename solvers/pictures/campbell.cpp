@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace cardan::solvers {
@@ -41,10 +42,16 @@ public:
             }
         f_max_ = options.max_frequency_hz > 0 ? options.max_frequency_hz : 1.05 * f_max_;
         if (f_max_ == 0) f_max_ = 1;  // rigid motions only
+        for (std::size_t i = 0; i < rpm_.size(); ++i) turns_.push_back({rpm_[i], d_.points[i].rotor_speed / (2 * pi)});
+        // Of one point alone as far as the picture goes.
+        if (turns_.size() == 1)
+            turns_.push_back({last(), turns_[0].hz + (d_.parameters.empty() ? last() - rpm_[0] : 0) / units::minute});
     }
 
     std::string data() const {
-        std::string script;
+        std::vector<double> x, hz;
+        for (const Turning& at : turns_) x.push_back(at.x), hz.push_back(at.hz);
+        std::string script = gnuplot_data(turns_name(), std::vector<std::span<const double>>{x, hz});
         for (std::size_t b = 0; b < branches_.size(); ++b) script += branch_data(d_, *branches_[b], name(b), rpm_);
         if (const Campbell* blade = options_.isolated_blade)
             for (std::size_t b = 0; b < blade->branches.size(); ++b) {
@@ -62,10 +69,11 @@ public:
                    : "set key at graph 0.5,-0.22 center top Left reverse font ',9'\n");
         std::string plots;
         for (int n : rotor_multiples(d_.blades))
-            plots +=
-                text(plots.empty() ? "" : ", ", n, "*", per_rev(), " with lines lc rgb '#999999' dt 3 lw 1 notitle");
+            plots += text(plots.empty() ? "" : ", ", "$", turns_name(), " using 1:(", n,
+                          "*$2) with lines lc rgb '#999999' dt 3 lw 1 notitle");
         for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 2, 4, true);
-        if (any_doubtful()) plots += ", keyentry with points lc rgb '#000000' pt 6 ps 0.7 title 'name in doubt'";
+        if (any_doubtful())
+            plots += ", keyentry with points lc rgb '#000000' pt 6 ps 0.7 title 'name or frequency in doubt'";
         if (const Campbell* blade = options_.isolated_blade)
             for (std::size_t b = 0; b < blade->branches.size(); ++b) {
                 const Branch& branch = blade->branches[b];
@@ -91,8 +99,10 @@ public:
 
 private:
     std::string name(std::size_t b) const { return text("b", prefix_, "_", b); }
+    std::string turns_name() const { return "turns_" + prefix_; }
     std::string blade_name(std::size_t b) const { return text("i", prefix_, "_", b); }
     bool shows(const Campbell& d, const Branch& branch) const {
+        if (branch.of_states && !options_.states) return false;
         const auto& families = options_.families;
         if (!families.empty() && std::find(families.begin(), families.end(), branch.family) == families.end())
             return false;
@@ -145,8 +155,10 @@ private:
                     "' pt 6 ps 0.7 notitle");
     }
 
+    // End of the axis.
+    double last() const { return rpm_.back() > rpm_.front() ? rpm_.back() : rpm_.front() + 1; }
     std::string x_range() const {
-        const double low = rpm_.front(), high = rpm_.back() > low ? rpm_.back() : low + 1;
+        const double low = rpm_.front(), high = last();
         // Over decades in decades.
         const bool decades = !d_.parameters.empty() && low > 0 && high > 50 * low;
         return text(decades ? "set logscale x\n" : "", "set xrange [", low, ":", high, "]\n");
@@ -155,38 +167,40 @@ private:
         if (!shown) return "unset xlabel\nset format x ''\n";
         return text("set xlabel ", gnuplot_text(abscissa_label(d_)), "\nset format x '%g'\n");
     }
-    // The rotor frequency in Hz as an expression in x; over another parameter that of the first point.
-    std::string per_rev() const {
-        return d_.parameters.empty() ? text("x/", units::minute) : text(d_.points[0].rotor_speed / (2 * pi));
-    }
-
+    // Where the curve of a multiple ends, or leaves the picture on its top.
     std::string multiples_labels() const {
         std::string labels;
-        const double x_max = rpm_.back() > rpm_.front() ? rpm_.back() : rpm_.front() + 1;
         for (int n : rotor_multiples(d_.blades)) {
-            if (!d_.parameters.empty()) {
-                const double f = n * d_.points[0].rotor_speed / (2 * pi);
-                if (f <= f_max_)
-                    labels += text("set label '", n, "P' at ", x_max, ",", f,
-                                   " left offset 0.3,0 font ',9' tc rgb '#666666'\n");
-                continue;
+            const auto inside = [&](const Turning& at) { return n * at.hz <= f_max_; };
+            const auto found = std::find_if(turns_.rbegin(), turns_.rend(), inside);
+            if (found == turns_.rend()) continue;
+            Turning end = *found;
+            const bool leaves_on_top = found != turns_.rbegin();
+            if (leaves_on_top) {
+                const Turning& beyond = *std::prev(found);
+                const double part = (f_max_ / n - end.hz) / (beyond.hz - end.hz);
+                end = {end.x + part * (beyond.x - end.x), f_max_ / n};
+                if (end.x <= rpm_.front()) continue;
             }
-            const bool leaves_on_top = n * x_max / units::minute > f_max_;
-            const double x = leaves_on_top ? f_max_ * units::minute / n : x_max,
-                         y = leaves_on_top ? f_max_ : n * x_max / units::minute;
-            if (x <= rpm_.front()) continue;
+            if (end.hz == 0) continue;
             labels +=
-                text("set label '", n, "P' at ", x, ",", y,
+                text("set label '", n, "P' at ", end.x, ",", n * end.hz,
                      leaves_on_top ? " center offset 0,0.5" : " left offset 0.3,0", " font ',9' tc rgb '#666666'\n");
         }
         return labels;
     }
+
+    // Rotor frequency along the axis.
+    struct Turning {
+        double x, hz;
+    };
 
     const Campbell& d_;
     const CampbellPlotOptions& options_;
     std::string prefix_;
     std::vector<const Branch*> branches_;
     std::vector<double> rpm_;
+    std::vector<Turning> turns_;
     double f_max_ = 0, zeta_min_ = 0, zeta_max_ = 0;
     double zeta_least_ = std::numeric_limits<double>::infinity();
 };

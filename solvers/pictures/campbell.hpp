@@ -16,6 +16,7 @@ struct CampbellPlotOptions {
     std::string title = {};                  ///< empty: the machine's name
     double max_frequency_hz = 0;             ///< modes entirely above are left out; 0: automatic
     bool damping_panel = true;
+    bool states = false;  ///< also the branches of states (Branch::of_states)
     /// A diagram of one blade, drawn beside the machine's (thin black lines).
     const Campbell* isolated_blade = nullptr;
     /// Damping over decades, where no mode grows and the most damped one has 30 times the damping of the least: what

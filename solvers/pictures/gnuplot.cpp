@@ -5,9 +5,7 @@
 #include "solvers/pictures/detail/conversation.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fcntl.h>
@@ -22,10 +20,6 @@ namespace cardan::solvers {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_control(char c) {
-    return std::iscntrl(static_cast<unsigned char>(c)) != 0;
-}
 
 /// A file under the folder for temporary ones that goes away with the object.
 class ScratchFile {
@@ -84,9 +78,7 @@ constexpr std::array<Kind, 3> kinds{{
 }};
 
 const Kind& kind_of(const fs::path& path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = lower_case(path.extension().string());
     for (const Kind& kind : kinds) {
         if (kind.ending == ending) return kind;
     }
@@ -136,9 +128,8 @@ std::string gnuplot_text(std::string_view shown) {
 }
 
 std::string gnuplot_data(std::string_view name, std::span<const std::span<const double>> columns) {
-    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-    if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0 ||
-        !std::all_of(name.begin(), name.end(), allowed)) {
+    const auto allowed = [](char c) { return is_letter(c) || is_digit(c) || c == '_'; };
+    if (name.empty() || is_digit(name.front()) || !std::all_of(name.begin(), name.end(), allowed)) {
         throw InputError("gnuplot data", "name", name, "letters, digits and underscores, no digit in front");
     }
     const std::size_t rows = columns.empty() ? 0 : columns.front().size();
@@ -146,11 +137,9 @@ std::string gnuplot_data(std::string_view name, std::span<const std::span<const 
     for (const auto& column : columns) {
         if (column.size() != rows) throw InputError(text("gnuplot data ", name), "length", column.size(), text(rows));
     }
-    std::array<char, 32> digits{};
     for (std::size_t row = 0; row < rows; ++row) {
         for (const auto& column : columns) {
-            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), column[row]).ptr;
-            block += std::isfinite(column[row]) ? std::string_view(digits.data(), end) : "NaN";
+            block += std::isfinite(column[row]) ? digits(column[row]) : "NaN";
             block += ' ';
         }
         block.back() = '\n';

@@ -74,6 +74,7 @@ void plot_roots(const Campbell& diagram, const std::filesystem::path& path, cons
     RootWindow window;
     for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
         const Branch& branch = diagram.branches[b];
+        if (branch.of_states && !options.states) continue;
         const Locus own = locus(diagram, branch);
         const auto [first, last] = ends_of(own);
         if (first == last) continue;
@@ -87,7 +88,7 @@ void plot_roots(const Campbell& diagram, const std::filesystem::path& path, cons
                  "::", last - 1, " with points lc rgb '", hex, "' pt 7 ps 0.9 notitle");
     }
     const Locus states = state_roots(diagram);
-    if (!states.hz.empty()) {
+    if (options.states && !states.hz.empty()) {
         script += locus_data("states", states);
         plots += ", $states using 1:2 with points lc rgb '#aaaaaa' pt 2 ps 0.4 title 'motions of states'";
     }

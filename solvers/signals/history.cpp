@@ -3,7 +3,6 @@
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 #include <utility>
 
@@ -13,9 +12,7 @@ namespace {
 
 // Edit (Levenshtein) distance without regard to case; small if one name contains the other.
 std::size_t distance(std::string_view a, std::string_view b) {
-    const auto same = [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-    };
+    const auto same = [](char x, char y) { return lower_case(x) == lower_case(y); };
     if (a.size() > b.size()) std::swap(a, b);
     if (a.size() > 2 && std::search(b.begin(), b.end(), a.begin(), a.end(), same) != b.end()) return 1;
     std::vector<std::size_t> row(b.size() + 1);

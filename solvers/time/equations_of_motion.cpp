@@ -7,6 +7,7 @@
 #include "solvers/time/detail/constrained_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cardan::solvers {
@@ -76,6 +77,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
     u_ = system.forces.inputs().initial();
     if (system.loops.empty()) return;
     loops_ = std::make_unique<ConstrainedMotion>(system, driven_);
+    loop_gradients_.resize(system.loops.size(), size());
     q_ = q;
     require_closed();
 }
@@ -85,11 +87,12 @@ EquationsOfMotion::~EquationsOfMotion() = default;
 // At the first time and position.
 void EquationsOfMotion::require_closed() {
     drive_at(inside_);
-    int loop = 0;
-    const double gap = loops_->gap(inside_, q_, workspace_, loop);
-    if (!(gap < 1e-6))
-        throw InputError(text(in_integration, ": ", loops_->loops().describe(loop)),
-                         "gap at the start, per metre of the loops' extent", gap, "< 1e-6: see close_loops()");
+    const ConstrainedMotion::Gap gap = loops_->gap_at_start(inside_, q_, workspace_);
+    if (gap.ratio <= 1) return;
+    const Loops::Equation& equation = entry(loops_->loops().equations(), gap.equation);
+    throw InputError(text(in_integration, ": ", loops_->loops().describe(equation.loop)),
+                     text("gap at the start [", equation.unit, "], ", equation.name), gap.value,
+                     text(std::abs(gap.value) / gap.ratio, " at most: see close_loops()"));
 }
 
 void EquationsOfMotion::set_motion(int coordinate, Motion motion, double time) {
@@ -188,6 +191,11 @@ void EquationsOfMotion::evaluate_forces() {
 
 bool EquationsOfMotion::solve(double time, const double* x) {
     expand(time, x);
+    return solve();
+}
+
+// At the state that has been set.
+bool EquationsOfMotion::solve() {
     if (!motion_finite()) return false;
     const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
     evaluate_forces();
@@ -218,13 +226,17 @@ bool EquationsOfMotion::project(double time, double* x) {
 void EquationsOfMotion::require_closed_rates(double time, const double* x) {
     if (!loops_) return;
     expand(time, x);
-    int loop = 0;
-    const double rate = loops_->opening_rate(time, q_, qd_, workspace_, loop);
-    const double size = std::max(1.0, qd_.lpNorm<Eigen::Infinity>());
-    if (!(rate < 1e-6 * size))
-        throw InputError(text(in_integration, ": ", loops_->loops().describe(loop)),
-                         "rate with which it opens at the start", rate,
-                         "0: prescribed motions contradict each other there");
+    const ConstrainedMotion::Gap opening = loops_->opening_at_start(time, q_, qd_, workspace_);
+    if (opening.ratio <= 1) return;
+    const int loop = entry(loops_->loops().equations(), opening.equation).loop;
+    throw InputError(text(in_integration, ": ", loops_->loops().describe(loop)),
+                     "rate with which it opens at the start", opening.value,
+                     "0: prescribed motions contradict each other there");
+}
+
+LockHold EquationsOfMotion::hold(int equation) {
+    if (!loops_) throw InputError(in_integration, "loops", 0, "a lock at least");
+    return loops_->hold(equation);
 }
 
 bool EquationsOfMotion::accelerations(double time, const double* x, double* xdd) {
@@ -248,10 +260,30 @@ bool EquationsOfMotion::residual(double time, const double* x, const double* xdd
 }
 
 bool EquationsOfMotion::linearise(double time, const double* x) {
-    if (!solve(time, x)) return false;
+    expand(time, x);
+    return derive();
+}
+
+bool EquationsOfMotion::linearise(double time, const double* x, const double* driven) {
+    expand(time, x);
+    for (const Drive& drive : drives_) {
+        q_(drive.coordinate) = *driven++;
+        qd_(drive.coordinate) = *driven++;
+        qdd_(drive.coordinate) = *driven++;
+    }
+    return derive();
+}
+
+void EquationsOfMotion::driven_state(double* out) const {
+    for (const Drive& drive : drives_)
+        for (const Vector* of : {&q_, &qd_, &qdd_}) *out++ = (*of)(drive.coordinate);
+}
+
+bool EquationsOfMotion::derive() {
+    if (!solve()) return false;
     differentiate();
     const PivotStatus status = factor_.factorise(g_);
-    if (!status) problem_ = text("at ", time, " s: ", status.message());
+    if (!status) problem_ = text("at ", time_, " s: ", status.message());
     return status.ok();
 }
 
@@ -280,6 +312,11 @@ void EquationsOfMotion::differentiate() {
     loop_stiffness_.setZero(model().size(), model().size());
     loops_->loops().add_second_gradient(kin, time_, q_, -loops_->lambda(), loop_stiffness_);
     stiffness_.add(loop_stiffness_);
+    // Kept with the rest: those of the states evaluated in between are of other positions.
+    loop_rank_ = std::ssize(loops_->independent());
+    for (Eigen::Index k = 0; k < loop_rank_; ++k)
+        for (Eigen::Index i = 0; i < size(); ++i)
+            loop_gradients_(k, i) = loops_->gradient()(entry(loops_->independent(), k), entry(free_, i));
 }
 
 void EquationsOfMotion::tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) const {

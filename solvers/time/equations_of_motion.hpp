@@ -17,6 +17,13 @@ namespace cardan::solvers {
 
 class ConstrainedMotion;
 
+/// What a lock has to hold, beside the other loops and locks.
+struct LockHold {
+    bool beside_loops = false;  ///< loops alone leave its coordinate free to move
+    bool beside_all = false;    ///< so do the loops and the other locks that are engaged
+    double mobility = 0;        ///< acceleration of the coordinate for a force of 1 along it, of the tree without loops
+};
+
 /// The context named in errors of these equations and their integration.
 inline constexpr const char* in_integration = "time integration";
 
@@ -96,7 +103,6 @@ public:
     std::vector<double> breaks() const;
     /// Motions are evaluated on the smooth piece that is active at this time, until the next call.
     void set_piece(double inside) { inside_ = inside; }
-    double piece() const { return inside_; }
 
     /// Accelerations of the unknowns and rates of the states.
     /// @param x    length(): positions, rates, states
@@ -111,6 +117,12 @@ public:
     /// until the next call. Those of the accelerations are -g^-1 S and -g^-1 C.
     /// @return false if the metric is not positive definite at the state; problem() says where
     bool linearise(double time, const double* x);
+    /// Likewise where the driven coordinates are in this state, whatever their motions are now.
+    /// @param driven  driven_state()
+    bool linearise(double time, const double* x, const double* driven);
+    /// Position, rate and acceleration of each drive at the last state that was evaluated.
+    /// @param out  3 drives().size()
+    void driven_state(double* out) const;
     /// Likewise at the last residual(), which must be the preceding call; its metric need not be positive definite.
     void linearise_residual();
     /// K = c_qdd g + c_qd C + c_q S.
@@ -120,6 +132,8 @@ public:
     /// @param K  out, of all coordinates
     /// @return false, K being undefined, if forces couple coordinates that are not on one branch.  Cost O(n d)
     bool tangent_on_branches(double c_qdd, double c_qd, double c_q, BranchMatrix& K) const;
+    /// Gradients of the loops' independent equations there, by unknowns. Empty without loops.
+    auto loop_gradients() const { return loop_gradients_.topRows(loop_rank_); }
     /// y = g v and y -= c S v; v and y by unknowns.
     void multiply_metric(const Vector& v, Vector& y);
     void subtract_stiffness(double c, const Vector& v, Vector& y);
@@ -138,6 +152,9 @@ public:
     /// What the loops do; nullptr: there are none.
     const ConstrainedMotion* loops() const { return loops_.get(); }
     const Loops& system_loops() const { return system_->loops; }
+    /// What a lock that is engaged has to hold, at the state evaluated last.  Allocates.
+    /// @param equation  of the lock, Loops::first_of()
+    LockHold hold(int equation);
 
     /// All coordinates, accelerations and drive forces at a state. @return false, with `out` unchanged, if a number is
     /// not finite; problem() says which
@@ -167,6 +184,8 @@ private:
     void expand(double time, const double* x);
     void require_closed();
     bool solve(double time, const double* x);
+    bool solve();
+    bool derive();
     void differentiate();
     bool all_finite(const Vector& values, const char* quantity);
     bool states_finite(const Vector& values, const char* quantity);
@@ -185,7 +204,8 @@ private:
     ForceDerivatives force_derivatives_;
     BranchMatrix g_, tau_q_, tau_qd_;   ///< of the inertial forces
     BranchMatrix stiffness_, damping_;  ///< with what the forces add on the branches
-    Matrix loop_stiffness_;
+    Matrix loop_stiffness_, loop_gradients_;
+    Eigen::Index loop_rank_ = 0;
     bool on_branches_ = true;  ///< and that is all of it
     double inside_, time_ = 0;
     Vector q_, qd_, qdd_, Q_, tau_, actuator_, all_, product_;

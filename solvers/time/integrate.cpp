@@ -1,7 +1,6 @@
 #include "solvers/time/integrate.hpp"
 
 #include "mbs/base/entry.hpp"
-#include "mbs/model/free_body.hpp"
 #include "solvers/time/detail/stepper.hpp"
 
 #include <algorithm>
@@ -46,8 +45,8 @@ private:
 Integrator::Integrator(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd,
                        IntegrationOptions options)
     : options_(std::move(options)),
-      equations_(system, std::move(drives), time, q, qd),
-      controllers_(options_.controllers, system.forces.inputs(), time),
+      equations_(system, with_followers(std::move(drives), options_.controllers, q), time, q, qd),
+      controllers_(options_.controllers, system.forces.inputs(), q, time),
       workspace_(system.model) {
     watch_free_bodies();
     check_options(time);
@@ -104,7 +103,7 @@ void Integrator::begin_piece() {
 // Within the last step, with loops closed: interpolation leaves them open by the error of the method.
 void Integrator::state_at(double time, Vector& x) {
     stepper_->state_at(time, x.data());
-    if (!equations_.project(time, x.data())) throw NumericalError(text(in_integration, ": ", equations_.problem()));
+    if (!equations_.project(time, x.data())) throw NoState(text(in_integration, ": ", equations_.problem()));
 }
 
 bool Integrator::sample_due() const {
@@ -120,7 +119,8 @@ void Integrator::pass_piece_end() {
             throw NumericalError(text(in_integration, ": no forces at ", now, " s: ", equations_.problem()));
         u_ = equations_.inputs();
         controllers_.run({0, state_, kinematics(model(), state_.q, workspace_), equations_.forces()}, resolution(now),
-                         u_);
+                         u_,
+                         [&](Drive drive) { equations_.set_motion(drive.coordinate, std::move(drive.motion), now); });
         equations_.set_inputs(u_);
     }
     begin_piece();
@@ -132,6 +132,7 @@ void Integrator::pass_piece_end() {
 void Integrator::complete(Advance& result) {
     result.time = state_.time;
     if (equations_.complete(state_.time, x_.data(), state_)) return;
+    if (result.end == Advance::End::failed) return;
     result.end = Advance::End::failed;
     result.message = text("no forces at ", state_.time, " s: ", equations_.problem());
 }
@@ -154,11 +155,11 @@ bool Integrator::process(double to, Advance& result) {
         result.message = text("no forces within the last step: ", equations_.problem());
         return false;
     }
-    state_at(at, x_);
+    state_at(at, x_between_);
+    x_ = x_between_;
     equations_.positions(at, x_.data(), state_);
     if (sides_.empty()) return true;
     if (event >= 0 && at < to) {
-        x_between_ = x_;
         for (std::size_t i = 0; i < sides_.size(); ++i) values_[i] = event_value(i, at);
     }
     // An action that throws is repeated when the run continues.
@@ -195,9 +196,10 @@ bool Integrator::accelerations_changed() {
 }
 
 // A stall: tiny steps in succession.
-bool Integrator::stands_still() {
+bool Integrator::stands_still(double horizon) {
     if (++steps_ < watched_steps) return false;
-    const bool still = stepper_->time() - moved_ < watched_steps * shortest_step(stepper_->time());
+    const double now = stepper_->time(), shortest = shortest_step(now, horizon - now);
+    const bool still = now - moved_ < watched_steps * shortest;
     steps_ = 0;
     moved_ = stepper_->time();
     return still;
@@ -213,14 +215,14 @@ bool Integrator::take_step(double horizon, Advance& result) {
         if (start_pending_) {
             stepper_->start(state_.time, x_.data(), piece_end_);
             ++starts_;
-        } else {
-            stepper_->go_on(state_.time, x_.data(), piece_end_);
+        } else if (!stepper_->go_on(state_.time, x_.data(), piece_end_)) {
+            ++starts_;
         }
         start_pending_ = go_on_pending_ = false;
         seen_at_ = never;
     }
     powers_.known = false;
-    const bool done = stepper_->step(horizon), still = done && stands_still();
+    const bool done = stepper_->step(horizon), still = done && stands_still(horizon);
     if (done && !still) {
         if (options_.progress) options_.progress(stepper_->time(), statistics());
         return true;
@@ -229,7 +231,7 @@ bool Integrator::take_step(double horizon, Advance& result) {
     result.message =
         !done ? stepper_->failure()
               : text("no progress at ", state_.time, " s: ", watched_steps, " steps in less than ",
-                     watched_steps * shortest_step(state_.time),
+                     watched_steps * shortest_step(state_.time, horizon - state_.time),
                      " s; look for forces or stiffnesses that are far too large, or take an implicit method");
     start_pending_ = true;
     return false;
@@ -238,6 +240,21 @@ bool Integrator::take_step(double horizon, Advance& result) {
 Advance Integrator::advance(double target, bool one_step) try {
     const While advancing(doing_, Doing::advancing);
     Advance result;
+    try {
+        advance_until(target, one_step, result);
+    } catch (const NoState& none) {
+        start_pending_ = true;
+        result.end = Advance::End::failed;
+        result.message = none.what();
+    }
+    complete(result);
+    return result;
+} catch (...) {
+    start_pending_ = true;  // the method may have been left in the middle of a step
+    throw;
+}
+
+void Integrator::advance_until(double target, bool one_step, Advance& result) {
     if (repeat_pending_)
         repeat_steps();
     else if (accelerations_changed())
@@ -252,11 +269,6 @@ Advance Integrator::advance(double target, bool one_step) try {
         if (!process(one_step ? stepper_->time() : std::min(target, stepper_->time()), result)) break;
     }
     note_accelerations();
-    complete(result);
-    return result;
-} catch (...) {
-    start_pending_ = true;  // the method may have been left in the middle of a step
-    throw;
 }
 
 void Integrator::check_allowed(const char* what, Doing latest) const {
@@ -331,28 +343,6 @@ void Integrator::update() {
     check_allowed("update()", Doing::acting);
     if (!equations_.complete(state_.time, x_.data(), state_))
         throw NumericalError(text(in_integration, ": no forces at ", state_.time, " s: ", equations_.problem()));
-}
-
-// Their hinges are singular where the second one stands at a right angle: at 60 degrees they are turned anew.
-void Integrator::watch_free_bodies() {
-    for (const Model::Free& body : equations_.model().free_bodies())
-        options_.events.push_back(
-            {.name = text("coordinates of '", body.name, "'"),
-             .function = [&body](const ForceInput& at) { return free_chart_quality(body, at.q) - 0.5; },
-             .direction = -1,
-             .action =
-                 [&body](Integrator& run) {
-                     run.turn_reference(body);
-                     return AfterEvent::restart;
-                 }});
-}
-
-void Integrator::turn_reference(const Model::Free& body) {
-    Vector q = state_.q, qd = state_.qd;
-    set_free_motion(body, free_motion(body, q, qd), q, qd);
-    equations_.set_jump(body.reference, Motion::constant(q(body.reference)));
-    positions_(body.reference) = q(body.reference);
-    set_state(q, qd);
 }
 
 void Integrator::restart() {

@@ -10,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -49,9 +48,10 @@ struct IntegrationStatistics {
     long jacobians = 0;       ///< or tangents
     long factorisations = 0;  ///< of the matrix of Newton's method
     long iterations = 0;      ///< nonlinear
-    long restarts = 0;        ///< after events and changes, not counting the first start
-    int order = 0;            ///< of the last step
-    double last_step = 0;     ///< s
+    /// After events and changes, of multistep methods also at breaks and samples, not counting the first start.
+    long restarts = 0;
+    int order = 0;         ///< of the last step
+    double last_step = 0;  ///< s
 };
 
 class Integrator;
@@ -196,7 +196,7 @@ public:
     Integrator& operator=(const Integrator&) = delete;
 
     /// Advances exactly to the time, unless an event stops it, it is cancelled or fails. It also fails if a thousand
-    /// steps have advanced the time by less than 1e-9 s, or by less than its resolution.
+    /// steps have advanced the time by less than a billionth of what is left, or by less than its resolution.
     /// @throws InputError if the time lies before the present one, or if called within advance(): from a force, the
     /// function or action of an event, `progress` or `cancelled`. The same holds for step() and run().
     Advance advance(double time);
@@ -244,6 +244,8 @@ public:
     /// Evaluates accelerations, forces of drives and multipliers of the present state anew: in an action, after what
     /// they depend on has changed.
     void update();
+    /// What a lock that is engaged has to hold: in an action, after update().
+    LockHold hold(int equation) { return equations_.hold(equation); }
     /// Call when forces have changed: results beyond the present time are discarded.
     void restart();
     ///@}
@@ -264,18 +266,20 @@ private:
     bool accelerations_changed();
     bool take_step(double horizon, Advance& result);
     void note_accelerations();
-    bool stands_still();
+    bool stands_still(double horizon);
     void find_breaks();
     void begin_piece();
     void pass_piece_end();
     bool sample_due() const;
     Advance advance(double target, bool one_step);
+    void advance_until(double target, bool one_step, Advance& result);
     bool process(double to, Advance& result);
     int first_event(double to, double& at);
     double root(std::size_t event, double to);
     double event_value(std::size_t event, double time);
-    bool find_powers();
     bool accumulate(double to);
+    bool find_powers();
+    void add_work(const Powers& power, double duration);
     void complete(Advance& result);
     bool due(std::size_t event) const;
     void set_sides(int happened);
@@ -304,11 +308,10 @@ private:
     Work work_;
     struct StepPowers {
         bool known = false;
-        double from = 0, to = 0;  ///< s, of the step
-        std::span<const double> places = {};
+        double begin = 0, end = 0;  ///< s, of the step
         std::array<Powers, 4> at = {};
     };
-    StepPowers powers_;  ///< of the last step
+    StepPowers powers_;  ///< of the last step, of methods that know its ends
     double kinetic_at_start_ = 0, potential_at_start_ = 0, stored_at_start_ = 0;
     std::map<std::string, double> notes_;
     IntegrationStatistics earlier_;  ///< up to the checkpoint it started from, less those that were repeated

@@ -1,4 +1,5 @@
 // Events: when a function of the state changes its sign.
+#include "mbs/model/free_body.hpp"
 #include "solvers/time/detail/stepper.hpp"
 #include "solvers/time/integrate.hpp"
 
@@ -83,6 +84,28 @@ int Integrator::first_event(double to, double& at) {
         }
     }
     return first;
+}
+
+// Their hinges are singular where the second one stands at a right angle: at 60 degrees they are turned anew.
+void Integrator::watch_free_bodies() {
+    for (const Model::Free& body : equations_.model().free_bodies())
+        options_.events.push_back(
+            {.name = text("coordinates of '", body.name, "'"),
+             .function = [&body](const ForceInput& at) { return free_chart_quality(body, at.q) - 0.5; },
+             .direction = -1,
+             .action =
+                 [&body](Integrator& run) {
+                     run.turn_reference(body);
+                     return AfterEvent::restart;
+                 }});
+}
+
+void Integrator::turn_reference(const Model::Free& body) {
+    Vector q = state_.q, qd = state_.qd;
+    set_free_motion(body, free_motion(body, q, qd), q, qd);
+    equations_.set_jump(body.reference, Motion::constant(q(body.reference)));
+    positions_(body.reference) = q(body.reference);
+    set_state(q, qd);
 }
 
 }  // namespace cardan::solvers

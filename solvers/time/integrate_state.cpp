@@ -1,4 +1,5 @@
 // An integrator's past: energies, counters, and continuation from a checkpoint.
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/time/detail/stepper.hpp"
 #include "solvers/time/integrate.hpp"
@@ -31,8 +32,18 @@ void check(const Checkpoint& from) {
 }
 
 // Coordinates driven at constant rate by their role continue bit for bit from the first start.
-std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from) {
+// Those that follow a controller go on as they did.
+std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, const Checkpoint& from,
+                               const std::vector<SampledController>& controllers) {
     check(from);
+    for (const SampledController& controller : controllers) {
+        const auto state = std::ranges::find(from.controllers, controller.name, &SampledState::name);
+        if (state == from.controllers.end()) continue;
+        for (Drive& follower : followed_motions(controller, *state)) {
+            std::erase_if(drives, [&](const Drive& drive) { return drive.coordinate == follower.coordinate; });
+            drives.push_back(std::move(follower));
+        }
+    }
     const int n = system.model.size();
     if (from.method.positions.size() != n || from.qd.size() != n) return drives;
     for (int i = 0; i < n; ++i) {
@@ -54,12 +65,21 @@ IntegrationOptions options_from(const System& system, const Checkpoint& from, In
 
 Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                        IntegrationOptions options)
-    : Integrator(system, drives_from(system, std::move(drives), from), from.time, from.q, from.qd,
+    : Integrator(system, drives_from(system, std::move(drives), from, options.controllers), from.time, from.q, from.qd,
                  options_from(system, from, std::move(options))) {
     go_on_from(from);
 }
 
 void Integrator::go_on_from(const Checkpoint& from) {
+    // As they are: moved onto the loops once more, positions and rates would differ in their last digits.
+    const Eigen::Index m = equations_.size();
+    for (Eigen::Index i = 0; i < m; ++i) {
+        x_(i) = from.q(entry(equations_.unknowns(), i));
+        x_(m + i) = from.qd(entry(equations_.unknowns(), i));
+    }
+    x_between_ = x_;
+    if (!equations_.complete(from.time, x_.data(), state_))
+        throw NumericalError(text(in_integration, ": no start: ", equations_.problem()));
     work_ = from.work;
     kinetic_at_start_ = from.kinetic_at_start;
     potential_at_start_ = from.potential_at_start;

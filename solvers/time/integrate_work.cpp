@@ -9,14 +9,12 @@ namespace cardan::solvers {
 
 namespace {
 
-// Parts of a step. Lobatto's formula is of order 6, with what the long steps of Runge-Kutta methods know at their ends
-// already; Gauss' is of order 4, beside the short steps of the others.
-constexpr std::array lobatto{0.0, 0.27639320225002103, 0.72360679774997897, 1.0};
-constexpr std::array gauss{0.21132486540518712, 0.78867513459481288};
+// Lobatto's formula, of order 6: its places in a step.
+constexpr std::array places{0.0, 0.27639320225002103, 0.72360679774997897, 1.0};
 
 // Integral from 0 to s of the polynomial that is 1 at places[i] and 0 at the others.
-double integral_to(double s, std::span<const double> places, std::size_t i) {
-    std::array<double, lobatto.size()> c = {1};  // its coefficients, lowest first
+double integral_to(double s, std::size_t i) {
+    std::array<double, places.size()> c = {1};  // its coefficients, lowest first
     for (std::size_t j = 0, degree = 0; j < places.size(); ++j) {
         if (j == i) continue;
         ++degree;
@@ -31,20 +29,25 @@ double integral_to(double s, std::span<const double> places, std::size_t i) {
 
 }  // namespace
 
-// Where it is asked for the first time.
+void Integrator::add_work(const Powers& power, double duration) {
+    work_.forces += duration * power.forces;
+    work_.dissipation += duration * power.dissipation;
+    work_.drives += duration * power.drives;
+    work_.state_supply += duration * power.states.supplied;
+    work_.state_dissipation += duration * power.states.dissipated;
+    work_.state_work += duration * power.states.work;
+}
+
+// At the places of the last step, where it is asked for the first time.
 bool Integrator::find_powers() {
     if (powers_.known) return true;
-    const bool long_steps = stepper_->knows_ends();
-    powers_.places = long_steps ? std::span<const double>(lobatto) : std::span<const double>(gauss);
-    powers_.from = stepper_->begin_of_step();
-    powers_.to = stepper_->time();
-    for (std::size_t i = 0; i < powers_.places.size(); ++i) {
-        const double place = powers_.places[i];
-        if (long_steps && (place == 0 || place == 1)) {
-            powers_.at[i] = stepper_->powers_at_end(place == 1);
-            continue;
-        }
-        const double time = powers_.from + place * (powers_.to - powers_.from);
+    const Stepper::Ends ends = stepper_->ends();
+    powers_.begin = ends.begin;
+    powers_.end = ends.end;
+    powers_.at.front() = ends.at_begin;
+    powers_.at.back() = ends.at_end;
+    for (std::size_t i = 1; i + 1 < places.size(); ++i) {
+        const double time = ends.begin + places[i] * (ends.end - ends.begin);
         state_at(time, x_between_);
         if (!equations_.powers(time, x_between_.data(), powers_.at[i])) return false;
     }
@@ -52,21 +55,28 @@ bool Integrator::find_powers() {
     return true;
 }
 
-// From the present time on.
+// From the present time on. Beside the long steps of Runge-Kutta methods, which know the powers at their ends,
+// Lobatto's formula over the step, and in parts of it the polynomial through the same powers; beside the short ones of
+// the others Gauss' formula of order 4 over every part.
 bool Integrator::accumulate(double to) {
-    if (!options_.integrate_work || to <= state_.time) return true;
-    if (!find_powers()) return false;
-    const double h = powers_.to - powers_.from, s0 = (state_.time - powers_.from) / h, s1 = (to - powers_.from) / h;
-    for (std::size_t i = 0; i < powers_.places.size(); ++i) {
-        const double weight = h * (integral_to(s1, powers_.places, i) - integral_to(s0, powers_.places, i));
-        const Powers& power = powers_.at[i];
-        work_.forces += weight * power.forces;
-        work_.dissipation += weight * power.dissipation;
-        work_.drives += weight * power.drives;
-        work_.state_supply += weight * power.states.supplied;
-        work_.state_dissipation += weight * power.states.dissipated;
-        work_.state_work += weight * power.states.work;
+    const double from = state_.time;
+    if (!options_.integrate_work || to <= from) return true;
+    if (options_.method == Method::dirk || options_.method == Method::erk) {
+        if (!find_powers()) return false;
+        const double h = powers_.end - powers_.begin, s0 = (from - powers_.begin) / h, s1 = (to - powers_.begin) / h;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            add_work(powers_.at[i], h * (integral_to(s1, i) - integral_to(s0, i)));
+        return true;
     }
+    constexpr double place = 0.57735026918962576;  // on -1 ... 1
+    const double half = (to - from) / 2;
+    std::array<Powers, 2> powers;  // all before any is added: a user force may throw
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double time = from + half * (i == 0 ? 1 - place : 1 + place);
+        state_at(time, x_between_);
+        if (!equations_.powers(time, x_between_.data(), powers[i])) return false;
+    }
+    for (const Powers& power : powers) add_work(power, half);
     return true;
 }
 

@@ -55,6 +55,15 @@ Motion Motion::constant_rate(double position, double rate, double since) {
     return {"constant rate", [=](double t, double) { return MotionState{position + rate * (t - since), rate, 0}; }};
 }
 
+Motion Motion::constant_acceleration(double position, double rate, double acceleration, double since) {
+    for (double value : {position, rate, acceleration, since})
+        require_finite("motion of constant acceleration", "position, rate, acceleration or time", value);
+    return {"constant acceleration", [=](double t, double) {
+                const double x = t - since;
+                return MotionState{position + x * (rate + acceleration * x / 2), rate + acceleration * x, acceleration};
+            }};
+}
+
 Motion Motion::ramp(double from, double to, double t0, double t1) {
     check_ramp("ramp", from, to, t0, t1);
     const double T = t1 - t0, rise = to - from;

@@ -26,10 +26,48 @@ void check(const SampledController& controller) {
         throw InputError(text(where, ": of `save` and `restore` one is missing"));
 }
 
+void check_drives(const SampledController& controller, Eigen::Index coordinates) {
+    const std::string where = text(named(controller), ": coordinate that follows");
+    const std::vector<InputDrive>& all = controller.drives;
+    for (auto drive = all.begin(); drive != all.end(); ++drive) {
+        if (drive->coordinate < 0 || drive->coordinate >= coordinates)
+            throw InputError(where, "index", drive->coordinate, text("0 ... ", coordinates - 1));
+        if (std::any_of(all.begin(), drive, [&](const auto& other) { return other.coordinate == drive->coordinate; }))
+            throw InputError(where, "index", drive->coordinate, "one that no other drive has");
+        if (std::ranges::find(controller.inputs, drive->input) == controller.inputs.end())
+            throw InputError(where, "input", text("'", drive->input, "'"), "one that the controller sets");
+        if (!std::isfinite(drive->factor) || !std::isfinite(drive->zero))
+            throw InputError(where, "factor and zero", text(drive->factor, ", ", drive->zero), "finite");
+    }
+}
+
 }  // namespace
 
+std::vector<Drive> with_followers(std::vector<Drive> drives, const std::vector<SampledController>& controllers,
+                                  const Vector& q) {
+    for (const SampledController& controller : controllers)
+        for (const InputDrive& follower : controller.drives) {
+            const int at = follower.coordinate;
+            if (at < 0 || at >= q.size() || std::ranges::find(drives, at, &Drive::coordinate) != drives.end()) continue;
+            drives.push_back({at, Motion::constant(q(at))});
+        }
+    return drives;
+}
+
+std::vector<Drive> followed_motions(const SampledController& controller, const SampledState& state) {
+    std::vector<Drive> motions;
+    const double T = controller.period, since = controller.first + static_cast<double>(state.next - 1) * T;
+    for (std::size_t i = 0; 3 * i + 2 < state.followed.size() && i < controller.drives.size(); ++i) {
+        const double earlier = state.followed[3 * i], last = state.followed[3 * i + 1], now = state.followed[3 * i + 2];
+        motions.push_back({controller.drives[i].coordinate,
+                           Motion::constant_acceleration((last + earlier) / 2, (last - earlier) / T,
+                                                         ((now - last) - (last - earlier)) / (T * T), since)});
+    }
+    return motions;
+}
+
 SampledControllers::SampledControllers(std::vector<SampledController> controllers, const InputTable& inputs,
-                                       double start)
+                                       const Vector& q, double start)
     : inputs_(&inputs) {
     std::vector<std::string> taken(static_cast<std::size_t>(inputs.size()));
     for (SampledController& controller : controllers) {
@@ -38,6 +76,9 @@ SampledControllers::SampledControllers(std::vector<SampledController> controller
         for (const Running& other : controllers_)
             if (other.own.name == controller.name) throw InputError(where, "controllers of this name", 2, "one");
         Running running{std::move(controller), {}, 0, {}, {}};
+        check_drives(running.own, q.size());
+        for (const InputDrive& drive : running.own.drives)
+            running.followed.insert(running.followed.end(), 3, q(drive.coordinate));
         for (const std::string& name : running.own.inputs) {
             const int at = inputs.find(name);
             if (at < 0) throw InputError(where, "input", text("'", name, "'"), "an input of the system");
@@ -64,11 +105,24 @@ double SampledControllers::next() const {
     return time;
 }
 
-void SampledControllers::run(const SampleInput& at, double resolution, Vector& u) {
+void SampledControllers::run(const SampleInput& at, double resolution, Vector& u,
+                             const std::function<void(Drive)>& set_motion) {
     for (Running& controller : controllers_) {
         if (time_of(controller) > at.state.time + resolution) continue;
         update(controller, at, u);
+        follow(controller, u);
         ++controller.next;
+        for (Drive& drive : followed_motions(controller.own, state_of(controller))) set_motion(std::move(drive));
+    }
+}
+
+void SampledControllers::follow(Running& controller, const Vector& u) {
+    const std::vector<InputDrive>& drives = controller.own.drives;
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        const auto place = std::ranges::find(controller.own.inputs, drives[i].input) - controller.own.inputs.begin();
+        const auto last = controller.followed.begin() + static_cast<std::ptrdiff_t>(3 * i);
+        std::rotate(last, last + 1, last + 3);
+        *(last + 2) = drives[i].factor * (u(entry(controller.at, place)) - drives[i].zero);
     }
 }
 
@@ -94,6 +148,10 @@ bool SampledControllers::tell_their_state() const {
     return std::ranges::none_of(controllers_, [](const Running& c) { return c.own.keeps_to_itself; });
 }
 
+SampledState SampledControllers::state_of(const Running& controller) {
+    return {controller.own.name, controller.next, controller.pending, {}, controller.followed};
+}
+
 std::vector<SampledState> SampledControllers::state() const {
     std::vector<SampledState> states;
     states.reserve(controllers_.size());
@@ -101,7 +159,7 @@ std::vector<SampledState> SampledControllers::state() const {
         if (controller.own.keeps_to_itself)
             throw InputError(named(controller.own), "checkpoint", "none",
                              "a controller that gives its memory away: this one keeps it to itself");
-        SampledState state{controller.own.name, controller.next, controller.pending};
+        SampledState state = state_of(controller);
         if (controller.own.save) state.memory = controller.own.save();
         states.push_back(std::move(state));
     }
@@ -119,6 +177,11 @@ void SampledControllers::restore(const std::vector<SampledState>& states) {
         if (from.pending.size() != controller.pending.size() || from.next < 0)
             throw InputError("checkpoint", text("outputs of the controller '", from.name, "'"), from.pending.size(),
                              text(controller.pending.size()));
+        if (from.followed.size() != controller.followed.size())
+            throw InputError("checkpoint",
+                             text("demands that the coordinates of the controller '", from.name, "' follow"),
+                             from.followed.size(), text(controller.followed.size()));
+        controller.followed = from.followed;
         controller.next = from.next;
         controller.pending = from.pending;
         if (controller.own.restore) controller.own.restore(from.memory);

@@ -11,6 +11,11 @@ namespace cardan::solvers {
 /// stands still on its surface and the force that this takes is no more than the static friction; what sticks breaks
 /// loose where it would take more. So friction is exact: nothing creeps, and steps are as long as the motion allows.
 ///
+/// In a loop a coordinate may stand still for a moment because the mechanism makes it so, as the piston of a running
+/// engine does at a dead centre, or because a drive does: loops alone determine it there, no force holds it, and its
+/// friction changes direction. Where several contacts could hold the same motion at rest each carries a share of the
+/// load, until it breaks loose.
+///
 /// The states of the frictions are set for the start of the integration: whoever integrates the same system twice calls
 /// this twice, and one integration runs at a time.
 /// @param drives, time, q, qd  as for the Integrator

@@ -13,7 +13,7 @@ set_tests_properties(example_openfast_own PROPERTIES FIXTURES_REQUIRED own_yaml)
 add_example_test(example_elastodyn cardan 0 "note: [^\n]*YawDOF = True: stiffness.*Echo, Method, DT.*1st blade edge" campbell
                  ${models}/openfast/small_ElastoDyn.dat --rpm 0 --gravity --notes --max-frequency 12 ${coarse}
                  --out example_elastodyn)
-add_example_test(example_beamdyn cardan 0 "PitchJ = 20.*1st blade flap" campbell ${models}/openfast/small_BeamDyn.fst
+add_example_test(example_beamdyn cardan 0 "blade 1 pitch inertia[^\n]* 20.*1st blade flap" campbell ${models}/openfast/small_BeamDyn.fst
                  --rpm 0:40:40 --undamped --max-frequency 12 --summary ${coarse} --out example_beamdyn)
 add_example_test(example_windio cardan 0 "note: [^\n]*torsional stiffness.*the drive train is rigid.*1st tower" campbell
                  ${models}/windio/small_v1.yaml --rpm 0 --notes ${coarse} --out example_windio)

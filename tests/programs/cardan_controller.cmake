@@ -1,4 +1,5 @@
 # Machines under a controller: cardan simulate --controller, --rotor-torque.
+set(models ${CMAKE_CURRENT_SOURCE_DIR}/data)
 set(small nrel5mw-fast --blade-elements 1 --tower-elements 1 --tolerance 1e-5 --step 0.05 --no-gravity)
 set(driven --rotor-torque 4.18e6)
 add_example_test(example_controller_baseline cardan 0
@@ -22,13 +23,52 @@ set_tests_properties(example_controller_resume PROPERTIES FIXTURES_REQUIRED begu
 set_tests_properties(example_controller_resume_other PROPERTIES FIXTURES_REQUIRED "begun_controlled_run;resumed_controlled_run")
 # A controller in a library; what it reads, and its failures.
 set(library --controller $<TARGET_FILE:test_controller>)
-foreach(word IN ITEMS follow individual nan fail)
+foreach(word IN ITEMS follow individual nan fail off warn brake yaw)
     file(WRITE ${test_output_dir}/${word} "")
 endforeach()
 add_example_test(example_controller_library cardan 0 "energy lost.*ok.*files: example_controller_library.h5" simulate ${small} ${driven}
     ${library} --controller-input follow --duration 1 --out example_controller_library)
-add_example_test(example_controller_individual cardan 0 "energy lost.*ok" simulate ${small} ${driven} ${library}
-    --controller-input individual --duration 0.2 --out example_controller_individual)
+# The pitch: prescribed without springs in the model, also of blades of ElastoDyn without inertia about their axes; by
+# the model's drive; by actuators where they are asked for.
+set(small_air --rpm 40 --wind 8 --air ${models}/aerodyn/small_AeroDyn.dat --blade-elements 1 --tower-elements 1 --tolerance 1e-5)
+set(goes_on "energy lost.*ok.*recorded power of generator, air against its work.*ok")
+add_example_test(example_controller_elastodyn cardan 0 "controller: pitch prescribed, one period behind the demand.*${goes_on}" simulate
+    ${models}/openfast/small.fst ${small_air} ${library} --controller-input follow --duration 0.5 --out example_controller_elastodyn)
+add_example_test(example_controller_beamdyn cardan 0
+    "controller: pitch on the spring of its bearing, 2000000 N m/rad and 5000 N m s/rad, which rests at the demand.*${goes_on}" simulate
+    ${models}/openfast/small_BeamDyn.fst ${small_air} ${library} --controller-input follow --duration 0.5 --out example_controller_beamdyn)
+add_example_test(example_controller_actuator cardan 0
+    "controller: pitch actuator of second order, 2 Hz, damping 0.6, at most 8 deg/s, before the spring of the bearing.*energy lost.*ok"
+    simulate ${small} ${driven} --controller baseline --pitch-actuator 2:0.6:8 --duration 0.5 --out example_controller_actuator)
+add_example_test(example_controller_actuator_words cardan 1 "--pitch-actuator: value = 2:0; allowed: HZ.:DAMPING.:DEG/S" simulate ${small}
+    --controller baseline --pitch-actuator 2:0)
+add_example_test(example_controller_actuator_alone cardan 1 "--pitch-actuator: value = 2; allowed: only with --controller" simulate ${small}
+    --pitch-actuator 2)
+add_example_test(example_controller_actuator_inertia cardan 1 "inertia of the blades about their pitch axes .kg m.2. = 0.*can be prescribed"
+    simulate ${models}/openfast/small.fst ${library} --pitch-actuator 2 --rpm 40 --out example_controller_actuator_inertia)
+# What a library is told of the pitch, by the option or by the model: alike, or each blade for itself.
+add_example_test(example_controller_individual cardan 0 "controller: individual pitch; pitch prescribed.*energy lost.*ok" simulate ${small}
+    ${driven} ${library} --controller-input individual --pitch-control individual --duration 0.2 --out example_controller_individual)
+file(COPY ${models}/openfast/ DESTINATION ${test_output_dir}/individual_pitch)
+file(READ ${models}/openfast/small_ServoDyn.dat servodyn)
+file(WRITE ${test_output_dir}/individual_pitch/small_ServoDyn.dat "${servodyn}  1   Ptch_Cntrl   - (switch)\n")
+add_example_test(example_controller_individual_model cardan 0 "controller: individual pitch; pitch prescribed" simulate
+    individual_pitch/small.fst ${small_air} ${library} --controller-input individual --duration 0.1 --out example_controller_individual_model)
+add_example_test(example_controller_individual_baseline cardan 1 "--pitch-control: value = individual; allowed: collective" simulate ${small}
+    --controller baseline --pitch-control individual)
+# What it switches, turns and says.
+add_example_test(example_controller_off cardan 0 "energy lost.*ok" simulate ${small} ${driven} ${library} --controller-input off
+    --duration 0.7 --out example_controller_off)
+add_example_test(example_controller_warn cardan 0
+    "at 0.5 s: the wind vane shakes[^a-z]*controller: at 0.5125 s: the oil is cold.*energy lost.*ok" simulate ${small} ${driven} ${library}
+    --controller-input warn --duration 0.7 --out example_controller_warn)
+add_example_test(example_controller_brake cardan 0 "controller: at 0.5 s: it applies the shaft brake .record 36.: the machine has none" simulate
+    ${small} ${driven} ${library} --controller-input brake --duration 0.7 --out example_controller_brake)
+add_example_test(example_controller_no_yaw cardan 0 "controller: at 0 s: it turns the nacelle .record 48.*--yaw driven lets it" simulate ${small}
+    ${driven} ${library} --controller-input yaw --duration 0.2 --out example_controller_no_yaw)
+# 0.02 rad/s: at 1 s the mean of the demands of samples 79 and 78, 0.02 0.0125 (80 + 79) / 2 rad.
+add_example_test(example_controller_yaw cardan 0 "yaw prescribed.*yaw +0.019875 .*energy lost.*ok" simulate ${small} ${driven} ${library}
+    --controller-input yaw --yaw driven --duration 1 --out example_controller_yaw)
 add_example_test(example_controller_nan cardan 1 "controller .*: at 0.5 s it demands a generator torque of nan" simulate ${small} ${library}
     --controller-input nan --duration 1 --out example_controller_nan)
 add_example_test(example_controller_fail cardan 1 "at 0.5 s it reports a failure .-1.: the pitch sensor is dead after 41 calls" simulate

@@ -19,6 +19,7 @@ extern const cardan::Polar polar;
 extern const cardan::AeroBlade aero_blade;
 extern std::vector<cardan::solvers::Drive> drives;
 extern cardan::solvers::IntegrationOptions options;
+extern cardan::solvers::SampledController sampled_controller;
 extern cardan::solvers::Integrator integrator;
 extern cardan::solvers::Recorder recorder;
 extern cardan::solvers::History history;

@@ -56,23 +56,23 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
     for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
         const SectionLags& lags = parts.lags->sections[i];
         const int number = blade_numbers[i / count];
-        const auto add = [&](const StateKindOfAir& kind) {
+        const auto add = [&](const StateKindOfAir& kind, const char* part) {
             all.push_back({.name = text("blade ", number, " section ", i % count + 1, " ", kind.name),
                            .unit = kind.unit,
                            .scale = kind.scale,
-                           .part = "air",
+                           .part = part,
                            .blade = number});
         };
         if (lags.inflow_states() > 0)
-            for (const StateKindOfAir& kind : inflow_states) add(kind);
+            for (const StateKindOfAir& kind : inflow_states) add(kind, "wake");
         for (const StateKindOfAir& kind :
              std::span(profile_states).last(static_cast<std::size_t>(lags.profile_states())))
-            add(kind);
+            add(kind, "airfoil lag");
     }
     return all;
 }
 
-// In a skewed wake a section sees all blades, through the mean wind.
+// Through the wake of the rotor a section sees the mean wind at all blades.
 std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids) {
     std::vector<FieldGroup> all;
     const std::size_t count = parts.profile->sections();
@@ -82,7 +82,8 @@ std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyI
         FieldGroup& group = all.emplace_back();
         group.states.resize(static_cast<std::size_t>(states));
         std::iota(group.states.begin(), group.states.end(), parts.lags->first[i]);
-        const std::vector<int>& seen = parts.options.skew == Skew::none ? parts.blades[i / count].path : parts.bodies;
+        const bool has_wake = parts.options.induction && parts.lags->sections[i].wake != WakeLag::frozen;
+        const std::vector<int>& seen = has_wake ? parts.bodies : parts.blades[i / count].path;
         group.coordinates.reserve(seen.size());
         for (const int body : seen) group.coordinates.push_back(entry(body_ids, body));
     }

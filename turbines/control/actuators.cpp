@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace cardan::turbines {
@@ -22,9 +21,9 @@ void for_each_blade(TurbineDescription& machine, const std::function<void(BladeD
         if (blade) change(*blade);
 }
 
-// Largest inertia of the blades about their pitch axes, undeformed, kg m^2.
+// Largest inertia of the blades about their pitch axes, undeformed, kg m^2; 0 also for what is only rounding.
 double pitch_inertia(TurbineDescription machine) {
-    for_each_blade(machine, [](BladeDescription& blade) { blade.pitch = free_joint; });
+    for_each_blade(machine, [](BladeDescription& blade) { blade.pitch = driven_joint; });
     machine.tower.rigid = true;
     machine.platform.reset();
     AssemblyOptions options;
@@ -38,8 +37,12 @@ double pitch_inertia(TurbineDescription machine) {
     Matrix g(model.size(), model.size());
     metric(kin, g);
     double largest = 0;
-    for (const BodyId pitch : turbine.layout().pitch)
-        largest = std::max(largest, g(model.index(pitch), model.index(pitch)));
+    for (std::size_t k = 0; k < turbine.layout().pitch.size(); ++k) {
+        const int pitch = model.index(turbine.layout().pitch[k]);
+        const CardanBeam& blade = turbine.layout().blades[k];
+        const double J = g(pitch, pitch), whole = blade.mass * blade.line.length * blade.line.length;
+        if (J > 1e-12 * whole) largest = std::max(largest, J);
+    }
     return largest;
 }
 
@@ -68,10 +71,38 @@ std::string pitch_input(int blade) {
 constexpr const char *collective_input = "pitch demand", *torque_input = "torque demand";
 constexpr double torque_scale = 4e4, pitch_scale = 0.2;
 
+// Of the pitch bearing alone, if it has any.
+const LinearLaw* spring_of(const ForceSet& forces, BodyId coordinate) {
+    const std::vector<LinearLaw>& laws = forces.laws();
+    const auto law = std::ranges::find_if(laws, [&](const LinearLaw& l) { return holds_only(l, coordinate); });
+    return law == laws.end() || !(law->stiffness(0, 0) > 0) ? nullptr : &*law;
+}
+
+// The demand moves the spring's rest: what it does counts as put in from outside.
+StateElement moved_rest(const std::string& name, const ControlSignal& rest, BodyId coordinate, double stiffness) {
+    StateElement element = signal_force(name, rest, coordinate, stiffness);
+    element.power = [rates = element.rates](const StateInput& in) {
+        Eigen::Matrix<double, 1, 1> Q = Eigen::Matrix<double, 1, 1>::Zero();
+        Vector none;
+        rates(in, Q, none);
+        return StatePower{0, Q(0) * in.qd(0), 0};
+    };
+    return element;
+}
+
 }  // namespace
 
 std::string pitch_state(int blade) {
     return text("blade ", blade, " pitch actuator");
+}
+
+void give_pitch_drives(TurbineDescription& machine) {
+    for_each_blade(machine, [&](BladeDescription& blade) {
+        if (blade.linkage)
+            throw InputError(machine.name, "pitch linkage", "a push rod that turns the blade",
+                             "none where a controller sets the pitch");
+        if (!has_spring(blade.pitch)) blade.pitch = driven_joint;
+    });
 }
 
 void give_pitch_springs(TurbineDescription& machine, double frequency, double damping) {
@@ -81,7 +112,10 @@ void give_pitch_springs(TurbineDescription& machine, double frequency, double da
     for_each_blade(machine, [&](const BladeDescription& blade) { all = all && has_spring(blade.pitch); });
     if (all) return;
     const double J = pitch_inertia(machine);
-    require_positive(machine.name, "inertia of the blades about their pitch axes [kg m^2]", J);
+    if (!(J > 0))
+        throw InputError(machine.name, "inertia of the blades about their pitch axes [kg m^2]", J,
+                         "> 0 (BladeDescription::pitch_inertia, BlPIner of ElastoDyn) for a drive with a spring; "
+                         "without inertia the pitch can be prescribed");
     const Bearing drive{frequency * frequency * J, 2 * damping * frequency * J};
     for_each_blade(machine, [&](BladeDescription& blade) {
         if (!has_spring(blade.pitch)) blade.pitch = drive;
@@ -89,19 +123,33 @@ void give_pitch_springs(TurbineDescription& machine, double frequency, double da
 }
 
 ActuatedForces::ActuatedForces(const Turbine& turbine, ActuatorOptions options)
-    : layout_(turbine.layout()), options_(options), rest_(without_springs(turbine.forces(), layout_.pitch)) {
+    : layout_(turbine.layout()),
+      options_(options),
+      rest_(options.pitch_frequency > 0 ? without_springs(turbine.forces(), layout_.pitch) : turbine.forces()) {
     const std::string& name = turbine.rotor().machine;
     if (!layout_.generator) throw InputError(name, "generator", "none", "one whose torque can be set");
     if (layout_.pitch.empty())
-        throw InputError(name, "blades with pitch joints", 0, "at least one: give_pitch_springs() makes bearings");
+        throw InputError(name, "blades with pitch joints", 0,
+                         "at least one: give_pitch_drives() prescribes the pitch, give_pitch_springs() makes bearings");
+    require_not_negative(name, "frequency of the pitch actuators [rad/s]", options_.pitch_frequency);
+    require_not_negative(name, "largest rate of the pitch actuators [rad/s]", options_.largest_pitch_rate);
+    const Model& model = turbine.system().model;
     for (std::size_t k = 0; k < layout_.pitch.size(); ++k) {
-        const std::vector<LinearLaw>& laws = turbine.forces().laws();
-        const auto law =
-            std::ranges::find_if(laws, [&](const LinearLaw& l) { return holds_only(l, layout_.pitch[k]); });
-        if (law == laws.end() || !(law->stiffness(0, 0) > 0))
-            throw InputError(name, text("pitch bearing of blade ", layout_.blade_numbers[k]), "without a spring",
-                             "one with a spring, to which an actuator is put in series");
-        springs_.push_back({law->stiffness(0, 0), law->damping(0, 0)});
+        PitchBearing bearing{model.index(layout_.pitch[k])};
+        bearing.prescribed = model.coordinates()[bearing.coordinate].role == CoordinateRole::driven;
+        const LinearLaw* const spring = spring_of(turbine.forces(), layout_.pitch[k]);
+        const std::string where = text("pitch bearing of blade ", layout_.blade_numbers[k]);
+        if (!bearing.prescribed && !spring)
+            throw InputError(name, where, "without a spring",
+                             "one with a spring, or prescribed: see give_pitch_drives()");
+        if (bearing.prescribed && options_.pitch_frequency > 0)
+            throw InputError(name, where, "prescribed",
+                             "one with a spring, to which an actuator is put in series: see give_pitch_springs()");
+        if (!bearing.prescribed) {
+            bearing.stiffness = spring->stiffness(0, 0);
+            bearing.damping = spring->damping(0, 0);
+        }
+        bearings_.push_back(bearing);
     }
 }
 
@@ -115,11 +163,42 @@ std::vector<std::string> ActuatedForces::inputs(bool individual) const {
     return names;
 }
 
+std::vector<InputDrive> ActuatedForces::drives(bool individual) const {
+    std::vector<InputDrive> all;
+    const std::vector<std::string> names = inputs(individual);
+    for (std::size_t k = 0; k < bearings_.size(); ++k)
+        if (bearings_[k].prescribed)
+            all.push_back({bearings_[k].coordinate, names[individual ? k : 0], -1, layout_.pitch_settings[k]});
+    return all;
+}
+
+std::string ActuatedForces::in_words(const PitchBearing& bearing) const {
+    if (bearing.prescribed) return "pitch prescribed, one period behind the demand";
+    if (options_.pitch_frequency == 0)
+        return text("pitch on the spring of its bearing, ", bearing.stiffness, " N m/rad and ", bearing.damping,
+                    " N m s/rad, which rests at the demand");
+    const std::string limit = options_.largest_pitch_rate == 0
+                                  ? std::string()
+                                  : text(", at most ", options_.largest_pitch_rate * units::to_degrees, " deg/s");
+    return text("pitch actuator of second order, ", options_.pitch_frequency / (2 * pi), " Hz, damping ",
+                options_.pitch_damping, limit, ", before the spring of the bearing");
+}
+
+std::string ActuatedForces::in_words() const {
+    std::vector<std::string> all;
+    for (const PitchBearing& bearing : bearings_) all.push_back(in_words(bearing));
+    if (std::ranges::all_of(all, [&](const std::string& one) { return one == all.front(); })) return all.front();
+    std::string out;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        out += text(k == 0 ? "" : "; ", "blade ", layout_.blade_numbers[k], ": ", all[k]);
+    return out;
+}
+
 ForceSet ActuatedForces::with_inputs(double torque, bool individual, const ControlSignal& more) const {
     ActuatorDemands demands{{}, signal::input(torque_input) + more};
     const std::vector<std::string> names = inputs(individual);
     for (std::size_t i = 0; i + 1 < names.size(); ++i) demands.pitch.push_back(signal::input(names[i]));
-    ForceSet forces = with_demands(demands, torque);
+    ForceSet forces = with_any(demands, torque);
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
         forces.add_input({.name = names[i], .unit = "rad", .scale = pitch_scale, .initial = layout_.pitch_settings[i]});
     forces.add_input({.name = torque_input, .unit = "N m", .scale = torque_scale, .initial = torque});
@@ -130,24 +209,42 @@ ForceSet ActuatedForces::with_demands(const ActuatorDemands& demands, double tor
     const std::size_t blades = layout_.pitch.size();
     if (demands.pitch.size() != 1 && demands.pitch.size() != blades)
         throw InputError("actuators", "number of pitch demands", demands.pitch.size(), text("1 or ", blades));
-    ForceSet forces = rest_;
-    const double fastest = options_.largest_pitch_rate;
-    for (std::size_t k = 0; k < blades; ++k) {
-        const double setting = layout_.pitch_settings[k];
-        const int number = layout_.blade_numbers[k];
-        const Actuator drive{.name = {.name = pitch_state(number),
-                                      .unit = "rad",
-                                      .scale = pitch_scale,
-                                      .initial = setting,
-                                      .part = "pitch",
-                                      .blade = number},
-                             .demand = demands.pitch[demands.pitch.size() == 1 ? 0 : k],
-                             .frequency = options_.pitch_frequency,
-                             .damping = options_.pitch_damping,
-                             .rates = {-fastest, fastest}};
-        const auto [stiffness, damping] = springs_[k];
-        forces.add_states(position_actuator(drive, layout_.pitch[k], stiffness, damping, -1, setting).element);
+    for (std::size_t k = 0; k < blades; ++k)
+        if (bearings_[k].prescribed)
+            throw InputError("actuators", text("pitch of blade ", layout_.blade_numbers[k]), "prescribed",
+                             "held by a spring: see give_pitch_springs(); a sampled controller prescribes it, see "
+                             "with_inputs()");
+    return with_any(demands, torque);
+}
+
+void ActuatedForces::add_pitch(ForceSet& forces, std::size_t k, const ControlSignal& demand) const {
+    const PitchBearing& bearing = bearings_[k];
+    const double setting = layout_.pitch_settings[k];
+    const int number = layout_.blade_numbers[k];
+    if (bearing.prescribed) return;
+    if (options_.pitch_frequency == 0) {
+        forces.add_states(moved_rest(text("blade ", number, " pitch demand on its spring"),
+                                     signal::constant(setting) - demand, layout_.pitch[k], bearing.stiffness));
+        return;
     }
+    Actuator drive{.name = {.name = pitch_state(number),
+                            .unit = "rad",
+                            .scale = pitch_scale,
+                            .initial = setting,
+                            .part = "pitch",
+                            .blade = number},
+                   .demand = demand,
+                   .frequency = options_.pitch_frequency,
+                   .damping = options_.pitch_damping};
+    if (options_.largest_pitch_rate > 0) drive.rates = {-options_.largest_pitch_rate, options_.largest_pitch_rate};
+    forces.add_states(
+        position_actuator(drive, layout_.pitch[k], bearing.stiffness, bearing.damping, -1, setting).element);
+}
+
+ForceSet ActuatedForces::with_any(const ActuatorDemands& demands, double torque) const {
+    ForceSet forces = rest_;
+    for (std::size_t k = 0; k < bearings_.size(); ++k)
+        add_pitch(forces, k, demands.pitch[demands.pitch.size() == 1 ? 0 : k]);
     Actuator generator{
         .name = {.name = torque_state, .unit = "N m", .scale = torque_scale, .initial = torque, .part = "generator"},
         .demand = demands.torque,

@@ -2,7 +2,7 @@
 
 #include "elements/cardan_beam/centrifugal_limit.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/linear/linearise.hpp"
+#include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/modes.hpp"
 
 #include <algorithm>
@@ -22,8 +22,10 @@ std::vector<double> frequencies_at_rest(const Turbine& turbine, double largest_h
     const Vector zero = Vector::Zero(system.model.size());
     const solvers::Linearisation lin = solvers::linearise(system, {zero, zero, zero, 0});
     std::vector<double> all;
+    // A loop, such as the linkage of a blade's pitch, is closed there.
     const solvers::SecondOrderSystem unknowns =
-        solvers::restrict_to(lin, system.model.coordinates().free_without(rotor == Rotor::held ? spin : -1), spin);
+        solvers::reduce_loops(lin, system.model.coordinates().free_without(rotor == Rotor::held ? spin : -1), spin)
+            .system;
     // Some more than wanted: with more elements they may come below the limit.
     for (const solvers::Mode& mode : solvers::modes(unknowns, 1.3 * largest_hz * 2 * pi))
         if (mode.oscillates()) all.push_back(mode.natural_hz());

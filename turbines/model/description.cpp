@@ -105,6 +105,7 @@ void check_blade(const TurbineDescription& d, const BladeDescription& blade, con
     ranges.angle(field + ".pitch_setting", blade.pitch_setting, 3.2, 1e3);
     ranges.ratio(field + ".first_flap_damping", blade.first_flap_damping);
     require_not_negative(d.name, field + ".tip_mass [kg]", blade.tip_mass);
+    require_not_negative(d.name, field + ".pitch_inertia [kg m^2]", blade.pitch_inertia);
     check_damping(blade.damping, field, ranges);
 }
 

@@ -111,6 +111,9 @@ struct BladeDescription {
     BeamLine line;        ///< from the root out; x radial, y to the leading edge, z downwind
     double tip_mass = 0;  ///< of a tip brake, a point at the end of the line, kg
     Bearing pitch;        ///< pitch bearing or drive
+    /// About the pitch axis, beside that of the sections, kg m^2: of what turns with the blade in its bearing, or of a
+    /// blade whose sections have none. It resists the pitch alone (an armature); without effect on a rigid bearing.
+    double pitch_inertia = 0;
     /// In place of a drive: then the bearing is a free joint, or has a spring and friction of its own.
     std::optional<PitchLinkage> linkage = {};
     double cone = 0;           ///< blade axis out of the rotor plane, tips downwind positive, rad

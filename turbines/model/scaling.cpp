@@ -88,6 +88,7 @@ void scale(BladeDescription& blade, double s) {
     blade.line = turbines::scaled(blade.line, s);
     blade.damping = scaled(blade.damping, s);
     blade.tip_mass *= power(s, 3);
+    blade.pitch_inertia *= power(s, 5);
     blade.pitch = rotational(blade.pitch, s);
 }
 

@@ -134,7 +134,8 @@ BeamDynBlade read_beamdyn(const std::filesystem::path& path) {
         out.pitch = {file.number("PitchK"), file.number("PitchC")};
         if (!(out.pitch.stiffness > 0)) file.fail("PitchK", text("PitchK = ", out.pitch.stiffness, "; allowed: > 0"));
         if (!(out.pitch.damping >= 0)) file.fail("PitchC", text("PitchC = ", out.pitch.damping, "; allowed: >= 0"));
-        file.note_unless("PitchJ", 0, "inertia of the pitch drive: not part of the model");
+        out.pitch_inertia = file.number("PitchJ");
+        if (!(out.pitch_inertia >= 0)) file.fail("PitchJ", text("PitchJ = ", out.pitch_inertia, "; allowed: >= 0"));
     }
     for (OpenFastFile* each : {&file, &blade})
         for (FileNote& note : each->notes(ignored_by_beamdyn())) out.beam.notes.push_back(std::move(note));

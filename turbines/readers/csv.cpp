@@ -4,7 +4,6 @@
 #include "mbs/base/text_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <system_error>
@@ -97,15 +96,9 @@ private:
 };
 
 double finite_number(const Field& f, std::string_view file, int line) {
-    const auto fail = [&](std::string_view what) { throw ParseError(file, line, f.at, text("'", f.text, "' ", what)); };
-    std::string_view digits = f.text;
-    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (code == std::errc::invalid_argument || end != digits.data() + digits.size()) fail("is not a number");
-    if (code == std::errc::result_out_of_range) fail("does not fit into a double");
-    if (!std::isfinite(value)) fail("is not a finite number");
-    return value;
+    const ReadNumber number = read_number(f.text);
+    if (!number.good()) throw ParseError(file, line, f.at, text("'", f.text, "' ", number.fault));
+    return number.value;
 }
 
 /// "a, b, c"

@@ -194,9 +194,9 @@ private:
         out_.pitch = angle(numbered("BlPitch", 1));
         out_.pitch_source = text("BlPitch(1) of ", std::filesystem::path(file_.name()).filename().string());
         d_.blade.pitch = context_.pitch;
+        d_.blade.pitch_inertia = pitch_inertia(1, context_.pitch, context_.pitch_inertia);
         d_.blade.tip_mass = tip_mass(1);
         const std::string blade_file = numbered("BldFile", 1);
-        for (int k = 1; k <= d_.blades; ++k) note_blade(k);
         if (context_.blade) {
             ElastoDynBeam blade = *context_.blade;
             if (file_.has(blade_file)) file_.note(blade_file, "not read: the blades come from BeamDyn");
@@ -249,9 +249,11 @@ private:
         const auto other_beam = context_.own_blades.find(k);
         const bool has_beam = other_beam != context_.own_blades.end();
         if (other_file) read_blade_file(own, file, length);
+        own.pitch_inertia = has_beam ? pitch_inertia(k, other_beam->second.pitch, other_beam->second.pitch_inertia)
+                                     : pitch_inertia(k, context_.pitch, context_.pitch_inertia);
         if (has_beam) set_other_blade(own, other_beam->second, length);
         if (other_file || has_beam || own.cone != d_.blade.cone || own.pitch_setting != 0 ||
-            own.tip_mass != d_.blade.tip_mass)
+            own.tip_mass != d_.blade.tip_mass || own.pitch_inertia != d_.blade.pitch_inertia)
             d_.own_blades[k] = own;
     }
 
@@ -262,9 +264,20 @@ private:
         return not_negative(keyword);
     }
 
-    void note_blade(int k) {
-        file_.note_unless(numbered("PBrIner", k), 0, "inertia of the pitch bearing: it does not turn here");
-        file_.note_unless(numbered("BlPIner", k), 0, "inertia of the blade about its axis: that of its sections here");
+    // Of the bearing, unless BeamDyn gives that of its drive. BeamDyn's sections have inertia about their axis; those
+    // of ElastoDyn have none, and BlPIner is that of the whole blade. Of the first blade where another one is not
+    // given.
+    double pitch_inertia(int k, const Bearing& drive, double of_drive) {
+        const std::string bearing = numbered("PBrIner", k), blade = numbered("BlPIner", k);
+        if (context_.blade)
+            file_.note_unless(blade, 0, "inertia of the blade about its axis: that of BeamDyn's sections");
+        if (!drive.is_rigid()) {
+            file_.note_unless(bearing, 0, "the pitch drive of BeamDyn has its own (PitchJ)");
+            return of_drive;
+        }
+        if (k > 1 && !file_.has(bearing) && !file_.has(blade)) return d_.blade.pitch_inertia;
+        const auto given = [&](const std::string& keyword) { return file_.has(keyword) ? not_negative(keyword) : 0; };
+        return given(bearing) + (context_.blade ? 0 : given(blade));
     }
 
     // A beam that bends has all its modes: it can be made rigid where all of its flags are False, but not lose one

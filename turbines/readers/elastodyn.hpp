@@ -34,6 +34,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length);
 struct ElastoDynOtherBlade {
     ElastoDynBeam beam;
     Bearing pitch = rigid_joint;
+    double pitch_inertia = 0;
     std::string file;
 };
 
@@ -42,6 +43,7 @@ struct ElastoDynContext {
     std::optional<ElastoDynBeam> blade = std::nullopt;  ///< from BeamDyn; BldFile is not read then
     Bearing yaw = rigid_joint;                          ///< of the yaw drive (ServoDyn), where YawDOF is True
     Bearing pitch = rigid_joint;                        ///< of the pitch drive (BeamDyn)
+    double pitch_inertia = 0;                           ///< of that drive, kg m^2
     std::map<int, ElastoDynOtherBlade> own_blades =
         {};  ///< from BeamDyn, by number, where they have files of their own
 };

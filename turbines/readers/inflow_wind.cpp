@@ -7,7 +7,6 @@
 #include "turbines/readers/detail/openfast_words.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
-#include <sstream>
 #include <utility>
 
 namespace cardan::turbines {
@@ -50,7 +49,7 @@ SteadyWind uniform_row(const std::vector<double>& row, const UniformWind& common
 }
 
 std::vector<double> numbers_of(const std::string& line, const std::string& file, int number) {
-    std::istringstream words(line.substr(0, line.find_first_of("!#%")));
+    std::istringstream words = text_reader(line.substr(0, line.find_first_of("!#%")));
     std::vector<double> row;
     for (std::string word; words >> word;) {
         if (word.back() == ',') word.pop_back();
@@ -69,7 +68,7 @@ std::vector<double> numbers_of(const std::string& line, const std::string& file,
 Wind uniform_wind(const std::filesystem::path& path, const UniformWind& common) {
     const std::string name = path.string(), all = text_file(path);
     require_text(all, name, TextRules::any_bytes);
-    std::istringstream lines(all);
+    std::istringstream lines = text_reader(all);
     std::vector<double> times;
     std::vector<SteadyWind> winds;
     int number = 0;

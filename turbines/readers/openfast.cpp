@@ -34,6 +34,7 @@ void read_blades(OpenFastFile& main, const std::filesystem::path& elastodyn, Ela
     BeamDynBlade first = read(1);
     context.blade = std::move(first.beam);
     context.pitch = first.pitch;
+    context.pitch_inertia = first.pitch_inertia;
     const int blades = main.follow("EDFile", [&] { return OpenFastFile::read(elastodyn).integer("NumBl", 1, 3); });
     for (int k = 2; k <= 3; ++k) {
         if (!main.has(keyword(k)) || main.word(keyword(k)) == main.word(keyword(1))) continue;
@@ -42,7 +43,7 @@ void read_blades(OpenFastFile& main, const std::filesystem::path& elastodyn, Ela
             continue;
         }
         BeamDynBlade own = read(k);
-        context.own_blades[k] = {std::move(own.beam), own.pitch, main.path(keyword(k)).string()};
+        context.own_blades[k] = {std::move(own.beam), own.pitch, own.pitch_inertia, main.path(keyword(k)).string()};
     }
 }
 
@@ -67,6 +68,7 @@ void set_operation(TurbineFile& out, const ServoDyn& servo) {
     }
     out.pitch_schedule = servo.pitch_schedule;
     out.operation = servo.operation;
+    out.individual_pitch = servo.individual_pitch;
 }
 
 }  // namespace

@@ -4,9 +4,7 @@
 #include "turbines/readers/openfast_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 
 namespace cardan::turbines {
 
@@ -14,14 +12,8 @@ std::optional<double> fortran_number(std::string_view word) {
     std::string digits(word);
     for (char& c : digits)
         if (c == 'd' || c == 'D') c = 'e';
-    const char* begin = digits.data();
-    const char* const end = begin + digits.size();
-    if (digits.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
-    if (begin == end || !(*begin == '-' || *begin == '.' || (*begin >= '0' && *begin <= '9'))) return std::nullopt;
-    double value = 0;
-    const auto [last, error] = std::from_chars(begin, end, value);
-    if (error != std::errc() || last != end || !std::isfinite(value)) return std::nullopt;
-    return value;
+    const ReadNumber number = read_number(digits);
+    return number.good() ? std::optional(number.value) : std::nullopt;
 }
 
 std::string joined(const std::vector<std::string>& words) {

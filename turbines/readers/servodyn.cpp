@@ -92,6 +92,7 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
         file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
     for (const char* keyword : {"CompNTMD", "CompTTMD"})
         if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
+    servo.individual_pitch = file.has("Ptch_Cntrl") && file.integer("Ptch_Cntrl", 0, 1) == 1;
     servo.notes = file.notes({{{"*"}, "control, brakes and electrical drive: not part of the description"}});
     servo.source = text("# ", path.string(), "\n", file.text());
     return servo;

@@ -28,7 +28,7 @@ std::string to_text(const FileNote& note);
 /// (DriveTrainDescription::spin) and a tower that is rigid in both directions (TowerDescription::rigid).
 struct FileDofs {
     bool generator = true;  ///< false: the rotor turns at constant speed (RotorSpin::prescribed)
-    /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, both of the blades).
+    /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, hold_all() of the blades).
     bool tower_fore_aft = true, tower_side_side = true, blades = true;
 };
 
@@ -65,6 +65,7 @@ struct TurbineFile {
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
     FileOperation operation = {};
+    bool individual_pitch = false;  ///< a controller demands the pitch of every blade (Ptch_Cntrl of ServoDyn)
     /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
     std::optional<double> tower_foot = std::nullopt;
 };

@@ -41,58 +41,101 @@ inline Polar::Point point_of(const Polar& polar, double angle, double reynolds) 
     return polar.over_reynolds() ? polar.at(angle, reynolds) : polar.at(angle);
 }
 
+/// Is nothing of the section's load felt by the ring, as at root and tip by Prandtl's factors?
+inline bool loses_all(const Annulus& annulus, const MomentumOptions& options) {
+    return (options.tip_loss && annulus.tip <= 0) || (options.hub_loss && annulus.hub <= 0);
+}
+
+/// Prandtl's factor below which even attached flow may have several solutions.
+inline constexpr double large_loss = 0.2;
+
+/// Is a root of the balance between 0 and pi/2 the one that solve_induction() takes?
+bool is_least_attack(const SectionInflow& at, const MomentumOptions& options, double root);
+
+/// From 0 to 1 as t goes there, with level ends.
+template <class S>
+S blend(const S& t) {
+    using std::cos;
+    return value_of(t) <= 0 ? S(0) : value_of(t) >= 1 ? S(1) : S((1 - cos(pi * t)) / 2);
+}
+
 /// The balance of momentum at an angle of inflow phi [Ning 2014].
+///
+/// Air from behind (V_x < 0) and a rotor that turns backwards (V_y < 0) are mirror images of the usual case. phi is
+/// that of the image in which both velocities are positive; the profile's angle of attack and the sign of its lift
+/// follow from the sides that were changed.
 template <class S>
 class Balance {
 public:
     Balance(const Annulus& annulus, const Inflow<S>& inflow, const MomentumOptions& options)
         : annulus_(annulus),
           options_(options),
-          inflow_(inflow),
+          angle_(inflow.angle),
+          from_behind_(value_of(inflow.V_x) < 0),
+          backwards_(value_of(inflow.V_y) < 0),
+          V_x_(from_behind_ ? S(-inflow.V_x) : inflow.V_x),
+          V_y_(backwards_ ? S(-inflow.V_y) : inflow.V_y),
           solidity_(annulus.blades * annulus.chord / (2 * pi) / inflow.radius),
-          reynolds_(reynolds_of<S>(annulus, inflow.V_x, inflow.V_y)) {}
+          reynolds_(reynolds_of<S>(annulus, V_x_, V_y_)) {}
 
     struct Point {
-        S k, k_tangential, F;
+        S k, swirl, F;  ///< swirl: k' cos phi, which has no pole at a right angle
         SineCosine<S> of_phi;
     };
     Point at(const S& phi) const {
         using std::abs;
         const SineCosine<S> of_phi = sine_cosine(phi);
-        const S &s = of_phi.sine, &c = of_phi.cosine, attack = phi - inflow_.angle;
-        const Polar::Point polar = point_of(*annulus_.polar, value_of(attack), value_of(reynolds_));
-        const S lift = coefficient(polar.lift, polar.lift_slope, attack, polar.lift_reynolds, reynolds_),
-                drag = coefficient(polar.drag, polar.drag_slope, attack, polar.drag_reynolds, reynolds_),
+        const S &s = of_phi.sine, &c = of_phi.cosine, own = attack(phi);
+        const Polar::Point polar = point_of(*annulus_.polar, value_of(own), value_of(reynolds_));
+        const S table = coefficient(polar.lift, polar.lift_slope, own, polar.lift_reynolds, reynolds_),
+                lift = from_behind_ != backwards_ ? S(-table) : table,
+                drag = coefficient(polar.drag, polar.drag_slope, own, polar.drag_reynolds, reynolds_),
                 normal = options_.axial_drag ? lift * c + drag * s : lift * c,
                 driving = options_.tangential_drag ? lift * s - drag * c : lift * s;
         S F = 1;
         if (options_.tip_loss) F *= loss(annulus_.tip / abs(s));
         if (options_.hub_loss) F *= loss(annulus_.hub / abs(s));
         if (!(value_of(F) >= least_loss)) F = least_loss;
-        const S turn = options_.rotation ? solidity_ * driving / (4 * F * s * c) : S(0);
-        return {solidity_ * normal / (4 * F * s * s), value_of(inflow_.V_x) < 0 ? -turn : turn, F, of_phi};
+        const S part = solidity_ / (4 * F * s);
+        return {part * normal / s, options_.rotation ? part * driving : S(0), F, of_phi};
     }
-    bool brakes(const S& phi) const { return value_of(phi) * value_of(inflow_.V_x) < 0; }  // as a propeller does
-    /// 1 - a: near 1 it is a that would lose its digits.
-    S rest(const S& phi, const Point& at) const {
+    /// Of the profile.
+    S attack(const S& phi) const {
+        const S turned = backwards_ ? S(pi - phi) : phi;
+        return (from_behind_ ? S(-turned) : turned) - angle_;
+    }
+    /// At which the profile has this angle of attack; from -pi to pi.
+    double angle_at(double attack) const {
+        const double there = attack + value_of(angle_), turned = from_behind_ ? -there : there;
+        return std::remainder(backwards_ ? pi - turned : turned, 2 * pi);
+    }
+    static bool brakes(const S& phi) { return value_of(phi) < 0; }  // as a propeller does
+    /// 1 / (1 - a).
+    S along(const S& phi, const Point& at) const {
         using std::sqrt;
-        if (brakes(phi)) return 1 / (1 - at.k);
-        if (value_of(at.k) <= glauert_from) return 1 / (1 + at.k);
+        if (brakes(phi)) return 1 - at.k;
+        if (value_of(at.k) <= glauert_from) return 1 + at.k;
         // Buhl: C_T = 8/9 + (4 F - 40/9) a + (50/9 - 4 F) a^2.
         const S x = 2 * at.F * at.k, root = sqrt(x - at.F * (4.0 / 3 - at.F)), g = x - (25.0 / 9 - 2 * at.F);
-        return std::abs(value_of(g)) < 1e-6 ? 1 / (2 * root) : (root + at.F - 5.0 / 3) / g;
+        return std::abs(value_of(g)) < 1e-6 ? S(2 * root) : S(g / (root + at.F - 5.0 / 3));
     }
-    /// A pole of the residual changes its sign as well.
+    /// Beyond these the residual changes its sign as well, where 1 - a does.
     bool holds(const S& phi) const {
         const double k = value_of(at(phi).k);
         return brakes(phi) ? k > 1 : k >= -1;
     }
-    /// Multiplied by V_y, so that it has a value at rest too.
+    /// Of Ning's equation, multiplied by what has a pole: continuous from 0 to pi.
     S residual(const S& phi) const {
         const Point point = at(phi);
-        const S along = 1 / rest(phi, point);
-        return point.of_phi.sine * along * inflow_.V_y - inflow_.V_x * point.of_phi.cosine * (1 - point.k_tangential);
+        return point.of_phi.sine * along(phi, point) * V_y_ - V_x_ * (point.of_phi.cosine - point.swirl);
     }
+    /// How much of a there is, and of a': nothing where the ring has next to no throughflow, which they are ratios to.
+    S axial_share() const { return blend<S>(no_axial * V_x_ / V_y_ - 1); }
+    S swirl_share() const { return blend<S>(no_swirl * V_x_ / V_y_ - 1); }
+    bool has_throughflow() const { return no_axial * value_of(V_x_) > value_of(V_y_); }
+
+    /// V_y / V_x at which nothing is left; at half of it there is all.
+    static constexpr double no_axial = 200, no_swirl = 50;
 
 private:
     static constexpr double least_loss = 1e-4;       // of F
@@ -106,8 +149,9 @@ private:
 
     const Annulus& annulus_;
     const MomentumOptions& options_;
-    const Inflow<S>& inflow_;
-    S solidity_, reynolds_;
+    S angle_;
+    bool from_behind_, backwards_;
+    S V_x_, V_y_, solidity_, reynolds_;
 };
 
 /// a and a' at a solution.
@@ -123,10 +167,15 @@ S limited(const S& x, double least, double greatest) {
 template <class S>
 Factors<S> factors_at(const Balance<S>& balance, const S& phi) {
     const typename Balance<S>::Point at = balance.at(phi);
-    return {limited<S>(1 - balance.rest(phi, at), -1, 1.5), limited<S>(at.k_tangential / (1 - at.k_tangential), -1, 1)};
+    const S rest = at.of_phi.cosine - at.swirl;
+    const bool turns = value_of(at.swirl) != 0 || value_of(rest) != 0;
+    const S tangential = turns ? S(at.swirl / rest) : S(0);
+    return {balance.axial_share() * limited<S>(1 - 1 / balance.along(phi, at), -1, 1.5),
+            balance.swirl_share() * limited<S>(tangential, -1, 1)};
 }
 
 /// 1 + 15 pi/32 tan(chi/2) / sin(chi_0) times the lever, chi = (0.6 a + 1) chi_0: what a skewed wake makes of a.
+/// Beyond a right angle of chi the tangent stays at 1.
 /// @param quotient  of tangent and sine
 template <class S>
 S redistribution(const S& quotient, const S& lever) {
@@ -139,21 +188,35 @@ S wake_share(const S& axial) {
 template <class S>
 S redistribution(const S& axial, const S& angle, const S& lever) {
     using std::sin, std::tan;
-    const S share = wake_share(axial);
+    const S half = wake_share(axial) * angle / 2;
     // The quotient of small angles: it depends on their square only.
-    return redistribution<S>(value_of(angle) < 1e-6 ? S(share / 2) : S(tan(share * angle / 2) / sin(angle)), lever);
+    if (value_of(angle) < 1e-6) return redistribution<S>(wake_share(axial) / 2, lever);
+    const S tangent = value_of(half) < pi / 4 ? S(tan(half)) : S(1);
+    return redistribution<S>(tangent / sin(angle), lever);
 }
 
-/// Forces of a section from what the wake has left of the inflow.
+/// What reaches a section when the wake has taken its share.
+template <class S>
+struct Reaching {
+    S u_x, u_y;
+};
+template <class S>
+Reaching<S> reaching(const Inflow<S>& inflow, const Factors<S>& factors) {
+    return {inflow.V_x * (1 - factors.axial), inflow.V_y * (1 + factors.tangential)};
+}
+
+/// Forces of a section from what reaches it.
 template <class S>
 struct Loads {
     S normal, driving, moment, phi, attack;
 };
 template <class S>
-Loads<S> loads_of(const Annulus& annulus, const Inflow<S>& inflow, const Factors<S>& factors, double density) {
+Loads<S> loads_of(const Annulus& annulus, const S& angle, const Reaching<S>& u, double density) {
     using std::atan2;
-    const S u_x = inflow.V_x * (1 - factors.axial), u_y = inflow.V_y * (1 + factors.tangential), phi = atan2(u_x, u_y),
-            attack = phi - inflow.angle, pressure = density / 2 * annulus.chord * (u_x * u_x + u_y * u_y),
+    const auto& [u_x, u_y] = u;
+    if (value_of(u_x) == 0 && value_of(u_y) == 0) return {};  // loads go with the square of the speed
+    const S phi = atan2(u_x, u_y), attack = phi - angle,
+            pressure = density / 2 * annulus.chord * (u_x * u_x + u_y * u_y),
             reynolds = reynolds_of<S>(annulus, u_x, u_y);
     const auto [s, c] = sine_cosine(phi);
     const Polar::Point polar = point_of(*annulus.polar, value_of(attack), value_of(reynolds));
@@ -173,7 +236,14 @@ inline SectionForce force_of(const Annulus& annulus, double u_x, double u_y, dou
                              const SectionCoefficients& c, double density) {
     const double speed = std::sqrt(u_x * u_x + u_y * u_y), pressure = density / 2 * annulus.chord * speed;
     return {pressure * (c.lift * u_y + c.drag * u_x), pressure * (c.lift * u_x - c.drag * u_y),
-            pressure * speed * annulus.chord * c.moment, attack};
+            pressure * speed * annulus.chord * c.moment,
+            std::abs(attack) <= pi ? attack : std::remainder(attack, 2 * pi)};
+}
+
+/// Of a profile that is steady.
+inline SectionForce table_force(const Annulus& annulus, const Reaching<double>& u, double attack, double density) {
+    const Polar::Point c = point_of(*annulus.polar, attack, reynolds_of<double>(annulus, u.u_x, u.u_y));
+    return force_of(annulus, u.u_x, u.u_y, attack, {c.lift, c.drag, c.moment}, density);
 }
 
 }  // namespace cardan

@@ -89,6 +89,7 @@ Dual<N> abs(const Dual<N>& x) {
 template <int N>
 Dual<N> atan2(const Dual<N>& y, const Dual<N>& x) {
     const double square = x.value * x.value + y.value * y.value;
+    if (square == 0) return std::atan2(y.value, x.value);  // nothing has a direction to change
     return {std::atan2(y.value, x.value), (x.value * y.slopes - y.value * x.slopes) / square};
 }
 

@@ -19,13 +19,25 @@ Dual<N> root_of(const Annulus& annulus, const Inflow<Dual<N>>& inflow, double ro
     return {root, slopes};
 }
 
-/// a and a' in equilibrium with the loads, before the wake's skew.
+/// a and a' in equilibrium with the loads, before the rotor's wake changes them.
+/// @param solved, root  as Induction has them
 template <int N>
-Factors<Dual<N>> factors_of(const Annulus& annulus, const Inflow<Dual<N>>& inflow, const Induction& found,
-                            const MomentumOptions& options, int place) {
-    if (!found.solved) return {found.axial, found.tangential};
-    const Dual<N> root = root_of(annulus, inflow, found.root, options, place);
-    return factors_at(Balance<Dual<N>>(annulus, inflow, options), root);
+Factors<Dual<N>> factors_of(const Annulus& annulus, const Inflow<Dual<N>>& inflow, bool solved, double root,
+                            const RotorAirOptions& options, int place) {
+    if (!options.induction) return {0, 0};
+    const Balance<Dual<N>> balance(annulus, inflow, options.momentum);
+    if (loses_all(annulus, options.momentum)) return {balance.axial_share(), 0};
+    if (!solved) return {0, 0};
+    return factors_at(balance, root_of(annulus, inflow, root, options.momentum, place));
+}
+
+/// What the rotor's wake makes of them.
+/// @param skewed  a skewed wake redistributes a
+template <class S>
+Factors<S> in_wake(const Factors<S>& balance, const S& share, const S& angle, const S& lever, bool skewed) {
+    Factors<S> out{share * balance.axial, share * balance.tangential};
+    if (skewed) out.axial = out.axial * redistribution(out.axial, angle, lever);
+    return out;
 }
 
 }  // namespace cardan

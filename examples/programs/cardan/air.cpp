@@ -5,6 +5,7 @@
 #include "mbs/base/units.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/openfast_file.hpp"
@@ -12,6 +13,7 @@
 
 #include "examples/shared/words.hpp"
 #include <filesystem>
+#include <iostream>
 #include <utility>
 
 namespace cardan::program {
@@ -70,6 +72,12 @@ void add_air_options(CommandLine& app, AirArguments& a) {
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
 }
 
+void add_wake_option(CommandLine& app, AirArguments& a) {
+    app.add_option("--wake", a.wake,
+                   "quasi-steady: induced velocities in equilibrium with the loads; none: there are none")
+        .one_of({"quasi-steady", "none"});
+}
+
 std::string in_words(const AirArguments& a) {
     return text("air ", a.file.empty() ? "of the machine" : a.file, ", shear ", a.shear, ", direction ", a.direction,
                 " deg, upflow ", a.upflow, " deg, density ", a.density ? text(*a.density) : "of the air's file",
@@ -94,8 +102,21 @@ Air air_of(const MachineFile& machine, const MachineOptions& options, const AirA
                          "FILE, the main file of AeroDyn, or windIO");
     }
     if (arguments.no_skew) air.options.skew = Skew::none;
+    if (arguments.wake == "none") air.options.induction = false;
     if (arguments.density) air.density = *arguments.density;
     return air;
+}
+
+std::string air_in_words(std::string_view wake, bool profiles_lag) {
+    return text("wake ", wake, ", profiles ", profiles_lag ? "unsteady" : "steady");
+}
+
+std::string air_in_equilibrium(const Air& air) {
+    return air_in_words(air.options.induction ? turbines::name_of(turbines::Wake::quasi_steady) : "none", false);
+}
+
+void tell_air(const char* what, const std::string& words) {
+    std::cout << "air of the " << what << ": " << words << "\n";
 }
 
 AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine) {

@@ -11,6 +11,7 @@
 #include "examples/shared/machine_file.hpp"
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cardan::program {
@@ -21,10 +22,13 @@ struct AirArguments {
     double direction = 0, upflow = 0;  ///< deg
     std::optional<double> density;
     bool no_skew = false, no_tower = false;
+    std::string wake = "quasi-steady";  ///< "none": no induced velocities
 };
 /// Of these, file and density alone.
 void add_profile_options(CommandLine& app, AirArguments& arguments);
 void add_air_options(CommandLine& app, AirArguments& arguments);
+/// Of commands whose wake is in equilibrium, or none.
+void add_wake_option(CommandLine& app, AirArguments& arguments);
 /// For the file of a run.
 std::string in_words(const AirArguments& arguments);
 
@@ -39,6 +43,16 @@ struct Air {
 };
 /// @throws InputError for a machine without profiles; as the readers
 Air air_of(const MachineFile& machine, const MachineOptions& options, const AirArguments& arguments);
+
+/// How the air follows a motion, for titles and files: "wake dynamic, profiles unsteady".
+/// @param wake  turbines::name_of(), or "none"
+std::string air_in_words(std::string_view wake, bool profiles_lag);
+/// Of operating points and time histories: induced velocities, if there are any, and coefficients are always in
+/// equilibrium with the motion.
+std::string air_in_equilibrium(const Air& air);
+/// The line that every command with air prints of it: "air of the vibrations: wake dynamic, profiles unsteady".
+/// @param what  the air is of
+void tell_air(const char* what, const std::string& words);
 
 /// Tower and nacelle, the foot of the tower where the machine's file says, or else the machine, that it stands.
 AeroSupport support_of(const Air& air, const MachineFile& machine, const turbines::Turbine& turbine);

@@ -27,6 +27,7 @@ struct CampbellArguments {
     VibrationArguments air;
     std::string rpm, pitch_schedule, out;
     std::optional<double> max_frequency;
+    bool air_roots = false;
 };
 
 void declare(CommandLine& app, CampbellArguments& a) {
@@ -45,6 +46,7 @@ void declare(CommandLine& app, CampbellArguments& a) {
     add_vibration_options(app, a.air);
     app.add_flag("--floquet", a.air.floquet,
                  "with --wind, Floquet's theory about the periodic state in the place of the mean over the azimuth");
+    app.add_flag("--air-roots", a.air_roots, "with --wind, draw the roots that are mostly states of the air as well");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 
@@ -55,8 +57,8 @@ std::vector<double> speeds_of(CampbellArguments& a, const turbines::TurbineFile&
     std::cout << "rotor speeds: 0 to " << 1.2 * rated << " rpm, 1.2 times " << rated << " rpm";
     if (!model.rotor_speed_source.empty()) std::cout << " (" << model.rotor_speed_source << ")";
     std::cout << "\n";
-    const double step = std::stod(text(0.1 * rated));  // in few digits
-    a.rpm = text("0:", in_digits(12 * step), ":", in_digits(step));
+    const double step = read_number(text(0.1 * rated)).value;  // in few digits
+    a.rpm = text("0:", digits(12 * step), ":", digits(step));
     return rotor_speeds(a.rpm);
 }
 
@@ -79,8 +81,8 @@ std::vector<turbines::PitchAt> parse_schedule(const std::string& given) {
 std::string schedule_words(const std::vector<turbines::PitchAt>& schedule) {
     std::string words;
     for (const turbines::PitchAt& one : schedule)
-        words += text(words.empty() ? "" : ",", in_digits(one.rotor_speed * units::to_rpm), ":",
-                      in_digits(one.pitch * units::to_degrees));
+        words += text(words.empty() ? "" : ",", digits(one.rotor_speed * units::to_rpm), ":",
+                      digits(one.pitch * units::to_degrees));
     return words;
 }
 
@@ -134,7 +136,7 @@ int run_in_wind(CampbellArguments& a, const MachineFile& machine, const CommandL
         throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell_wind");
     if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
-    return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, command);
+    return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, a.air_roots, command);
 }
 
 int run(CampbellArguments& a, const CommandLine& command) {

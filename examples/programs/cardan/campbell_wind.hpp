@@ -11,19 +11,23 @@ namespace cardan::program {
 
 /// What the air does to a vibration.
 struct VibrationArguments {
-    WindArguments wind;
-    std::string wake = "dynamic";
+    WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
     bool steady_profiles = false, floquet = false;
     int harmonics = 4;
+
+    VibrationArguments() { wind.air.wake = "dynamic"; }
 };
 
 void add_vibration_options(CommandLine& app, VibrationArguments& arguments);
 /// As asked for, with the lags that the profiles have.
 turbines::AeroelasticOptions air_that_lags(const VibrationArguments& arguments, const Air& air);
+/// air_in_words()
+std::string vibration_in_words(const Air& air, const turbines::AeroelasticOptions& options);
 
 /// @param prefix  of the files
+/// @param air_roots  drawn as well
 /// @return exit code
 int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& air,
-                     double max_frequency, const std::string& prefix, const CommandLine& command);
+                     double max_frequency, const std::string& prefix, bool air_roots, const CommandLine& command);
 
 }  // namespace cardan::program

@@ -12,8 +12,6 @@
 #include "examples/shared/machine_file.hpp"
 #include "examples/shared/program.hpp"
 #include "examples/shared/run_record.hpp"
-#include <cerrno>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <system_error>
@@ -42,8 +40,8 @@ std::string field(const std::string& name, const std::string& units) {
     return solvers::csv_field(name + "[" + (units == "1" ? "-" : units) + "]");
 }
 
-void write_rows(std::ostream& out, const solvers::History& history) {
-    out.imbue(std::locale::classic());
+std::string rows(const solvers::History& history) {
+    std::ostringstream out = text_stream();
     out << field("time", "s");
     for (const Channel& channel : history.channels) out << "," << field(channel.name, channel.units);
     out << "\n" << std::setprecision(10);
@@ -52,22 +50,12 @@ void write_rows(std::ostream& out, const solvers::History& history) {
         for (const std::vector<double>& values : history.values) out << "," << values[row];
         out << "\n";
     }
+    return out.str();
 }
 
 void write_csv(const ConvertArguments& a) {
     const solvers::History history = solvers::read_history(a.machine.model, a.selection);
-    const PendingFile pending(a.to);
-    try {
-        errno = 0;
-        std::ofstream out(pending.partial(), std::ios::binary | std::ios::trunc);
-        write_rows(out, history);
-        out.close();
-        if (!out) throw FileError(a.to, text("cannot be completed: ", std::generic_category().message(errno)));
-        pending.commit();
-    } catch (...) {
-        pending.discard();
-        throw;
-    }
+    write_file(a.to, rows(history));
     std::cout << a.to << ": " << history.time.size() << " rows of " << history.channels.size() << " channels\n";
 }
 

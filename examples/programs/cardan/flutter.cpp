@@ -18,6 +18,9 @@
 #include "examples/programs/cardan/air.hpp"
 #include "examples/programs/cardan/commands.hpp"
 #include "examples/programs/cardan/operation.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <limits>
@@ -32,12 +35,16 @@ constexpr double slowest = 0.25, fastest = 2.5;
 // Of the first torsion at rest: what flutters lies below it, what it becomes is still seen.
 constexpr double modes_up_to = 1.5;
 constexpr int most_halvings = 3;
+// By so many times as many elements a limit is sought again, in a range so wide about it.
+constexpr std::array finer_meshes{1.5, 2.0};
+constexpr double width_about = 0.15;
+constexpr int steps_about = 4;
 
 struct FlutterArguments {
     MachineOptions machine;
     AirArguments air;
     std::string rpm, out;
-    bool steady_profiles = false;
+    bool steady_profiles = false, air_roots = false;
     int steps = solvers::StabilityOptions{}.steps;
     std::optional<double> max_frequency;
 };
@@ -53,6 +60,7 @@ void declare(CommandLine& app, FlutterArguments& a) {
                  "lift, drag and moment follow the angle of attack at once: flutter then comes early");
     app.add_option("--max-frequency", a.max_frequency,
                    "follow modes up to this frequency, Hz (default: 1.5 times the first torsion at rest)");
+    app.add_flag("--air-roots", a.air_roots, "draw the roots that are mostly states of the air as well");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _flutter)");
 }
 
@@ -75,7 +83,7 @@ SpeedRange speed_range(FlutterArguments& a, const MachineFile& machine) {
     const double own = machine.file.rotor_speed * units::to_rpm;
     if (a.rpm.empty()) {
         if (!(own > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", format);
-        a.rpm = text(in_digits(slowest * own), ":", in_digits(fastest * own));
+        a.rpm = text(digits(slowest * own), ":", digits(fastest * own));
     }
     const std::vector<std::string> words = split(a.rpm, ':');
     if (words.size() != 2) throw InputError("--rpm", "value", a.rpm, format);
@@ -106,18 +114,21 @@ double torsion_hz(const MachineFile& machine, MachineOptions options) {
                      "ones that twist: without torsion there is no flutter");
 }
 
+bool profiles_lag(const Air& air, const FlutterArguments& a) {
+    return !a.steady_profiles && !air.profiles.empty();
+}
+
 solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& air, const FlutterArguments& a,
-                                   const SpeedRange& range) {
+                                   const SpeedRange& range, int steps) {
     RotorAirOptions own_motion = air.options;
     own_motion.induction = false;
     own_motion.skew = Skew::none;
     turbines::MachineAir still(blade, air.blade, SteadyWind{.density = air.density}, own_motion);
-    const bool lags = !a.steady_profiles && !air.profiles.empty();
-    if (lags) still = still.lagging({.profiles = air.profiles});
+    if (profiles_lag(air, a)) still = still.lagging({.profiles = air.profiles});
     const turbines::Turbine in_air = still.on(blade);
 
     solvers::StabilityOptions options;
-    options.steps = a.steps;
+    options.steps = steps;
     options.halvings = most_halvings;
     options.modes = campbell_options(*a.max_frequency);
     options.modes.spin = solvers::RotorSpin::prescribed;
@@ -125,35 +136,93 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& ai
     const auto same = [&](double) {
         return solvers::CampbellCase{.system = &in_air.system(), .rotor = &in_air.rotor()};
     };
-    solvers::StabilityLimits found = solvers::stability_limits(same, "", range.first, range.last, options);
-    found.diagram.remark = text("blade alone in still air, profiles ", lags ? "unsteady" : "steady");
-    return found;
+    return solvers::stability_limits(same, "", range.first, range.last, options);
 }
 
-// Without what is heavily damped everywhere: mixtures with the air's states.
+// A limit by a finer mesh.
+struct FinerLimit {
+    int elements;
+    std::optional<solvers::StabilityLimit> limit;  // none: not found next to the other
+};
+
+std::vector<FinerLimit> finer_limits(const solvers::StabilityLimit& limit, const MachineFile& machine, const Air& air,
+                                     const FlutterArguments& a) {
+    std::vector<FinerLimit> all;
+    const SpeedRange range{(1 - width_about) * limit.rotor_speed, (1 + width_about) * limit.rotor_speed};
+    const auto distance = [&](const solvers::StabilityLimit& other) {
+        return std::pair(other.name != limit.name, std::abs(other.rotor_speed - limit.rotor_speed));
+    };
+    for (const double times : finer_meshes) {
+        MachineOptions options = a.machine;
+        options.blade_elements = static_cast<int>(std::ceil(times * a.machine.blade_elements));
+        solvers::StabilityLimits found;
+        try {
+            found = limits_of(blade_of(machine, options), air, a, range, steps_about);
+        } catch (const NumericalError&) {  // no steady state at the lower end
+        }
+        if (interrupted()) break;
+        std::erase_if(found.limits, [&](const solvers::StabilityLimit& other) {
+            return other.kind != limit.kind || other.begins != limit.begins;
+        });
+        FinerLimit& one = all.emplace_back(FinerLimit{options.blade_elements, std::nullopt});
+        if (!found.limits.empty()) one.limit = *std::ranges::min_element(found.limits, {}, distance);
+    }
+    return all;
+}
+
+// Without what is heavily damped everywhere, but for motions of states, which are left out or wanted by an option.
 solvers::Campbell lightly_damped(const solvers::Campbell& diagram) {
-    constexpr double heavily = 0.5;
     solvers::Campbell out = diagram;
     std::erase_if(out.branches, [&](const solvers::Branch& branch) {
         for (std::size_t i = 0; i < diagram.points.size(); ++i)
-            if (diagram.damping_ratio(branch, i) < heavily) return false;
-        return true;
+            if (diagram.damping_ratio(branch, i) < solvers::heavy_damping) return false;
+        return !branch.of_states;
     });
     return out;
 }
 
-void print_limits(const solvers::StabilityLimits& found, double own_speed, double radius) {
+// With as many decimals as it has but for its error, which has one digit; three without an error.
+std::string rounded(double value, double error) {
+    const int decimals = error > 0 ? std::clamp(static_cast<int>(-std::floor(std::log10(error))), 0, 6) : 3;
+    std::array<char, 64> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.*f", decimals, value);
+    return digits.data();
+}
+
+// "24.5 rpm (+-0.6: 25.1 with 15 elements per blade, 24.1 with 20), 2.02 times the machine's, tip 162 m/s, 1.07 Hz"
+std::string limit_in_words(const solvers::StabilityLimit& limit, const std::vector<FinerLimit>& others,
+                           double own_speed, double radius) {
+    double error = 0, error_hz = 0;
+    for (const FinerLimit& other : others) {
+        if (!other.limit) continue;
+        error = std::max(error, std::abs(other.limit->rotor_speed - limit.rotor_speed));
+        error_hz = std::max(error_hz, std::abs(other.limit->frequency_hz() - limit.frequency_hz()));
+    }
+    const auto rpm = [&](double speed) { return rounded(speed * units::to_rpm, error * units::to_rpm); };
+    std::string words = rpm(limit.rotor_speed) + " rpm", meshes;
+    for (const FinerLimit& other : others)
+        meshes += text(meshes.empty() ? "" : ", ", other.limit ? rpm(other.limit->rotor_speed) : "none near", " with ",
+                       other.elements, meshes.empty() ? " elements per blade" : "");
+    if (!meshes.empty()) words += text(" (", error > 0 ? text("+-", rpm(error), ": ") : "", meshes, ")");
+    if (own_speed > 0)
+        words += text(", ", rounded(limit.rotor_speed / own_speed, error / own_speed), " times the machine's");
+    words += text(", tip ", rounded(limit.rotor_speed * radius, error * radius), " m/s");
+    if (limit.kind == solvers::Instability::flutter)
+        words += text(", ", rounded(limit.frequency_hz(), error_hz), " Hz");
+    return words + (limit.doubtful ? " (which mode it is, is doubtful)" : "");
+}
+
+void print_limits(const solvers::StabilityLimits& found, const MachineFile& machine, const Air& air,
+                  const FlutterArguments& a) {
     for (const solvers::StabilityLimit& limit : found.limits) {
-        const bool flutter = limit.kind == solvers::Instability::flutter;
-        std::printf("%s of %s %s %.3f rpm", flutter ? "flutter" : "divergence", limit.name.c_str(),
-                    limit.begins ? "from" : "ends at", limit.rotor_speed * units::to_rpm);
-        if (own_speed > 0) std::printf(", %.3f times the machine's", limit.rotor_speed / own_speed);
-        std::printf(", tip %.1f m/s", limit.rotor_speed * radius);
-        if (flutter) std::printf(", %.4f Hz", limit.frequency_hz());
-        std::printf("%s\n", limit.doubtful ? " (which mode it is, is doubtful)" : "");
+        const std::vector<FinerLimit> others = finer_limits(limit, machine, air, a);
+        std::printf("%s of %s %s %s\n", limit.kind == solvers::Instability::flutter ? "flutter" : "divergence",
+                    limit.name.c_str(), limit.begins ? "from" : "ends at",
+                    limit_in_words(limit, others, machine.file.rotor_speed, air.blade.position.back()).c_str());
     }
     if (found.limits.empty() && found.diagram.complete) std::printf("neither flutter nor divergence begins or ends\n");
     if (!found.note.empty()) std::printf("note: %s\n", found.note.c_str());
+    if (!found.diagram.warning.empty()) std::printf("warning: %s\n", found.diagram.warning.c_str());
 }
 
 int run(FlutterArguments& a, const CommandLine& command) {
@@ -167,16 +236,20 @@ int run(FlutterArguments& a, const CommandLine& command) {
     check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
 
     const turbines::Turbine blade = blade_of(machine, a.machine);
-    solvers::StabilityLimits found = limits_of(blade, air, a, range);
-    stop_at_once();
+    const std::string answer = air_in_words("none", profiles_lag(air, a));
+    tell_air("blade", answer);
+    solvers::StabilityLimits found = limits_of(blade, air, a, range, a.steps);
     solvers::Campbell& diagram = found.diagram;
+    diagram.remark = "blade alone in still air, " + answer;
     diagram.accuracy = in_words(ready.mesh);
     diagram.source = run_text("flutter", command) + diagram.source;
     if (diagram.points.empty()) return 130;
     std::printf("\n");
-    print_limits(found, machine.file.rotor_speed, air.blade.position.back());
+    print_limits(found, machine, air, a);
+    stop_at_once();
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = *a.max_frequency;
+    picture.states = a.air_roots;
     picture.title = title_of(diagram);
     write_files_and_roots(diagram, lightly_damped(diagram), a.out, picture);
     if (diagram.complete) return 0;

@@ -219,6 +219,17 @@ int finish(LineariseArguments& a, const CommandLine& command, const turbines::Tu
     return 0;
 }
 
+// A parked rotor, blade 1 up.
+solvers::OperatingPoint standing(const turbines::AeroelasticPoint& point) {
+    solvers::SteadyOptions options;
+    options.initial = point.start.col(0);
+    if (point.state_start.cols() > 0) options.states = point.state_start.col(0);
+    const solvers::SteadyState state =
+        solvers::steady_state(point.machine.system(), point.machine.rotor().spin, options);
+    require_result(state);
+    return state.at;
+}
+
 // At an operating point in the wind; wind and pitch are inputs, and what the air does to the rotor an output.
 int run_in_wind(LineariseArguments& a, const MachineFile& machine, const CommandLine& command) {
     if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
@@ -229,6 +240,7 @@ int run_in_wind(LineariseArguments& a, const MachineFile& machine, const Command
     turbines::AeroelasticOptions air = air_that_lags(a.air, run.air);
     find_points(run, machine, a.machine, a.air.wind);
     if (run.points.empty()) return run.complete ? 1 : 130;
+    tell_air("vibrations", vibration_in_words(run.air, air));
     const turbines::Operation& operation = run.points.front().operation;
     a.rpm = operation.rotor_speed * units::to_rpm;
 
@@ -248,11 +260,15 @@ int run_in_wind(LineariseArguments& a, const MachineFile& machine, const Command
     solvers::LinearInput::Coordinates toward_feather;
     for (const BodyId drive : turbine.layout().pitch_drives)
         toward_feather.emplace_back(turbine.system().model.index(drive), -1.0);
-    solvers::LinearModel model =
-        linearise_about(turbine, a.model, turbines::steady_state(point, operation.rotor_speed, a.air.harmonics), spin,
-                        {solvers::LinearInput::system_input(turbines::wind_input),
-                         solvers::LinearInput::motion("collective pitch", toward_feather)},
-                        {point.air.channels()});
+    const auto about = [&](const auto& state) {
+        return linearise_about(turbine, a.model, state, spin,
+                               {solvers::LinearInput::system_input(turbines::wind_input),
+                                solvers::LinearInput::motion("collective pitch", toward_feather)},
+                               {point.air.channels()});
+    };
+    solvers::LinearModel model = operation.rotor_speed == 0
+                                     ? about(standing(point))
+                                     : about(turbines::steady_state(point, operation.rotor_speed, a.air.harmonics));
     return finish(a, command, turbine, machine.file.description, std::move(model), modes);
 }
 

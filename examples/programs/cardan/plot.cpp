@@ -241,6 +241,7 @@ int draw_diagram(const PlotArguments& a) {
     solvers::CampbellPlotOptions options;
     options.max_frequency_hz = a.max_frequency;
     options.title = a.title.empty() ? title_of(diagram) : a.title;
+    if (!diagram.warning.empty()) std::cout << "warning: " << diagram.warning << "\n";
     draw(a, "", text("Campbell diagram, ", diagram.branches.size(), " modes"),
          [&](const std::string& path) { solvers::plot(diagram, path, options); });
     return 0;

@@ -28,7 +28,7 @@ void declare(CommandLine& app, RepeatArguments& a) {
 void set_duration(std::vector<std::string>& words, const std::string& file) {
     const auto duration =
         std::ranges::find_if(words, [](const std::string& w) { return w.starts_with("--duration="); });
-    if (duration != words.end()) *duration = "--duration=" + in_digits(solvers::read_history_info(file).last_time);
+    if (duration != words.end()) *duration = "--duration=" + digits(solvers::read_history_info(file).last_time);
 }
 
 int run(RepeatArguments& a, const CommandLine& /*command*/) {

@@ -43,6 +43,7 @@ void declare(CommandLine& app, SimulateArguments& a) {
     app.add_option("--wind", a.wind, std::string("speed at the hub's height: ") + wind_file_format)
         .type_name("SPEED|FILE");
     add_air_options(app, a.air);
+    add_wake_option(app, a.air);
     add_rotor_torque(app, a.rotor_torque);
     add_controller_options(app, a.controller);
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");

@@ -60,7 +60,8 @@ std::string options_of(const SimulateArguments& a, double speed, const RotorTorq
     for (const std::string& word : a.qd) changed += ", qd " + word;
     if (a.controller.acts()) changed += ", " + in_words(a.controller);
     if (rotor.acts()) changed += ", " + rotor.in_words();
-    if (!a.wind.empty()) changed += text(", wind ", a.wind, ", ", in_words(a.air));
+    if (!a.wind.empty())
+        changed += text(", wind ", a.wind, ", ", in_words(a.air), ", ", air_in_words(a.air.wake, false));
     return text("start ", a.start, " at ", speed, " rad/s, azimuth ", a.azimuth, " deg", changed, ", ",
                 options_text(a.run));
 }
@@ -79,6 +80,7 @@ std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, con
                                            const SimulateArguments& a) {
     if (a.wind.empty()) return std::nullopt;
     const Air air = air_of(machine, a.machine, a.air);
+    tell_air("run", air_in_equilibrium(air));
     const SteadyWind profile = wind_profile(a.air, air, machine, turbine);
     return turbines::MachineAir(turbine, air.blade, wind_of(a.wind, profile, a.machine.notes), air.options,
                                 support_of(air, machine, turbine));
@@ -128,8 +130,9 @@ Subject controlled(const SimulateArguments& a, const Pair& machine, double speed
     const turbines::MachineLayout& layout = machine.turbine.layout();
     const double own =
         start_torque(a.controller, layout.gear_ratio, speed, layout.pitch_settings.front(), rotor_torque);
-    ControlledMachine under =
-        controlled_machine(a.controller, machine.turbine, a.torque.value_or(own), a.run.out, measured);
+    ControlledMachine under = controlled_machine(a.controller, machine.turbine, a.torque.value_or(own), a.run.out,
+                                                 measured, signal::constant(0), actuator_options(a.controller));
+    std::cout << "controller: " << under.pitch << "\n";
     return {under.turbine,
             machine.at_start,
             {std::move(under.controller)},
@@ -159,7 +162,7 @@ Subject subject_of(SimulateArguments& a) {
     MachineFile machine = prepared_machine(a.machine);
     check_controller(a.controller, machine);
     const RotorTorque rotor = rotor_torque(a.rotor_torque);
-    if (a.controller.acts()) turbines::give_pitch_springs(machine.file.description);
+    if (a.controller.acts()) make_pitch_drives(a.controller, machine.file.description);
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;

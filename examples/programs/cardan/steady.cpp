@@ -47,6 +47,7 @@ void declare(CommandLine& app, SteadyArguments& a) {
     app.add_flag("--all", a.all, "print all channels, not only the main ones");
     add_station_options(app, a.revolution.stations);
     add_wind_options(app, a.wind);
+    add_wake_option(app, a.wind.air);
     add_machine_options(app, a.machine);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
 }

@@ -50,7 +50,8 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
     const WindResults results =
         wind_results(run.operation, std::move(run.points), revolution.stations, text(d.name, ", in the wind"));
     write_csv(results, prefix);
-    write_hdf5(results, prefix + ".h5", run_text("steady", command) + run.ready.turbine.rotor().description);
+    write_hdf5(results, prefix + ".h5", air_in_equilibrium(run.air),
+               run_text("steady", command) + run.ready.turbine.rotor().description);
     std::printf("\n%s\n%s\n", results.title.c_str(), in_words(run.ready.mesh).c_str());
     if (!run.operation.is_constant())
         std::printf(

@@ -1,6 +1,7 @@
 #include "examples/programs/cardan/wind_results.hpp"
 
 #include "mbs/base/pending_file.hpp"
+#include "mbs/base/text.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/axis.hpp"
 #include "solvers/pictures/stack.hpp"
@@ -90,7 +91,7 @@ std::vector<double> winds_of(const WindResults& results) {
 
 void append(std::string& row, double value) {
     row += ',';
-    row += in_digits(value);
+    row += digits(value);
 }
 
 void draw(const solvers::PanelStack& stack, const std::string& prefix) {
@@ -190,7 +191,7 @@ void write_csv(const WindResults& results, const std::string& prefix) {
             out += text(",", channel.name, " ", statistic.name, "[", channel.units, "]");
     out += "\n";
     for (std::size_t k = 0; k < results.points.size(); ++k) {
-        out += in_digits(results.points[k].operation.wind);
+        out += digits(results.points[k].operation.wind);
         for (const Quantity& q : quantity::all) append(out, q.shown(results.points[k]));
         for (const MeanAndRange& at : results.values[k])
             for (const Statistic& statistic : statistics) append(out, at.*statistic.of);
@@ -202,7 +203,7 @@ void write_csv(const WindResults& results, const std::string& prefix) {
     out += "\n";
     for (const WindPoint& point : results.points)
         for (const SectionMean& section : point.sections) {
-            out += in_digits(point.operation.wind);
+            out += digits(point.operation.wind);
             append(out, section.position);
             for (const SectionQuantity& q : section_quantities) append(out, q.shown(section));
             out += "\n";
@@ -210,9 +211,10 @@ void write_csv(const WindResults& results, const std::string& prefix) {
     write_file(prefix + "_sections.csv", out);
 }
 
-void write_hdf5(const WindResults& results, const std::string& path, const std::string& description) {
+void write_hdf5(const WindResults& results, const std::string& path, const std::string& air,
+                const std::string& description) {
     solvers::Hdf5File file = solvers::Hdf5File::create(path);
-    file.set_attribute("/", {"title", "operating points in the wind"});
+    file.set_attribute("/", {"title", text("operating points in the wind: ", air)});
     file.write("input_description", std::vector<std::string>{description}, {},
                "how it was made, and the machine that was computed; not the profiles of the air");
     std::vector<double> positions;

@@ -27,7 +27,9 @@ std::string beside(const WindResults& results, std::size_t point, const WindResu
 /// PREFIX.csv, PREFIX_sections.csv.  @throws FileError
 void write_csv(const WindResults& results, const std::string& prefix);
 /// @throws FileError
-void write_hdf5(const WindResults& results, const std::string& path, const std::string& description);
+/// @param air  air_in_equilibrium()
+void write_hdf5(const WindResults& results, const std::string& path, const std::string& air,
+                const std::string& description);
 
 /// @name Pictures: PREFIX, PREFIX_sections, PREFIX_coefficients, .svg and .png
 ///@{

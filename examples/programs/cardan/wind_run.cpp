@@ -21,7 +21,7 @@ constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m
 
 void print(const turbines::VariableSpeed& law, const std::string& source) {
     const std::string pitch =
-        law.least_pitch.empty() ? in_digits(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
+        law.least_pitch.empty() ? digits(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
     std::printf("operation: tip-speed ratio %.3f, %g to %g rpm, pitch %s; %g kW on the rotor from rated wind on%s\n",
                 law.tip_speed_ratio, law.least_speed * units::to_rpm, law.rated_speed * units::to_rpm, pitch.c_str(),
                 law.rated_power / 1e3, source.empty() ? "" : (" (" + source + ")").c_str());
@@ -131,6 +131,7 @@ FinerPoint finer_point(const WindRun& run, const MachineFile& machine, MachineOp
 }
 
 void find_points(WindRun& run, const MachineFile& machine, const MachineOptions& options, const WindArguments& wind) {
+    tell_air("operating points", air_in_equilibrium(run.air));
     std::vector<WindPoint> all;
     if (wind.schedule.empty()) {
         all = run.operation.over(run.speeds, law_of(machine, run.asked_pitch, options, wind, run.air));

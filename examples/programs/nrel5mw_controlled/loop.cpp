@@ -137,7 +137,7 @@ Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& p
     constexpr double fast = 1e5;  // rad/s
     const VariableSpeedController controller(turbines::nrel5mw_controller());
     const VariableSpeedParameters& p = controller.parameters();
-    const turbines::ActuatorOptions a;
+    const turbines::ActuatorOptions a = pitch_actuators();
     const double S = trim_point(point.wind).sensitivity / rated_speed, g = controller.gain(point.pitch),
                  h = parts.schedule ? g * point.pitch / p.doubling_pitch : 0,
                  w = parts.drives ? a.pitch_frequency : fast, t = parts.drives ? a.torque_time_constant : 1 / fast,

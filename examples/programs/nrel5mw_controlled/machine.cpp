@@ -81,6 +81,10 @@ Plant plant(const MachineOptions& options, double wind) {
     return {turbine, point, rotor, state.at};
 }
 
+turbines::ActuatorOptions pitch_actuators() {
+    return {.pitch_frequency = 2 * pi * 2, .pitch_damping = 0.7, .largest_pitch_rate = 8 * units::degree};
+}
+
 turbines::Turbine open_loop(const Plant& plant) {
     return loaded(plant.turbine, plant.rotor);
 }
@@ -108,7 +112,7 @@ LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {
                                   {layout.gear_ratio * plant.point.rotor_speed, plant.point.pitch});
     ForceSet more;
     const ControlSignal damping = add_damper(damper, plant, more);
-    turbines::ActuatorOptions actuators;
+    turbines::ActuatorOptions actuators = pitch_actuators();
     actuators.largest_torque_rate = parameters.largest_torque_rate;
     ForceSet forces = turbines::ActuatedForces(plant.turbine, actuators)
                           .with_demands({{loop.pitch}, loop.torque + damping}, plant.point.torque);

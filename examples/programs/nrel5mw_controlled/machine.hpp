@@ -35,13 +35,17 @@ struct Plant {
 };
 Plant plant(const MachineOptions& options, double wind);
 
+/// Pitch actuators of 2 Hz, which lag behind the speed loop (0.6 rad/s) by 4 deg, at most 8 deg/s as in the machine's
+/// report.
+turbines::ActuatorOptions pitch_actuators();
+
 /// With the load, pitch and torque of the generator held.
 turbines::Turbine open_loop(const Plant& plant);
 
 /// Under the program, with the torque of a wind that changes.
 program::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
                                            const DamperOptions& damper,
-                                           const turbines::ActuatorOptions& actuators = {});
+                                           const turbines::ActuatorOptions& actuators = pitch_actuators());
 /// That load: for channels and loads by equilibrium.
 RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double time)>& wind);
 

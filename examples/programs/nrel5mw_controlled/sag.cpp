@@ -19,7 +19,7 @@ struct Machine {
 
 // The torque actuator is what the controller's demand goes through; the converter follows it.
 Machine machine_in_sag(const Plant& plant, const SagOptions& options) {
-    turbines::ActuatorOptions actuators;
+    turbines::ActuatorOptions actuators = pitch_actuators();
     actuators.torque_on_shaft = false;
     program::ControlledMachine machine = sampled_machine(
         plant, [wind = options.wind](double) { return wind; }, {}, actuators);

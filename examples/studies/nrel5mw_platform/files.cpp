@@ -5,7 +5,6 @@
 
 #include "examples/shared/simulation.hpp"
 #include <iomanip>
-#include <locale>
 #include <sstream>
 #include <utility>
 
@@ -96,8 +95,7 @@ std::vector<std::string> tip_deflections(const turbines::Turbine& machine) {
 
 void write_csv(const turbines::Turbine& machine, const solvers::History& period, const std::string& path) {
     const solvers::History table = program::part_of(period, table_channels(machine));
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
+    std::ostringstream out = text_stream();
     out << std::setprecision(12) << "time[s]";
     for (const Channel& channel : table.channels) out << "," << channel.name << "[" << channel.units << "]";
     for (std::size_t i = 0; i < table.time.size(); ++i) {

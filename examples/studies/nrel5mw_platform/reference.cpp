@@ -93,7 +93,7 @@ private:
                   << std::noshowpos;
     }
     static void angle(double degrees) {
-        std::ostringstream out;
+        std::ostringstream out = text_stream();
         if (std::isfinite(degrees)) out << "(" << std::fixed << std::setprecision(2) << degrees << ")";
         std::cout << std::setw(11) << out.str();
     }

@@ -3,7 +3,6 @@
 #include "mbs/urdf/detail/vocabulary.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <tinyxml.h>
 
@@ -90,14 +89,6 @@ std::vector<std::string> words(const std::string& value) {
         i = value.find_first_not_of(blank, end);
     }
     return result;
-}
-
-bool is_number(const std::string& word) {
-    const char* first = word.c_str() + (word.front() == '+');
-    const char* const last = word.c_str() + word.size();
-    double value = 0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    return error == std::errc() && end == last && std::isfinite(value);
 }
 
 class Reader {
@@ -208,7 +199,8 @@ private:
         }
         const std::vector<std::string> found = words(given);
         const bool vector = rule.value == ValueKind::vector;
-        if (found.size() != (vector ? 3 : 1) || !std::all_of(found.begin(), found.end(), is_number))
+        if (found.size() != (vector ? 3 : 1) ||
+            !std::all_of(found.begin(), found.end(), [](const std::string& w) { return read_number(w).good(); }))
             refuse(vector ? "three finite numbers" : "a finite number");
         std::string tidy = found[0];
         for (std::size_t i = 1; i < found.size(); ++i) tidy += " " + found[i];

@@ -6,6 +6,8 @@
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/detail/blade_frame.hpp"
 #include "solvers/campbell/detail/displacements.hpp"
+#include "solvers/campbell/detail/rotor_speed.hpp"
+#include "solvers/campbell/detail/structure_symmetry.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
@@ -204,16 +206,26 @@ BladeSymmetry PeriodicPointSolver::renumbering() const {
 void PeriodicPointSolver::set_symmetry(const PeriodicSystem& periodic) {
     symmetry_ = renumbering();
     difference_ = asymmetry(periodic, symmetry_);
+    structure_differs_ =
+        difference_ > small_difference && structure_differs(system_, rotor_, standstill_, symmetry_, small_difference);
     if (!(difference_ < 1e-8)) symmetry_ = {};
 }
 
 // A mode localised in one blade has no frequency in the fixed frame: the average invents one.
 void PeriodicPointSolver::warn_of_differing_blades() {
-    if (difference_ > small_difference)
-        warn(text("at ", state_->rotor_speed * units::to_rpm,
-                  " rpm the rotor is not the same when its blades are renumbered (", difference_,
-                  " of the diagonals): blades or hub differ, and the mean over the azimuth may have "
-                  "frequencies that no motion of the machine has. Take CampbellMethod::floquet"));
+    if (!(difference_ > small_difference)) return;
+    const std::string where =
+        text("at ", state_->rotor_speed * units::to_rpm,
+             " rpm the rotor is not the same when its blades are renumbered (", difference_, " of the diagonals): ");
+    if (structure_differs_)
+        warn(text(where,
+                  "blades or hub differ, and the mean over the azimuth may have frequencies that no motion of the "
+                  "machine has. Take CampbellMethod::floquet"));
+    else
+        warn(text(where,
+                  "what acts on the blades differs, as on curves of profiles with kinks, where a section may have one "
+                  "slope on one blade and another on the next; mass and springs are alike, and the mean over the "
+                  "azimuth has the mean of the slopes"));
 }
 
 FloquetOptions PeriodicPointSolver::floquet_options() const {
@@ -349,6 +361,7 @@ void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
         CampbellMode& m = point.modes.emplace_back();
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
             m.row = naming_row(mean_, mode);
+        if (is_motion_of_speed(mean_, mode, static_cast<int>(spin_row()))) m.row = static_cast<int>(spin_row());
         m.row_shares = energy_by_row(mean_, mode);
         m.shares = energy_shares()->shares(mode);
         m.mode = std::move(mode);

@@ -55,6 +55,7 @@ private:
     std::optional<PeriodicSteadyState> state_;
     BladeSymmetry symmetry_;  // of the last point; none if the blades differ
     double difference_ = 0;   // of the blades
+    bool structure_differs_ = false;
     SecondOrderSystem mean_;
     std::string warning_;
 };

@@ -3,10 +3,12 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/real_eigen.hpp"
 #include "solvers/linear/detail/shifted_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cardan::solvers {
 
@@ -65,6 +67,70 @@ Vector left_shape(const SecondOrderSystem& system, double sigma, double mu) {
     Vector out = Vector::Zero(system.M.rows());
     out(rows) = own;
     return out;
+}
+
+namespace {
+
+// P(lambda) of the complete system by powers of lambda, the states solved for: of first and second order times a
+// vector.
+class SlowTerms {
+public:
+    explicit SlowTerms(const SecondOrderSystem& system) : system_(system), f_s_(system.states.size()) {
+        if (system.states.size() == 0) return;
+        f_s_.matrix() = system.states.f_s;
+        f_s_.factorise();
+    }
+    struct Terms {
+        Vector first, second;
+    };
+    Terms times(const Vector& x) {
+        const StateTerms& t = system_.states;
+        Terms out{system_.C * x, system_.M * x};
+        if (t.size() == 0) return out;
+        Vector follow = t.f_q * x;
+        f_s_.solve(follow);
+        follow += t.f_qd * x;
+        f_s_.solve(follow);
+        out.first += t.Q_s * follow;
+        f_s_.solve(follow);
+        out.second += t.Q_s * follow;
+        return out;
+    }
+
+private:
+    const SecondOrderSystem& system_;
+    LuFactors f_s_;
+};
+
+// K z = b, b without a part along y, z with none either: y^T W z = 0.
+Vector solve_beside(const Matrix& K, const Vector& Wx, const Vector& yW, const Vector& b) {
+    const Eigen::Index n = K.rows();
+    Matrix bordered = Matrix::Zero(n + 1, n + 1);
+    bordered.topLeftCorner(n, n) = K;
+    bordered.topRightCorner(n, 1) = Wx;
+    bordered.bottomLeftCorner(1, n) = yW.transpose();
+    Vector right = Vector::Zero(n + 1);
+    right.head(n) = b;
+    return Eigen::PartialPivLU<Matrix>(bordered).solve(right).head(n);
+}
+
+}  // namespace
+
+bool grows_below_zero(const SecondOrderSystem& system, const StaticRoots& roots, int k) {
+    constexpr double rounding = 1e-9;
+    const std::vector<int> rows = held_rows(system);
+    const Vector x = roots.shapes.col(k), y = left_shape(system, roots.sigma, entry(roots.values, k));
+    const Matrix W = weights_of(system, roots.sigma);
+    const Vector Wx = W * x, yW = W.transpose() * y;
+    const double size = y.dot(Wx);
+    SlowTerms slow(system);
+    const SlowTerms::Terms own = slow.times(x);
+    const double c = y.dot(own.first);
+    Vector z = Vector::Zero(x.size());
+    z(rows) = solve_beside(static_stiffness(system)(rows, rows), Wx(rows), yW(rows),
+                           Vector((own.first - c / size * Wx)(rows)));
+    const double m = y.dot(own.second - slow.times(z).first);
+    return size * (std::abs(c) > rounding * roots.sigma * std::abs(m) ? c : m) > 0;
 }
 
 }  // namespace cardan::solvers

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace cardan::solvers {
@@ -87,7 +86,7 @@ void warn_of_instability(const CampbellPoint& point, std::string& warning) {
         if (grows && lambda.real() > fastest.real()) fastest = lambda;
     }
     if (fastest.real() == 0) return;
-    std::ostringstream out;
+    std::ostringstream out = text_stream();
     out.precision(4);
     out << "unstable at " << point.rotor_speed * units::to_rpm << " rpm: a motion at " << fastest.imag() / (2 * pi)
         << " Hz grows with " << fastest.real() << " 1/s";
@@ -152,6 +151,9 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     diagram_.unknowns = solver.unknowns();
     diagram_.rows = solver.row_names();
     diagram_.states = solver.state_names();
+    states_.clear();
+    for (const StateInfo& state : system.forces.states())
+        states_.push_back({state.part.empty() ? state.name : state.part, state.scale});
     diagram_.remark = held_inputs(system.forces);
     frames_ = recorded_frames(system, rotor, diagram_);
     if (options_.neighbour) neighbour_.emplace(*options_.neighbour).check(diagram_);
@@ -240,8 +242,8 @@ void Sweep::set_branches(const std::vector<const PointMethod*>& solvers) {
     const bool whirl = options_.method != CampbellMethod::frozen_azimuth &&
                        std::any_of(diagram_.points.begin(), diagram_.points.end(),
                                    [](const CampbellPoint& p) { return p.rotor_speed != 0; });
-    diagram_.branches =
-        tracker_.branches(diagram_.points, *energy_shares, diagram_.rows, whirl, neighbour_ ? &*neighbour_ : nullptr);
+    diagram_.branches = tracker_.branches(diagram_.points, *energy_shares, diagram_.rows, states_, whirl,
+                                          neighbour_ ? &*neighbour_ : nullptr);
     take_blade_frequencies(diagram_);
     std::erase_if(diagram_.branches,
                   [&](const Branch& b) { return lowest_frequency(diagram_, b) > options_.max_frequency_hz; });

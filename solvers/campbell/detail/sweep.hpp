@@ -51,6 +51,7 @@ private:
     std::string why_;  // this method was chosen
     std::size_t points_;
     Campbell diagram_;
+    std::vector<NamedState> states_;
     std::vector<FrameId> frames_;
     std::vector<const System*> systems_;   // by point, for shapes
     const EnergyShares* first_ = nullptr;  // of the first machine

@@ -3,7 +3,11 @@
 #pragma once
 
 #include "solvers/campbell/detail/neighbour_names.hpp"
+#include "solvers/campbell/detail/state_names.hpp"
 #include "solvers/campbell/diagram.hpp"
+
+#include <string>
+#include <vector>
 
 namespace cardan::solvers {
 
@@ -34,12 +38,14 @@ public:
 
     /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
     /// the sweep, or the coordinate that moves most, no name twice (assignment again).
+    /// Branches of states have names of their own: take_branches_of_states().
     /// @param rows  names of the rows (PointMethod::row_names)
+    /// @param states  in the order of Mode::states
     /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
     /// @param neighbour  with all points; null: none
     std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
-                                 const std::vector<std::string>& rows, bool whirl,
-                                 NeighbourNames* neighbour = nullptr) const;
+                                 const std::vector<std::string>& rows, const std::vector<NamedState>& states,
+                                 bool whirl, NeighbourNames* neighbour = nullptr) const;
 
 private:
     struct Track {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <set>
 
@@ -58,8 +57,7 @@ int blade_number(std::string_view name) {
     if (!name.starts_with(stem)) return 0;
     int number = 0;
     std::size_t at = stem.size();
-    for (; at < name.size() && std::isdigit(static_cast<unsigned char>(name[at])) && number < 1000; ++at)
-        number = 10 * number + (name[at] - '0');
+    for (; at < name.size() && is_digit(name[at]) && number < 1000; ++at) number = 10 * number + (name[at] - '0');
     return at > stem.size() && (at == name.size() || name[at] == ' ') ? number : 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/kernels/derivatives.hpp"
+#include "mbs/kernels/extent.hpp"
 #include "solvers/equilibrium/detail/closed_start.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 
@@ -135,20 +136,34 @@ public:
         evaluate(r.data());
         return loop_start(system_, spin_, at.time, at.q, tau_ - Q_);
     }
-    // What is left open of all equations, per metre of the loops' extent, and the loop it is.
-    std::pair<double, std::string> gap() {
+    // The equation that is open by more than a fraction of its size, of all equations; -1: none.
+    int open_by(double fraction, double& gap) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         system_.loops.residual<double>(kin, at.time, at.q, phi_);
-        Eigen::Index worst = 0;
-        const double largest = phi_.cwiseAbs().maxCoeff(&worst);
-        return {largest / system_.loops.extent(kin),
-                system_.loops.describe(entry(system_.loops.equations(), worst).loop)};
+        Vector allowed(phi_.size());
+        system_.loops.tolerances(kin, at.time, at.q, fraction, allowed);
+        for (int i = 0; i < phi_.size(); ++i)
+            if (!(std::abs(gap = phi_(i)) <= allowed(i))) return i;
+        return -1;
     }
+    const Loops& system_loops() const { return system_.loops; }
+    // Sizes of the equations of loops.
+    Vector loop_sizes() {
+        Vector sizes(phi_.size());
+        system_.loops.tolerances(kinematics(system_.model, at.q, workspace_), at.time, at.q, 1, sizes);
+        return sizes;
+    }
+    double loop_gradient(int equation, Eigen::Index i) const { return gradients_(equation, entry(unknowns, i)); }
+    bool is_angle(Eigen::Index i) const { return system_.model.body(entry(unknowns, i)).revolute; }
+    double tree_extent() { return extent(kinematics(system_.model, at.q, workspace_)); }
 
     const StateTable& table() const { return system_.forces.states(); }
     double scale_of(std::size_t state) const { return table()[states[state]].scale; }
-    // Of the quantity that a trim finds; 1 rad/s.
-    double scale_of_trim() const { return input_ < 0 ? 1 : system_.forces.inputs()[input_].scale; }
+    // Of the quantity that a trim finds; of a speed, what it begins with, or 1 rad/s.
+    double scale_of_trim() const {
+        if (input_ >= 0) return system_.forces.inputs()[input_].scale;
+        return speed() != 0 ? std::abs(speed()) : 1;
+    }
     double speed() const { return spin_ < 0 ? 0 : at.qd(spin_); }
     const InputTable& inputs() const { return system_.forces.inputs(); }
 

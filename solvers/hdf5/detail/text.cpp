@@ -39,7 +39,7 @@ std::string text_of(const char* from, std::size_t size, H5T_str_t padding) {
 
 std::string name_without_values(std::size_t length) {
     constexpr std::size_t digits = 10;  // as netCDF prints it
-    std::string number = std::to_string(length);
+    std::string number = text(length);
     number.insert(0, digits - std::min(digits, number.size()), ' ');
     return "This is a netCDF dimension but not a netCDF variable." + number;
 }

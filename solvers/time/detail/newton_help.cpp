@@ -44,9 +44,14 @@ void StageGuess::begin(double time, const double* x, const double* slope) {
 void StageGuess::predict(double time, const double* last, double* guess) {
     if (!begun_) return;
     if (last_ > start_) {
-        const int place = count_++ % most;
-        entry(times_, place) = last_ - start_;
+        const double at = last_ - start_;
+        const int place = count_ % most;
+        // In a step as short as the clock can tell two stages may be at one time.
+        for (int k = 0; k < std::min(count_, most); ++k)
+            if (entry(times_, k) == at) return end();
+        entry(times_, place) = at;
         std::copy_n(last, x_.size(), entry(stages_, place).data());
+        ++count_;
     }
     last_ = time;
     const double t = time - start_;

@@ -35,7 +35,9 @@ int solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, re
 
 NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
     : equations_(equations),
-      point_{.x = Vector::Zero(equations.length()), .u = equations.inputs()},
+      point_{.x = Vector::Zero(equations.length()),
+             .u = equations.inputs(),
+             .driven = Vector::Zero(3 * std::ssize(equations.drives()))},
       start_(equations.size()),
       change_(equations.size()),
       rates_(equations.rates()),
@@ -54,7 +56,9 @@ NewtonMatrix::NewtonMatrix(EquationsOfMotion& equations, SUNContext context)
 
 bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
     if (fresh || !has_jacobian_) {
-        if (!take_jacobian(time, x)) return false;
+        has_jacobian_ = false;
+        if (!equations_.linearise(time, x)) return false;
+        hold_jacobian(time, x);
         ++jacobians;
     } else if (std::abs(c - c_) < same_step * c) {
         return true;
@@ -64,15 +68,13 @@ bool NewtonMatrix::form(double time, const double* x, double c, bool fresh) {
     return true;
 }
 
-bool NewtonMatrix::take_jacobian(double time, const double* x) {
-    has_jacobian_ = false;
-    if (!equations_.linearise(time, x)) return false;
+// It has been taken there.
+void NewtonMatrix::hold_jacobian(double time, const double* x) {
     has_jacobian_ = true;
     point_.time = time;
-    point_.piece = equations_.piece();
     std::copy_n(x, point_.x.size(), point_.x.data());
     point_.u = equations_.inputs();
-    return true;
+    equations_.driven_state(point_.driven.data());
 }
 
 void NewtonMatrix::factorise(double c) {
@@ -81,37 +83,35 @@ void NewtonMatrix::factorise(double c) {
 }
 
 int NewtonMatrix::memory(const EquationsOfMotion& equations) {
-    return 3 + equations.length() + static_cast<int>(equations.inputs().size());
+    return 2 + equations.length() + static_cast<int>(equations.inputs().size() + 3 * std::ssize(equations.drives()));
 }
 
 void NewtonMatrix::remember(double* out) const {
     *out++ = has_jacobian_ ? c_ : 0;
     *out++ = point_.time;
-    *out++ = point_.piece;
-    out = std::copy(point_.x.begin(), point_.x.end(), out);
-    std::copy(point_.u.begin(), point_.u.end(), out);
+    for (const Vector* part : {&point_.x, &point_.u, &point_.driven}) out = std::copy(part->begin(), part->end(), out);
 }
 
 void NewtonMatrix::recall(const double* memory) {
-    const double c = memory[0], *const x = memory + 3, *const u = x + point_.x.size();
-    if (c == 0) {
-        has_jacobian_ = false;
+    const double c = memory[0], time = memory[1], *const x = memory + 2, *const u = x + point_.x.size(),
+                 *const driven = u + point_.u.size();
+    const auto is = [](const Vector& own, const double* other) { return std::equal(own.begin(), own.end(), other); };
+    if (has_jacobian_ && c_ == c && point_.time == time && is(point_.x, x) && is(point_.u, u) &&
+        is(point_.driven, driven))
         return;
-    }
-    const bool same = has_jacobian_ && c_ == c && point_.time == memory[1] && point_.piece == memory[2] &&
-                      std::equal(point_.x.begin(), point_.x.end(), x) &&
-                      std::equal(point_.u.begin(), point_.u.end(), u);
-    if (same) return;
+    has_jacobian_ = false;
+    if (c == 0) return;
     const Vector inputs = equations_.inputs();
-    const double piece = equations_.piece();
     equations_.set_inputs(Eigen::Map<const Vector>(u, inputs.size()));
-    equations_.set_piece(memory[2]);
-    if (take_jacobian(memory[1], x)) factorise(c);
+    if (equations_.linearise(time, x, driven)) {
+        hold_jacobian(time, x);
+        factorise(c);
+    }
     equations_.set_inputs(inputs);
-    equations_.set_piece(piece);
 }
 
 void NewtonMatrix::solve(const double* b, double* x) {
+    ++solutions;
     const Eigen::Index m = start_.size();
     start_ = Eigen::Map<const Vector>(b, m);
     change_ = Eigen::Map<const Vector>(b + m, m);

@@ -43,7 +43,7 @@ public:
     SUNMatrix matrix() { return matrix_.get(); }
     SUNLinearSolver solver() { return solver_.get(); }
 
-    long jacobians = 0, factorisations = 0;
+    long jacobians = 0, factorisations = 0, solutions = 0;
 
 private:
     struct FreeMatrix {
@@ -53,15 +53,15 @@ private:
         void operator()(SUNLinearSolver s) const { SUNLinSolFreeEmpty(s); }
     };
 
-    bool take_jacobian(double time, const double* x);
+    void hold_jacobian(double time, const double* x);
     void factorise(double c);
 
     EquationsOfMotion& equations_;
     double c_ = 0;
     bool has_jacobian_ = false;
     struct Point {
-        double time = 0, piece = 0;
-        Vector x, u;
+        double time = 0;
+        Vector x, u, driven;  ///< EquationsOfMotion::driven_state()
     };
     Point point_;                    ///< where the Jacobian was taken
     Vector start_, change_, rates_;  ///< b_1, b_2, (x_2, x_3)

@@ -70,8 +70,11 @@ MethodState Stepper::present(double time, const Vector& x) const {
     return now;
 }
 
-void Stepper::go_on(double time, const double* x, double stop) {
-    if (origin_.memory.size() == 0 || origin_.steps < 0) return start(time, x, stop);
+bool Stepper::go_on(double time, const double* x, double stop) {
+    if (origin_.memory.size() == 0) {
+        start(time, x, stop);
+        return false;
+    }
     stop_at_ = stop;
     renew(time, x);
     remember(origin_.memory.data());
@@ -80,6 +83,7 @@ void Stepper::go_on(double time, const double* x, double stop) {
     origin_.time = time;
     std::copy(x, x + origin_.x.size(), origin_.x.data());
     do_resume(time, x, stop, origin_.memory.data());
+    return true;
 }
 
 bool Stepper::step(double horizon) {

@@ -13,14 +13,24 @@
 
 namespace cardan::solvers {
 
-/// Less than this on average over a thousand steps is not progress, s.
-inline double shortest_step(double time) {
-    return std::max(1e-12, 64 * std::numeric_limits<double>::epsilon() * std::abs(time));
+/// No state at a time within a step: a loop that cannot be closed, forces that are not finite. Integrator::advance()
+/// returns it as a failure.
+class NoState : public NumericalError {
+public:
+    using NumericalError::NumericalError;
+};
+
+/// Less than this on average over a thousand steps is not progress, s: the clock cannot tell it, or a trillion such
+/// steps would not get there.
+/// @param left  to the time asked for; infinity: that is not known
+inline double shortest_step(double time, double left) {
+    return std::max(std::isfinite(left) ? 1e-12 * left : 0,
+                    64 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
 /// Two times closer than this are one, s.
 inline double resolution(double time) {
-    return 64 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(time));
+    return 64 * std::numeric_limits<double>::epsilon() * std::abs(time);
 }
 
 /// Weights of the error norm, one per entry of x = (q_f, qd_f, s).
@@ -57,8 +67,9 @@ public:
     /// Starts without history. Steps will not go beyond `stop` (infinity: no limit).
     void start(double time, const double* x, double stop);
     /// Goes on from a state at which inputs, forces or motions have a kink or a jump: a one-step method with the step
-    /// and the matrices that it has, a multistep method from the start.
-    void go_on(double time, const double* x, double stop);
+    /// that it has, a multistep method from the start.
+    /// @return false: it begins anew
+    bool go_on(double time, const double* x, double stop);
     /// One accepted step. @param horizon  the next output time: a scale for the first step, not a limit
     /// @return false: no step was possible, failure() says why. Exceptions of user functions propagate.
     bool step(double horizon);
@@ -68,13 +79,15 @@ public:
     MethodState present(double time, const Vector& x) const;
     /// Repeats those steps. @return false if they belong to another method, or if one fails
     bool repeat(const MethodState& from, double stop);
-    /// End of the last step, and where it began.
+    /// End of the last step.
     virtual double time() const = 0;
-    virtual double begin_of_step() const = 0;
-    /// True if forces and accelerations at the ends of a step are known as soon as states between them are.
-    virtual bool knows_ends() const { return false; }
-    /// @param last  at the end, else at the begin  @returns W, of a method that knows_ends()
-    virtual Powers powers_at_end(bool /*last*/) { return {}; }
+    /// Both ends of the last step, s, and the powers there.
+    struct Ends {
+        double begin = 0, end = 0;
+        Powers at_begin = {}, at_end = {};
+    };
+    /// Of Runge-Kutta methods, which know them as soon as they know states between them.
+    virtual Ends ends() { return {}; }
     /// State within the last step.
     virtual void state_at(double time, double* x) = 0;
     virtual IntegrationStatistics statistics() const = 0;

@@ -41,7 +41,6 @@ public:
     AlphaStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
     double time() const override { return time_; }
-    double begin_of_step() const override { return begin_; }
     void state_at(double time, double* x) override;
     IntegrationStatistics statistics() const override { return statistics_; }
 
@@ -158,7 +157,7 @@ void AlphaStepper::do_resume(double time, const double* x, double stop, const do
 // So short that the acceleration moves nothing by more than the tolerance; it grows fast.
 double AlphaStepper::first_step(double horizon) {
     // An output time very close to now says nothing about the step size.
-    const double towards = std::min(horizon, stop_) - time_, shortest = 1e-6 * std::max(1.0, std::abs(time_));
+    const double towards = std::min(horizon, stop_) - time_, shortest = 1e-6 * std::abs(time_);
     const double longest = std::min(max_step_, std::isfinite(towards) && towards > shortest ? towards : 1.0);
     if (wanted_first_ > 0) return std::min(wanted_first_, longest);
     double largest = 0;

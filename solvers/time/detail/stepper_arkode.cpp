@@ -27,11 +27,9 @@ public:
     ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
     double time() const override { return time_; }
-    double begin_of_step() const override { return from_.time; }
-    bool knows_ends() const override { return true; }
-    Powers powers_at_end(bool last) override {
+    Ends ends() override {
         complete_ends();
-        return last ? to_.power : from_.power;
+        return {from_.time, to_.time, from_.power, to_.power};
     }
     void state_at(double time, double* x) override;
 
@@ -70,7 +68,7 @@ private:
     double fixed_step_;
     double planned_ = 0;  ///< s, the next step but for the stop; 0: not known
     bool keep_jacobian_ = false;
-    long known_again_ = 0;  ///< evaluations that were none
+    bool guesses_ = false;  ///< of stages by stages_
     Renewal renewal_;
     StageGuess stages_;
     struct End {
@@ -130,7 +128,8 @@ bool ArkodeStepper::set_up_newton(void* ark) {
     bool ok = ARKStepSetLinearSolver(ark, newton_->solver(), newton_->matrix()) == 0 &&
               ARKStepSetLinSysFn(ark, linear_system) == 0 && ARKStepSetNonlinConvCoef(ark, 0.003) == 0 &&
               ARKStepSetMaxNonlinIters(ark, 8) == 0 && ARKStepSetDeduceImplicitRhs(ark, SUNTRUE) == 0 &&
-              ARKStepSetStagePredictFn(ark, predict) == 0 && ARKStepSetInterpolantDegree(ark, 3) == 0;
+              ARKStepSetPredictorMethod(ark, 1) == 0 && ARKStepSetStagePredictFn(ark, predict) == 0 &&
+              ARKStepSetInterpolantDegree(ark, 3) == 0;
     // With a fixed step a failed iteration cannot be retried with a shorter one: fresh matrices, more iterations.
     if (fixed_step_ > 0)
         ok = ok && ARKStepSetMaxNonlinIters(ark, 12) == 0 && ARKStepSetLSetupFrequency(ark, 1) == 0 &&
@@ -160,7 +159,7 @@ void ArkodeStepper::begin_at(double time, const double* x, double stop, double n
     begin(time, x, stop);
     planned_ = next_step;
     keep_jacobian_ = false;
-    known_again_ = 0;
+    guesses_ = next_step > 0;
     to_.time = from_.time = time;
     to_.known = from_.known = quartic_known_ = false;
     std::copy(x, x + weights_.size(), to_.x.data());
@@ -200,7 +199,7 @@ int ArkodeStepper::next_step(N_Vector, realtype t, realtype h, realtype, realtyp
 bool ArkodeStepper::do_step(double horizon) {
     equations_.clear_problem();
     const double from = time_;
-    const IntegrationStatistics before = since_start();
+    const long solutions = newton_ ? newton_->solutions : 0, jacobians = newton_ ? newton_->jacobians : 0;
     const int flag = ARKStepEvolve(arkode_.get(), towards(horizon), vector(), &time_, ARK_ONE_STEP);
     rethrow();
     if (flag < 0 || (time_ != stop_ && stands_still(from, time_))) {
@@ -210,9 +209,9 @@ bool ArkodeStepper::do_step(double horizon) {
                            "motion that ends in infinity");
         return false;
     }
+    guesses_ = false;
     stages_.end();
-    const IntegrationStatistics after = since_start();
-    renewal_.add(after.iterations - before.iterations, after.jacobians > before.jacobians);
+    if (newton_) renewal_.add(newton_->solutions - solutions, newton_->jacobians > jacobians);
     std::swap(from_, to_);
     to_.time = time_;
     to_.known = quartic_known_ = false;
@@ -230,7 +229,6 @@ int ArkodeStepper::rates_once(realtype t, N_Vector x, N_Vector xd, void* user) {
     double* out = N_VGetArrayPointer(xd);
     const bool there = t == end.time && std::equal(end.x.begin(), end.x.end(), in);
     if (there && end.known) {
-        ++self.known_again_;
         std::copy(in + m, in + 2 * m, out);
         std::copy(end.xdd.begin(), end.xdd.end(), out + m);
     } else {
@@ -240,7 +238,7 @@ int ArkodeStepper::rates_once(realtype t, N_Vector x, N_Vector xd, void* user) {
             if (!self.guarded([&] { self.know(end); })) return -1;
         }
     }
-    if (there) self.stages_.begin(t, in, out);
+    if (there && self.guesses_) self.stages_.begin(t, in, out);
     return 0;
 }
 
@@ -250,6 +248,7 @@ void ArkodeStepper::know(End& end) {
     end.known = true;
 }
 
+// The library guesses stages by the step before. After a break or a sample it has none.
 int ArkodeStepper::predict_stage(double t, N_Vector guess) {
     N_Vector last = nullptr;
     if (ARKStepGetCurrentState(arkode_.get(), &last) != 0) return -1;
@@ -262,7 +261,7 @@ void ArkodeStepper::complete_ends() {
     for (End* end : {&from_, &to_}) {
         if (end->known) continue;
         if (!equations_.accelerations(end->time, end->x.data(), end->xdd.data()))
-            throw NumericalError(text("time integration: ", equations_.problem()));
+            throw NoState(text("time integration: ", equations_.problem()));
         know(*end);
     }
     if (!std::exchange(quartic_known_, true) && equations_.states() > 0) complete_states();
@@ -277,7 +276,7 @@ void ArkodeStepper::complete_states() {
     interpolate(place, between_.data());
     const double h = to_.time - from_.time;
     if (!equations_.accelerations(from_.time + place * h, between_.data(), between_rates_.data()))
-        throw NumericalError(text("time integration: ", equations_.problem()));
+        throw NoState(text("time integration: ", equations_.problem()));
     const Eigen::Index m = equations_.size(), k = equations_.states();
     const double s = place, u = 1 - s;
     for (Eigen::Index i = 0; i < k; ++i) {
@@ -334,11 +333,11 @@ IntegrationStatistics ArkodeStepper::since_start() const {
     ARKStepGetNumErrTestFails(ark, &out.rejected);
     ARKStepGetNumStepSolveFails(ark, &out.not_converged);
     ARKStepGetNumRhsEvals(ark, &out.evaluations, &implicit_evaluations);
-    out.evaluations += implicit_evaluations - known_again_;
+    out.evaluations += implicit_evaluations;
     ARKStepGetLastStep(ark, &out.last_step);
     out.order = order_;
     if (newton_) {
-        ARKStepGetNumNonlinSolvIters(ark, &out.iterations);
+        out.iterations = newton_->solutions;
         out.jacobians = newton_->jacobians;
         out.factorisations = newton_->factorisations;
     }

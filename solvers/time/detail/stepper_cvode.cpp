@@ -18,7 +18,6 @@ public:
     CvodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
     double time() const override { return time_; }
-    double begin_of_step() const override { return begin_; }
     void state_at(double time, double* x) override;
 
 private:
@@ -34,7 +33,6 @@ private:
     IntegrationStatistics since_start() const override;
     bool local_errors() override;
 
-    double begin_ = 0;  ///< of the last step, s
     SundialsNonlinear fixed_point_;
     std::unique_ptr<void, SundialsDeleter<free_cvode>> cvode_;
 };
@@ -90,7 +88,6 @@ bool CvodeStepper::do_step(double horizon) {
     const double from = time_;
     const int flag = CVode(cvode_.get(), towards(horizon), vector(), &time_, CV_ONE_STEP);
     rethrow();
-    begin_ = from;
     if (flag >= 0 && (time_ == stop_ || !stands_still(from, time_))) return true;
     failure_ = explain(flag, "jumps of forces (give their times as breaks) or a motion that ends in infinity");
     return false;
@@ -99,7 +96,7 @@ bool CvodeStepper::do_step(double horizon) {
 void CvodeStepper::state_at(double time, double* x) {
     // At the end, or where nothing has been stepped yet, there is nothing to interpolate.
     if (time != time_ && CVodeGetDky(cvode_.get(), time, 0, errors()) != 0)
-        throw NumericalError(text("time integration: no state at ", time, " s, outside of the last step"));
+        throw NoState(text("time integration: no state at ", time, " s, outside of the last step"));
     const double* from = time == time_ ? data() : N_VGetArrayPointer(errors());
     std::copy(from, from + weights_.size(), x);
 }

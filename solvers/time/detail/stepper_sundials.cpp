@@ -72,12 +72,12 @@ void SundialsStepper::begin(double time, const double* x, double stop) {
     time_ = time;
     stop_ = stop;
     std::copy(x, x + weights_.size(), data());
-    if (newton_) newton_->jacobians = newton_->factorisations = 0;
+    if (newton_) newton_->jacobians = newton_->factorisations = newton_->solutions = 0;
 }
 
 double SundialsStepper::towards(double horizon) const {
     // One step is taken whatever this is, but the libraries refuse to start toward a time that is almost now.
-    const double nearest = std::min(horizon, stop_), shortest = 1e-6 * std::max(1.0, std::abs(time_));
+    const double nearest = std::min(horizon, stop_), shortest = 1e-6 * std::abs(time_);
     return std::isfinite(nearest) && nearest - time_ > shortest ? nearest : time_ + 1;
 }
 

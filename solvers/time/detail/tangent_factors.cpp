@@ -1,7 +1,5 @@
 #include "solvers/time/detail/tangent_factors.hpp"
 
-#include "solvers/time/detail/constrained_motion.hpp"
-
 #include <algorithm>
 
 namespace cardan::solvers {
@@ -12,8 +10,7 @@ TangentFactors::TangentFactors(const EquationsOfMotion& equations)
     : equations_(equations), branches_(equations.model()), all_(Vector::Zero(equations.model().size())) {
     if (equations.states() > 0) set_groups();
     if (!equations.loops()) return;
-    const Index n = equations.size(), m = equations.loops()->loops().size();
-    gradients_.resize(m, n);
+    const Index m = equations.system_loops().size();
     loop_columns_.resize(equations.rates(), m);
     loop_corner_.emplace(m);
     multipliers_.resize(m);
@@ -69,32 +66,29 @@ void TangentFactors::form(const Factors& c) {
 }
 
 void TangentFactors::form_loops() {
-    const ConstrainedMotion& loops = *equations_.loops();
-    const Index n = equations_.size(), m = gradients_.rows();
-    independent_ = std::ssize(loops.independent());
-    for (Index k = 0; k < independent_; ++k) {
-        for (Index i = 0; i < n; ++i)
-            gradients_(k, i) = loops.gradient()(entry(loops.independent(), k), entry(equations_.unknowns(), i));
+    const auto gradients = equations_.loop_gradients();
+    const Index n = equations_.size(), m = loop_columns_.cols(), rank = gradients.rows();
+    for (Index k = 0; k < rank; ++k) {
         column_.setZero();
-        column_.head(n) = gradients_.row(k).transpose();
+        column_.head(n) = gradients.row(k).transpose();
         solve(column_);
         loop_columns_.col(k) = column_;
     }
     Matrix& corner = loop_corner_->matrix();
     corner.setIdentity(m, m);
-    corner.topLeftCorner(independent_, independent_).noalias() =
-        gradients_.topRows(independent_) * loop_columns_.topLeftCorner(n, independent_);
+    corner.topLeftCorner(rank, rank).noalias() = gradients * loop_columns_.topLeftCorner(n, rank);
     loop_corner_->factorise();
 }
 
 void TangentFactors::solve(Vector& r, const Vector& v) {
     solve(r);
     if (!loop_corner_) return;
+    const auto gradients = equations_.loop_gradients();
     const Index n = equations_.size();
     multipliers_.setZero();
-    for (Index k = 0; k < independent_; ++k) multipliers_(k) = gradients_.row(k).dot(v - r.head(n));
+    for (Index k = 0; k < gradients.rows(); ++k) multipliers_(k) = gradients.row(k).dot(v - r.head(n));
     loop_corner_->solve(multipliers_);
-    for (Index k = 0; k < independent_; ++k) r += multipliers_(k) * loop_columns_.col(k);
+    for (Index k = 0; k < gradients.rows(); ++k) r += multipliers_(k) * loop_columns_.col(k);
 }
 
 void TangentFactors::form_local(const Factors& c) {

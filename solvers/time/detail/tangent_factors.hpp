@@ -77,11 +77,9 @@ private:
     std::optional<LuFactors> corner_;  ///< what is left of it
     Vector states_;
     // With loops:
-    Matrix gradients_;     ///< independent ones in the first rows, by unknowns
-    Matrix loop_columns_;  ///< K^-1 of their transposes
+    Matrix loop_columns_;  ///< K^-1 of the transposed gradients
     std::optional<LuFactors> loop_corner_;
     Vector multipliers_, column_;
-    Eigen::Index independent_ = 0;
 };
 
 }  // namespace cardan::solvers

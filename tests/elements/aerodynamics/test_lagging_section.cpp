@@ -29,8 +29,8 @@ struct LaggingCase {
     LaggingCase moved(int column, double h) const {
         LaggingCase out = *this;
         const std::array<double*, LaggingSlopes::first_state> places{
-            &out.motion.V_x,        &out.motion.V_y,        &out.annulus.angle, &out.annulus.radius,
-            &out.motion.wake.angle, &out.motion.wake.lever, &out.motion.rate};
+            &out.motion.V_x,        &out.motion.V_y,        &out.annulus.angle,     &out.annulus.radius,
+            &out.motion.wake.angle, &out.motion.wake.lever, &out.motion.wake.share, &out.motion.rate};
         if (column < LaggingSlopes::first_state)
             *places.at(static_cast<std::size_t>(column)) += h;
         else
@@ -58,7 +58,7 @@ LaggingCase random_lagging(Random& random, const std::vector<UnsteadyProfile>& p
                     {uniform(random, 2, 20),
                      uniform(random, 20, 90),
                      uniform(random, -0.5, 0.5),
-                     {uniform(random, 0.05, 0.6), uniform(random, -0.5, 0.5)}},
+                     {uniform(random, 0.05, 0.6), uniform(random, -0.5, 0.5), uniform(random, 0.2, 1)}},
                     SectionStates::Zero(),
                     {}};
     if (i % 2 == 0) out.lags.profile = &profile;

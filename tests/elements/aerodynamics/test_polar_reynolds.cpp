@@ -166,12 +166,12 @@ TEST_CASE("blade section: derivatives with polars over the Reynolds number", "[p
     int compared = 0;
     for (int i = 0; i < 1500; ++i) {
         const Case at = random_case(random, polar);
-        const SkewedWake wake{uniform(random, 0.05, 0.6), uniform(random, -0.5, 0.5)};
+        const RotorWake wake{uniform(random, 0.05, 0.6), uniform(random, -0.5, 0.5)};
         RotorAirOptions options;
         options.induction = i % 5 != 0;
         const auto forces = [&](int column, double h) {
             Case moved = at;
-            SkewedWake moved_wake = wake;
+            RotorWake moved_wake = wake;
             const std::array<double*, SectionSlopes::columns> places{&moved.V_x,           &moved.V_y,
                                                                      &moved.annulus.angle, &moved.annulus.radius,
                                                                      &moved_wake.angle,    &moved_wake.lever};

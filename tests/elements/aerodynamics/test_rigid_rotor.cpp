@@ -112,17 +112,16 @@ TEST_CASE("blade-element momentum: tilt, cone, yaw and shear over the azimuth, w
     }
 }
 
-TEST_CASE("blade-element momentum: a solution by bisection is the same, for any section", "[crosscheck]") {
+TEST_CASE("blade-element momentum: of several solutions all solvers take that of the smallest attack", "[crosscheck]") {
     const AeroBlade blade = turbines::nrel5mw_aero_blade();
     std::mt19937 random(4);
     const auto number = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(random);
     };
-    constexpr std::size_t count = 20000;
-    int solved = 0, same = 0;
+    constexpr std::size_t count = 4000;
+    int solved = 0, others = 0;
     std::vector<Annulus> annuli;
     std::vector<SectionInflow> inflows;
-    std::vector<Induction> found;
     annuli.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const Annulus& annulus =
@@ -132,32 +131,33 @@ TEST_CASE("blade-element momentum: a solution by bisection is the same, for any 
                                         .tip = std::pow(10.0, number(-3, 2)),
                                         .hub = std::pow(10.0, number(-3, 2)),
                                         .polar = &blade.polars[static_cast<std::size_t>(number(0, 8))]});
-        const double V_x = number(-5, 25), V_y = number(-2, 90);
-        inflows.push_back({&annulus, V_x, V_y});
-        found.push_back(solve_induction(annulus, V_x, V_y));
-        const Induction &fast = found.back(), plain = solve_induction_plainly(annulus, V_x, V_y);
-        CAPTURE(V_x, V_y, annulus.angle, annulus.chord, annulus.radius, annulus.tip, annulus.hub, annulus.polar->name(),
-                fast.phi, plain.phi);
-        CHECK(fast.solved == plain.solved);
-        solved += fast.solved;
-        CHECK(std::isfinite(fast.phi));
-        CHECK(std::abs(fast.axial) <= 1.5);
-        CHECK(std::abs(fast.tangential) <= 1);
+        inflows.push_back({&annulus, number(-5, 25), number(-20, 90)});
     }
-    CHECK(solved > 19000);
-    // Many at once: the same, but where a section has several solutions.
     std::vector<Induction> many(count);
     solve_inductions(inflows, {}, many);
     for (std::size_t i = 0; i < count; ++i) {
-        CAPTURE(i, inflows[i].V_x, inflows[i].V_y, annuli[i].angle, many[i].root, found[i].root);
-        CHECK(many[i].solved == found[i].solved);
-        if (std::abs(many[i].root - found[i].root) > 1e-9) continue;
-        ++same;
-        CHECK(many[i].axial == Approx(found[i].axial).margin(1e-10));
-        CHECK(many[i].tangential == Approx(found[i].tangential).margin(1e-9));
-        CHECK(many[i].phi == Approx(found[i].phi).margin(1e-10));
+        const auto& [annulus, V_x, V_y] = inflows[i];
+        const Induction one = solve_induction(*annulus, V_x, V_y), plain = solve_induction_plainly(*annulus, V_x, V_y);
+        CAPTURE(i, V_x, V_y, annulus->angle, annulus->chord, annulus->radius, annulus->tip, annulus->hub,
+                annulus->polar->name(), many[i].root, one.root, plain.root);
+        CHECK(one.solved == plain.solved);
+        CHECK(many[i].solved == plain.solved);
+        solved += one.solved;
+        for (const Induction& fast : {one, many[i]}) {
+            CHECK(std::abs(fast.axial) <= 1.5);
+            CHECK(std::abs(fast.tangential) <= 1);
+            // Next to a fold two solutions are nearer to each other than what tells them apart.
+            if (std::abs(fast.root - plain.root) > 1e-9) {
+                ++others;
+                continue;
+            }
+            CHECK(fast.axial == Approx(plain.axial).margin(1e-9));
+            CHECK(fast.tangential == Approx(plain.tangential).margin(1e-9));
+            CHECK(fast.phi == Approx(plain.phi).margin(1e-9));
+        }
     }
-    CHECK(same > 19900);
+    CHECK(solved > 3800);
+    CHECK(others <= 4);
 }
 
 TEST_CASE("polar: interpolation around the circle, its slopes, what is refused", "[property]") {

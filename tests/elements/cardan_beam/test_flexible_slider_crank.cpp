@@ -97,7 +97,7 @@ TEST_CASE("closed loops: a slider-crank with an elastic rod", "[discrete]") {
     }
 }
 
-TEST_CASE("closed loops: the elastic rod of a slider-crank at rest vibrates between its pins", "[closed-form]") {
+TEST_CASE("closed loops: the elastic rod of a slider-crank at rest vibrates between its pins", "[analytic]") {
     constexpr double l = 0.30, side = 0.008, E = 2e11, density = 7870, A = side * side, I = A * A / 12;
     const FlexibleSliderCrank machine(8);
     Vector q = Vector::Zero(machine.system.model.size());

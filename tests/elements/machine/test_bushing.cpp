@@ -49,7 +49,7 @@ TEST_CASE("bushing: derivatives and energy on random trees", "[property]") {
     }
 }
 
-TEST_CASE("bushing: a body on it vibrates by its stiffness", "[closed-form]") {
+TEST_CASE("bushing: a body on it vibrates by its stiffness", "[analytic]") {
     // K x = omega^2 M x of a rigid body whose centre is where the bushing is.
     Random random(4);
     Tree tree;
@@ -71,7 +71,7 @@ TEST_CASE("bushing: a body on it vibrates by its stiffness", "[closed-form]") {
               Approx(std::sqrt(expected.eigenvalues()(static_cast<Eigen::Index>(i)))).epsilon(1e-9));
 }
 
-TEST_CASE("bearing: a mass on eight coefficients, and coefficients over speed", "[closed-form]") {
+TEST_CASE("bearing: a mass on eight coefficients, and coefficients over speed", "[analytic]") {
     BearingCoefficients slow, fast;
     slow.stiffness << 4e5, 1e5, -2e5, 6e5;
     slow.damping << 300, 20, 20, 500;

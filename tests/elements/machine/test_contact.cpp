@@ -139,7 +139,7 @@ Slips slips(double d, const StribeckFriction& law) {
 
 using namespace contact_tests;
 
-TEST_CASE("contact: restitution by Hunt and Crossley's law depends on a v0 only", "[closed-form]") {
+TEST_CASE("contact: restitution by Hunt and Crossley's law depends on a v0 only", "[analytic]") {
     struct Row {
         double av, e;
     };
@@ -236,7 +236,7 @@ TEST_CASE("friction: stick-slip by events", "[discrete]") {
     }
 }
 
-TEST_CASE("friction: three blocks in a row break loose one after another", "[closed-form]") {
+TEST_CASE("friction: three blocks in a row break loose one after another", "[analytic]") {
     // The first is pulled with a force that grows with time; springs of 100 N/m between them, each holds 1 N at most.
     Tree tree;
     ForceSet forces;
@@ -279,7 +279,7 @@ TEST_CASE("friction: three blocks in a row break loose one after another", "[clo
     CHECK(std::abs(run.energy().error) < 1e-6);
 }
 
-TEST_CASE("friction: a block on a slope stops, and stays or slides back", "[closed-form]") {
+TEST_CASE("friction: a block on a slope stops, and stays or slides back", "[analytic]") {
     // Thrown uphill at 2 m/s; weight along the slope 5 N, friction 4 N or 6 N.
     for (const double hold : {4.0, 6.0}) {
         CAPTURE(hold);

@@ -98,7 +98,7 @@ TEST_CASE("point spring: derivatives, energy and power on random trees", "[prope
         }
 }
 
-TEST_CASE("point spring: a cable hangs slack, then holds", "[closed-form]") {
+TEST_CASE("point spring: a cable hangs slack, then holds", "[analytic]") {
     // A mass that is dropped and caught by a cable: v^2/2 = g h, then a half swing of sqrt(k/m).
     Tree tree;
     const Link mass =

@@ -53,7 +53,7 @@ std::vector<Mode> modes_at(const System& system, double Omega) {
 
 using namespace rotor_tests;
 
-TEST_CASE("rotors: Jeffcott's with internal and external damping", "[closed-form]") {
+TEST_CASE("rotors: Jeffcott's with internal and external damping", "[analytic]") {
     const System system = jeffcott(40, 0);
     struct Row {
         double speed;
@@ -85,7 +85,7 @@ TEST_CASE("rotors: Jeffcott's with internal and external damping", "[closed-form
     }
 }
 
-TEST_CASE("rotors: unbalance of Jeffcott's, on equal and unequal supports", "[closed-form]") {
+TEST_CASE("rotors: unbalance of Jeffcott's, on equal and unequal supports", "[analytic]") {
     constexpr double me = 1e-3;
     const System equal = jeffcott(0, me);
     struct Row {
@@ -140,7 +140,7 @@ TEST_CASE("rotors: unbalance of Jeffcott's, on equal and unequal supports", "[cl
     }
 }
 
-TEST_CASE("rotors: an overhung disc", "[closed-form]") {
+TEST_CASE("rotors: an overhung disc", "[analytic]") {
     constexpr double m = 20, diametral = 0.4, polar = 0.75, L = 0.5, E = 2.1e11, d = 0.04;
     const double EI = E * pi * std::pow(d, 4) / 64;
     Tree tree;

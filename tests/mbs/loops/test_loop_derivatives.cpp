@@ -1,8 +1,6 @@
 // Loops on random trees: every derivative against the complex step of the one before, multipliers against the work of
 // what they stand for.
-#include "mbs/base/decompositions.hpp"
 #include "mbs/loops/closure.hpp"
-#include "mbs/loops/constraint_factor.hpp"
 #include "mbs/system/system.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
@@ -139,8 +137,7 @@ TEST_CASE("loops: what joints and rods exert does the work of their multipliers"
     }
 }
 
-TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which leaves it that freedom",
-          "[closed-form]") {
+TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which leaves it that freedom", "[analytic]") {
     struct Freedoms {
         CutKind kind;
         std::vector<std::pair<JointKind, Vec3>> joints;
@@ -190,7 +187,7 @@ TEST_CASE("loops: a joint of the tree fulfils the cut joint of its kind, which l
     }
 }
 
-TEST_CASE("loops: every kind of joint holds as many directions as it has equations", "[closed-form]") {
+TEST_CASE("loops: every kind of joint holds as many directions as it has equations", "[analytic]") {
     Random random(5);
     for (const CutKind kind : all_kinds) {
         CAPTURE(static_cast<int>(kind));
@@ -212,7 +209,7 @@ TEST_CASE("loops: every kind of joint holds as many directions as it has equatio
     }
 }
 
-TEST_CASE("loops: the closed position is the nearest one in the metric", "[closed-form]") {
+TEST_CASE("loops: the closed position is the nearest one in the metric", "[analytic]") {
     // A point mass on a circle: of all its points the one on the line to the start. With unequal inertia in x and y the
     // metric is diag(m + 3, m), and the nearest point that of an ellipse.
     for (const double more : {0.0, 3.0}) {
@@ -247,7 +244,7 @@ TEST_CASE("loops: the closed position is the nearest one in the metric", "[close
     }
 }
 
-TEST_CASE("loops: a surface, and two that make a curve", "[closed-form]") {
+TEST_CASE("loops: a surface, and two that make a curve", "[analytic]") {
     // The ellipsoid x^2/4 + y^2 + z^2 = 1 in turned axes.
     Random random(11);
     Tree tree;
@@ -295,43 +292,6 @@ TEST_CASE("loops: a surface, and two that make a curve", "[closed-form]") {
     CHECK(scaled(bias - expected, expected) < 1e-8);
 }
 
-TEST_CASE("loops: projection and multipliers of redundant constraints", "[property]") {
-    // Random gradients of which some are combinations of others.
-    for (unsigned seed = 0; seed < 10; ++seed) {
-        CAPTURE(seed);
-        Random random(seed);
-        const Model model(random_tree(random, {.bodies = 10}));
-        const int n = model.size(), m = 6, r = 4;
-        const Matrix few = random_matrix(random, r, n);
-        Matrix G(m, n);
-        G << few, random_matrix(random, m - r, r) * few;
-        Workspace workspace(model);
-        const Vector q = random_state(random, n);
-        const Kinematics kin = kinematics(model, q, workspace);
-        Matrix g(n, n);
-        metric(kin, g);
-        MetricFactor metric_factor(model);
-        REQUIRE(metric_factor.factorise(kin).ok());
-        ConstraintFactor factor(model, m);
-        factor.factorise(metric_factor, G, G.cwiseAbs(), 1e-9);
-        REQUIRE(factor.rank() == r);
-        const Matrix inverse = g.inverse(), A = G * inverse * G.transpose();
-        const Vector y = A * random_state(random, m);  // one that can be met
-        Vector x(n), lambda(m);
-        factor.shortest(y, x);
-        factor.multipliers(y, lambda);
-        CHECK(scaled(G * x - y, y) < 1e-9);
-        CHECK(scaled(A * lambda - y, y) < 1e-9);
-        CHECK(scaled(inverse * G.transpose() * lambda - x, x) < 1e-9);  // no way is shorter
-        // No other multipliers are: these have nothing in the null space.
-        Eigen::FullPivLU<Matrix> lu(A);
-        lu.setThreshold(1e-9);
-        const Matrix null = lu.kernel();
-        CHECK(null.cols() == m - r);
-        CHECK((null.transpose() * lambda).norm() < 1e-8 * lambda.norm() * null.norm());
-    }
-}
-
 TEST_CASE("loops: what does not fit is refused with names", "[bad-input]") {
     Tree tree;
     const Link one = add_joint(tree, {.name = "one", .inertia = {1, {1, 0, 0}, Mat3::Identity()}});
@@ -371,7 +331,7 @@ TEST_CASE("loops: what does not fit is refused with names", "[bad-input]") {
     check_refused([&] { system.require_no_loops("this"); }, {"this", "rod"});
 }
 
-TEST_CASE("loops: closed the wrong way round is not closed", "[closed-form]") {
+TEST_CASE("loops: closed the wrong way round is not closed", "[analytic]") {
     // A shaft to be welded to ground from half a turn away: all equations of directions are met there, too.
     Tree tree;
     const Link shaft = add_joint(tree, {.name = "shaft", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});

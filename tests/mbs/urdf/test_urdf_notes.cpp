@@ -1,5 +1,6 @@
 // What a URDF file says beyond dynamics: passed over or ignored, but never silently.
 #include "tests/mbs/urdf/urdf_texts.hpp"
+#include "tests/support/host_locale.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -115,18 +116,17 @@ TEST_CASE("urdf notes: white space in attributes, comments, entities and a decla
 }
 
 TEST_CASE("urdf notes: numbers are read alike in every locale", "[property]") {
-    const std::locale before = std::locale::global(std::locale::classic());
-    struct Comma : std::numpunct<char> {
-        char do_decimal_point() const override { return ','; }
-        char do_thousands_sep() const override { return '.'; }
-        std::string do_grouping() const override { return "\3"; }
-    };
-    std::locale::global(std::locale(std::locale::classic(), new Comma));
-    const UrdfModel model =
-        parse_urdf(robot(link_tag("ground", "") + link_tag("arm") +
-                         joint_tag("hinge", "continuous", "ground", "arm", R"(<origin xyz="1.5 2000.25 0"/>)")));
-    const std::string back = to_urdf(model.tree);
-    std::locale::global(before);
-    CHECK(pose_of(model.tree, "arm", Vector::Zero(1)).translation() == Vec3(1.5, 2000.25, 0));
-    CHECK(back.find("xyz=\"1.5 2000.25 0\"") != std::string::npos);
+    for (const char* name : {"de_DE.UTF-8", "de_DE.ISO-8859-1"}) {
+        UrdfModel model;
+        std::string back;
+        {
+            const test::HostLocale host(name);
+            model = parse_urdf(
+                robot(link_tag("ground", "") + link_tag("arm") +
+                      joint_tag("hinge", "continuous", "ground", "arm", R"(<origin xyz="1.5 2000.25 0"/>)")));
+            back = to_urdf(model.tree);
+        }
+        CHECK(pose_of(model.tree, "arm", Vector::Zero(1)).translation() == Vec3(1.5, 2000.25, 0));
+        CHECK(back.find("xyz=\"1.5 2000.25 0\"") != std::string::npos);
+    }
 }

@@ -52,6 +52,24 @@ TEST_CASE("campbell averaged: with blades that differ it has frequencies of no m
     }
 }
 
+TEST_CASE("campbell averaged: equal blades on which something different acts are not told to be different",
+          "[property]") {
+    SmallRotorSpec spec{.damping = 2, .elastic_support = true};
+    spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>& blades) {
+        StateElement on_one{
+            .name = "on one", .states = {{.name = "unused", .unit = "1", .scale = 1}}, .coordinates = {blades[2][0]}};
+        on_one.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
+            Q(0) = -1500 * in.q(0);
+            f(0) = -in.s(0);
+        };
+        forces.add_states(on_one);
+    };
+    const Campbell mean = diagram_by(small_rotor(spec), {3.0}, CampbellMethod::averaged, RotorSpin::prescribed);
+    CAPTURE(mean.warning);
+    CHECK(mean.warning.find("what acts on the blades differs") != std::string::npos);
+    CHECK(mean.warning.find("loquet") == std::string::npos);
+}
+
 TEST_CASE("campbell averaged: gravity on equal blades is no difference between them", "[property]") {
     const SmallRotor rotor = small_rotor(
         {.hinges = BladeHinges::flap_and_lag, .elastic_support = true, .gravity = {0, -units::standard_gravity, 0}});

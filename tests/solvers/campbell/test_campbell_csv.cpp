@@ -2,6 +2,7 @@
 // marks and line ends, kinds of motion, another parameter, missing modes.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/campbell/blade_shapes.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
@@ -43,9 +44,10 @@ struct Table {
     std::vector<std::vector<std::string>> rows;
 };
 
-Table table_of(const Campbell& diagram) {
+template <class Written>
+Table table_of(const Written& written) {
     const test::Folder folder;
-    write_csv(diagram, folder.path / "c.csv");
+    write_csv(written, folder.path / "c.csv");
     std::string rest = test::bytes_of(folder / "c.csv");
     Table table;
     while (rest.starts_with('#')) {
@@ -176,4 +178,16 @@ TEST_CASE("campbell table: a machine's name or a warning of two lines stays a co
     const Table table = table_of(d);
     CHECK(table.header.front() == "rotor_speed[rpm]");
     CHECK(table.rows.size() == 1);
+}
+
+TEST_CASE("campbell table: so it is with the shapes of blades", "[property]") {
+    const Vec3T<Complex> one(1, 0, Complex(0, 2));
+    const BladeShapes shapes{
+        "two\nlines", 1, {{"2nd blade flap (backward, 2)", 2, false, {3, 4}, {one, one}, {one, one}}}};
+    const Table table = table_of(std::vector{shapes});
+    CHECK(table.header.size() == 12);
+    REQUIRE(table.rows.size() == 2);
+    CHECK(table.rows[1][mode_column] == "2nd blade flap (backward, 2)");
+    CHECK(table.rows[1][3] == "4");
+    CHECK(table.rows[1][8] == "2");  // the imaginary part of flap
 }

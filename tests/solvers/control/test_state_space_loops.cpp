@@ -55,7 +55,7 @@ const RotorMap the_machine{.machine = "slider-crank", .spin = 0, .hub = {}, .bla
 
 using namespace linear_loop_tests;
 
-TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[closed-form]") {
+TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[analytic]") {
     const System system = machine();
     const double theta = 0.8;
     Vector q = Vector::Zero(4);
@@ -87,7 +87,7 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[cl
     CHECK(sample.C(force, 0) == Approx(-spring_k / std::cos(q(0) + q(1))).epsilon(1e-6));
 }
 
-TEST_CASE("linear model with loops: about a slider-crank in motion", "[closed-form][crosscheck]") {
+TEST_CASE("linear model with loops: about a slider-crank in motion", "[analytic][crosscheck]") {
     const System system = machine();
     const double Omega = 9;
     Matrix start = Matrix::Zero(4, 1);

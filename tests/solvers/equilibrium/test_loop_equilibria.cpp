@@ -75,6 +75,8 @@ TEST_CASE("loop equilibria: a four-bar that hangs, and swings", "[discrete]") {
         REQUIRE(found.size() == 1);
         CHECK(found[0].eigenvalue.imag() == Approx(15.7425669).epsilon(1e-8));
         CHECK(std::abs(found[0].eigenvalue.real()) < 1e-6);
+        const NaturalModes natural = natural_modes(system, -1, 0, FourBar::position(-1.6, 0.9, 2.2));
+        CHECK(natural.modes.at(0).eigenvalue.imag() == Approx(15.7425669).epsilon(1e-8));
         // What knows trees only says so.
         check_refused([&] { (void)restrict_to(lin, {0, 1, 2}); }, {"loops", "reduce_loops"});
         check_refused([&] { (void)linear_buckling(system); }, {"linear buckling", "pin B"});
@@ -99,8 +101,7 @@ TEST_CASE("loop equilibria: Bricard's loop at its lowest position", "[discrete]"
     CHECK(found[0].eigenvalue.imag() == Approx(1.2412987).epsilon(1e-6));
 }
 
-TEST_CASE("loop equilibria: natural modes of a closed machine are those of the open one that it equals",
-          "[closed-form]") {
+TEST_CASE("loop equilibria: natural modes of a closed machine are those of the open one that it equals", "[analytic]") {
     // A mass on a rod about the origin, held by springs in x and y: against the same mass on a hinge.
     const double length = 1.3, m = 2, kx = 30, ky = 70;
     Tree tree;
@@ -137,7 +138,25 @@ TEST_CASE("loop equilibria: natural modes of a closed machine are those of the o
         {"rod", "gap"});
 }
 
-TEST_CASE("loop equilibria: two wheels held by a spring and tied by a coupling only", "[closed-form]") {
+TEST_CASE("loop equilibria: a mass upright on a rod, in a loop, falls at the load of its spring", "[analytic]") {
+    // On slides in x and y, held sideways by k: m l^2 phi'' + (k l^2 - F l) phi = 0.
+    const double length = 1.3, k = 30, full = 100;
+    Tree tree;
+    const auto [x, y] = add_plane_mass(tree, 2);
+    ForceSet forces;
+    forces.add_spring("side", x.body, k, 0.5);
+    forces.add_wrench({.name = "load", .frame = y.axes, .wrench = {Vec3(0, -full, 0), Vec3::Zero()}});
+    LoopSet loops;
+    loops.add_distance({"rod", Tree::base(), y.axes, length});
+    const System system(tree, forces, loops);
+    const LoadStability found =
+        load_stability(system, {.from = 0.01, .to = 1, .steps = 10, .state = {.initial = Vector{{0, length}}}});
+    REQUIRE(found.converged);
+    CHECK(found.kind == Instability::divergence);
+    CHECK(found.factor * full == Approx(k * length).epsilon(1e-6));
+}
+
+TEST_CASE("loop equilibria: two wheels held by a spring and tied by a coupling only", "[analytic]") {
     // Pinion = -2 wheel; a torque M on the pinion, a spring k on the wheel: k wheel = -2 M.
     Tree tree;
     const Link wheel = add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
@@ -243,7 +262,7 @@ TEST_CASE("loop equilibria: the pitch linkage snaps through along its load curve
     CHECK(behind.at.q(0) == Approx(2.33623656).margin(1e-7));
 }
 
-TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in closed form", "[closed-form]") {
+TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in closed form", "[analytic]") {
     // Bars of 1 m from (0, 0), hinged in the middle, to a slider on x that a spring of 1000 N/m holds at x = 1.8: a
     // loop. A load F down at the hinge at angle t: x = 2 cos t, F = 2 k (2 cos t - 1.8) tan t ... with its sign.
     const double k = 1000, rest = 1.8;

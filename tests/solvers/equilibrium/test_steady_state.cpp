@@ -295,3 +295,35 @@ TEST_CASE("steady state: forces that are not a number are no equilibrium, and no
     CHECK_THROWS_AS(solver.solve({}, state), std::runtime_error);
     CHECK_FALSE(state.converged);
 }
+
+TEST_CASE("steady state: springs as weak as they may be give as far as they have to, in any unit",
+          "[solvers][analytic]") {
+    // 60 N on 1 N/m, 60 N m on 1 N m/rad: alone, and at the end of an arm of 0.1 m.
+    struct Units {
+        double length, mass, time;
+    };
+    for (const Units& u : {Units{1, 1, 1}, {1e3, 1, 1e3}, {1e6, 1e9, 1e6}, {1e-3, 1, 1}, {1e9, 1e-3, 1.0 / 3600}})
+        for (const double arm : {0.0, 0.1}) {
+            CAPTURE(u.length, arm);
+            const double force = u.mass * u.length / (u.time * u.time), moment = force * u.length;
+            Tree tree;
+            ForceSet forces;
+            const FrameId at = tree.add_frame(Tree::base(), Placement::translation({arm * u.length, 0, 0}), "at");
+            const Link turn = add_joint(
+                tree,
+                {.name = "turn", .inertia = {u.mass, Vec3::Zero(), u.mass * u.length * u.length * Mat3::Identity()}});
+            const Link slide = add_joint(tree, {.name = "slide",
+                                                .inboard = at,
+                                                .kind = JointKind::prismatic,
+                                                .axis = Vec3::UnitX(),
+                                                .inertia = {u.mass, Vec3::Zero(), Mat3::Zero()}});
+            forces.add_spring("slide", slide.body, force / u.length);
+            forces.add_spring("turn", turn.body, moment);
+            forces.add_wrench({"force", slide.axes, {Vec3(60 * force, 0, 0), Vec3::Zero()}, WrenchAxes::base});
+            forces.add_wrench({"moment", turn.axes, {Vec3::Zero(), Vec3(0, 0, 60 * moment)}, WrenchAxes::base});
+            const SteadyState state = steady_state(System(tree, forces), -1);
+            REQUIRE(state.converged);
+            CHECK(state.at.q(0) == Approx(60).epsilon(1e-12));
+            CHECK(state.at.q(1) / u.length == Approx(60).epsilon(1e-12));
+        }
+}

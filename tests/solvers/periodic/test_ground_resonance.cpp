@@ -136,7 +136,7 @@ TEST_CASE("ground resonance: Hammond's rotor, all dampers at work and one of the
 }
 
 TEST_CASE("ground resonance: without two opposite dampers these blades swing without reaction and damping",
-          "[closed-form]") {
+          "[analytic]") {
     Helicopter machine{94.9, 289.1, 1084.7, 0.3048, 4067.5, 8026.6, 3283.6, 1240481.8, 1240481.8, 51078.7, 25539.35};
     machine.damper_out = 1;
     machine.other_out = 3;

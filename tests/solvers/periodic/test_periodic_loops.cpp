@@ -121,7 +121,7 @@ struct ElasticDrive {
 
 using namespace periodic_loop_tests;
 
-TEST_CASE("periodic loops: place and pin forces of a slider-crank in steady rotation", "[closed-form]") {
+TEST_CASE("periodic loops: place and pin forces of a slider-crank in steady rotation", "[analytic]") {
     const SliderCrank machine(CutKind::cylindrical);
     const double Omega = 150;
     const PeriodicSteadyState state =
@@ -145,7 +145,7 @@ TEST_CASE("periodic loops: place and pin forces of a slider-crank in steady rota
     check_refused([&] { (void)shooting(machine.system, 0, {.rotor_speed = Omega}); }, {"shooting", "wrist pin"});
 }
 
-TEST_CASE("periodic loops: a pendulum that a slider-crank shakes obeys Hill's equation", "[closed-form]") {
+TEST_CASE("periodic loops: a pendulum that a slider-crank shakes obeys Hill's equation", "[analytic]") {
     const System system = ShakenPendulum::system();
     for (const double Omega : {3.0, 9.0, 9.9, 14.0}) {
         CAPTURE(Omega);

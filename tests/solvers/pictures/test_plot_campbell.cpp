@@ -4,6 +4,8 @@
 #include "tests/support/files.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 using namespace cardan;
 using namespace cardan::solvers;
@@ -52,11 +54,31 @@ TEST_CASE("Campbell pictures: a doubtful name is a hollow point in both panels, 
           "[property]") {
     Campbell diagram = without_doubt();
     const std::string sure = drawn(diagram);
-    CHECK(sure.find("name in doubt") == std::string::npos);
+    CHECK(sure.find("in doubt") == std::string::npos);
     CHECK(count(sure, hollow) == 0);
     diagram.branches[0].doubtful[1] = diagram.branches[1].doubtful[2] = diagram.branches[1].doubtful[3] = true;
     const std::string doubtful = drawn(diagram);
-    CHECK_THAT(doubtful, Contains(">name in doubt<"));
+    CHECK_THAT(doubtful, Contains(">name or frequency in doubt<"));
     CHECK(count(doubtful, hollow) == 2 * 3 + 1);
     CHECK(count(drawn(diagram, {.damping_panel = false}), hollow) == 3 + 1);
+}
+
+// Where the label of a multiple stands, in pixels from the top.
+static double label_height(const std::string& svg, const std::string& label) {
+    const std::size_t at = svg.rfind("translate(", svg.find(">" + label + "<")), comma = svg.find(',', at);
+    return std::stod(svg.substr(comma + 1));
+}
+
+TEST_CASE("Campbell pictures: multiples of the rotor speed follow it over another parameter", "[analytic]") {
+    const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000, 2000}, .damping = 3});
+    const auto distance = [&](double last) {  // of 3P and 1P at the end
+        std::vector<CampbellCase> cases;
+        for (const auto& [wind, speed] : {std::pair(4.0, 1.0), std::pair(8.0, 1.5), std::pair(12.0, last)})
+            cases.push_back({.system = &rotor.system, .rotor = &rotor.map, .rotor_speed = speed, .parameter = wind});
+        const std::string svg = drawn(campbell(cases, "wind speed, m/s"), {.max_frequency_hz = 4});
+        return label_height(svg, "1P") - label_height(svg, "3P");
+    };
+    const double slow = distance(1), fast = distance(2);
+    CHECK(slow > 10);
+    CHECK(fast == Approx(2 * slow).margin(0.3));  // a pixel has one decimal
 }

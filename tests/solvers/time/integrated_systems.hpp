@@ -14,6 +14,10 @@ namespace cardan::testing {
 using namespace solvers;
 
 inline constexpr Method methods[] = {Method::bdf, Method::adams, Method::dirk, Method::erk, Method::generalised_alpha};
+// They begin anew at every break and sample.
+inline bool is_multistep(Method method) {
+    return method == Method::bdf || method == Method::adams;
+}
 
 inline Vector vector(std::initializer_list<double> values) {
     Vector v(std::ssize(values));

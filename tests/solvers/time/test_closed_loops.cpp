@@ -100,7 +100,7 @@ struct Squeezer {
 
 using namespace closed_loop_tests;
 
-TEST_CASE("closed loops: a mass on a rod is the pendulum, at every order", "[closed-form]") {
+TEST_CASE("closed loops: a mass on a rod is the pendulum, at every order", "[analytic]") {
     const RodPendulum machine;
     const double span = 1.7;
     const oracles::SwingingPendulum pendulum(std::sqrt(loop_gravity / machine.length), machine.start);
@@ -227,7 +227,7 @@ TEST_CASE("closed loops: Andrews' squeezer", "[published]") {
     }
 }
 
-TEST_CASE("closed loops: events, checkpoints and outputs", "[closed-form]") {
+TEST_CASE("closed loops: events, checkpoints and outputs", "[analytic]") {
     const RodPendulum machine;
     const System& system = machine.system;
     const Vector start = machine.position(machine.start);
@@ -255,7 +255,34 @@ TEST_CASE("closed loops: events, checkpoints and outputs", "[closed-form]") {
     CHECK(continued.statistics().restarts == 0);
 }
 
-TEST_CASE("closed loops: constraints that move do work, couplings none", "[closed-form]") {
+TEST_CASE("closed loops: continued from any checkpoint, a run goes on bit for bit", "[property]") {
+    const FourBar machine(CoordinateRole::free);
+    const System& system = machine.system;
+    const Closure closed = close_loops(system.model, system.loops, FourBar::position(1, 1, 2), {.held = {0}});
+    const Vector rates = close_rates(system.model, system.loops, closed.q, Vec3(9, 0, 0), {.held = {0}});
+    for (const Method method : {Method::dirk, Method::erk}) {
+        const IntegrationOptions options = with(method, 1e-7, 1e-8);
+        Integrator whole(system, {}, 0, closed.q, rates, options);
+        std::vector<Checkpoint> checkpoints;
+        for (int i = 1; i <= 49; ++i) {
+            REQUIRE(whole.advance(0.0131 * i).reached());
+            checkpoints.push_back(whole.checkpoint());
+        }
+        REQUIRE(whole.advance(0.7).reached());
+        for (const Checkpoint& from : checkpoints) {
+            CAPTURE(static_cast<int>(method), from.time);
+            Integrator continued(system, {}, from, options);
+            CHECK(continued.state().q == from.q);
+            REQUIRE(continued.advance(0.7).reached());
+            CHECK(continued.state().q == whole.state().q);
+            CHECK(continued.state().qd == whole.state().qd);
+            CHECK(continued.state().lambda == whole.state().lambda);
+            CHECK(continued.statistics().restarts == 0);
+        }
+    }
+}
+
+TEST_CASE("closed loops: constraints that move do work, couplings none", "[analytic]") {
     // A mass m that a constraint x = a sin(w t) moves: force m x'', work the change of kinetic energy.
     Tree tree;
     const Link slide = add_joint(
@@ -340,8 +367,12 @@ TEST_CASE("closed loops: starts and methods that do not fit are refused", "[bad-
     // At rates that do so at the start only.
     const Vector fit = close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 0}}, {.held = {0}});
     both[1].motion = Motion::constant_rate(closed.q(2), fit(2));
-    Integrator run(system, both, 0, closed.q, fit);
-    const Advance end = run.advance(1);
-    CHECK(end.end == Advance::End::failed);
-    CHECK(end.message.find("pin B") != std::string::npos);
+    for (const Method method : closing) {
+        CAPTURE(static_cast<int>(method));
+        Integrator run(system, both, 0, closed.q, fit, with(method));
+        const Advance end = run.advance(1);
+        CHECK(end.end == Advance::End::failed);
+        CHECK(end.message.find("pin B") != std::string::npos);
+        CHECK(largest_gap(system, run.state()) < 1e-5);  // the last state that there was
+    }
 }

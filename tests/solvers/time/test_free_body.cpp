@@ -50,7 +50,7 @@ struct State {
 
 using namespace free_body_tests;
 
-TEST_CASE("free body: pose and velocities go in and come out, in singular attitudes too", "[closed-form]") {
+TEST_CASE("free body: pose and velocities go in and come out, in singular attitudes too", "[analytic]") {
     const System system = thrown(0);
     const Model& model = system.model;
     Workspace workspace(model);
@@ -79,7 +79,7 @@ TEST_CASE("free body: pose and velocities go in and come out, in singular attitu
     }
 }
 
-TEST_CASE("free body: tumbles and flies with every method, through all attitudes", "[closed-form]") {
+TEST_CASE("free body: tumbles and flies with every method, through all attitudes", "[analytic]") {
     struct Accuracy {
         Method method;
         double tolerance, error;
@@ -139,7 +139,7 @@ TEST_CASE("free body: records how it lies, not its coordinates", "[property]") {
     CHECK((w - angular_velocity(1.7)).norm() < 1e-6);
 }
 
-TEST_CASE("free body: as seen from a frame that turns", "[closed-form]") {
+TEST_CASE("free body: as seen from a frame that turns", "[analytic]") {
     // On a turntable: without forces it flies straight on.
     Tree tree;
     const Link table =
@@ -177,7 +177,7 @@ TEST_CASE("free body: bad input is refused", "[bad-input]") {
     check_refused([&] { (void)State(system.model, motion); }, {"'body'", "pose"});
 }
 
-TEST_CASE("time: a state that jumps, as in an impact", "[closed-form]") {
+TEST_CASE("time: a state that jumps, as in an impact", "[analytic]") {
     // A ball that bounces from the floor with restitution e: heights fall by e^2, and the energy is accounted for.
     Tree tree;
     (void)add_joint(tree, {.name = "z", .kind = JointKind::prismatic, .inertia = {2, Vec3::Zero(), Mat3::Zero()}});

@@ -153,6 +153,28 @@ TEST_CASE("Goland's wing: flutter and divergence in one search over the wind spe
     CHECK(found.diagram.complete);
 }
 
+// Two static roots are complex below 250 m/s and negative next to the divergence, where one of them becomes positive.
+TEST_CASE("Goland's wing: divergence begins as the wind rises and ceases as it falls, beside flutter", "[analytic]") {
+    constexpr double exact = 252.278, low = 100, high = 300;
+    for (const bool rises : {true, false}) {
+        WingInWind wing(8, flat_plate_by_jones());
+        const auto at = [&](double parameter) { return wing.in(rises ? parameter : low + high - parameter); };
+        const StabilityLimits found = stability_limits(at, "wind speed, m/s", low, high, two_modes(20));
+        CAPTURE(rises, found.note);
+        const auto divergence = std::ranges::find(found.limits, Instability::divergence, &StabilityLimit::kind);
+        const auto flutter = std::ranges::find(found.limits, Instability::flutter, &StabilityLimit::kind);
+        REQUIRE(found.limits.size() == 2);
+        REQUIRE((divergence != found.limits.end() && flutter != found.limits.end()));
+        CHECK(divergence->begins == rises);
+        CHECK(flutter->begins == rises);
+        CHECK((rises ? divergence->parameter : low + high - divergence->parameter) == Approx(exact).epsilon(0.01));
+        CHECK((found.note.find("diverges at") != std::string::npos) == !rises);
+    }
+    const StabilityLimits inside = wing_limits(8, flat_plate_by_jones(), 260, high, 4);
+    CHECK(inside.first(Instability::divergence) == nullptr);
+    CHECK_THAT(inside.note, Catch::Contains("the machine diverges at wind speed, m/s 260 already"));
+}
+
 TEST_CASE("Goland's wing: flutter converges to that of the continuous wing, of second order", "[analytic]") {
     const oracles::FlutterPoint expected = theory().flutter(oracles::jones_lags, 150);
     const auto error = [&](int elements) {

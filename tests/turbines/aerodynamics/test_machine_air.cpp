@@ -33,8 +33,9 @@ MachineState turning(const Turbine& machine, double azimuth) {
     return state;
 }
 
-MachineState shaken(const Turbine& machine, unsigned seed) {
+MachineState shaken(const Turbine& machine, unsigned seed, double speed = 1.1) {
     MachineState state = turning(machine, 0.7);
+    state.qd(machine.rotor().spin) = speed;
     Random random(seed);
     for (Eigen::Index i = 0; i < state.q.size(); ++i)
         if (i != machine.rotor().spin) {
@@ -130,6 +131,14 @@ TEST_CASE("air on a machine: derivatives are those of the forces", "[property]")
         // Without a skewed wake blades do not feel each other.
         const RotorMap& rotor = machine.rotor();
         CHECK((by_q(rotor.blades[0].back(), rotor.blades[1].back()) == 0) == (skew == Skew::none));
+        // From behind, backwards, at rest, and where the induction is fading: at tip-speed ratios of 1.5.
+        SteadyWind behind = slanted;
+        behind.direction = 2.8;
+        for (const SteadyWind& wind : {slanted, behind})
+            for (const double speed : {-1.1, 0.0, 0.25, -0.25}) {
+                CAPTURE(wind.direction, speed);
+                checked_derivatives(machine, air.in(wind).field(), shaken(machine, 6, speed), 1e-8, 1e-8);
+            }
     }
 }
 

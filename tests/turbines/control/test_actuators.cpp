@@ -9,9 +9,11 @@
 #include "tests/solvers/rotor_with_lags.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/turbines/readers/model_files.hpp"
 #include "turbines/control/actuators.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/nrel5mw_controller.hpp"
+#include "turbines/readers/openfast.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,14 +33,29 @@ turbines::TurbineDescription description() {
 }
 
 // NREL 5 MW with few elements, its blades at a pitch; no gravity.
-Turbine machine() {
-    turbines::TurbineDescription d = description();
-    turbines::give_pitch_springs(d);
+Turbine assembled(const turbines::TurbineDescription& d) {
     turbines::AssemblyOptions options;
     options.blade_elements = options.tower_elements = 1;
     options.pitch = pitch;
     return assemble(d, options);
 }
+
+Turbine machine() {
+    turbines::TurbineDescription d = description();
+    turbines::give_pitch_springs(d);
+    return assembled(d);
+}
+
+// Its pitch prescribed; beside the sections of its blades an inertia about their axes.
+Turbine prescribed_machine(double inertia = 0) {
+    turbines::TurbineDescription d = description();
+    d.blade.pitch_inertia = inertia;
+    turbines::give_pitch_drives(d);
+    return assembled(d);
+}
+
+// As of a machine's own choice.
+constexpr turbines::ActuatorOptions two_hertz{.pitch_frequency = 4 * pi, .largest_pitch_rate = 8 * units::degree};
 
 // Torque of the wind at the hub, and the machine turning steadily under it.
 constexpr double torque = 4e6;
@@ -99,7 +116,7 @@ TEST_CASE("actuators: a machine that turns steadily on its springs goes on so on
           "[property]") {
     const Turbine turbine = machine();
     const solvers::OperatingPoint start = steady(turbine);
-    const ActuatedForces actuated(turbine);
+    const ActuatedForces actuated(turbine, two_hertz);
     const double balance = torque / turbine.layout().gear_ratio;
     for (const bool individual : {false, true}) {
         const Turbine under = loaded(turbine, actuated.with_inputs(balance, individual));
@@ -121,7 +138,7 @@ TEST_CASE("actuators: a machine that turns steadily on its springs goes on so on
 TEST_CASE("actuators: channels and signals are the demands, the torque and its power, speed and mean pitch",
           "[property]") {
     const Turbine turbine = machine();
-    const ActuatedForces actuated(turbine);
+    const ActuatedForces actuated(turbine, two_hertz);
     const Turbine under = turbine.with_forces(actuated.with_inputs(4e4));
     const solvers::OperatingPoint start = steady(turbine);
     solvers::Integrator run(under.system(), {}, 0, start.q, start.qd);
@@ -150,7 +167,7 @@ TEST_CASE("actuators: channels and signals are the demands, the torque and its p
 TEST_CASE("actuators: a run under the baseline controller goes on from a checkpoint bit for bit", "[property]") {
     const Turbine turbine = machine();
     const solvers::OperatingPoint start = steady(turbine);
-    const ActuatedForces actuated(turbine);
+    const ActuatedForces actuated(turbine, two_hertz);
     const Turbine under = loaded(turbine, actuated.with_inputs(4.2e4));
     const auto options = [&] {
         solvers::IntegrationOptions own;
@@ -178,7 +195,8 @@ TEST_CASE("actuators: the modes of the closed loop are the eigenvalues of its de
     const VariableSpeedEquivalent loop = variable_speed_equivalent(
         turbines::nrel5mw_controller(), {turbines::generator_speed(layout), turbines::mean_pitch(layout)},
         {layout.gear_ratio * speed, pitch});
-    ForceSet forces = ActuatedForces(turbine).with_demands({{loop.pitch}, loop.torque}, torque / layout.gear_ratio);
+    ForceSet forces =
+        ActuatedForces(turbine, two_hertz).with_demands({{loop.pitch}, loop.torque}, torque / layout.gear_ratio);
     for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
     const Turbine closed = loaded(turbine, forces);
     solvers::OperatingPoint at = steady(turbine);
@@ -206,6 +224,71 @@ TEST_CASE("actuators: the modes of the closed loop are the eigenvalues of its de
     }
 }
 
+TEST_CASE("actuators: a prescribed pitch follows its demand, and only its drive feels the inertia of the pitch",
+          "[analytic]") {
+    const double J = 3e4, T = 0.0125;
+    std::vector<solvers::DynamicState> ends;
+    for (const double inertia : {0.0, J}) {
+        const Turbine turbine = prescribed_machine(inertia);
+        const ActuatedForces actuated(turbine);
+        CHECK(actuated.in_words() == "pitch prescribed, one period behind the demand");
+        const Turbine under = loaded(turbine, actuated.with_inputs(4.2e4, true));
+        const solvers::OperatingPoint start = steady(turbine);
+        solvers::SampledController ramps{.name = "ramps", .inputs = actuated.inputs(true), .period = T};
+        ramps.drives = actuated.drives(true);
+        ramps.update = [](const solvers::SampleInput& in, VectorOut u) {
+            for (int k = 0; k < 3; ++k) u(k) = pitch + 0.02 * (k + 1) * in.state.time * in.state.time;
+        };
+        solvers::IntegrationOptions options;
+        options.tolerances.relative = 1e-9;
+        options.controllers = {ramps};
+        solvers::Integrator run(under.system(), {}, 0, start.q, start.qd, options);
+        REQUIRE(run.advance(20.5 * T).reached());
+        const solvers::DynamicState& at = run.state();
+        const Model& model = under.system().model;
+        for (int k = 0; k < 3; ++k) {
+            // Second differences of a parabola are those of the parabola; half a period on from sample 20.
+            const auto demand = [&](int sample) { return 0.02 * (k + 1) * std::pow(sample * T, 2); };
+            const int i = model.index(turbine.layout().pitch[static_cast<std::size_t>(k)]);
+            const double a = 0.02 * (k + 1) * 2, v = (demand(19) - demand(18)) / T, p = (demand(19) + demand(18)) / 2;
+            CHECK(-at.qdd(i) == Approx(a).epsilon(1e-9));
+            CHECK(-at.qd(i) == Approx(v + a * T / 2).epsilon(1e-9));
+            CHECK(-at.q(i) == Approx(p + v * T / 2 + a * T * T / 8).epsilon(1e-9));
+        }
+        const solvers::EnergyBalance energy = run.energy();
+        CHECK(std::abs(energy.error) < 1e-6 * energy.kinetic);
+        CHECK(energy.drives != 0);
+        ends.push_back(at);
+    }
+    for (Eigen::Index i = 0; i < ends[0].q.size(); ++i) {
+        CHECK(ends[1].q(i) == Approx(ends[0].q(i)).margin(1e-8));
+        const bool is_pitch = ends[0].actuator(i) != 0;
+        if (is_pitch) CHECK(ends[1].actuator(i) - ends[0].actuator(i) == Approx(J * ends[0].qdd(i)).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("actuators: a spring without an actuator rests at the demand", "[analytic]") {
+    // The equation of BeamDyn's pitch actuator: moment = K (demand - pitch) - C d pitch / dt.  [OpenFAST, BeamDyn]
+    turbines::TurbineDescription d = description();
+    d.blade.pitch = {2e7, 5e5};
+    const Turbine turbine = assembled(d);
+    const ActuatedForces actuated(turbine);
+    CHECK(actuated.drives().empty());
+    CHECK_THAT(actuated.in_words(),
+               Catch::Contains("20000000 N m/rad and 500000 N m s/rad, which rests at the demand"));
+    const System system = turbine.with_forces(actuated.with_inputs(0)).system();
+    const Model& model = system.model;
+    const int i = model.index(turbine.layout().pitch[1]);
+    Vector q = Vector::Zero(model.size()), qd = q, Q = q, f(system.forces.states().size());
+    q(i) = -0.02, qd(i) = -0.3;  // turned towards feather
+    Workspace workspace(model);
+    const Kinematics kin = kinematics(model, q, workspace);
+    Vector s = system.forces.states().initial(), u = system.forces.inputs().initial();
+    u(system.forces.inputs().index("pitch demand")) += 0.05;
+    system.forces.evaluate({0, q, qd, kin, s, u}, Q, f);
+    CHECK(-Q(i) == Approx(2e7 * (0.05 - 0.02) - 5e5 * 0.3).epsilon(1e-12));
+}
+
 TEST_CASE("actuators: what they cannot be put on is refused", "[property]") {
     turbines::AssemblyOptions options;
     options.blade_elements = options.tower_elements = 1;
@@ -214,6 +297,23 @@ TEST_CASE("actuators: what they cannot be put on is refused", "[property]") {
     turbines::TurbineDescription loose = description();
     loose.blade.pitch = turbines::free_joint;
     check_refused([&] { ActuatedForces{assemble(loose, options)}; }, {"pitch bearing of blade 1 = without a spring"});
+    const Turbine prescribed = prescribed_machine();
+    check_refused([&] { ActuatedForces(prescribed, two_hertz); }, {"pitch bearing of blade 1 = prescribed"});
+    check_refused(
+        [&] {
+            (void)ActuatedForces(prescribed).with_demands({{signal::constant(0)}, signal::constant(0)}, 0);
+        },
+        {"pitch of blade 1 = prescribed", "held by a spring"});
+    turbines::TurbineDescription linked = description();
+    linked.blade.linkage.emplace();
+    check_refused([&] { turbines::give_pitch_drives(linked); }, {"pitch linkage", "none where a controller"});
+    // Blades of ElastoDyn: without inertia about their axes, unless the file gives it.
+    turbines::TurbineDescription slender = turbines::read_openfast(test::data_file("openfast/small.fst")).description;
+    check_refused([&] { turbines::give_pitch_springs(slender); },
+                  {"inertia of the blades about their pitch axes [kg m^2] = 0", "BlPIner"});
+    slender.blade.pitch_inertia = 100;
+    turbines::give_pitch_springs(slender, 20, 0.3);
+    CHECK(slender.blade.pitch.stiffness == Approx(100 * 20 * 20).epsilon(1e-9));
     const Turbine turbine = machine();
     check_refused(
         [&] {

@@ -3,6 +3,7 @@
 #include "mbs/loops/closure.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
+#include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -46,7 +47,7 @@ AssemblyOptions coarse() {
 
 using namespace pitch_linkage_tests;
 
-TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[closed-form]") {
+TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[analytic]") {
     const Turbine turbine = assemble(machine(linkage(driven_joint), free_joint), coarse());
     const Model& model = turbine.system().model;
     CHECK(turbine.layout().pitch_actuators.size() == 3);
@@ -66,7 +67,7 @@ TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[clo
     }
 }
 
-TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[closed-form]") {
+TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[analytic]") {
     const double k = actuator_stiffness / (angle_by_stroke * angle_by_stroke);
     const Turbine with = assemble(machine(linkage({actuator_stiffness, 0}), free_joint), coarse()),
                   without = assemble(machine(std::nullopt, {k, 0}), coarse());
@@ -88,7 +89,7 @@ TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[c
               Approx(sprung.points.at(0).modes[i].mode.natural_hz()).epsilon(2e-4).margin(1e-9));
 }
 
-TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[closed-form]") {
+TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[analytic]") {
     const Turbine turbine = assemble(machine(linkage(driven_joint), free_joint), coarse());
     const System& system = turbine.system();
     const Model& model = system.model;
@@ -102,6 +103,28 @@ TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[close
     REQUIRE(run.advance(1).reached());
     for (const BodyId pitch : turbine.layout().pitch)
         CHECK(run.state().q(model.index(pitch)) == Approx(0.393845812648).margin(1e-9));
+}
+
+TEST_CASE("pitch linkage: gravity on blades that actuators of any mass hold", "[crosscheck]") {
+    // Of the same stiffness at the blade, without loops; what the actuators weigh turns the blades by as little as they
+    // are light.
+    const double k = actuator_stiffness / (angle_by_stroke * angle_by_stroke);
+    AssemblyOptions options = coarse();
+    options.gravity = Vec3(0, 0, -units::standard_gravity);
+    const Turbine without = assemble(machine(std::nullopt, {k, 0}), options);
+    const SteadyState reference = steady_state(without.system(), without.rotor().spin);
+    REQUIRE(reference.converged);
+    for (const double mass : {PitchLinkage().mass, 1e-3, 1e-9}) {
+        CAPTURE(mass);
+        PitchLinkage light = linkage({actuator_stiffness, 0});
+        light.mass = mass;
+        const Turbine turbine = assemble(machine(light, free_joint), options);
+        const SteadyState state = steady_state(turbine.system(), turbine.rotor().spin);
+        REQUIRE(state.converged);
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(state.at.q(turbine.system().model.index(turbine.layout().pitch.at(i))) ==
+                  Approx(reference.at.q(without.system().model.index(without.layout().pitch.at(i)))).margin(2e-6));
+    }
 }
 
 TEST_CASE("pitch linkage: in files, and what cannot be is refused", "[property][bad-input]") {

@@ -2,7 +2,6 @@
 #include "tests/support/catch.hpp"
 #include "turbines/readers/csv.hpp"
 
-#include <clocale>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -74,16 +73,6 @@ TEST_CASE("csv: line ends of Windows, blank lines, a missing last line end and a
     const CsvQuantities quantities = CsvQuantities::parse("quantity,unit,value\r\nmass,kg,5\r\n\r\n", "f");
     CHECK(quantities.number("mass", "kg") == 5.0);
     CHECK(quantities.note("mass").empty());
-}
-
-TEST_CASE("csv: numbers are read with a decimal point in any locale", "[property]") {
-    const std::string before = std::setlocale(LC_ALL, nullptr);
-    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
-        if (std::setlocale(LC_ALL, name) == nullptr) continue;  // not installed
-        CHECK(CsvTable::parse("a[m]\n+1.5\n", "f").column("a")[0] == 1.5);
-        CHECK_THROWS_AS(CsvTable::parse("a[m]\n1;5\n", "f"), ParseError);
-    }
-    std::setlocale(LC_ALL, before.c_str());
 }
 
 TEST_CASE("csv table: an error names file, line and character column", "[property]") {

@@ -160,6 +160,37 @@ TEST_CASE("elastodyn: angles and ratios that machines do not have are taken as t
     CHECK(test::has_note(cone.notes, unusual_entries, "own_blades[3].cone [rad] = -0.698"));
 }
 
+TEST_CASE("elastodyn: inertia of pitch bearings and of blades about their axes is that of the pitch", "[property]") {
+    const test::ModelFolder model("openfast");
+    for (const auto& [keyword, value] :
+         {std::pair("PBrIner(1)", " 200"), {"PBrIner(2)", " 300"}, {"BlPIner(1)", "5000"}})
+        model.replace("small_ElastoDyn.dat", std::string("             0   ") + keyword,
+                      text("          ", value, "   ", keyword));
+    const TurbineFile file = read_openfast(model / "small_ElastoDyn.dat");
+    CHECK(file.description.blade.pitch_inertia == 5200);
+    CHECK(file.description.own_blades.at(2)->pitch_inertia == 300);
+    CHECK(file.description.own_blades.at(3)->pitch_inertia == 0);
+    // As an armature of the pitch coordinate, where there is one.
+    TurbineDescription d = file.description;
+    d.tower.rigid = true;
+    AssemblyOptions options;
+    options.blade_beam.emplace().torsion = false;
+    const auto armatures = [&] { return assemble(d, options).tree().armatures().size(); };
+    const std::size_t rigid = armatures();
+    d.blade.pitch = driven_joint;
+    for (auto& [number, blade] : d.own_blades) blade->pitch = driven_joint;
+    CHECK(armatures() == rigid + 2);
+    // BeamDyn's sections have inertia about their axis, and its pitch drive may have its own.
+    CHECK(read_openfast(model / "small_BeamDyn.fst").description.blade.pitch_inertia == 20);
+    model.replace("small_BeamDyn.dat", " True   UsePitchAct", "False   UsePitchAct");
+    const TurbineFile no_drive = read_openfast(model / "small_BeamDyn.fst");
+    CHECK(no_drive.description.blade.pitch_inertia == 200);
+    CHECK(test::has_note(no_drive.notes, "BlPIner(1)", "BeamDyn's sections"));
+    model.replace("small_ElastoDyn.dat", "  200   PBrIner(1)", " -200   PBrIner(1)");
+    CHECK_THROWS_WITH(read_openfast(model / "small_ElastoDyn.dat"),
+                      Catch::Contains("PBrIner(1) = -200; allowed: >= 0"));
+}
+
 TEST_CASE("elastodyn: everything that is not in the description is noted, with file, line and value", "[property]") {
     const test::ModelFolder model("openfast");
     model.replace("small_ElastoDyn.dat", "             0   NacYaw", "            15   NacYaw");

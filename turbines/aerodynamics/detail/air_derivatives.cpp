@@ -69,7 +69,8 @@ public:
         }
         for (std::size_t j = parts_.trunk.size(); j-- > 0;)
             add_row(parts_.trunk[j], parts_.bodies, memory_.trunk_q, memory_.trunk_qd, trunk);
-        if (parts_.options.skew != Skew::none && air_.mean_.speed > 0) add_wake();
+        const InductionShare& share = air_.mean_.share;
+        if ((parts_.options.skew != Skew::none && air_.mean_.speed > 0) || share.by_tip_speed != 0) add_wake();
     }
 
 private:
@@ -138,7 +139,7 @@ private:
         const std::size_t all = index(k, i);
         const Loads by = slopes_of(all);
         memory_.by_wake[all] << load(s, by.col(Slopes::wake_angle)),
-            load(s, by.col(Slopes::wake_lever) * s.annulus.radius / parts_.radius);
+            load(s, by.col(Slopes::wake_lever) * s.annulus.radius / parts_.radius), load(s, by.col(Slopes::wake_share));
         Columns6 &to_q = memory_.by_q[i], &to_qd = memory_.by_qd[i];
         const int count = depth(blade.sections[i].body);
         to_q.resize(6, static_cast<Eigen::Index>(blade.path.size()));
@@ -154,7 +155,7 @@ private:
             };
             MotionChange change, change_qd = MotionChange::Zero();
             change << change_along(s.x), change_along(s.y), turned.angle, turned.radius, 0,
-                s.wake.lever / s.annulus.radius * turned.radius, s.span.dot(cross<double>(own.angular, own.w));
+                s.wake.lever / s.annulus.radius * turned.radius, 0, s.span.dot(cross<double>(own.angular, own.w));
             change_qd(Slopes::V_x) = air_qd.dot(s.x);
             change_qd(Slopes::V_y) = air_qd.dot(s.y);
             change_qd(Slopes::rate) = own.w.dot(s.span);
@@ -252,7 +253,11 @@ private:
         turbines::add_row(air_.kin_.model(), memory_.movers, b, columns, sum_q, sum_qd, wrench, by_q_, by_qd_);
     }
 
-    // All sections feel the mean wind, which all of them make up.
+    // All sections feel the mean wind, which all of them make up, and the rotor's speed. Columns: the wake's angle, the
+    // blades' sines, the share of the induction.
+    Eigen::Index sine_column(std::size_t k) const { return static_cast<Eigen::Index>(k) + 1; }
+    Eigen::Index share_column() const { return std::ssize(parts_.blades) + 1; }
+
     void add_wake() {
         find_mean_wind();
         find_wake();
@@ -271,14 +276,13 @@ private:
                 const int m = parts_.lags->sections[all].states(), first = parts_.lags->first[all];
                 const double lever = air_.sections(k)[i].annulus.radius / parts_.radius;
                 const auto& by = memory_.lagging[all].by;
-                const auto column = static_cast<Eigen::Index>(k) + 1;
-                for (int r = 0; r < m; ++r) {
-                    const double angle = by(3 + r, Slopes::wake_angle), sine = lever * by(3 + r, Slopes::wake_lever);
-                    states_->f_q.row(first + r) +=
-                        (angle * memory_.wake_q.col(0) + sine * memory_.wake_q.col(column)).transpose();
-                    states_->f_qd.row(first + r) +=
-                        (angle * memory_.wake_qd.col(0) + sine * memory_.wake_qd.col(column)).transpose();
-                }
+                for (int r = 0; r < m; ++r)
+                    for (const auto& [slope, column] : {std::pair(by(3 + r, Slopes::wake_angle), Eigen::Index{0}),
+                                                        {lever * by(3 + r, Slopes::wake_lever), sine_column(k)},
+                                                        {by(3 + r, Slopes::wake_share), share_column()}}) {
+                        states_->f_q.row(first + r) += slope * memory_.wake_q.col(column).transpose();
+                        states_->f_qd.row(first + r) += slope * memory_.wake_qd.col(column).transpose();
+                    }
             }
     }
 
@@ -307,62 +311,80 @@ private:
     }
 
     void find_wake() {
-        const Eigen::Index n = by_q_.rows(), columns = 1 + std::ssize(parts_.blades);
+        const Eigen::Index n = by_q_.rows(), columns = share_column() + 1;
         memory_.wake_q.setZero(n, columns);
         memory_.wake_qd.setZero(n, columns);
         const Vec3 none = Vec3::Zero();
         for (const int a : parts_.bodies) {
-            find_wake_by(memory_.mean_q.col(a), moves_hub(a) ? mover(a).w : none, memory_.wake_q, a);
-            find_wake_by(memory_.mean_qd.col(a), none, memory_.wake_qd, a);
+            find_wake_by(memory_.mean_q.col(a), moves_hub(a) ? mover(a).w : none, spin_by_q(a), memory_.wake_q, a);
+            find_wake_by(memory_.mean_qd.col(a), none, spin_by_qd(a), memory_.wake_qd, a);
         }
     }
-    // @param change, turn  of the mean wind, and of the hub
-    void find_wake_by(const Vec3& change, const Vec3& turn, Matrix& out, int a) const {
+    // Changes of the rotor's speed about the shaft: by what turns the hub against the body that carries it.
+    bool spins(int a) const { return moves_hub(a) && !moves(a, parts_.shaft_body); }
+    double spin_by_q(int a) const {
+        if (!spins(a)) return 0;
+        const Vec3 hub = air_.motion_.angular(parts_.hub_body), carrier = air_.motion_.angular(parts_.shaft_body);
+        const Mover& own = mover(a);
+        return cross<double>(own.w, Vec3(hub - own.angular)).dot(air_.shaft_) +
+               (hub - carrier).dot(cross<double>(own.w, air_.shaft_));
+    }
+    double spin_by_qd(int a) const { return spins(a) ? mover(a).w.dot(air_.shaft_) : 0; }
+    // @param change, turn, spin  of the mean wind, of the hub, and of the rotor's speed
+    void find_wake_by(const Vec3& change, const Vec3& turn, double spin, Matrix& out, int a) const {
+        const InductionShare& share = air_.mean_.share;
+        out(a, share_column()) = share.by_tip_speed * parts_.radius * spin;
+        if (air_.mean_.speed == 0) return;
         const Vec3 &V = air_.mean_.velocity, &shaft = air_.shaft_, turned = cross<double>(turn, shaft);
         const double n = air_.mean_.normal, size = air_.mean_.speed, side = (V - n * shaft).norm(),
                      dn = change.dot(shaft) + V.dot(turned), dsize = V.dot(change) / size;
         const Vec3 along = side > 0 ? Vec3((V - n * shaft) / side) : Vec3(Vec3::Zero());
-        out(a, 0) = (n * along.dot(change - n * turned) - side * dn) / (size * size);
+        out(a, 0) = std::copysign(1.0, n) * (n * along.dot(change - n * turned) - side * dn) / (size * size);
+        out(a, share_column()) += share.by_wind * dsize;
         for (std::size_t k = 0; k < parts_.blades.size(); ++k) {
             const Vec3 axis = air_.blade_direction(k);
-            out(a, static_cast<Eigen::Index>(k) + 1) =
+            out(a, sine_column(k)) =
                 (cross<double>(turn, axis).dot(V) + axis.dot(change) - axis.dot(V) * dsize / size) / size;
         }
     }
 
     void find_forces_of_wake() {
+        using ByWake = Eigen::Matrix<double, 6, 3>;
         const std::size_t sections = parts_.profile->sections();
-        memory_.of_wake.setZero(by_q_.rows(), 1 + std::ssize(parts_.blades));
-        Vec6 trunk_angle = Vec6::Zero();
-        const auto add = [&](int b, const Vec6& wrench, Eigen::Index column) {
+        memory_.of_wake.setZero(by_q_.rows(), share_column() + 1);
+        ByWake trunk = ByWake::Zero();
+        const auto add = [&](int b, const auto& wrench, Eigen::Index column) {
             const Mover& own = mover(b);
-            memory_.of_wake(b, column) += own.w.dot(wrench.head<3>()) + own.v.dot(wrench.tail<3>());
+            memory_.of_wake(b, column) += own.w.dot(wrench.template head<3>()) + own.v.dot(wrench.template tail<3>());
         };
         for (std::size_t k = 0; k < parts_.blades.size(); ++k) {
             const AirBlade& blade = parts_.blades[k];
-            const auto column = static_cast<Eigen::Index>(k) + 1;
-            Vec6 angle = Vec6::Zero(), sine = Vec6::Zero();
+            ByWake sum = ByWake::Zero();
             auto next = blade.points.begin();
             const auto gather = [&] {
                 const auto& frame = entry(air_.kin_.workspace().frame, next->body);
                 const Vec3 x = frame.o.vector() + frame.E.matrix() * next->place;
-                const auto& by = memory_.by_wake[k * sections + next->section];
-                for (const auto& [sum, c] : {std::pair(&angle, 0), {&sine, 1}}) {
+                const ByWake& by = memory_.by_wake[k * sections + next->section];
+                for (Eigen::Index c = 0; c < by.cols(); ++c) {
                     const Vec3 force = next->length * by.col(c).head<3>();
-                    sum->head<3>() += next->length * by.col(c).tail<3>() + cross<double>(x, force);
-                    sum->tail<3>() += force;
+                    sum.col(c).head<3>() += next->length * by.col(c).tail<3>() + cross<double>(x, force);
+                    sum.col(c).tail<3>() += force;
                 }
             };
             for (std::size_t j = blade.path.size(); j-- > parts_.trunk.size();) {
                 for (; next != blade.points.end() && next->body == blade.path[j]; ++next) gather();
-                add(blade.path[j], angle, 0);
-                add(blade.path[j], sine, column);
+                add(blade.path[j], sum.col(0), 0);
+                add(blade.path[j], sum.col(1), sine_column(k));
+                add(blade.path[j], sum.col(2), share_column());
             }
             for (; next != blade.points.end(); ++next) gather();
-            trunk_angle += angle;
-            for (const int b : parts_.trunk) add(b, sine, column);
+            trunk += sum;
+            for (const int b : parts_.trunk) add(b, sum.col(1), sine_column(k));
         }
-        for (const int b : parts_.trunk) add(b, trunk_angle, 0);
+        for (const int b : parts_.trunk) {
+            add(b, trunk.col(0), 0);
+            add(b, trunk.col(2), share_column());
+        }
     }
 
     const AirEvaluation& air_;

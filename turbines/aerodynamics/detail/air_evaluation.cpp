@@ -104,7 +104,8 @@ void AirEvaluation::find_mean_wind() {
     mean_.velocity = sum / static_cast<double>(scratch_.sections.size()) - motion_.velocity(parts_.hub_body, hub_);
     mean_.normal = mean_.velocity.dot(shaft_);
     mean_.speed = mean_.velocity.norm();
-    mean_.angle = std::atan2(across(mean_.velocity, shaft_).norm(), mean_.normal);
+    mean_.angle = skew_angle(mean_.normal, across(mean_.velocity, shaft_).norm());
+    mean_.share = induction_share(speed() * parts_.radius, mean_.speed);
 }
 
 Vec3 AirEvaluation::blade_direction(std::size_t blade) const {
@@ -157,7 +158,8 @@ void AirEvaluation::find_inductions() {
         scratch_.inflows[i] = {&s.annulus, s.relative.dot(s.x), s.relative.dot(s.y)};
     }
     const auto is_frozen = [](const SectionLags& lags) { return lags.wake == WakeLag::frozen; };
-    if (!parts_.options.induction || (parts_.lags && std::ranges::all_of(parts_.lags->sections, is_frozen))) {
+    if (!parts_.options.induction || mean_.share.value == 0 ||
+        (parts_.lags && std::ranges::all_of(parts_.lags->sections, is_frozen))) {
         for (std::size_t i = 0; i < count; ++i)
             scratch_.inductions[i] = {.phi = std::atan2(scratch_.inflows[i].V_x, scratch_.inflows[i].V_y)};
         return;
@@ -172,7 +174,7 @@ void AirEvaluation::find_loads() {
         const double along = parts_.options.skew == Skew::none ? 0 : sine(blade);
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {
             SectionState& s = scratch_.sections[i];
-            s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along};
+            s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along, mean_.share.value};
         }
     }
     if (parts_.lags)
@@ -196,11 +198,10 @@ void AirEvaluation::find_lagging_air() {
 }
 
 void AirEvaluation::find_steady_air() {
-    if (parts_.options.skew != Skew::none) {
-        scratch_.levers.clear();
-        for (const SectionState& s : scratch_.sections) scratch_.levers.push_back(s.wake.lever);
-        skew_inductions(scratch_.inductions, scratch_.inflows, mean_.angle, scratch_.levers);
-    }
+    scratch_.levers.clear();
+    for (const SectionState& s : scratch_.sections) scratch_.levers.push_back(s.wake.lever);
+    const double angle = parts_.options.skew == Skew::none ? 0 : mean_.angle;
+    add_wake(scratch_.inductions, scratch_.inflows, angle, scratch_.levers, mean_.share.value);
     for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
         SectionState& s = scratch_.sections[i];
         const auto& [annulus, V_x, V_y] = scratch_.inflows[i];

@@ -44,7 +44,7 @@ struct SectionState {
     Vec3 velocity, relative;  ///< of the section; of the air against it, m/s
     Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s, of the wind that no tower dams; for derivatives only
     Vec3 radial;              ///< unit, from the shaft
-    SkewedWake wake;
+    RotorWake wake;
     Annulus annulus;
     SectionAir air;
     Vec3 force, moment;  ///< per length, N/m and N
@@ -52,15 +52,16 @@ struct SectionState {
 
 /// Memory of AirDerivatives.
 struct AirDerivativeScratch {
-    std::vector<Mover> movers;                         ///< by coordinate
-    std::vector<DamSlopes> dam;                        ///< of all sections, if there is a dam
-    std::vector<LaggingSlopes> lagging;                ///< likewise, if something lags
-    std::vector<Columns6> by_q, by_qd;                 ///< of the sections of a blade: force, moment per length
-    std::vector<Eigen::Matrix<double, 6, 2>> by_wake;  ///< of all sections, by the wake's angle and its blade's sine
-    Columns6 blade_q, blade_qd, trunk_q, trunk_qd;     ///< moment about the base's origin, force; by coordinate
+    std::vector<Mover> movers;           ///< by coordinate
+    std::vector<DamSlopes> dam;          ///< of all sections, if there is a dam
+    std::vector<LaggingSlopes> lagging;  ///< likewise, if something lags
+    std::vector<Columns6> by_q, by_qd;   ///< of the sections of a blade: force, moment per length
+    /// Of all sections, by what they see of the wake: its angle, its blade's sine, the share of the induction.
+    std::vector<Eigen::Matrix<double, 6, 3>> by_wake;
+    Columns6 blade_q, blade_qd, trunk_q, trunk_qd;             ///< moment about the base's origin, force; by coordinate
     Eigen::Matrix<double, 3, Eigen::Dynamic> mean_q, mean_qd;  ///< of the mean wind
-    Matrix wake_q, wake_qd;  ///< n x (1 + blades): the wake's angle and the blades' sines, by coordinate
-    Matrix of_wake;          ///< n x (1 + blades): generalised forces by these
+    Matrix wake_q, wake_qd;  ///< n x (2 + blades): the wake's angle and share, the blades' sines, by coordinate
+    Matrix of_wake;          ///< n x (2 + blades): generalised forces by these
 };
 
 /// Memory that evaluations reuse.
@@ -70,8 +71,8 @@ struct AirScratch {
     std::vector<DamState> dam;           ///< at them, if there is one
     std::vector<LaggingAir> lagging;     ///< likewise, if something lags
     std::vector<SectionInflow> inflows;  ///< of all sections
-    std::vector<Induction> inductions;   ///< in equilibrium with the loads; without lags redistributed by the wake
-    std::vector<Vec3> places, winds;     ///< of all sections, the wind without a dam
+    std::vector<Induction> inductions;  ///< in equilibrium with the loads; without lags as the rotor's wake leaves them
+    std::vector<Vec3> places, winds;    ///< of all sections, the wind without a dam
     std::vector<double> along_x, along_y, angles,
         levers;  ///< likewise: the chord's components and angle, the wake's lever
     AirDerivativeScratch derivatives;
@@ -82,6 +83,7 @@ struct MeanWind {
     Vec3 velocity;  ///< less that of the hub, m/s
     double normal;  ///< along the shaft
     double speed, angle;
+    InductionShare share;
 };
 
 class AirEvaluation {

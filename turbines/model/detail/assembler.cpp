@@ -321,6 +321,8 @@ void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade
         coordinates.push_back(pitch.body);
         layout.pitch.push_back(pitch.body);
         root = pitch.frame;
+        if (blade.pitch_inertia > 0)
+            tree.add_armature({name + " pitch inertia", blade.pitch_inertia, {{pitch.body, 1.0}}});
         if (blade.linkage) coordinates.push_back(add_linkage(pitch_axis, root, number, *blade.linkage));
     }
     if (options_.pitch_drives) {

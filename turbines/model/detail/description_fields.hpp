@@ -80,6 +80,7 @@ void blade_fields(Archive& archive, Blade& blade) {
             archive.number("mass", linkage.mass);
         });
     });
+    archive.since(2, [&] { archive.optional_number("pitch_inertia", blade.pitch_inertia); });
     archive.number("cone", blade.cone);
     archive.since(2, [&] { archive.number("pitch_setting", blade.pitch_setting); });
     archive.number("first_flap_damping", blade.first_flap_damping);

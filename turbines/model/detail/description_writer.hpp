@@ -6,7 +6,6 @@
 #include "turbines/model/detail/description_fields.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <string_view>
 
@@ -16,9 +15,7 @@ namespace cardan::turbines {
 inline std::string digits(double value, const std::string& where, bool or_infinite = false) {
     if (or_infinite && value == std::numeric_limits<double>::infinity()) return ".inf";
     if (!std::isfinite(value)) throw InputError(where, "number", value, or_infinite ? "finite, or infinite" : "finite");
-    std::array<char, 40> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return std::string(buffer.data(), end);
+    return cardan::digits(value);
 }
 
 // What YAML folds as a line end or does not take as it is, in UTF-8, and its escape; C2 80 ... C2 9F apart.

@@ -1,20 +1,21 @@
 #include "turbines/readers/detail/controller_file.hpp"
 
+#include "mbs/base/text.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace cardan::turbines {
 
 std::vector<double> ControllerFile::numbers(std::string_view keyword) const {
-    std::istringstream lines(text_);
+    std::istringstream lines = text_reader(text_);
     for (std::string line; std::getline(lines, line);) {
         const std::size_t mark = line.find('!');
         if (mark == std::string::npos) continue;
         std::string word;
-        if (!(std::istringstream(line.substr(mark + 1)) >> word) || word != keyword) continue;
+        if (!(text_reader(line.substr(mark + 1)) >> word) || word != keyword) continue;
         std::vector<double> values;
-        std::istringstream before(line.substr(0, mark));
+        std::istringstream before = text_reader(line.substr(0, mark));
         for (double value = 0; before >> value && std::isfinite(value);) values.push_back(value);
         return values;
     }

@@ -2,7 +2,6 @@
 
 #include "mbs/base/error.hpp"
 
-#include <charconv>
 #include <limits>
 #include <set>
 #include <system_error>
@@ -143,14 +142,9 @@ bool YamlNode::flag() const {
 double YamlNode::number(bool or_infinite) const {
     const std::string& digits = scalar("a number expected");
     if (or_infinite && digits == ".inf") return std::numeric_limits<double>::infinity();
-    const char* begin = digits.data();
-    const char* const end = begin + digits.size();
-    if (digits.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
-    double value = 0;
-    const auto [last, error] = std::from_chars(begin, end, value);
-    if (error != std::errc() || last != end || begin == end || !std::isfinite(value))
-        fail(text("'", digits, "' is not a finite number"));
-    return value;
+    const ReadNumber number = read_number(digits);
+    if (!number.good()) fail(text("'", digits, "' is not a finite number"));
+    return number.value;
 }
 
 int YamlNode::integer(int least, int most) const {
