@@ -388,15 +388,10 @@ void EquationsOfMotion::positions(double time, const double* x, DynamicState& ou
 
 bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
     if (!solve(time, x)) return false;
-    out = powers_here();
-    return true;
-}
-
-Powers EquationsOfMotion::powers_here() {
-    Powers out{Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_), {}};
+    out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_), {}};
     if (loops_) out.drives += loops_->power(time_, q_);
     if (forces_->has_states()) out.states = forces_->state_energy(input());
-    return out;
+    return true;
 }
 
 double EquationsOfMotion::kinetic_energy(const DynamicState& at) {

@@ -162,8 +162,6 @@ public:
     /// Time, positions and rates alone.
     void positions(double time, const double* x, DynamicState& out);
     bool powers(double time, const double* x, Powers& out);
-    /// Those at the last state that was evaluated, which must be the preceding call.
-    Powers powers_here();
     double kinetic_energy(const DynamicState& at);
     double potential_energy(const DynamicState& at);
     /// Stored in elements with states, J.

@@ -221,7 +221,6 @@ bool Integrator::take_step(double horizon, Advance& result) {
         start_pending_ = go_on_pending_ = false;
         seen_at_ = never;
     }
-    powers_.known = false;
     const bool done = stepper_->step(horizon), still = done && stands_still(horizon);
     if (done && !still) {
         if (options_.progress) options_.progress(stepper_->time(), statistics());

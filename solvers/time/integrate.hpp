@@ -6,7 +6,6 @@
 #include "solvers/time/equations_of_motion.hpp"
 #include "solvers/time/sampled.hpp"
 
-#include <array>
 #include <limits>
 #include <map>
 #include <memory>
@@ -86,7 +85,8 @@ struct IntegrationOptions {
     /// s; if positive, steps have this length (shorter only to end at a break): dirk, erk, generalised_alpha
     double fixed_step = 0;
     double spectral_radius = 0.8;  ///< of generalised_alpha at infinite frequency, 0 ... 1 (1: no dissipation)
-    /// Integrates the work done along with the motion by quadrature, which costs two or three evaluations per step.
+    /// Integrates the work done along with the motion by Gauss quadrature, which costs two evaluations per step (three
+    /// with dirk and erk).
     bool integrate_work = true;
     Vector states = {};               ///< states at the start; empty: as their table says
     std::vector<double> breaks = {};  ///< further times, ascending, at which to restart: jumps of user forces
@@ -278,8 +278,6 @@ private:
     double root(std::size_t event, double to);
     double event_value(std::size_t event, double time);
     bool accumulate(double to);
-    bool find_powers();
-    void add_work(const Powers& power, double duration);
     void complete(Advance& result);
     bool due(std::size_t event) const;
     void set_sides(int happened);
@@ -306,12 +304,6 @@ private:
     std::vector<int> sides_;                                     ///< last sign of each event function that was not zero
     DynamicState state_, between_;
     Work work_;
-    struct StepPowers {
-        bool known = false;
-        double begin = 0, end = 0;  ///< s, of the step
-        std::array<Powers, 4> at = {};
-    };
-    StepPowers powers_;  ///< of the last step, of methods that know its ends
     double kinetic_at_start_ = 0, potential_at_start_ = 0, stored_at_start_ = 0;
     std::map<std::string, double> notes_;
     IntegrationStatistics earlier_;  ///< up to the checkpoint it started from, less those that were repeated

@@ -81,13 +81,6 @@ public:
     bool repeat(const MethodState& from, double stop);
     /// End of the last step.
     virtual double time() const = 0;
-    /// Both ends of the last step, s, and the powers there.
-    struct Ends {
-        double begin = 0, end = 0;
-        Powers at_begin = {}, at_end = {};
-    };
-    /// Of Runge-Kutta methods, which know them as soon as they know states between them.
-    virtual Ends ends() { return {}; }
     /// State within the last step.
     virtual void state_at(double time, double* x) = 0;
     virtual IntegrationStatistics statistics() const = 0;

@@ -27,10 +27,6 @@ public:
     ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options);
 
     double time() const override { return time_; }
-    Ends ends() override {
-        complete_ends();
-        return {from_.time, to_.time, from_.power, to_.power};
-    }
     void state_at(double time, double* x) override;
 
 private:
@@ -74,12 +70,9 @@ private:
     struct End {
         double time = 0;
         Vector x, xdd;
-        bool known = false;  ///< the accelerations and rates of states, and the powers
-        Powers power = {};
+        bool known = false;  ///< the accelerations and rates of states
     };
     End from_, to_;
-    void know(End& end);
-    bool powers_;     ///< are wanted
     Vector quartic_;  ///< of the states' interpolation
     bool quartic_known_ = false;
     Vector between_, between_rates_;  ///< x and xdd within the step
@@ -90,8 +83,7 @@ ArkodeStepper::ArkodeStepper(EquationsOfMotion& equations, const IntegrationOpti
     : SundialsStepper("ARKODE", equations, options, step_memory(equations)),
       implicit_(options.method == Method::dirk),
       order_(order_of(options)),
-      fixed_step_(options.fixed_step),
-      powers_(options.integrate_work) {
+      fixed_step_(options.fixed_step) {
     for (End* end : {&from_, &to_}) {
         end->x.setZero(weights_.size());
         end->xdd.setZero(equations.rates());
@@ -235,17 +227,11 @@ int ArkodeStepper::rates_once(realtype t, N_Vector x, N_Vector xd, void* user) {
         if (const int flag = rates(t, x, xd, user); flag != 0) return flag;
         if (there) {
             std::copy_n(out + m, end.xdd.size(), end.xdd.data());
-            if (!self.guarded([&] { self.know(end); })) return -1;
+            end.known = true;
         }
     }
     if (there && self.guesses_) self.stages_.begin(t, in, out);
     return 0;
-}
-
-// Its accelerations have just been evaluated.
-void ArkodeStepper::know(End& end) {
-    if (powers_) end.power = equations_.powers_here();
-    end.known = true;
 }
 
 // The library guesses stages by the step before. After a break or a sample it has none.
@@ -262,7 +248,7 @@ void ArkodeStepper::complete_ends() {
         if (end->known) continue;
         if (!equations_.accelerations(end->time, end->x.data(), end->xdd.data()))
             throw NoState(text("time integration: ", equations_.problem()));
-        know(*end);
+        end->known = true;
     }
     if (!std::exchange(quartic_known_, true) && equations_.states() > 0) complete_states();
 }

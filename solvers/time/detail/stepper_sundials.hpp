@@ -26,17 +26,6 @@ protected:
     static int project(realtype t, N_Vector x, void* user);
     int form_matrix(realtype t, N_Vector x, realtype c, booleantype old_will_do, booleantype* is_new);
     void rethrow();
-    /// @return false: the call has thrown
-    template <class Call>
-    bool guarded(const Call& call) {
-        try {
-            call();
-            return true;
-        } catch (...) {
-            thrown_ = std::current_exception();
-            return false;
-        }
-    }
 
     void use_newton() { newton_.emplace(equations_, context_.get()); }
     /// Counters restart; earlier counts are kept.
