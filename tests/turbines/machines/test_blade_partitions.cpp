@@ -198,15 +198,19 @@ TEST_CASE("NREL 5 MW blade: torsion converges from above and faster with the pol
 namespace {
 
 // Rotor speed at which the stiffness about the steady state of the blade, twist and offsets included, is not positive
-// definite any more, rad/s.
+// definite any more, rad/s. Each state is sought from the last one that was stable.
 double divergence(const System& system, const RotorMap& rotor, double to) {
+    Vector last;
     const auto stable = [&](double speed) {
         solvers::SteadyOptions options;
         options.rotor_speed = speed;
+        options.initial = last;
         const solvers::SteadyState steady = solvers::steady_state(system, rotor.spin, options);
         if (!steady.converged) return false;
         const Matrix K = solvers::restrict_to(solvers::linearise(system, steady.at), rotor.blades.at(0)).K;
-        return Eigen::LLT<Matrix>((K + K.transpose()) / 2).info() == Eigen::Success;
+        const bool definite = Eigen::LLT<Matrix>((K + K.transpose()) / 2).info() == Eigen::Success;
+        if (definite) last = steady.at.q;
+        return definite;
     };
     double from = 0;
     REQUIRE(stable(from));
