@@ -187,7 +187,7 @@ solvers::SampledController library_controller(const ControllerOptions& options, 
                                               const std::string& prefix, const std::vector<ChannelGroup>& also) {
     const auto run = std::make_shared<LibraryRun>(options, turbine, prefix, also);
     solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = options.period};
-    controller.update = [run](const solvers::SampleInput& in, VectorOut u) { run->update(in, u); };
+    controller.update = [run](const solvers::SampleInput& in, const VectorOut& u) { run->update(in, u); };
     controller.keeps_to_itself = true;
     return controller;
 }
@@ -261,6 +261,7 @@ turbines::ActuatorOptions actuator_options(const ControllerOptions& options) {
     constexpr auto option = "--pitch-actuator", allowed = "HZ[:DAMPING[:DEG/S]], all > 0";
     const std::vector<std::string> parts = split(options.pitch_actuator, ':');
     std::vector<double> values;
+    values.reserve(parts.size());
     for (const std::string& part : parts) values.push_back(number(option, options.pitch_actuator, part, allowed));
     if (values.size() > 3 || !std::ranges::all_of(values, [](double value) { return value > 0; }))
         throw InputError(option, "value", options.pitch_actuator, allowed);

@@ -4,6 +4,10 @@ set -eu
 # shellcheck source=/dev/null
 source "$1"
 cardan=$2
+# Where no file is offered instead.
+empty=$(mktemp -d)
+trap 'rmdir "$empty"' EXIT
+cd "$empty"
 
 offered() { # WORDS...: those offered in the place of the last one
     COMP_WORDS=("$cardan" "$@")

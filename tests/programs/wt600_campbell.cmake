@@ -1,7 +1,7 @@
 add_example_test(example_wt600 wt600_campbell 0 "files: example_wt600.h5" --rpm 0:30:15 --out example_wt600 --modes)
 add_example_test(example_wt600_frozen wt600_campbell 0 "warning: frozen azimuth" --rpm 0:30:15 --frozen-azimuth --undamped
                  --shaft-beam --generator locked --blade-elements 2 --tower-elements 2 --out example_frozen)
-add_example_test(example_wt600_slip wt600_campbell 0 "1st drive-train torsion +1.4286 . 52.14. +1.4290 . 52.24." --rpm 0:27:27
+add_example_test(example_wt600_slip wt600_campbell 0 "1st drive-train torsion +1.4286 . 52.14. . +1.4290 . 52.24. ." --rpm 0:27:27
                  --generator slip --out example_wt600_slip)
 add_example_test(example_wt600_generator wt600_campbell 2 "--generator" --generator grid)
 add_example_test(example_wt600_generator_torque wt600_campbell 1 "--generator-torque: value .N m. = 100; allowed: 0, or --generator slip"

@@ -130,14 +130,16 @@ public:
         return point.of_phi.sine * along(phi, point) * V_y_ - V_x_ * (point.of_phi.cosine - point.swirl);
     }
     /// How much of a there is, and of a': nothing where the ring has next to no throughflow, which they are ratios to.
-    S axial_share() const { return blend<S>(no_axial * V_x_ / V_y_ - 1); }
-    S swirl_share() const { return blend<S>(no_swirl * V_x_ / V_y_ - 1); }
+    S axial_share() const { return share_of(no_axial); }
+    S swirl_share() const { return share_of(no_swirl); }
     bool has_throughflow() const { return no_axial * value_of(V_x_) > value_of(V_y_); }
 
     /// V_y / V_x at which nothing is left; at half of it there is all.
     static constexpr double no_axial = 200, no_swirl = 50;
 
 private:
+    S share_of(double none) const { return has_throughflow() ? blend<S>(none * V_x_ / V_y_ - 1) : S(0); }
+
     static constexpr double least_loss = 1e-4;       // of F
     static constexpr double glauert_from = 2.0 / 3;  // k beyond which momentum theory fails
 

@@ -172,9 +172,9 @@ TEST_CASE("blade section: derivatives with polars over the Reynolds number", "[p
         const auto forces = [&](int column, double h) {
             Case moved = at;
             RotorWake moved_wake = wake;
-            const std::array<double*, SectionSlopes::columns> places{&moved.V_x,           &moved.V_y,
-                                                                     &moved.annulus.angle, &moved.annulus.radius,
-                                                                     &moved_wake.angle,    &moved_wake.lever};
+            const std::array<double*, SectionSlopes::columns> places{
+                &moved.V_x,        &moved.V_y,        &moved.annulus.angle, &moved.annulus.radius,
+                &moved_wake.angle, &moved_wake.lever, &moved_wake.share};
             *places.at(static_cast<std::size_t>(column)) += h;
             const SectionForce f = section_air(moved.annulus, moved.V_x, moved.V_y, moved_wake, options, 1.2).force;
             return Vec3(f.normal, f.driving, f.moment);
