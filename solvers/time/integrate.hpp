@@ -16,8 +16,7 @@ namespace cardan::solvers {
 
 enum class Method : std::uint8_t {
     /// ARKODE, diagonally implicit Runge-Kutta method of order 5, L-stable, Newton with the exact Jacobian: for elastic
-    /// machines at any accuracy; the default. Of order 4, with five implicit stages instead of six, under sampled
-    /// controllers, whose samples are its steps.                                           [Kennedy and Carpenter 2019]
+    /// machines at any accuracy; the default.                                              [Kennedy and Carpenter 2019]
     dirk,
     /// CVODE, BDF of order 1 to 5, Newton with the exact Jacobian: for strongly damped stiff systems and loose
     /// tolerances. Weakly damped fast modes limit its steps, since the higher orders are unstable for them.
@@ -79,7 +78,7 @@ struct IntegrationOptions {
     Method method = Method::dirk;
     Tolerances tolerances = {};
     double max_step = 0;  ///< s; 0: no limit
-    /// Highest order of bdf (up to 5) and adams (up to 12), order of dirk (4 or 5); 0: as described there.
+    /// Highest order of bdf (up to 5) and adams (up to 12), 0: no further limit.
     int max_order = 0;
     double first_step = 0;  ///< s; 0: chosen by the method
     /// s; if positive, steps have this length (shorter only to end at a break): dirk, erk, generalised_alpha

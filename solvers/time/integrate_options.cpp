@@ -28,12 +28,10 @@ void Integrator::check_options(double time) const {
     if (equations_.loops() && !projects)
         throw InputError(in_integration, "method for a system with loops",
                          options_.method == Method::adams ? "adams" : "generalised_alpha", "dirk, bdf or erk");
-    const bool dirk = options_.method == Method::dirk;
-    const int highest = dirk || options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
-    const bool known = !dirk || options_.max_order == 0 || options_.max_order >= 4;
-    if (options_.max_order < 0 || options_.max_order > highest || !known)
+    const int highest = options_.method == Method::bdf ? 5 : options_.method == Method::adams ? 12 : 0;
+    if (options_.max_order < 0 || options_.max_order > highest)
         throw InputError(in_integration, "highest order", options_.max_order,
-                         dirk ? "0, 4 or 5 with this method" : text("0 ... ", highest, " with this method"));
+                         text("0 ... ", highest, " with this method"));
     if (!(options_.spectral_radius >= 0 && options_.spectral_radius <= 1))
         throw InputError(in_integration, "spectral radius at infinity", options_.spectral_radius, "0 ... 1");
     for (double jump : options_.breaks)

@@ -13,13 +13,6 @@ void free_arkode(void* memory) {
     ARKStepFree(&memory);
 }
 
-// Where samples are the steps, five implicit stages do what six do elsewhere.
-int order_of(const IntegrationOptions& options) {
-    constexpr int highest = 5;
-    if (options.method == Method::dirk && options.max_order > 0) return options.max_order;
-    return options.method == Method::dirk && !options.controllers.empty() ? 4 : highest;
-}
-
 constexpr double largest_growth = 20;  // of a step that is not the first, the library's own
 
 class ArkodeStepper : public SundialsStepper {
@@ -60,9 +53,9 @@ private:
     ARKRhsFn implicit_rates() const { return implicit_ ? rates_once : nullptr; }
 
     bool implicit_;
-    int order_;
     double fixed_step_;
-    double planned_ = 0;  ///< s, the next step but for the stop; 0: not known
+    double planned_ = 0;   ///< s, the next step but for the stop; 0: not known
+    bool failed_ = false;  ///< the last attempt at a step
     bool keep_jacobian_ = false;
     bool guesses_ = false;  ///< of stages by stages_
     Renewal renewal_;
@@ -82,7 +75,6 @@ private:
 ArkodeStepper::ArkodeStepper(EquationsOfMotion& equations, const IntegrationOptions& options)
     : SundialsStepper("ARKODE", equations, options, step_memory(equations)),
       implicit_(options.method == Method::dirk),
-      order_(order_of(options)),
       fixed_step_(options.fixed_step) {
     for (End* end : {&from_, &to_}) {
         end->x.setZero(weights_.size());
@@ -99,9 +91,7 @@ void ArkodeStepper::set_up(const IntegrationOptions& options) {
     arkode_.reset(ARKStepCreate(explicit_rates(), implicit_rates(), 0, vector(), context()));
     void* ark = arkode_.get();
     SundialsStepper* user = this;
-    const auto implicit_table = !implicit_    ? ARKODE_DIRK_NONE
-                                : order_ == 4 ? ARKODE_ESDIRK436L2SA_6_3_4
-                                              : ARKODE_ESDIRK547L2SA_7_4_5;
+    const auto implicit_table = implicit_ ? ARKODE_ESDIRK547L2SA_7_4_5 : ARKODE_DIRK_NONE;
     const auto explicit_table = implicit_ ? ARKODE_ERK_NONE : ARKODE_DORMAND_PRINCE_7_4_5;
     bool ok = ark && ARKStepSetErrHandlerFn(ark, sundials_quiet, nullptr) == 0 && ARKStepSetUserData(ark, user) == 0 &&
               ARKStepSetTableNum(ark, implicit_table, explicit_table) == 0 && ARKStepWFtolerances(ark, weights) == 0 &&
@@ -150,6 +140,7 @@ void ArkodeStepper::do_resume(double time, const double* x, double stop, const d
 void ArkodeStepper::begin_at(double time, const double* x, double stop, double next_step) {
     begin(time, x, stop);
     planned_ = next_step;
+    failed_ = false;
     keep_jacobian_ = false;
     guesses_ = next_step > 0;
     to_.time = from_.time = time;
@@ -175,15 +166,18 @@ double ArkodeStepper::part_of(double left, double planned) {
 }
 
 // The library's own control of the step [Kennedy and Carpenter 2019, PID], of which it does not tell what it would take
-// but for the stop: a step shortened to end there does not invalidate the longer one.
+// but for the stop: a step shortened to end there does not invalidate the longer one. As there, a step that would
+// hardly grow stays, and so does one that has followed a failed attempt.
 int ArkodeStepper::next_step(N_Vector, realtype t, realtype h, realtype, realtype, realtype e1, realtype e2,
                              realtype e3, int, int p, realtype* next, void* user) {
-    constexpr double k1 = 0.58, k2 = 0.21, k3 = 0.1, least = 1e-10, safety = 0.96, bias = 1.5;
+    constexpr double k1 = 0.58, k2 = 0.21, k3 = 0.1, least = 1e-10, safety = 0.96, bias = 1.5, hardly = 1.5;
     auto& self = *static_cast<ArkodeStepper*>(user);
     *next = h * std::pow(std::max(e1, least), -k1 / p) * std::pow(std::max(e2, least), k2 / p) *
             std::pow(std::max(e3, least), -k3 / p);
-    const double planned = std::clamp(safety * *next, h / 10, largest_growth * h);
+    double planned = std::clamp(safety * *next, h / 10, largest_growth * h);
     const bool accepted = e1 <= bias, to_stop = std::abs(t - self.stop_) <= resolution(t);
+    if (accepted && planned >= h && (planned <= hardly * h || self.failed_)) planned = h;
+    self.failed_ = !accepted;
     self.planned_ = accepted && to_stop ? std::max(self.planned_, planned) : planned;
     return 0;
 }
@@ -321,7 +315,7 @@ IntegrationStatistics ArkodeStepper::since_start() const {
     ARKStepGetNumRhsEvals(ark, &out.evaluations, &implicit_evaluations);
     out.evaluations += implicit_evaluations;
     ARKStepGetLastStep(ark, &out.last_step);
-    out.order = order_;
+    out.order = 5;
     if (newton_) {
         out.iterations = newton_->solutions;
         out.jacobians = newton_->jacobians;
