@@ -114,8 +114,10 @@ private:
 };
 
 /// Number of values that one-step methods remember: the same for all, so that a file written by one has room for
-/// another. The second one is 1 where go_on() is to come.
+/// another. The second one is 0, or one of the following.
 int step_memory(const EquationsOfMotion& equations);
+inline constexpr double to_go_on = 1;     ///< go_on() is to come
+inline constexpr double has_gone_on = 2;  ///< and no step since
 
 /// @throws InputError for options the method does not support; NumericalError if SUNDIALS cannot be set up
 std::unique_ptr<Stepper> make_cvode_stepper(EquationsOfMotion& equations, const IntegrationOptions& options);

@@ -23,7 +23,11 @@ public:
     void state_at(double time, double* x) override;
 
 private:
-    void do_start(double time, const double* x, double stop) override { begin_at(time, x, stop, 0); }
+    void do_start(double time, const double* x, double stop) override {
+        after_break_ = 0;
+        is_break_ = false;
+        begin_at(time, x, stop, 0);
+    }
     bool do_step(double horizon) override;
     void remember(double* memory) const override;
     void do_resume(double time, const double* x, double stop, const double* memory) override;
@@ -54,8 +58,10 @@ private:
 
     bool implicit_;
     double fixed_step_;
-    double planned_ = 0;   ///< s, the next step but for the stop; 0: not known
-    bool failed_ = false;  ///< the last attempt at a step
+    double planned_ = 0;      ///< s, the next step but for the stop; 0: not known
+    double after_break_ = 0;  ///< s, likewise of a first step after a break, by the last one; 0: none yet
+    bool is_break_ = false;   ///< where the next step begins
+    bool failed_ = false;     ///< the last attempt at a step
     bool keep_jacobian_ = false;
     bool guesses_ = false;  ///< of stages by stages_
     Renewal renewal_;
@@ -119,20 +125,24 @@ bool ArkodeStepper::set_up_newton(void* ark) {
     return ok;
 }
 
-// The step control starts afresh with the length of the next step, within the bounds of steps that are not the first.
+// The step control starts afresh with the length of the next step, within the bounds of steps that are not the first; a
+// jump excites fast motions, and the first step after it is as long as the last jump allowed.
 void ArkodeStepper::remember(double* memory) const {
     memory[0] = fixed_step_ > 0 ? fixed_step_ : planned_;
+    memory[2] = after_break_;
     if (!newton_) return;
-    renewal_.remember(memory + 2);
-    newton_->remember(memory + 2 + Renewal::memory);
+    renewal_.remember(memory + 3);
+    newton_->remember(memory + 3 + Renewal::memory);
 }
 
 // A fixed step has fresh matrices.
 void ArkodeStepper::do_resume(double time, const double* x, double stop, const double* memory) {
-    begin_at(time, x, stop, memory[0]);
+    after_break_ = memory[2];
+    is_break_ = memory[1] == has_gone_on && fixed_step_ == 0;
+    begin_at(time, x, stop, is_break_ && after_break_ > 0 ? std::min(memory[0], after_break_) : memory[0]);
     if (!newton_ || fixed_step_ > 0) return;
-    renewal_.recall(memory + 2);
-    newton_->recall(memory + 2 + Renewal::memory);
+    renewal_.recall(memory + 3);
+    newton_->recall(memory + 3 + Renewal::memory);
     keep_jacobian_ = newton_->has_jacobian() && !renewal_.due();
 }
 
@@ -176,6 +186,7 @@ int ArkodeStepper::next_step(N_Vector, realtype t, realtype h, realtype, realtyp
             std::pow(std::max(e3, least), -k3 / p);
     double planned = std::clamp(safety * *next, h / 10, largest_growth * h);
     const bool accepted = e1 <= bias, to_stop = std::abs(t - self.stop_) <= resolution(t);
+    if (accepted && std::exchange(self.is_break_, false)) self.after_break_ = planned;
     if (accepted && planned >= h && (planned <= hardly * h || self.failed_)) planned = h;
     self.failed_ = !accepted;
     self.planned_ = accepted && to_stop ? std::max(self.planned_, planned) : planned;
