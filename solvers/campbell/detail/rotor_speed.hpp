@@ -15,8 +15,8 @@ namespace cardan::solvers {
 ///
 /// and the sum over all coordinates and states, w^H s, is one.
 /// @param spin  row of the rotor's rotation; -1: prescribed
-/// @return true for a damping ratio above 0.9 if |p_spin| is more than half of the sum of all |p|. Cost: one
-/// decomposition of twice the rows and states; of other modes none
+/// @return true for a damping ratio above 0.9 if |p_spin| is more than half of the sum of all |p|. Cost: that of
+/// left_vector(); of other modes none
 bool is_motion_of_speed(const SecondOrderSystem& system, const Mode& mode, int spin);
 
 }  // namespace cardan::solvers
