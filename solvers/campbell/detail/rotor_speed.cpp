@@ -1,19 +1,14 @@
 #include "solvers/campbell/detail/rotor_speed.hpp"
 
+#include "solvers/campbell/diagram.hpp"
 #include "solvers/linear/detail/left_vector.hpp"
 
 #include <cmath>
 
 namespace cardan::solvers {
 
-namespace {
-
-constexpr double hardly_oscillates = 0.9;  // damping ratio
-
-}  // namespace
-
 bool is_motion_of_speed(const SecondOrderSystem& system, const Mode& mode, int spin) {
-    if (spin < 0 || mode.damping_ratio() < hardly_oscillates) return false;
+    if (spin < 0 || mode.damping_ratio() < heavy_damping) return false;
     const StateTerms& t = system.states;
     const Eigen::Index n = system.M.rows(), m = t.size();
     const double size = std::abs(mode.eigenvalue);
@@ -24,9 +19,7 @@ bool is_motion_of_speed(const SecondOrderSystem& system, const Mode& mode, int s
                         y = left.head(n);
     ComplexVector weight = 2.0 * std::conj(mode.eigenvalue) * (system.M * y) + system.C.transpose() * y;
     if (m > 0) weight -= t.f_qd.transpose() * left.tail(m);
-    double all = weight.cwiseProduct(mode.shape).cwiseAbs().sum();
-    if (m > 0) all += left.tail(m).cwiseProduct(mode.states).cwiseAbs().sum();
-    return std::abs(weight(spin) * mode.shape(spin)) > 0.5 * all;
+    return std::abs(weight(spin) * mode.shape(spin)) > 0.5 * weight.cwiseProduct(mode.shape).cwiseAbs().sum();
 }
 
 }  // namespace cardan::solvers
