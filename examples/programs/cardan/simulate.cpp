@@ -18,6 +18,7 @@
 #include "examples/shared/named_values.hpp"
 #include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace cardan::program {
 
@@ -153,6 +154,19 @@ double recorded_work(const solvers::History& history) {
     return sum;
 }
 
+solvers::History every_second(const solvers::History& history) {
+    solvers::History half = history;
+    const auto thin = [](std::vector<double>& values) {
+        std::vector<double> kept;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (i % 2 == 0 || i + 1 == values.size()) kept.push_back(values[i]);
+        values = std::move(kept);
+    };
+    thin(half.time);
+    for (std::vector<double>& values : half.values) thin(values);
+    return half;
+}
+
 bool check_balance(solvers::Integrator& integrator, const solvers::History& history, const SimulateArguments& a) {
     const solvers::EnergyBalance end = integrator.energy();
     const double kinetic = largest(history, "kinetic energy").value;
@@ -168,10 +182,16 @@ bool check_balance(solvers::Integrator& integrator, const solvers::History& hist
         if (has(history.channels, channel)) loads += text(loads.empty() ? "" : ", ", name);
     if (!loads.empty() && history.time.size() > 1) {
         // What pitch drives do counts as a load as well.
-        const double pitching = end.state_supply - end.state_dissipation;
-        good = check(text("recorded power of ", loads, " against its work, likewise").c_str(),
-                     (end.loads - pitching - recorded_work(history)) / scale, a.run.step / 4) &&
-               good;
+        const double pitching = end.state_supply - end.state_dissipation, work = recorded_work(history);
+        // Of an oscillation that the outputs do not resolve trapezoids say nothing.
+        const double coarse = std::abs(work - recorded_work(every_second(history))) / scale, allowed = a.run.step / 4;
+        if (coarse > allowed)
+            std::printf("recorded power of %s: outputs every %g s are too far apart to check it by its work; --step\n",
+                        loads.c_str(), a.run.step);
+        else
+            good = check(text("recorded power of ", loads, " against its work, likewise").c_str(),
+                         (end.loads - pitching - work) / scale, allowed) &&
+                   good;
     }
     return good;
 }
