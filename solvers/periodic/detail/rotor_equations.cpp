@@ -239,7 +239,7 @@ Vector RotorEquations::scale(const Matrix& own) {
         linearise(system);
         stiffness.head(coordinates()) += system.K.diagonal() / azimuths;
         inertia.head(coordinates()) += system.M.diagonal() * (rotor_speed_ * rotor_speed_ / azimuths);
-        if (states().size() > 0) stiffness.tail(states().size()) -= system.states.f_s.diagonal() / azimuths;
+        if (!states().empty()) stiffness.tail(states().size()) -= system.states.f_s.diagonal() / azimuths;
     }
     inertia.tail(states().size()).setConstant(std::abs(rotor_speed_));
     Vector scale = stiffness.cwiseAbs().cwiseMax(inertia);
