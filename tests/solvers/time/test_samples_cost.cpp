@@ -13,19 +13,12 @@ namespace {
 System driven_chain(double stiffness = 500, double damping = 1) {
     Tree tree;
     ForceSet forces;
-    FrameId at = Tree::base();
+    const std::vector<BodyId> hinges = add_plane_hinges(tree, 6);
+    for (std::size_t i = 1; i < hinges.size(); ++i)
+        forces.add_spring(text("spring ", i + 1), hinges[i], stiffness, damping);
     StateElement motor{
         .name = "motor", .states = {{.name = "motor torque", .unit = "N m", .scale = 1}}, .inputs = {"torque"}};
-    for (int i = 0; i < 6; ++i) {
-        const Link link =
-            add_joint(tree, {.name = text("hinge ", i + 1),
-                             .inboard = at,
-                             .axis = Vec3::UnitY(),
-                             .inertia = {0.1, Vec3(0, 0, -0.05), Mat3(Vec3::Constant(1e-4).asDiagonal())}});
-        at = tree.add_frame(link.axes, Placement::translation({0, 0, -0.1}), text("end ", i + 1));
-        if (i == 0) motor.coordinates = {link.body};
-        if (i > 0) forces.add_spring(text("spring ", i + 1), link.body, stiffness, damping);
-    }
+    motor.coordinates = {hinges[0]};
     motor.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
         Q(0) = in.s(0);
         f(0) = 8 * (in.u(0) - in.s(0));
