@@ -78,7 +78,7 @@ struct IntegrationOptions {
     Method method = Method::dirk;
     Tolerances tolerances = {};
     double max_step = 0;  ///< s; 0: no limit
-    /// Highest order of bdf (up to 5) and adams (up to 12), 0: no further limit.
+    /// Highest order of bdf (up to 5) and adams (up to 12); 0: no further limit.
     int max_order = 0;
     double first_step = 0;  ///< s; 0: chosen by the method
     /// s; if positive, steps have this length (shorter only to end at a break): dirk, erk, generalised_alpha
