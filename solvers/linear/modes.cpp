@@ -276,8 +276,8 @@ double ModeSolver::share_by_iteration(const SecondOrderSystem& system, const Fou
         right.imag() = shapes_.col(found.column + 1);
     else
         right.imag().setZero();
-    const Complex lambda = found.eigenvalue, near = lambda + Complex(1, 1) * (1e-9 * std::abs(lambda) + 1e-12);
-    const ComplexVector left = left_vector(system, near, d_);
+    const Complex lambda = found.eigenvalue;
+    const ComplexVector left = left_vector(system, lambda, d_);
     const ComplexVector x = right.head(n);
     const Complex states = left.tail(m).dot(right.tail(m)),
                   motion = left.head(n).dot(2.0 * lambda * product(system.M, x) + product(system.C, x)) -

@@ -60,11 +60,11 @@ private:
 
 // P^H x = b again and again, with P = [A, B; C, D]:
 //   (A^H - C^H Y) x_q = b_q - C^H D^-H b_s,  x_s = D^-H b_s - Y x_q,  Y = D^-H B^T.
-ComplexVector left_vector(const SecondOrderSystem& system, Complex near, const Vector& units) {
+ComplexVector left_vector(const SecondOrderSystem& system, Complex eigenvalue, const Vector& units) {
     const StateTerms& t = system.states;
     const Index n = system.M.rows(), m = t.size();
     const Vector d = units.head(n), u = units.tail(m), over = u.cwiseInverse();
-    const Complex square = near * near;
+    const Complex near = eigenvalue + Complex(1, 1) * (1e-9 * std::abs(eigenvalue) + 1e-12), square = near * near;
     Matrix re = d.asDiagonal() * Matrix(square.real() * system.M + near.real() * system.C + system.K).transpose() *
                 d.asDiagonal(),
            im = -(d.asDiagonal() * Matrix(square.imag() * system.M + near.imag() * system.C).transpose() *
