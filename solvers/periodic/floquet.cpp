@@ -6,10 +6,12 @@
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
 #include "solvers/periodic/detail/normalised_system.hpp"
+#include "solvers/periodic/detail/slow_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -102,11 +104,18 @@ public:
         const int Q = options.symmetry.parts;
         angle_ = 2 * pi / Q;
         if (Q > 1) set_permutation();
+        if (options.only_slow) leave_out_fast();
+        // Their harmonics are those of the slow motions, too.
+        const int samples = slow_ ? slow_->azimuths() : grid_.samples * Q;
+        weights_.emplace(raw_, samples, options.weight);
     }
     Floquet compute();
 
 private:
     void set_permutation();
+    void leave_out_fast();
+    /// What is integrated: all motions or the slow ones.
+    const PeriodicSystem& integrated() const { return slow_ ? slow_->system() : normalised_.system; }
     std::vector<Matrix> factors(const std::vector<Matrix>& samples) const;
     void analyse(const ProductEigen& eigen, Floquet& result) const;
     struct Motion {
@@ -134,14 +143,27 @@ private:
     NormalisedSystem normalised_;
     Grid grid_;
     double angle_;                          // omega T / Q
-    Matrix permutation_, raw_permutation_;  // of the normalised and of the raw states
-    std::vector<Matrix> fine_;              // transitions between samples
-    std::vector<Matrix> difference_;        // of the factors, coarse - fine
+    Matrix permutation_, raw_permutation_;  // of the integrated and of the raw states
+    std::optional<SlowMotions> slow_;
+    std::optional<EnergyWeights> weights_;
+    std::vector<Matrix> expansions_;  // at the samples, of the slow motions
+    std::vector<Matrix> fine_;        // transitions between samples
+    std::vector<Matrix> difference_;  // of the factors, coarse - fine
 };
 
 void Analysis::set_permutation() {
     raw_permutation_ = options_.symmetry.of_states(raw_);
     permutation_ = normalised_.unit.cwiseInverse().asDiagonal() * raw_permutation_ * normalised_.unit.asDiagonal();
+}
+
+void Analysis::leave_out_fast() {
+    BladeSymmetry symmetry;
+    if (options_.symmetry.parts > 1)
+        symmetry = {options_.symmetry.parts, permutation_.topLeftCorner(raw_.rows(), raw_.rows())};
+    slow_ = SlowMotions::find(normalised_.system, symmetry, options_.per_period, options_.tolerance);
+    if (!slow_) return;
+    if (symmetry.parts > 1) permutation_ = slow_->symmetry().of_states(slow_->system());
+    for (int s = 0; s < grid_.samples; ++s) expansions_.push_back(slow_->expansion(angle_ * s / grid_.samples));
 }
 
 // P Phi(T/Q) as a product.
@@ -205,7 +227,8 @@ double Analysis::error(const FloquetMode& mode, double change) const {
         constexpr double doubt = 4, alike = 10;  // the model's error, that of what it says has changed
         if (change < alike * coarse) gain = std::max(gain, coarse / fine / doubt);
     }
-    return raw_.frequency() * (change / gain + rounding(mode.condition));
+    const double of_slow = slow_ ? slow_->error() / 2 * std::max(1.0, std::abs(mode.exponent) / raw_.frequency()) : 0;
+    return raw_.frequency() * (change / gain + rounding(mode.condition) + of_slow);
 }
 
 Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representative& which) const {
@@ -218,20 +241,27 @@ Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representativ
 // Sets p of motions, all at once. From one factor to the next their vectors are known; between, they are integrated.
 void Analysis::integrate(std::span<Motion> motions) const {
     const int Q = options_.symmetry.parts, S = grid_.samples, each = S / grid_.factors;
-    const Index count = std::ssize(motions), n = raw_.states();
+    const Index count = std::ssize(motions), n = integrated().states();
     Matrix x(n, 2 * count), next(n, 2 * count);  // real and imaginary parts side by side
+    Matrix all(raw_.states(), 2 * count);        // likewise, of all states
     std::vector<Complex> grown(motions.size());  // logarithms
-    for (Motion& m : motions) m.p.resize(n, Index{Q} * S);
+    for (Motion& m : motions) m.p.resize(raw_.states(), Index{Q} * S);
     for (int s = 0; s < S; ++s) {
+        for (Index k = 0; s % each == 0 && k < count; ++k) {
+            const Motion& m = entry(motions, k);
+            x.col(2 * k) = m.vectors.right.col(s / each).real();
+            x.col(2 * k + 1) = m.vectors.right.col(s / each).imag();
+        }
+        if (slow_) {
+            all.setZero();
+            add_product(all, entry(expansions_, s), x);
+        }
+        const Matrix& states = slow_ ? all : x;
         for (Index k = 0; k < count; ++k) {
             Motion& m = entry(motions, k);
-            if (s % each == 0) {
-                x.col(2 * k) = m.vectors.right.col(s / each).real();
-                x.col(2 * k + 1) = m.vectors.right.col(s / each).imag();
-            }
             const Complex factor = std::exp(entry(grown, k) - m.exponent * (angle_ * s / S));
-            m.p.col(s).real() = factor.real() * x.col(2 * k) - factor.imag() * x.col(2 * k + 1);
-            m.p.col(s).imag() = factor.real() * x.col(2 * k + 1) + factor.imag() * x.col(2 * k);
+            m.p.col(s).real() = factor.real() * states.col(2 * k) - factor.imag() * states.col(2 * k + 1);
+            m.p.col(s).imag() = factor.real() * states.col(2 * k + 1) + factor.imag() * states.col(2 * k);
             m.p.col(s).array() *= normalised_.unit.array();
             if ((s + 1) % each == 0) entry(grown, k) += std::log(m.vectors.growth(s / each));
         }
@@ -282,7 +312,8 @@ bool Analysis::wanted(const FloquetMode& mode) const {
 }
 
 bool Analysis::accurate(const FloquetMode& mode) const {
-    return !wanted(mode) || mode.error <= options_.tolerance * raw_.frequency();
+    const double rate = slow_ ? std::max(raw_.frequency(), std::abs(mode.exponent)) : raw_.frequency();
+    return !wanted(mode) || mode.error <= options_.tolerance * rate;
 }
 
 // Largest error of modes that are not accurate, and not for rounding; 0 without any.
@@ -297,7 +328,6 @@ double Analysis::worst(const std::vector<FloquetMode>& modes) const {
 void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
     // Below this the factors hold nothing but rounding: log(1e-14).
     constexpr double lowest_level = -32;
-    const EnergyWeights weights(raw_, grid_.samples * options_.symmetry.parts, options_.weight);
     std::vector<Complex> logarithms;
     std::vector<std::size_t> at;
     for (Index i = 0; i < eigen.size(); ++i) {
@@ -318,8 +348,8 @@ void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
         integrate(motions);
         for (const Motion& m : motions) {
             const FloquetSolution one = solution(m);
-            FloquetMode& mode =
-                (one.resolved ? result.modes : result.unresolved).emplace_back(make_mode(one, weights, raw_.period()));
+            FloquetMode& mode = (one.resolved ? result.modes : result.unresolved)
+                                    .emplace_back(make_mode(one, *weights_, raw_.period()));
             mode.error = error(mode, one.error);
         }
     }
@@ -334,12 +364,11 @@ Floquet Analysis::compute() {
     const bool refine = grid_.steps == 0;
     double before = std::numeric_limits<double>::infinity();  // worst() with half the steps
     std::vector<Matrix> product;
-    if (refine)
-        product = factors(transitions(normalised_.system, 0, angle_, grid_.samples / 2, 1, options_.transition));
+    if (refine) product = factors(transitions(integrated(), 0, angle_, grid_.samples / 2, 1, options_.transition));
     while (true) {
         if (refine) grid_.steps = std::max(1, 2 * grid_.steps);
         difference_ = std::move(product);
-        fine_ = transitions(normalised_.system, 0, angle_, grid_.samples, grid_.steps, options_.transition);
+        fine_ = transitions(integrated(), 0, angle_, grid_.samples, grid_.steps, options_.transition);
         product = factors(fine_);
         for (std::size_t k = 0; k < difference_.size(); ++k) difference_[k] -= product[k];
         ProductEigen eigen;

@@ -20,6 +20,12 @@ struct FloquetOptions {
     /// The monodromy matrix is kept as a product of this many factors (per T/Q): strongly damped motions keep their
     /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;
+    /// Only motions up to `per_period` are of interest: those that are much faster are left out, where they can be told
+    /// from the others (a system of second order without states beside the coordinates, whose frequencies at every
+    /// azimuth have a gap), and the rest is integrated alone. The rest keeps its exponents: what they
+    /// are off by is part of their errors. Where fast ones are left out, `tolerance` is relative to an exponent where
+    /// that is larger than 2 pi / T.
+    bool only_slow = false;
     /// Weight W of x^H W x for the participation of harmonics in a system of first order; empty: unit matrix.
     Matrix weight = {};
 };

@@ -239,6 +239,7 @@ FloquetOptions PeriodicPointSolver::floquet_options() const {
                          text("frequency per revolution at ", state_->rotor_speed * units::to_rpm, " rpm"),
                          options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
+    options.only_slow = true;
     options.max_steps =
         own.max_steps > 0 ? own.max_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
     return options;
