@@ -7,10 +7,13 @@
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/time/integrate.hpp"
+#include "turbines/control/actuators.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
+
+#include <cmath>
 
 using namespace cardan;
 
@@ -18,7 +21,9 @@ namespace {
 
 // From the steady state at standstill, with the rotor set in motion; the transients have gone after 5 s.
 struct Run {
-    Run(turbines::Turbine machine, double rpm, solvers::Method method) : turbine(std::move(machine)) {
+    Run(turbines::Turbine machine, double rpm, solvers::Method method,
+        std::vector<solvers::SampledController> controllers = {})
+        : turbine(std::move(machine)) {
         const System& system = turbine.system();
         const int spin = turbine.rotor().spin;
         const double speed = rpm * units::rpm;
@@ -26,6 +31,7 @@ struct Run {
         qd(spin) = speed;
         solvers::IntegrationOptions how;
         how.method = method;
+        how.controllers = std::move(controllers);
         how.tolerances = {1e-5, 1e-7, 1e-7, 1e-6, 1e-6};
         integrator.emplace(system, std::vector<solvers::Drive>{{spin, solvers::Motion::constant_rate(q(spin), speed)}},
                            0, q, qd, how);
@@ -148,6 +154,42 @@ void time_marching_states(benchmark::State& state) {
     state.counters["over without states"] = times.ratio();
 }
 
+// Under a controller that sets pitch and torque anew 80 times a second, beside the same machine with constant demands.
+void time_marching_samples(benchmark::State& state) {
+    turbines::TurbineDescription description = turbines::nrel5mw_description();
+    turbines::give_pitch_springs(description);
+    turbines::AssemblyOptions options =
+        turbines::nrel5mw_assembly(turbines::Nrel5mwVariant::report, static_cast<int>(state.range(0)), 4);
+    options.gravity = gravity;
+    const turbines::Turbine machine = turbines::assemble(description, options);
+    constexpr double torque = 43093.55;
+    const turbines::Turbine actuated = machine.with_forces(turbines::ActuatedForces(machine).with_inputs(torque));
+    solvers::SampledController shaking{
+        .name = "shaking", .inputs = {"pitch demand", "torque demand"}, .period = 0.0125};
+    shaking.update = [](const solvers::SampleInput& in, VectorOut u) {
+        u(0) = units::degree * std::sin(in.state.time);
+        u(1) = torque * (1 + 0.1 * std::sin(2 * in.state.time));
+    };
+    Run with(actuated, 12.1, solvers::Method::dirk, {shaking}), without(actuated, 12.1, solvers::Method::dirk);
+    const solvers::IntegrationStatistics before = with.integrator->statistics();
+    const double from = with.integrator->time();
+    bench::Pairs times;
+    for (auto _ : state) {
+        const auto second_of = [](Run& run) {
+            return bench::cpu_time_of(
+                [&] { benchmark::DoNotOptimize(run.integrator->advance(run.integrator->time() + 1)); });
+        };
+        const double marching = second_of(with);
+        times.add(marching, second_of(without));
+        state.SetIterationTime(marching);
+    }
+    const solvers::IntegrationStatistics after = with.integrator->statistics();
+    const double samples = (with.integrator->time() - from) / shaking.period;
+    state.counters["over constant demands"] = times.ratio();
+    state.counters["steps per sample"] = static_cast<double>(after.steps - before.steps) / samples;
+    state.counters["Jacobians per sample"] = static_cast<double>(after.jacobians - before.jacobians) / samples;
+}
+
 void few_and_many(benchmark::internal::Benchmark* b) {
     b->Arg(3)->Arg(12)->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
 }
@@ -161,6 +203,7 @@ void eight(benchmark::internal::Benchmark* b) {
 BENCHMARK_CAPTURE(time_marching_nrel5mw, dirk, solvers::Method::dirk)->Apply(eight);
 BENCHMARK_CAPTURE(time_marching_nrel5mw, bdf, solvers::Method::bdf)->Apply(eight);
 BENCHMARK_CAPTURE(time_marching_nrel5mw, generalised_alpha, solvers::Method::generalised_alpha)->Apply(eight);
+BENCHMARK(time_marching_samples)->Apply(eight);
 BENCHMARK(time_marching_states)
     ->Arg(6)
     ->Arg(15)

@@ -73,7 +73,7 @@ private:
     std::string name_;
     std::vector<IndexedTable> tables_;
     LiftLine lift_line_;
-    double attached_from_, attached_to_;
+    double attached_from_ = 0, attached_to_ = 0;
     std::vector<double> stalls_;
 };
 

@@ -112,13 +112,17 @@ inline Extreme largest(const solvers::History& history, const std::string& chann
 }
 
 /// Integral over time of a channel, or of the product of two, by trapezoids.
-inline double integral(const solvers::History& history, const std::string& channel, const std::string& factor = "") {
+/// @param every  only each so many-th sample, and the last
+inline double integral(const solvers::History& history, const std::string& channel, const std::string& factor = "",
+                       std::size_t every = 1) {
     std::vector<double> values = history[channel];
     if (!factor.empty())
         std::ranges::transform(values, history[factor], values.begin(), [](double a, double b) { return a * b; });
     double sum = 0;
-    for (std::size_t i = 1; i < values.size(); ++i)
-        sum += (history.time[i] - history.time[i - 1]) * (values[i] + values[i - 1]) / 2;
+    for (std::size_t i = 0, next = 0; i + 1 < values.size(); i = next) {
+        next = std::min(i + every, values.size() - 1);
+        sum += (history.time[next] - history.time[i]) * (values[next] + values[i]) / 2;
+    }
     return sum;
 }
 

@@ -88,6 +88,7 @@ CARDAN_VECTORISED void subtract(double* columns, Index stride, Index count, Inde
 
 void Hessenberg::reduce(Matrix& T, Matrix& Z) {
     const Index n = T.rows();
+    if (w_.size() < Z.rows()) w_.resize(Z.rows());
     for (Index k = 0; k + 2 < n; ++k) {
         const Index size = n - k - 1;
         double* below = &T(k + 1, k);

@@ -14,7 +14,8 @@ public:
     explicit Hessenberg(Eigen::Index size) : v_(size), w_(size) {}
 
     /// @param T  in: A; out: T
-    /// @param Z  any number of rows, `size` columns; becomes Z Q.  Cost 10/3 n^3 and 2 n^2 per row of Z; no allocation.
+    /// @param Z  any number of rows, `size` columns; becomes Z Q.  Cost 10/3 n^3 and 2 n^2 per row of Z; no allocation
+    ///           unless Z has more rows than columns.
     void reduce(Matrix& T, Matrix& Z);
 
 private:

@@ -3,6 +3,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/control/detail/shifted_schur.hpp"
+#include "solvers/control/transfer_function.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -182,11 +183,14 @@ public:
         const double last = 2 * pi * max_frequency_hz;
         std::vector<double> omega{0};
         for (int i = 0; i <= steps; ++i) omega.push_back(last * std::pow(1e-3, 1 - static_cast<double>(i) / steps));
-        for (const Complex& pole : model_of(stable).poles())
+        ConstantModel model;
+        static_cast<StateMatrices&>(model) = stable;
+        for (const Complex& pole : model.poles())
             if (pole.imag() > 0 && pole.imag() < last) omega.push_back(pole.imag());
+        TransferFunction G(stable);
         for (double w : omega) {
             s_.emplace_back(0, w);
-            G_.push_back(model_of(stable).transfer(s_.back()));
+            G_.push_back(G.at(s_.back()));
         }
     }
     Matrix largest() const {
@@ -195,18 +199,13 @@ public:
         return most;
     }
     Matrix largest_difference(const StateMatrices& other) const {
-        const ConstantModel model = model_of(other);
+        TransferFunction G(other);
         Matrix most = Matrix::Zero(G_[0].rows(), G_[0].cols());
-        for (std::size_t i = 0; i < s_.size(); ++i) most = most.cwiseMax((G_[i] - model.transfer(s_[i])).cwiseAbs());
+        for (std::size_t i = 0; i < s_.size(); ++i) most = most.cwiseMax((G_[i] - G.at(s_[i])).cwiseAbs());
         return most;
     }
 
 private:
-    static ConstantModel model_of(const StateMatrices& matrices) {
-        ConstantModel model;
-        static_cast<StateMatrices&>(model) = matrices;
-        return model;
-    }
     std::vector<Complex> s_;
     std::vector<ComplexMatrix> G_;
 };

@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/arnoldi.hpp"
+#include "solvers/linear/detail/left_vector.hpp"
 #include "solvers/linear/detail/shifted_state.hpp"
 
 #include <algorithm>
@@ -28,26 +29,6 @@ double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda
         terms += weight * (std::norm(inertial) + std::norm(damping) + std::norm(stiffness));
     }
     return std::sqrt(rest / terms);
-}
-
-// Of an almost singular matrix, by inverse iteration, in real arithmetic: A^H (x + i y) = b.
-ComplexVector left_null_vector(const ComplexMatrix& A) {
-    const Eigen::Index n = A.rows();
-    LuFactors lu(2 * n);
-    Matrix& B = lu.matrix();
-    B.topLeftCorner(n, n) = B.bottomRightCorner(n, n) = A.real().transpose();
-    B.topRightCorner(n, n) = A.imag().transpose();
-    B.bottomLeftCorner(n, n) = -A.imag().transpose();
-    lu.factorise();
-    Vector x = Vector::Ones(2 * n);
-    for (int i = 0; i < 3; ++i) {
-        lu.solve(x);
-        x.normalize();
-    }
-    ComplexVector left(n);
-    left.real() = x.head(n);
-    left.imag() = x.tail(n);
-    return left;
 }
 
 constexpr double largest_rest = 0.01;  // of the equations' terms
@@ -286,30 +267,17 @@ void ModeSolver::add(Complex mu, double scale) {
     if (complex) shapes_.col(columns_ - 1) *= -1;
 }
 
-// From the left null vector (y, w) of
-//   P(lambda) = [ lambda^2 M + lambda C + K, -Q_s; -(f_q + lambda f_qd), lambda - f_s ],
-// by inverse iteration next to the eigenvalue, in the units of d_.
 double ModeSolver::share_by_iteration(const SecondOrderSystem& system, const Found& found) const {
-    const Eigen::Index n = rows_, m = states_, size = n + m;
+    const Eigen::Index n = rows_, m = states_;
     const StateTerms& t = system.states;
-    ComplexVector right(size);
+    ComplexVector right(n + m);
     right.real() = shapes_.col(found.column);
     if (found.eigenvalue.imag() != 0)
         right.imag() = shapes_.col(found.column + 1);
     else
         right.imag().setZero();
-    const Complex lambda = found.eigenvalue, near = lambda + Complex(1, 1) * (1e-9 * std::abs(lambda) + 1e-12);
-    ComplexMatrix P(size, size);
-    P.topLeftCorner(n, n) = (near * near) * system.M + near * system.C + system.K;
-    P.topRightCorner(n, m) = -t.Q_s;
-    P.bottomLeftCorner(m, n) = -(t.f_q + near * t.f_qd);
-    P.bottomRightCorner(m, m) = near * Matrix::Identity(m, m) - t.f_s;
-    P.topRows(n) = d_.head(n).asDiagonal() * P.topRows(n);
-    P.bottomRows(m) = d_.tail(m).cwiseInverse().asDiagonal() * P.bottomRows(m);
-    P = P * d_.asDiagonal();
-    ComplexVector left = left_null_vector(P);
-    left.head(n) = d_.head(n).asDiagonal() * left.head(n);
-    left.tail(m) = d_.tail(m).cwiseInverse().asDiagonal() * left.tail(m);
+    const Complex lambda = found.eigenvalue;
+    const ComplexVector left = left_vector(system, lambda, d_);
     const ComplexVector x = right.head(n);
     const Complex states = left.tail(m).dot(right.tail(m)),
                   motion = left.head(n).dot(2.0 * lambda * product(system.M, x) + product(system.C, x)) -

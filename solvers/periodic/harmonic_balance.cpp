@@ -332,10 +332,12 @@ bool Balance::accelerated_steps() {
     return accelerates_;
 }
 
-// False if nothing makes the residual smaller.
+// False if nothing makes the residual smaller. What is small already is as good as the arithmetic, or kinks of what
+// acts, allow: a step for all coefficients at once would take their number squared in memory to find that out.
 bool Balance::advance() {
     if (mean_ && mean_step()) return true;
     if (mean_ && accelerates_ && accelerated_steps()) return true;
+    if (mean_ && largest(R_) <= small_residual) return false;
     Matrix dx;
     return step(dx) && search(dx);
 }

@@ -141,8 +141,9 @@ Matrix renumbered(const Matrix& P, const Matrix& A) {
     return P * A * P.transpose();
 }
 
-// The matrices of the states, renumbered in place.
+// The matrices of the states, renumbered in place. Three and more blades stay where they are in multi-blade rows.
 void renumber(const Matrix& P, const Matrix& P_beside, StateTerms& t) {
+    if (is_identity(P) && is_identity(P_beside)) return;
     t.Q_s = (P * t.Q_s * P_beside.transpose()).eval();
     t.f_q = (P_beside * t.f_q * P.transpose()).eval();
     t.f_qd = (P_beside * t.f_qd * P.transpose()).eval();

@@ -191,6 +191,11 @@ void EquationsOfMotion::evaluate_forces() {
 
 bool EquationsOfMotion::solve(double time, const double* x) {
     expand(time, x);
+    return solve();
+}
+
+// At the state that has been set.
+bool EquationsOfMotion::solve() {
     if (!motion_finite()) return false;
     const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
     evaluate_forces();
@@ -255,10 +260,30 @@ bool EquationsOfMotion::residual(double time, const double* x, const double* xdd
 }
 
 bool EquationsOfMotion::linearise(double time, const double* x) {
-    if (!solve(time, x)) return false;
+    expand(time, x);
+    return derive();
+}
+
+bool EquationsOfMotion::linearise(double time, const double* x, const double* driven) {
+    expand(time, x);
+    for (const Drive& drive : drives_) {
+        q_(drive.coordinate) = *driven++;
+        qd_(drive.coordinate) = *driven++;
+        qdd_(drive.coordinate) = *driven++;
+    }
+    return derive();
+}
+
+void EquationsOfMotion::driven_state(double* out) const {
+    for (const Drive& drive : drives_)
+        for (const Vector* of : {&q_, &qd_, &qdd_}) *out++ = (*of)(drive.coordinate);
+}
+
+bool EquationsOfMotion::derive() {
+    if (!solve()) return false;
     differentiate();
     const PivotStatus status = factor_.factorise(g_);
-    if (!status) problem_ = text("at ", time, " s: ", status.message());
+    if (!status) problem_ = text("at ", time_, " s: ", status.message());
     return status.ok();
 }
 

@@ -117,6 +117,12 @@ public:
     /// until the next call. Those of the accelerations are -g^-1 S and -g^-1 C.
     /// @return false if the metric is not positive definite at the state; problem() says where
     bool linearise(double time, const double* x);
+    /// Likewise where the driven coordinates are in this state, whatever their motions are now.
+    /// @param driven  driven_state()
+    bool linearise(double time, const double* x, const double* driven);
+    /// Position, rate and acceleration of each drive at the last state that was evaluated.
+    /// @param out  3 drives().size()
+    void driven_state(double* out) const;
     /// Likewise at the last residual(), which must be the preceding call; its metric need not be positive definite.
     void linearise_residual();
     /// K = c_qdd g + c_qd C + c_q S.
@@ -176,6 +182,8 @@ private:
     void expand(double time, const double* x);
     void require_closed();
     bool solve(double time, const double* x);
+    bool solve();
+    bool derive();
     void differentiate();
     bool all_finite(const Vector& values, const char* quantity);
     bool states_finite(const Vector& values, const char* quantity);

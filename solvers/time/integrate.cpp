@@ -4,9 +4,7 @@
 #include "solvers/time/detail/stepper.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <span>
 #include <utility>
 
 namespace cardan::solvers {
@@ -95,9 +93,9 @@ void Integrator::find_breaks() {
 void Integrator::begin_piece() {
     const double now = state_.time;
     const auto next = std::upper_bound(breaks_.begin(), breaks_.end(), now + resolution(now));
-    break_ = next == breaks_.end() ? infinity : *next;
-    piece_end_ = std::min(break_, controllers_.next());
-    equations_.set_piece(next == breaks_.end() ? now + 1 : (now + break_) / 2);
+    const double end = next == breaks_.end() ? infinity : *next;
+    piece_end_ = std::min(end, controllers_.next());
+    equations_.set_piece(next == breaks_.end() ? now + 1 : (now + end) / 2);
     start_pending_ = true;
     go_on_pending_ = repeat_pending_ = false;
 }
@@ -115,7 +113,7 @@ bool Integrator::sample_due() const {
 // A break, or the time of a sample, or both.
 void Integrator::pass_piece_end() {
     const double now = state_.time;
-    const bool at_break = now >= break_, was_running = !start_pending_;
+    const bool was_running = !start_pending_;
     if (sample_due()) {
         if (!equations_.complete(now, x_.data(), state_))
             throw NumericalError(text(in_integration, ": no forces at ", now, " s: ", equations_.problem()));
@@ -126,38 +124,9 @@ void Integrator::pass_piece_end() {
         equations_.set_inputs(u_);
     }
     begin_piece();
-    if (at_break || !was_running) return;
+    if (!was_running) return;
     start_pending_ = false;
     go_on_pending_ = true;
-}
-
-// Gauss' formula, as exact as the interpolation within a step: of order 6 beside the long steps of Runge-Kutta methods,
-// of order 4 beside the short ones of the others.
-bool Integrator::accumulate(double to) {
-    if (!options_.integrate_work) return true;
-    struct Node {
-        double at, weight;  // on -1 ... 1
-    };
-    static constexpr std::array<Node, 3> three{
-        {{-0.77459666924148338, 5.0 / 9}, {0, 8.0 / 9}, {0.77459666924148338, 5.0 / 9}}};
-    static constexpr std::array<Node, 2> two{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
-    const bool long_steps = options_.method == Method::dirk || options_.method == Method::erk;
-    const double half = (to - state_.time) / 2, middle = state_.time + half;
-    Work sum = work_;  // kept as it was if a user force throws
-    for (const Node& node : long_steps ? std::span<const Node>(three) : std::span<const Node>(two)) {
-        const double time = middle + node.at * half, weight = node.weight * half;
-        state_at(time, x_between_);
-        Powers power;
-        if (!equations_.powers(time, x_between_.data(), power)) return false;
-        sum.forces += weight * power.forces;
-        sum.dissipation += weight * power.dissipation;
-        sum.drives += weight * power.drives;
-        sum.state_supply += weight * power.states.supplied;
-        sum.state_dissipation += weight * power.states.dissipated;
-        sum.state_work += weight * power.states.work;
-    }
-    work_ = sum;
-    return true;
 }
 
 void Integrator::complete(Advance& result) {
@@ -246,8 +215,8 @@ bool Integrator::take_step(double horizon, Advance& result) {
         if (start_pending_) {
             stepper_->start(state_.time, x_.data(), piece_end_);
             ++starts_;
-        } else {
-            stepper_->go_on(state_.time, x_.data(), piece_end_);
+        } else if (!stepper_->go_on(state_.time, x_.data(), piece_end_)) {
+            ++starts_;
         }
         start_pending_ = go_on_pending_ = false;
         seen_at_ = never;

@@ -46,9 +46,10 @@ struct IntegrationStatistics {
     long jacobians = 0;       ///< or tangents
     long factorisations = 0;  ///< of the matrix of Newton's method
     long iterations = 0;      ///< nonlinear
-    long restarts = 0;        ///< at breaks of motions and loads and after events, not counting the first start
-    int order = 0;            ///< of the last step
-    double last_step = 0;     ///< s
+    /// After events and changes, of multistep methods also at breaks and samples, not counting the first start.
+    long restarts = 0;
+    int order = 0;         ///< of the last step
+    double last_step = 0;  ///< s
 };
 
 class Integrator;
@@ -163,9 +164,10 @@ struct Checkpoint {
 
 class Stepper;
 
-/// Integrates the equations of motion and those of the states beside them. It restarts at breaks of the motions and of
-/// loads over time (FrameLoad::breaks), so that the method sees only smooth functions; outputs between steps come from
-/// the method's own interpolation.
+/// Integrates the equations of motion and those of the states beside them. It ends a step at breaks of the motions and
+/// of loads over time (FrameLoad::breaks), so that the method sees only smooth functions; one-step methods go on from
+/// there with the step and the Jacobian that they have, the others begin anew. Outputs between steps come from the
+/// method's own interpolation.
 ///
 /// Forces may change in the action of an event and between two calls of advance(), not within one. By then the method
 /// has stepped beyond the output time: if accelerations have changed, at that time or at the end of the step, advance()
@@ -287,7 +289,7 @@ private:
     Vector u_;
     std::unique_ptr<Stepper> stepper_;
     std::vector<double> breaks_;
-    double break_ = 0, piece_end_ = 0;  ///< s, of the next break, and of that or the next sample
+    double piece_end_ = 0;  ///< s, the next break or sample
     bool start_pending_ = true, go_on_pending_ = false, repeat_pending_ = false;
     long starts_ = 0;
     Doing doing_ = Doing::nothing;

@@ -143,11 +143,11 @@ IntegrationStatistics Integrator::statistics() const {
 
 Checkpoint Integrator::checkpoint() const {
     MethodState method = repeat_pending_ ? from_ : stepper_->origin();
-    const bool at_sample = sample_due() && state_.time < break_ && !start_pending_ && !repeat_pending_;
-    if (at_sample) method = stepper_->present(state_.time, x_);
+    const bool goes_on =
+        (go_on_pending_ || sample_due() || state_.time >= piece_end_) && !start_pending_ && !repeat_pending_;
+    if (goes_on) method = stepper_->present(state_.time, x_);
     // A start is to come, here or at the end of the action.
-    if ((start_pending_ && !repeat_pending_) || (state_.time >= piece_end_ && !at_sample) || doing_ == Doing::acting)
-        method.steps = -1;
+    if ((start_pending_ && !repeat_pending_) || doing_ == Doing::acting) method.steps = -1;
     method.since = since_;
     method.positions = positions_;
     return {state_.time,         state_.q, state_.qd, work_,    kinetic_at_start_, potential_at_start_,

@@ -13,6 +13,8 @@ add_example_test(example_modes cardan 0
 # By hand: the weight above the tower's foot is its mean axial force; means of TwrBsFzt and of the blades' root forces.
 add_example_test(example_steady cardan 0 "harmonics.*mesh.*RotSpeed|rotor speed +1.26[0-9]+.*blade 1 root moment y.*72 azimuths"
     steady nrel5mw ${coarse} --out example_steady)
+add_example_test(example_steady_backwards cardan 0 "rotor speed +-0[.]52[0-9]+.*files: example_steady_backwards[.]h5 .72 azimuths"
+    steady nrel5mw --rpm -5 ${coarse} --out example_steady_backwards)
 add_example_test(example_steady_wind cardan 0 "5296[.]61 kW on the rotor.*at 9 m/s, and with twice as many elements: power [0-9]+.*; thrust [0-9.]+, [0-9.]+ kN; tip out of the plane [0-9.]+, [0-9.]+ m; its twist -[0-9.]+, -[0-9.]+ deg.*8[.]000 +9[.]3[0-9]+ +0[.]0000 +18[0-9]+[.].*files: example_steady_wind[.]h5"
     steady nrel5mw --wind 8,9 --no-gravity --harmonics 2 ${coarse} --blade-stations 40 --out example_steady_wind)
 add_example_test(example_steady_wind_windio cardan 0 "operation: tip-speed ratio.*8[.]000 .*files: example_steady_wind_windio[.]h5" steady

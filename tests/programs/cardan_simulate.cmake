@@ -86,6 +86,9 @@ add_example_test(example_turbine_time_wind_controlled cardan 0 "energy lost.*ok.
     ${air} example_turbine_time_wind_controlled --controller baseline)
 add_example_test(example_turbine_time_wind_driven cardan 0 "rotor driven.*recorded power of air against.*ok" simulate
     ${air} example_turbine_time_wind_driven --generator locked)
+add_example_test(example_turbine_time_wind_coarse cardan 0 "recorded power of air: outputs every 0.1 s are too far apart" simulate
+    nrel5mw --blade-elements 2 --tower-elements 2 --wind 50 --wind-direction 180 --rpm 0 --pitch 90 --generator-torque 0 --step 0.1 --duration 4
+    --out example_turbine_time_wind_coarse)
 add_example_test(example_turbine_time_wind_list cardan 0 "wind speed +HorWindV.*aerodynamic power +RtAeroPwr" simulate nrel5mw --wind 9 --list)
 add_example_test(example_turbine_time_wind_back cardan 1 "gust_back.csv:1: wind over time, row 2: time .s. = 0" simulate
     nrel5mw ${coarse} --wind gust_back.csv)

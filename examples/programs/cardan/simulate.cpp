@@ -18,6 +18,7 @@
 #include "examples/shared/named_values.hpp"
 #include "examples/shared/steady_rotation.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace cardan::program {
 
@@ -144,12 +145,12 @@ std::vector<solvers::Drive> drives(bool driven, int spin, const Start& start) {
     return {{spin, solvers::Motion::constant_rate(start.q(spin), start.qd(spin))}};
 }
 
-// Of the loads that are recorded, J; positive: put into the machine.
-double recorded_work(const solvers::History& history) {
+// Of the loads that are recorded, J; positive: put into the machine. From each so many-th sample.
+double recorded_work(const solvers::History& history, std::size_t every) {
     double sum = 0;
-    if (has(history.channels, "generator power")) sum -= integral(history, "generator power");
+    if (has(history.channels, "generator power")) sum -= integral(history, "generator power", "", every);
     for (const char* driving : {"rotor torque power", "work rate of the air"})
-        if (has(history.channels, driving)) sum += integral(history, driving);
+        if (has(history.channels, driving)) sum += integral(history, driving, "", every);
     return sum;
 }
 
@@ -168,10 +169,15 @@ bool check_balance(solvers::Integrator& integrator, const solvers::History& hist
         if (has(history.channels, channel)) loads += text(loads.empty() ? "" : ", ", name);
     if (!loads.empty() && history.time.size() > 1) {
         // What pitch drives do counts as a load as well.
-        const double pitching = end.state_supply - end.state_dissipation;
-        good = check(text("recorded power of ", loads, " against its work, likewise").c_str(),
-                     (end.loads - pitching - recorded_work(history)) / scale, a.run.step / 4) &&
-               good;
+        const double pitching = end.state_supply - end.state_dissipation, work = recorded_work(history, 1);
+        const double error = (end.loads - pitching - work) / scale, allowed = a.run.step / 4;
+        // Of an oscillation that the outputs do not resolve trapezoids say nothing.
+        if (std::abs(error) > allowed && std::abs(work - recorded_work(history, 2)) > allowed * scale)
+            std::printf("recorded power of %s: outputs every %g s are too far apart to check it by its work; --step\n",
+                        loads.c_str(), a.run.step);
+        else
+            good =
+                check(text("recorded power of ", loads, " against its work, likewise").c_str(), error, allowed) && good;
     }
     return good;
 }

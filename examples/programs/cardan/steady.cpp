@@ -20,6 +20,7 @@
 #include "examples/shared/program.hpp"
 #include "examples/shared/steady_rotation.hpp"
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace cardan::program {
@@ -70,7 +71,8 @@ Revolution revolution(const turbines::Turbine& turbine, double speed, const Stea
     if (speed == 0) return standing(turbine, a.azimuth * units::degree);
     const solvers::PeriodicSteadyState state = steady_rotation(turbine, speed, a.revolution.harmonics);
     Revolution all;
-    for (int i = 0; i < a.revolution.azimuths; ++i) all.states.push_back(state.at(2 * pi * i / a.revolution.azimuths));
+    const double turn = std::copysign(2 * pi, speed);  // in the order of time
+    for (int i = 0; i < a.revolution.azimuths; ++i) all.states.push_back(state.at(turn * i / a.revolution.azimuths));
     std::array<char, 16> remainder{};
     std::snprintf(remainder.data(), remainder.size(), "%.1e", state.remainder);
     all.about =

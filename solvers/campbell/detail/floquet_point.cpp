@@ -10,6 +10,8 @@
 #include "solvers/campbell/detail/structure_symmetry.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
+#include <Eigen/SparseCore>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -193,7 +195,10 @@ BladeSymmetry PeriodicPointSolver::renumbering() const {
     std::erase_if(odd, [&](int i) { return row_of(unknowns(), i) < 0; });
     BladeSymmetry found = blade_symmetry(rotor_, unknowns(), state_->rotor_speed, odd, system_.forces.states());
     const auto turned = [&](const Matrix& P, const Matrix& now, const Matrix& later) {
-        const Matrix own = now.transpose() * P * later;
+        // Few entries in a row of each: of one coordinate or state of all blades.
+        const Eigen::SparseMatrix<double> back = now.transpose().sparseView(), symmetry = P.sparseView(),
+                                          forth = later.sparseView();
+        const Matrix own = back * (symmetry * forth).eval();
         return Matrix(own.unaryExpr([](double p) { return std::abs(p - std::round(p)) < 1e-12 ? std::round(p) : p; }));
     };
     const double part = 2 * pi / found.parts;

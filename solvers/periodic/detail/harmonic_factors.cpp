@@ -1,30 +1,10 @@
 #include "solvers/periodic/detail/harmonic_factors.hpp"
 
-#include "mbs/base/disjoint_sets.hpp"
 #include "mbs/base/entry.hpp"
 
 namespace cardan::solvers {
 
 using Index = Eigen::Index;
-
-std::vector<std::vector<Index>> coupled_groups(const Matrix& A, Index first) {
-    const Index count = A.rows() - first;
-    DisjointSets sets(count);
-    for (Index j = 0; j < count; ++j)
-        for (Index i = 0; i < count; ++i)
-            if (A(first + i, first + j) != 0) sets.join(i, j);
-    std::vector<std::vector<Index>> groups;
-    std::vector<Index> place(static_cast<std::size_t>(count), -1);
-    for (Index i = 0; i < count; ++i) {
-        Index& own = entry(place, sets.leader(i));
-        if (own < 0) {
-            own = std::ssize(groups);
-            groups.emplace_back();
-        }
-        entry(groups, own).push_back(first + i);
-    }
-    return groups;
-}
 
 HarmonicFactors::HarmonicFactors(const Matrix& A, const Matrix& B, const std::vector<std::vector<Index>>& groups)
     : coordinates_(A.rows()), complex_(B.size() > 0) {

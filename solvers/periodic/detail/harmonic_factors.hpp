@@ -4,16 +4,11 @@
 #pragma once
 
 #include "mbs/base/decompositions.hpp"
+#include "solvers/algebra/coupled_groups.hpp"
 
 #include <vector>
 
 namespace cardan::solvers {
-
-/// Rows of states that couple with one another, directly or through others: all of them, each in one group. Local
-/// states, such as those of the air on a section, make many small ones.
-/// @param A      square
-/// @param first  row of the first state
-std::vector<std::vector<Eigen::Index>> coupled_groups(const Matrix& A, Eigen::Index first);
 
 /// (A + i B) z = r, for z = c - i s the coefficients of cosine and sine; without B a mean, A c = r. States z_s follow
 /// from the coordinates z_q,

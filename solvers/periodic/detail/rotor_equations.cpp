@@ -236,9 +236,10 @@ Vector RotorEquations::scale(const Matrix& own) {
     SecondOrderSystem system;
     for (int s = 0; s < azimuths; ++s) {
         set_on(own, 2 * pi * s / azimuths);
-        linearise_all(system);
-        stiffness += system.K.diagonal() / azimuths;
-        inertia += system.M.diagonal() * (rotor_speed_ * rotor_speed_ / azimuths);
+        linearise(system);
+        stiffness.head(coordinates()) += system.K.diagonal() / azimuths;
+        inertia.head(coordinates()) += system.M.diagonal() * (rotor_speed_ * rotor_speed_ / azimuths);
+        if (!states().empty()) stiffness.tail(states().size()) -= system.states.f_s.diagonal() / azimuths;
     }
     inertia.tail(states().size()).setConstant(std::abs(rotor_speed_));
     Vector scale = stiffness.cwiseAbs().cwiseMax(inertia);

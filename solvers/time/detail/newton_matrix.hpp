@@ -31,11 +31,19 @@ public:
     /// x = M^-1 b, both of the length of x; may be the same
     void solve(const double* b, double* x);
 
+    /// How many numbers tell it: where the Jacobian was taken, and for what c it was factorised.
+    static int memory(const EquationsOfMotion& equations);
+    /// @param out  memory() numbers; the first is zero if there is no Jacobian
+    void remember(double* out) const;
+    /// Is, or becomes, the matrix that was remembered, to the last digit. It has none if that cannot be evaluated.
+    void recall(const double* memory);
+    bool has_jacobian() const { return has_jacobian_; }
+
     /// Handles for SUNDIALS that refer to this object and live as long as it does.
     SUNMatrix matrix() { return matrix_.get(); }
     SUNLinearSolver solver() { return solver_.get(); }
 
-    long jacobians = 0, factorisations = 0;
+    long jacobians = 0, factorisations = 0, solutions = 0;
 
 private:
     struct FreeMatrix {
@@ -45,9 +53,17 @@ private:
         void operator()(SUNLinearSolver s) const { SUNLinSolFreeEmpty(s); }
     };
 
+    void hold_jacobian(double time, const double* x);
+    void factorise(double c);
+
     EquationsOfMotion& equations_;
     double c_ = 0;
     bool has_jacobian_ = false;
+    struct Point {
+        double time = 0;
+        Vector x, u, driven;  ///< EquationsOfMotion::driven_state()
+    };
+    Point point_;                    ///< where the Jacobian was taken
     Vector start_, change_, rates_;  ///< b_1, b_2, (x_2, x_3)
     Vector all_;                     ///< by coordinates
     TangentFactors reduced_;

@@ -1,6 +1,8 @@
 #include "solvers/time/detail/stepper.hpp"
 
 #include "mbs/base/entry.hpp"
+#include "solvers/time/detail/newton_help.hpp"
+#include "solvers/time/detail/newton_matrix.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -64,18 +66,24 @@ MethodState Stepper::present(double time, const Vector& x) const {
     now.time = time;
     now.x = x;
     remember(now.memory.data());
+    now.memory(1) = to_go_on;
     return now;
 }
 
-void Stepper::go_on(double time, const double* x, double stop) {
-    if (origin_.memory.size() == 0 || origin_.steps < 0) return start(time, x, stop);
+bool Stepper::go_on(double time, const double* x, double stop) {
+    if (origin_.memory.size() == 0) {
+        start(time, x, stop);
+        return false;
+    }
     stop_at_ = stop;
     renew(time, x);
     remember(origin_.memory.data());
+    origin_.memory(1) = has_gone_on;
     origin_.steps = 0;
     origin_.time = time;
     std::copy(x, x + origin_.x.size(), origin_.x.data());
     do_resume(time, x, stop, origin_.memory.data());
+    return true;
 }
 
 bool Stepper::step(double horizon) {
@@ -84,6 +92,7 @@ bool Stepper::step(double horizon) {
         origin_.time = time();
         state_at(origin_.time, origin_.x.data());
         remember(origin_.memory.data());
+        origin_.memory(1) = 0;
         do_resume(origin_.time, origin_.x.data(), stop_at_, origin_.memory.data());
     }
     if (origin_.steps == 0) origin_.horizon = horizon;
@@ -100,10 +109,16 @@ bool Stepper::repeat(const MethodState& from, double stop) {
     if (from.memory(0) > 0) {
         origin_.memory = from.memory;
         do_resume(from.time, from.x.data(), stop, from.memory.data());
+        if (from.memory(1) == to_go_on) go_on(from.time, from.x.data(), stop);
     }
     for (long i = 0; i < from.steps; ++i)
         if (!step(from.horizon)) return false;
     return true;
+}
+
+int step_memory(const EquationsOfMotion& equations) {
+    const int of_alpha = 2 + 3 * equations.rates(), of_newton = 1 + Renewal::memory + NewtonMatrix::memory(equations);
+    return 2 + std::max(of_alpha, of_newton);
 }
 
 IntegrationStatistics sum(const IntegrationStatistics& earlier, const IntegrationStatistics& later, int sign) {

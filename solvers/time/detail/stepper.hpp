@@ -66,15 +66,16 @@ public:
     virtual ~Stepper() = default;
     /// Starts without history. Steps will not go beyond `stop` (infinity: no limit).
     void start(double time, const double* x, double stop);
-    /// Goes on from a state at which an input has changed: a one-step method with the step that it would have taken, a
-    /// multistep method from the start.
-    void go_on(double time, const double* x, double stop);
+    /// Goes on from a state at which inputs, forces or motions have a kink or a jump: a one-step method with the step
+    /// that it has, a multistep method from the start.
+    /// @return false: it begins anew
+    bool go_on(double time, const double* x, double stop);
     /// One accepted step. @param horizon  the next output time: a scale for the first step, not a limit
     /// @return false: no step was possible, failure() says why. Exceptions of user functions propagate.
     bool step(double horizon);
     /// From what the present state has been computed; for a multistep method: nothing to repeat.
     const MethodState& origin() const { return origin_; }
-    /// A state within the last step with what determines the next ones; for a multistep method: nothing to repeat.
+    /// The state at which go_on() is about to be called; for a multistep method: nothing to repeat.
     MethodState present(double time, const Vector& x) const;
     /// Repeats those steps. @return false if they belong to another method, or if one fails
     bool repeat(const MethodState& from, double stop);
@@ -86,13 +87,14 @@ public:
     const std::string& failure() const { return failure_; }
 
 protected:
-    /// @param memory  how many numbers do_resume() needs, at least one; 0: a multistep method
+    /// @param memory  step_memory(); 0: a multistep method
     Stepper(int unknowns, int memory);
     virtual void do_start(double time, const double* x, double stop) = 0;
     virtual bool do_step(double horizon) = 0;
     /// The state stays, its rates may have changed.
     virtual void renew(double /*time*/, const double* /*x*/) {}
-    /// Writes the next step size, s, and whatever else determines the next steps.
+    /// Writes the next step size, s, leaves the second number alone, and writes whatever else determines the next
+    /// steps.
     virtual void remember(double* /*memory*/) const {}
     /// Drops everything except that.
     virtual void do_resume(double /*time*/, const double* /*x*/, double /*stop*/, const double* /*memory*/) {}
@@ -112,10 +114,10 @@ private:
 };
 
 /// Number of values that one-step methods remember: the same for all, so that a file written by one has room for
-/// another.
-inline int step_memory(const EquationsOfMotion& equations) {
-    return 3 + 3 * equations.rates();
-}
+/// another. The second one is 0, or one of the following.
+int step_memory(const EquationsOfMotion& equations);
+inline constexpr double to_go_on = 1;     ///< go_on() is to come
+inline constexpr double has_gone_on = 2;  ///< and no step since
 
 /// @throws InputError for options the method does not support; NumericalError if SUNDIALS cannot be set up
 std::unique_ptr<Stepper> make_cvode_stepper(EquationsOfMotion& equations, const IntegrationOptions& options);

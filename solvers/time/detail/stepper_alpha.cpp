@@ -134,9 +134,9 @@ void AlphaStepper::renew(double time, const double* x) {
 // The step to come, the last one, whether there is a derivative of the accelerations; both accelerations and that.
 void AlphaStepper::remember(double* memory) const {
     memory[0] = controlled() ? next_ : fixed_step_;
-    memory[1] = last_;
-    memory[2] = has_jerk_ ? 1 : 0;
-    Eigen::Map<Vector>(memory + 3, 3 * (m_ + k_)) << to_.qdd, to_.a, jerk_;
+    memory[2] = last_;
+    memory[3] = has_jerk_ ? 1 : 0;
+    Eigen::Map<Vector>(memory + 4, 3 * (m_ + k_)) << to_.qdd, to_.a, jerk_;
 }
 
 void AlphaStepper::do_resume(double time, const double* x, double stop, const double* memory) {
@@ -144,10 +144,10 @@ void AlphaStepper::do_resume(double time, const double* x, double stop, const do
     stop_ = stop;
     std::copy_n(x, to_.x.size(), to_.x.data());
     next_ = memory[0];
-    last_ = memory[1];
-    has_jerk_ = memory[2] > 0;
+    last_ = memory[2];
+    has_jerk_ = memory[3] > 0;
     const Eigen::Index size = m_ + k_;
-    const Eigen::Map<const Vector> accelerations(memory + 3, 3 * size);
+    const Eigen::Map<const Vector> accelerations(memory + 4, 3 * size);
     to_.qdd = accelerations.head(size);
     to_.a = accelerations.segment(size, size);
     jerk_ = accelerations.tail(size);

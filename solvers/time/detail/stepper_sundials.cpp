@@ -72,7 +72,7 @@ void SundialsStepper::begin(double time, const double* x, double stop) {
     time_ = time;
     stop_ = stop;
     std::copy(x, x + weights_.size(), data());
-    if (newton_) newton_->jacobians = newton_->factorisations = 0;
+    if (newton_) newton_->jacobians = newton_->factorisations = newton_->solutions = 0;
 }
 
 double SundialsStepper::towards(double horizon) const {

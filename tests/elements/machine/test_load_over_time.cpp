@@ -80,7 +80,8 @@ TEST_CASE("load over time: a spring under a ramp moves as Duhamel's integral say
             CAPTURE(t);
             CHECK(integrator.state().q(0) == Approx(under_ramp(F, t1, t)).margin(1e-8));
         }
-        CHECK(integrator.statistics().restarts == 1);  // where the ramp ends; at 0 it starts anyway
+        // A kink is where a step ends, no more, but for a multistep method.
+        CHECK(integrator.statistics().restarts == (method == solvers::Method::adams ? 1 : 0));
         CHECK(std::abs(integrator.energy().error) < 1e-7);
     }
 }

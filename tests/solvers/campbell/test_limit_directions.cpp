@@ -182,4 +182,33 @@ TEST_CASE("campbell: a rotor that loses speed is told by participation, not by e
     CHECK_FALSE(is_motion_of_speed(system, bending, 0));
 }
 
+// The torque follows the speed through many lags of either sign, as through the sections of a wake: (5 l + 5) (l + 0.3)
+// + 0.4 = 0. At l = -0.856 the rotor has 5, the states have 22, but 1.3 of them together.
+TEST_CASE("campbell: a rotor that loses speed is told through states that lag", "[property]") {
+    constexpr int lags = 8;
+    constexpr double J = 5, d = 5, m = 1, k = 30, h = 400;
+    SecondOrderSystem system;
+    system.M = Vector(Eigen::Vector2d(J, m)).asDiagonal();
+    system.C = (Matrix(2, 2) << d, 0, h, 0).finished();
+    system.K = system.K_elastic = Vector(Eigen::Vector2d(0, k)).asDiagonal();
+    StateTerms& t = system.states;
+    t.scales = Vector::Ones(lags);
+    t.f_s = -0.3 * Matrix::Identity(lags, lags);
+    t.f_q = Matrix::Zero(lags, 2);
+    t.f_qd = Matrix::Zero(lags, 2);
+    t.Q_s = Matrix::Zero(2, lags);
+    for (int i = 0; i < lags; ++i) {
+        t.f_qd(i, 0) = 1;
+        t.Q_s(0, i) = i % 2 == 0 ? 0.8 : -0.9;
+    }
+    int told = 0;
+    for (const Mode& mode : modes(system)) {
+        if (mode.is_state_motion() || mode.natural_hz() > 0.2) continue;
+        CAPTURE(mode.eigenvalue, mode.state_share);
+        CHECK(is_motion_of_speed(system, mode, 0));
+        ++told;
+    }
+    CHECK(told == 1);
+}
+
 }  // namespace cardan::testing::limit_direction_tests

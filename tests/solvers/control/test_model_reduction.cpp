@@ -1,6 +1,7 @@
 // Reduction of linear models: Lyapunov's equation, modal and balanced truncation.
 #include "mbs/base/decompositions.hpp"
 #include "solvers/control/model_reduction.hpp"
+#include "solvers/control/transfer_function.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
@@ -86,6 +87,27 @@ TEST_CASE("Lyapunov's equation: residual of random stable matrices", "[property]
         const Matrix X = lyapunov(A, Q);
         CHECK((A * X + X * A.transpose() + Q).norm() < 1e-12 * (A.norm() * X.norm() + Q.norm()));
     }
+}
+
+TEST_CASE("transfer function: in Hessenberg form it is that of the matrices", "[property]") {
+    for (const int oscillators : {1, 2, 7, 20}) {
+        const ConstantModel model = flexible(7, oscillators, oscillators == 7 ? 1 : 0, 3, 4, 2);
+        TransferFunction G(model);
+        for (const Complex s :
+             {Complex(0, 0.3), Complex(0.2, 0), Complex(0, 1.001), Complex(-3, 40), Complex(0, 1e4)}) {
+            const ComplexMatrix plain = model.transfer(s);
+            CAPTURE(oscillators, s);
+            CHECK((G.at(s) - plain).norm() < 1e-9 * plain.norm());
+        }
+    }
+    ConstantModel none;
+    none.A.resize(0, 0), none.B.resize(0, 2), none.C.resize(1, 0);
+    none.D = Matrix::Constant(1, 2, 3);
+    CHECK(TransferFunction(none).at({0, 1}) == ComplexMatrix::Constant(1, 2, 3));
+    ConstantModel integrator;
+    integrator.A = integrator.D = Matrix::Zero(1, 1);
+    integrator.B = integrator.C = Matrix::Ones(1, 1);
+    CHECK_THROWS_AS(TransferFunction(integrator).at(0), NumericalError);
 }
 
 TEST_CASE("modal truncation: keeps poles and residues of what it keeps, and the static gain on demand", "[property]") {

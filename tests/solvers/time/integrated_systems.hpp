@@ -14,6 +14,10 @@ namespace cardan::testing {
 using namespace solvers;
 
 inline constexpr Method methods[] = {Method::bdf, Method::adams, Method::dirk, Method::erk, Method::generalised_alpha};
+// They begin anew at every break and sample.
+inline bool is_multistep(Method method) {
+    return method == Method::bdf || method == Method::adams;
+}
 
 inline Vector vector(std::initializer_list<double> values) {
     Vector v(std::ssize(values));
@@ -114,10 +118,9 @@ inline System chain(double damping, CoordinateRole first = CoordinateRole::free)
     return {tree, forces};
 }
 
-// Plane hinges, each with a spring, a damper and a rod of 0.1 m.
-inline System long_chain(int hinges) {
-    Tree tree;
-    ForceSet forces;
+// Plane hinges, each with a rod of 0.1 m; their bodies.
+inline std::vector<BodyId> add_plane_hinges(Tree& tree, int hinges) {
+    std::vector<BodyId> bodies;
     FrameId at = Tree::base();
     for (int i = 0; i < hinges; ++i) {
         const Link link =
@@ -126,8 +129,17 @@ inline System long_chain(int hinges) {
                              .axis = Vec3::UnitY(),
                              .inertia = {0.1, Vec3(0, 0, -0.05), Mat3(Vec3::Constant(1e-4).asDiagonal())}});
         at = tree.add_frame(link.axes, Placement::translation({0, 0, -0.1}), text("end ", i + 1));
-        forces.add_spring(text("spring ", i + 1), link.body, 500, 1);
+        bodies.push_back(link.body);
     }
+    return bodies;
+}
+
+// Such hinges with springs and dampers.
+inline System long_chain(int hinges) {
+    Tree tree;
+    ForceSet forces;
+    int number = 0;
+    for (const BodyId body : add_plane_hinges(tree, hinges)) forces.add_spring(text("spring ", ++number), body, 500, 1);
     forces.set_gravity({0, 0, -pendulum_gravity});
     return {tree, forces};
 }

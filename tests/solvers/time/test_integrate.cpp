@@ -166,7 +166,7 @@ TEST_CASE("integrate: energies, losses and supplies are in balance", "[solvers][
             CHECK(std::abs(balance.error) < 100 * allowed(method));
             CHECK(std::abs(balance.loads) < 100 * allowed(method));
             CHECK((damping > 0 ? balance.dissipated > 0.05 : balance.dissipated == Approx(0).margin(1e-12)));
-            CHECK(integrator.statistics().restarts == 2);
+            CHECK(integrator.statistics().restarts == (is_multistep(method) ? 2 : 0));
         }
     }
 }
@@ -190,6 +190,6 @@ TEST_CASE("integrate: across the points of a table it agrees with small steps of
         CHECK(integrator.advance(1.5).reached());
         CHECK((integrator.state().q - simulation.q()).norm() < 3 * allowed(method));
         CHECK((integrator.state().qd - simulation.qd()).norm() < 10 * allowed(method));
-        CHECK(integrator.statistics().restarts == 3);
+        CHECK(integrator.statistics().restarts == (is_multistep(method) ? 3 : 0));
     }
 }

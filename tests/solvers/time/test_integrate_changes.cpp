@@ -238,7 +238,7 @@ TEST_CASE("integrate: a one-step method continues from any checkpoint bit for bi
                 IntegrationOptions options = with(method, 1e-7, 1e-8);
                 options.fixed_step = fixed;
                 options.breaks = {2.2};
-                const std::vector<double> times = sample_times(0, 6, 0.1);
+                const std::vector<double> times = sample_times(0, 8, 0.1);
                 Integrator whole(system, drives, 0, q, qd, options);
                 std::vector<Checkpoint> checkpoints;
                 REQUIRE(whole.run(times, [&](Integrator& now) { checkpoints.push_back(now.checkpoint()); }).reached());

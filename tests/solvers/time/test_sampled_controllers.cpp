@@ -105,7 +105,7 @@ TEST_CASE("sampled controllers: a cart under a held and a delayed force follows 
                 CHECK(run.state().s(0) == Approx(exact.y).margin(1e-6));
                 CHECK(run.state().u(0) == Approx(exact.u).margin(1e-7));
             }
-            CHECK(run.statistics().restarts == 0);
+            CHECK(run.statistics().restarts == (is_multistep(method) ? 27 : 0));  // samples after the start
         }
 }
 

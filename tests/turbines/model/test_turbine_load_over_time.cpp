@@ -97,7 +97,7 @@ TEST_CASE("turbine: under a slow ramp of thrust a recorded tower follows statics
         CHECK(std::abs(middle[i] - now * tower_height / 2) < 0.02 * T * tower_height);
         CHECK(std::abs(force[i] - now) < 0.02 * T);
     }
-    CHECK(integrator.statistics().restarts == 1);
+    CHECK(integrator.statistics().restarts == 0);  // a kink is where a step ends, no more
 }
 
 }  // namespace cardan::testing::turbine_load_over_time
