@@ -144,8 +144,8 @@ std::vector<Event> stick_slip(const System& system, std::vector<DryFriction> fri
                               const std::vector<Drive>& drives, double time, const Vector& q, const Vector& qd) {
     const auto contacts = std::make_shared<const Contacts>(system, std::move(frictions));
     for (const Contact& contact : contacts->all()) contact.slide(contact.sliding(qd) < 0 ? -1 : 1);
-    FirstScene scene(system, drives, time, q, qd);
-    contacts->settle(scene, nullptr, nullptr);
+    FirstScene first(system, drives, time, q, qd);
+    contacts->settle(first, nullptr, nullptr);
     std::vector<Event> events;
     for (const Contact& contact : contacts->all()) {
         // A value of 1: nothing to watch for.
