@@ -5,6 +5,7 @@
 #include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
+#include "solvers/periodic/detail/floquet_grid.hpp"
 #include "solvers/periodic/detail/normalised_system.hpp"
 #include "solvers/periodic/detail/slow_motions.hpp"
 
@@ -21,31 +22,6 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr const char* in_floquet_theory = "Floquet theory";
-
-// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each; 0: to be
-// doubled, from one step in two samples.
-struct Grid {
-    int samples, factors, steps;
-};
-
-int smallest_divisor(int number, int least) {
-    for (int d = std::max(least, 1); d < number; ++d)
-        if (number % d == 0) return d;
-    return number;
-}
-
-Grid make_grid(const FloquetOptions& options) {
-    const int Q = options.symmetry.parts;
-    const int wanted = static_cast<int>(std::ceil((4 * options.per_period + 8) / Q));
-    if (options.steps == 0) {
-        const int factors = std::min(options.factors, (wanted + 1) / 2), each = 2 * factors;
-        return {(wanted + each - 1) / each * each, factors, 0};
-    }
-    const int steps = options.steps / Q, samples = smallest_divisor(steps, wanted);
-    int factors = std::min(options.factors, samples);
-    while (samples % factors != 0) --factors;
-    return {samples, factors, steps / samples};
-}
 
 void check(const PeriodicSystem& system, const FloquetOptions& options) {
     const BladeSymmetry& symmetry = options.symmetry;
@@ -90,17 +66,10 @@ ComplexMatrix fourier_transform(const ComplexMatrix& samples) {
     return harmonics / static_cast<double>(S);
 }
 
-// What one step of Radau's method is off by for x' = lambda x, relative: the error of its approximation of exp(z).
-double step_error(double z, int stages) {
-    const double s = stages;
-    return std::min(1.0, std::exp(2 * s * std::log(z) + 2 * std::lgamma(s + 1) - std::log(s) -
-                                  2 * std::lgamma(2 * s + 1) + std::log(2 * s)));
-}
-
 class Analysis {
 public:
     Analysis(const PeriodicSystem& system, const FloquetOptions& options)
-        : raw_(system), options_(options), normalised_(system, in_floquet_theory), grid_(make_grid(options)) {
+        : raw_(system), options_(options), normalised_(system, in_floquet_theory), grid_(floquet_grid(options)) {
         const int Q = options.symmetry.parts;
         angle_ = 2 * pi / Q;
         if (Q > 1) set_permutation();
@@ -141,8 +110,9 @@ private:
     const PeriodicSystem& raw_;
     const FloquetOptions& options_;
     NormalisedSystem normalised_;
-    Grid grid_;
+    FloquetGrid grid_;
     double angle_;                          // omega T / Q
+    double ratio_ = 2;                      // of the longer steps to these
     Matrix permutation_, raw_permutation_;  // of the integrated and of the raw states
     std::optional<SlowMotions> slow_;
     std::optional<EnergyWeights> weights_;
@@ -160,7 +130,9 @@ void Analysis::leave_out_fast() {
     BladeSymmetry symmetry;
     if (options_.symmetry.parts > 1)
         symmetry = {options_.symmetry.parts, permutation_.topLeftCorner(raw_.rows(), raw_.rows())};
-    slow_ = SlowMotions::find(normalised_.system, symmetry, options_.per_period, options_.tolerance);
+    // Those that are not far above are needed where motions are followed from one system to the next.
+    constexpr double followed = 1.5;
+    slow_ = SlowMotions::find(normalised_.system, symmetry, followed * options_.per_period, options_.tolerance);
     if (!slow_) return;
     if (symmetry.parts > 1) permutation_ = slow_->symmetry().of_states(slow_->system());
     for (int s = 0; s < grid_.samples; ++s) expansions_.push_back(slow_->expansion(angle_ * s / grid_.samples));
@@ -183,7 +155,7 @@ std::vector<Matrix> Analysis::factors(const std::vector<Matrix>& samples) const 
     return product;
 }
 
-// First-order change of the exponent from steps twice as long to these.
+// First-order change of the exponent from the longer steps to these.
 double Analysis::change(const ProductEigen::Vectors& v) const {
     if (difference_.empty()) return std::numeric_limits<double>::quiet_NaN();
     Complex sum = 0;
@@ -211,18 +183,19 @@ double Analysis::state_share(const ProductEigen::Vectors& v) const {
 }
 
 // What is left of that change. Harmonics of the motion are motions of frequency |lambda_j| for the method, whose error
-// for each is known, long steps included; if this is not what changed, a factor of two per stage is what is certain.
+// for each is known, long steps included; if this is not what changed, the ratio of the steps to the power of the
+// stages is what is certain.
 double Analysis::error(const FloquetMode& mode, double change) const {
     const bool radau = options_.transition.method == TransitionMethod::radau;
     const int stages = radau ? options_.transition.stages : 1;
-    double gain = std::pow(2.0, stages);
+    double gain = std::pow(ratio_, stages);
     if (radau && raw_.is_second_order()) {
         double coarse = 0, fine = 0;
         for (Index i = 0; i < mode.participation.size(); ++i) {
             const double j = mode.first_harmonic + static_cast<double>(i);
             const double z = std::abs(mode.exponent / raw_.frequency() + Complex(0, j)) * step();
-            coarse += mode.participation(i) * step_error(2 * z, stages) / (2 * step());
-            fine += mode.participation(i) * step_error(z, stages) / step();
+            coarse += mode.participation(i) * radau_step_error(ratio_ * z, stages) / (ratio_ * step());
+            fine += mode.participation(i) * radau_step_error(z, stages) / step();
         }
         constexpr double doubt = 4, alike = 10;  // the model's error, that of what it says has changed
         if (change < alike * coarse) gain = std::max(gain, coarse / fine / doubt);
@@ -312,7 +285,7 @@ bool Analysis::wanted(const FloquetMode& mode) const {
 }
 
 bool Analysis::accurate(const FloquetMode& mode) const {
-    const double rate = slow_ ? std::max(raw_.frequency(), std::abs(mode.exponent)) : raw_.frequency();
+    const double rate = std::max(raw_.frequency(), std::abs(mode.exponent));
     return !wanted(mode) || mode.error <= options_.tolerance * rate;
 }
 
@@ -364,9 +337,14 @@ Floquet Analysis::compute() {
     const bool refine = grid_.steps == 0;
     double before = std::numeric_limits<double>::infinity();  // worst() with half the steps
     std::vector<Matrix> product;
-    if (refine) product = factors(transitions(integrated(), 0, angle_, grid_.samples / 2, 1, options_.transition));
+    if (refine)
+        product = factors(
+            transitions(integrated(), 0, angle_, grid_.samples / FloquetGrid::first_ratio, 1, options_.transition));
     while (true) {
-        if (refine) grid_.steps = std::max(1, 2 * grid_.steps);
+        if (refine) {
+            ratio_ = grid_.steps == 0 ? FloquetGrid::first_ratio : 2;
+            grid_.steps = std::max(1, 2 * grid_.steps);
+        }
         difference_ = std::move(product);
         fine_ = transitions(integrated(), 0, angle_, grid_.samples, grid_.steps, options_.transition);
         product = factors(fine_);

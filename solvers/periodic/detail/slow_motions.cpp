@@ -2,14 +2,15 @@
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
+#include "solvers/algebra/anderson.hpp"
 #include "solvers/algebra/azimuth_series.hpp"
-#include "solvers/algebra/dense.hpp"
+#include "solvers/periodic/detail/slow_equations.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
 
 namespace cardan::solvers {
 
@@ -17,89 +18,24 @@ using Index = Eigen::Index;
 
 namespace {
 
-// All up to the wanted frequency are slow, and what is nearly that.
-constexpr double margin = 1.05;
-// Distance of the groups over the highest harmonic of X: an iteration reduces that harmonic by its inverse at least.
-constexpr double spacing = 1.05;
+// What an iteration leaves of the highest harmonic of X, at most.
+constexpr double largest_rate = 0.9;
 // Of the coordinates; more slow ones cost as much as all.
 constexpr double largest_share = 0.7;
-// Changes that are rounding, and such that an iteration does not reduce: those that are left of higher harmonics.
-constexpr double settled = 1e-13, least_reduction = 0.8;
-constexpr int most_iterations = 60;
-
-Matrix product(const Matrix& A, const Matrix& B) {
-    Matrix C = Matrix::Zero(A.rows(), B.cols());
-    add_product(C, A, B);
-    return C;
-}
-
-// A B^-1
-Matrix divided(const Matrix& A, const Matrix& B) {
-    Matrix left = B.transpose(), right = A.transpose();
-    solve_in_place(left, right);
-    return right.transpose();
-}
-
-// Equations at one azimuth and their motions as if they stayed like this.
-struct Azimuth {
-    SecondOrderSystem at;
-    Matrix vectors;  // unit modal masses
-    Vector squares;  // of the frequencies, ascending; negative: unstable
-    double distance(Index slow) const {
-        return std::sqrt(std::max(squares(slow), 0.0)) - std::sqrt(std::max(squares(slow - 1), 0.0));
-    }
-};
-
-Azimuth azimuth_at(const PeriodicSystem& system, double time) {
-    Azimuth a;
-    system.at(time, a.at);
-    const Matrix K = (a.at.K + a.at.K.transpose()) / 2;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(K, a.at.M);
-    a.vectors = eigen.eigenvectors();
-    a.squares = eigen.eigenvalues();
-    return a;
-}
+// Changes that are rounding or a small part of the tolerance, and such that iterations do not reduce: those that are
+// left of higher harmonics.
+constexpr double rounding = 1e-13, settled = 0.03, least_reduction = 0.8;
+constexpr int most_iterations = 60, patience = 4;
+constexpr Index remembered = 6;
 
 // A matrix at all azimuths: each as one column.
 struct Samples {
-    Samples(Index rows, Index columns, int count) : rows(rows), all(Matrix::Zero(rows * columns, count)) {}
+    Samples(Index height, Index columns, int count) : rows(height), all(Matrix::Zero(height * columns, count)) {}
     Eigen::Map<Matrix> at(int s) { return {all.col(s).data(), rows, all.rows() / rows}; }
     Eigen::Map<const Matrix> at(int s) const { return {all.col(s).data(), rows, all.rows() / rows}; }
     Index rows;
     Matrix all;
 };
-
-// q, q' of z, z' at one azimuth, the derivatives of V and W, and the equations of z.
-struct Way {
-    Matrix X, Y, V, W, dV, dW, a, b;
-};
-
-// What of the equations is left: forces along the fast vectors, and a and b by those along the slow ones.
-struct Remainder {
-    Matrix X, Y, a, b;  // corrections of X and Y; a and b anew
-};
-
-Remainder remainder(const Azimuth& azimuth, const Way& w) {
-    const Index m = w.a.rows(), fast = azimuth.squares.size() - m;
-    const auto& [M, C, K] = std::tie(azimuth.at.M, azimuth.at.C, azimuth.at.K);
-    const Matrix of_slow = azimuth.vectors.leftCols(m).transpose(),
-                 of_fast = azimuth.vectors.rightCols(fast).transpose();
-    const Matrix g = product(M, w.dV) + product(C, w.V) + product(K, w.X),
-                 h = product(M, w.V + w.dW) + product(C, w.W) + product(K, w.Y), MW = product(M, w.W);
-    Matrix inertia = product(of_slow, MW), both(m, 2 * m);
-    both << product(of_slow, g), product(of_slow, h);
-    solve_in_place(inertia, both);
-    Remainder r{{}, {}, both.leftCols(m), both.rightCols(m)};
-    const Matrix T = product(of_slow, product(M, w.X));
-    const auto correction = [&](const Matrix& force, const Matrix& rates) {
-        Matrix e = divided(product(of_fast, force - product(MW, rates)), T);
-        for (Index i = 0; i < m; ++i) e.col(i).array() /= azimuth.squares(i) - azimuth.squares.tail(fast).array();
-        return product(azimuth.vectors.rightCols(fast), product(e, T));
-    };
-    r.X = correction(g, r.a);
-    r.Y = correction(h, r.b);
-    return r;
-}
 
 }  // namespace
 
@@ -112,39 +48,61 @@ public:
           harmonics_(harmonics),
           count_(4 * harmonics),
           part_(count_ / symmetry.parts) {
-        for (int s = 0; s < part_; ++s) azimuths_.push_back(azimuth_at(system, time(s)));
+        for (int s = 0; s < part_; ++s) azimuths_.emplace_back(system, time(s));
         set_operators();
     }
 
-    // 0 if there is no gap.
-    Index slow_coordinates(double frequency) const {
+    // As few as a gap tells from the rest, wide enough for so many harmonics; 0 if there is none.
+    Index slow_coordinates(double frequency, int harmonics) const {
         const Index n = system_.rows(), most = static_cast<Index>(largest_share * static_cast<double>(n));
-        const auto fits = [&](Index m) {
+        for (Index m = 1; m <= most; ++m) {
             double last = 0, next = std::numeric_limits<double>::infinity();
-            for (const Azimuth& a : azimuths_) {
+            for (const SlowAzimuth& a : azimuths_) {
                 last = std::max(last, a.squares(m - 1));
                 next = std::min(next, a.squares(m));
             }
-            const double lower = std::sqrt(std::max(last, 0.0)), upper = std::sqrt(std::max(next, 0.0));
-            return upper > margin * frequency && upper - lower > spacing * omega_ * harmonics_;
-        };
-        for (Index m = 1; m <= most; ++m)
-            if (fits(m)) return m;
+            // (-(omega_s + j Omega)^2 + omega_f^2) e = force, in the place of which -omega_s^2 + omega_f^2 divides it.
+            const double j = omega_ * harmonics, rate = j * (2 * std::sqrt(last) + j) / (next - last);
+            if (next > std::max(last, frequency * frequency) && rate < largest_rate) return m;
+        }
         return 0;
     }
 
+    // Of the slow eigenvectors at every azimuth: size of the last harmonics, and by what power of e it falls from one
+    // to the next.
+    struct Harmonics {
+        double last, decay;
+    };
+    Harmonics harmonics_of_vectors(Index slow) {
+        m_ = slow;
+        start();
+        extend(X_);
+        const int most = 2 * harmonics_ - 1;
+        const Matrix series = fourier_coefficients(X_.all, most);
+        // Of two neighbours: there may be even ones or odd ones only.
+        const auto size = [&](int j) { return series.middleCols(2 * j - 3, 4).cwiseAbs().maxCoeff(); };
+        const double last = size(harmonics_);
+        return {last, std::log(last / std::max(size(most), 0.01 * rounding)) / (most - harmonics_)};
+    }
     // Of the last attempt; infinite if the iteration has not come to an end.
     double error() const { return error_; }
     // Between the azimuths of the collocation the equations hold to the tolerance, or there are none.
     std::optional<SlowMotions> find(Index slow, double tolerance) {
         m_ = slow;
         start();
-        double before = std::numeric_limits<double>::infinity();
+        const Vector scales = scales_of_unknowns();
+        Anderson anderson(scales.size(), remembered);
+        double best = std::numeric_limits<double>::infinity();
+        int since = 0;
         for (int i = 0; i < most_iterations; ++i) {
+            smooth(X_), smooth(Y_);
+            const Vector before = unknowns().cwiseProduct(scales);
             const double change = iterate();
             if (!std::isfinite(change)) return std::nullopt;
-            if (change < settled || change > least_reduction * before) return result(tolerance);
-            before = change;
+            since = change > least_reduction * best ? since + 1 : 0;
+            if (change < std::max(rounding, settled * tolerance) || since >= patience) return result(tolerance);
+            best = std::min(best, change);
+            set_unknowns(anderson.next(before, unknowns().cwiseProduct(scales) - before).cwiseQuotient(scales));
         }
         return std::nullopt;
     }
@@ -180,7 +138,7 @@ private:
         for (Samples* one : {&X_, &Y_, &V_, &W_, &dV_, &dW_}) *one = Samples(n, m_, count_);
         for (Samples* one : {&a_, &b_}) *one = Samples(m_, m_, count_);
         for (int s = 0; s < part_; ++s) {
-            const Azimuth& azimuth = entry(azimuths_, s);
+            const SlowAzimuth& azimuth = entry(azimuths_, s);
             const Matrix vectors = azimuth.vectors.leftCols(m_), T = product(projection_, vectors);
             X_.at(s) = divided(vectors, T);
             a_.at(s) = divided(T * azimuth.squares.head(m_).asDiagonal(), T);
@@ -205,8 +163,39 @@ private:
     // Of the part only.
     Matrix derivative(const Samples& one) const { return product(one.all, derive_); }
 
+    // X, Y, a and b, all of the part.
+    Vector unknowns() const {
+        Vector all((2 * X_.all.rows() + 2 * a_.all.rows()) * part_);
+        Index at = 0;
+        for (const Samples* one : {&X_, &Y_, &a_, &b_}) {
+            const auto own = one->all.leftCols(part_);
+            all.segment(at, own.size()) = own.reshaped();
+            at += own.size();
+        }
+        return all;
+    }
+
+    void set_unknowns(const Vector& all) {
+        Index at = 0;
+        for (Samples* one : {&X_, &Y_, &a_, &b_}) {
+            auto own = one->all.leftCols(part_);
+            own.reshaped() = all.segment(at, own.size());
+            at += own.size();
+        }
+    }
+
+    // In units of the shapes at the fastest slow frequency.
+    Vector scales_of_unknowns() const {
+        double square = omega_ * omega_;
+        for (const SlowAzimuth& azimuth : azimuths_) square = std::max(square, azimuth.squares(m_ - 1));
+        const Index shapes = X_.all.rows() * part_, equations = a_.all.rows() * part_;
+        Vector scales(2 * (shapes + equations));
+        scales << Vector::Ones(shapes), Vector::Constant(shapes, std::sqrt(square)),
+            Vector::Constant(equations, 1 / square), Vector::Constant(equations, 1 / std::sqrt(square));
+        return scales;
+    }
+
     double iterate() {
-        smooth(X_), smooth(Y_);
         V_.all.leftCols(part_) = derivative(X_);
         W_.all.leftCols(part_) = derivative(Y_);
         for (int s = 0; s < part_; ++s) {
@@ -218,8 +207,8 @@ private:
         dW_.all.leftCols(part_) = derivative(W_);
         double change = 0;
         for (int s = 0; s < part_; ++s) {
-            const Azimuth& azimuth = entry(azimuths_, s);
-            const Remainder r = remainder(azimuth, way(s));
+            const SlowAzimuth& azimuth = entry(azimuths_, s);
+            const SlowRemainder r(azimuth, way(s));
             change = std::max(change, size(azimuth, r, way(s)));
             Matrix X = X_.at(s) + r.X, Y = Y_.at(s) + r.Y;
             X = divided(X, product(projection_, X));
@@ -230,11 +219,13 @@ private:
         return change;
     }
 
-    Way way(int s) const { return {X_.at(s), Y_.at(s), V_.at(s), W_.at(s), dV_.at(s), dW_.at(s), a_.at(s), b_.at(s)}; }
+    SlowWay way(int s) const {
+        return {X_.at(s), Y_.at(s), V_.at(s), W_.at(s), dV_.at(s), dW_.at(s), a_.at(s), b_.at(s)};
+    }
 
     // Of corrections relative to what is corrected: motions in units of energy, rates by the frequencies, and at least
     // by that of the period.
-    double size(const Azimuth& azimuth, const Remainder& r, const Way& w) const {
+    double size(const SlowAzimuth& azimuth, const SlowRemainder& r, const SlowWay& w) const {
         const Vector rate = azimuth.squares.head(m_).cwiseAbs().cwiseSqrt().cwiseMax(omega_);
         const Matrix to = product(azimuth.vectors.leftCols(m_).transpose(), product(azimuth.at.M, w.X));
         const auto in_modes = [&](const Matrix& A) { return divided(product(to, A), to); };
@@ -270,10 +261,10 @@ private:
         for (const double s : {0.5, 0.37 * part_, 0.71 * part_}) {
             const double t = time(std::floor(s) + 0.5);
             const Vector x = value(series, t), e = value(own, t), d = value(slopes, t);
-            const Way w{block(x, n, m_, 0), block(x, n, m_, 1), block(x, n, m_, 2),  block(x, n, m_, 3),
-                        block(d, n, m_, 0), block(d, n, m_, 1), block(e, m_, m_, 0), block(e, m_, m_, 1)};
-            const Azimuth azimuth = azimuth_at(system_, t);
-            error = std::max(error, size(azimuth, remainder(azimuth, w), w));
+            const SlowWay w{block(x, n, m_, 0), block(x, n, m_, 1), block(x, n, m_, 2),  block(x, n, m_, 3),
+                            block(d, n, m_, 0), block(d, n, m_, 1), block(e, m_, m_, 0), block(e, m_, m_, 1)};
+            const SlowAzimuth azimuth(system_, t);
+            error = std::max(error, size(azimuth, SlowRemainder(azimuth, w), w));
         }
         error_ = error;
         if (!(error <= tolerance)) return std::nullopt;
@@ -295,7 +286,7 @@ private:
     const BladeSymmetry& symmetry_;
     double omega_;
     int harmonics_, count_, part_;  // azimuths of the period and of its part
-    std::vector<Azimuth> azimuths_;
+    std::vector<SlowAzimuth> azimuths_;
     Matrix weights_, smooth_, derive_;
     Index m_ = 0;
     double error_ = std::numeric_limits<double>::infinity();
@@ -306,18 +297,35 @@ private:
 std::optional<SlowMotions> SlowMotions::find(const PeriodicSystem& system, const BladeSymmetry& symmetry,
                                              double frequency, double tolerance) {
     if (!system.is_second_order() || system.states_beside() > 0) return std::nullopt;
-    // Errors fall geometrically with the harmonics: a first attempt tells whether a second one is of use.
-    constexpr int first = 12, most = 36, step = 3;
-    constexpr double doubt = 0.3;
+    // Errors fall geometrically with the harmonics, as those of the eigenvectors at every azimuth do.
+    constexpr int least = 12, most = 48, attempts = 2;
+    constexpr double doubt = 0.1;
+    const int step = symmetry.parts / std::gcd(4, symmetry.parts);
+    const auto rounded = [&](double harmonics) {
+        return step * static_cast<int>(std::ceil(std::min(harmonics, 2.0 * most) / step));
+    };
+    const int first = rounded(least);
     int harmonics = first;
-    for (int attempt = 0; attempt < 2 && harmonics <= most && 4 * harmonics % symmetry.parts == 0; ++attempt) {
-        SlowSearch search(system, symmetry, harmonics);
-        const Index slow = search.slow_coordinates(frequency);
+    std::optional<SlowSearch> search(std::in_place, system, symmetry, harmonics);
+    double decay = 0;
+    for (Index slow = 0; slow != search->slow_coordinates(frequency, harmonics);) {
+        slow = search->slow_coordinates(frequency, harmonics);
         if (slow == 0) return std::nullopt;
-        if (std::optional<SlowMotions> found = search.find(slow, tolerance)) return found;
-        if (!(search.error() < 1)) return std::nullopt;
-        const double more = std::log(doubt * tolerance) / std::log(search.error());
-        harmonics = step * static_cast<int>(std::ceil(harmonics * std::min(more, 10.0) / step));
+        const SlowSearch::Harmonics found = search->harmonics_of_vectors(slow);
+        decay = found.decay;
+        if (!(found.last > doubt * tolerance)) break;
+        if (!(decay > 0)) return std::nullopt;
+        harmonics = std::max(harmonics, rounded(first + std::log(found.last / (doubt * tolerance)) / decay));
+        if (harmonics > most) return std::nullopt;
+    }
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        if (attempt > 0 || harmonics > first) search.emplace(system, symmetry, harmonics);
+        const Index slow = search->slow_coordinates(frequency, harmonics);
+        if (slow == 0) return std::nullopt;
+        if (std::optional<SlowMotions> found = search->find(slow, tolerance)) return found;
+        if (!(search->error() < 1) || !(decay > 0)) return std::nullopt;
+        harmonics = rounded(harmonics + std::log(search->error() / (doubt * tolerance)) / decay);
+        if (harmonics > most || search->slow_coordinates(frequency, harmonics) == 0) return std::nullopt;
     }
     return std::nullopt;
 }

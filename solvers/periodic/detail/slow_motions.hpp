@@ -19,8 +19,8 @@ namespace cardan::solvers {
 class SlowMotions {
 public:
     /// Fourier collocation. The slow eigenspace of K and M at every azimuth is the first approximation; what it leaves
-    /// is taken away along the fast eigenvectors, again and again, which converges where the two groups of frequencies
-    /// are further apart than the harmonics in X.
+    /// is taken away along the fast eigenvectors, again and again (accelerated, see Anderson), which converges where the
+    /// two groups of frequencies are further apart than the harmonics in X. These are estimated from the eigenvectors.
     ///
     /// @param system     positive definite M, no states beside the coordinates
     /// @param symmetry   of the system; P need not be orthogonal, but M(t + T/Q) = P^T M(t) P
@@ -29,7 +29,8 @@ public:
     /// @returns none if there is no such gap, if too few motions are fast to be worth it, or if the equations do not
     /// hold to the tolerance between the azimuths of the collocation as well
     ///
-    /// Cost: at up to 144 azimuths over Q 10 n^3 once and 12 n^2 m per iteration, of which there are about ten.
+    /// Cost: at up to 192 azimuths over Q 10 n^3 once and 12 n^2 m per iteration, of which there are ten to twenty; of
+    /// none at 48 azimuths over Q 10 n^3.
     static std::optional<SlowMotions> find(const PeriodicSystem& system, const BladeSymmetry& symmetry,
                                            double frequency, double tolerance);
 
