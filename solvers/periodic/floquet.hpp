@@ -22,8 +22,8 @@ struct FloquetOptions {
     int factors = 8;
     /// Only motions up to `per_period`, and up to half as fast again, are of interest: those that are much faster are
     /// left out, where they can be told from the others (a system of second order without states beside the
-    /// coordinates, whose frequencies at every azimuth have a gap), and the rest is integrated alone. The rest keeps its
-    /// exponents: what they are off by is part of their errors.
+    /// coordinates, whose frequencies at every azimuth have a gap), and the rest is integrated alone. The rest keeps
+    /// its exponents: what they are off by is part of their errors.
     bool only_slow = false;
     /// Weight W of x^H W x for the participation of harmonics in a system of first order; empty: unit matrix.
     Matrix weight = {};

@@ -19,8 +19,9 @@ namespace cardan::solvers {
 class SlowMotions {
 public:
     /// Fourier collocation. The slow eigenspace of K and M at every azimuth is the first approximation; what it leaves
-    /// is taken away along the fast eigenvectors, again and again (accelerated, see Anderson), which converges where the
-    /// two groups of frequencies are further apart than the harmonics in X. These are estimated from the eigenvectors.
+    /// is taken away along the fast eigenvectors, again and again (accelerated, see Anderson), which converges where
+    /// the two groups of frequencies are further apart than the harmonics in X. These are estimated from the
+    /// eigenvectors.
     ///
     /// @param system     positive definite M, no states beside the coordinates
     /// @param symmetry   of the system; P need not be orthogonal, but M(t + T/Q) = P^T M(t) P
