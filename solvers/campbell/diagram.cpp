@@ -55,6 +55,7 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     Sweep sweep(own, choice.reason, rotor_speed.size());
     const std::unique_ptr<PointMethod> solver = point_method(system, rotor, own);
     sweep.set_machine(system, rotor, *solver);
+    solver->prepare(rotor_speed);
     for (const double speed : rotor_speed)
         if (!sweep.add(system, *solver, speed)) break;
     return sweep.finish(rotor, {solver.get()});

@@ -40,7 +40,7 @@ struct CampbellFloquetOptions {
     std::vector<int> held = {};  ///< as PeriodicOptions::held
     double per_period =
         0;  ///< modes up to this frequency, in multiples of the rotor speed, are accurate; 0: up to `max_frequency_hz`
-    double tolerance = 1e-9;  ///< of exponents, relative to the rotor speed
+    double tolerance = 1e-9;  ///< of exponents, relative to them or to the rotor speed, whichever is larger
     int max_steps = 0;        ///< per revolution; 0: 4096 or 64 times the largest frequency per revolution
 };
 

@@ -21,6 +21,9 @@ public:
 
     /// Of the next point: CampbellCase::start and state_start. Empty ones change nothing.
     virtual void start_from(const Matrix& coordinates, const Matrix& states) = 0;
+    /// All points that will be solved, in this order: what is cheap and may fail is done before anything else.
+    /// @throws as solve()
+    virtual void prepare(std::span<const double> /*rotor_speeds*/) {}
     /// @param rotor_speed  rad/s
     /// @param point  overwritten
     virtual void solve(double rotor_speed, CampbellPoint& point) = 0;

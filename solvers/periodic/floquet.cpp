@@ -5,11 +5,14 @@
 #include "solvers/algebra/dense.hpp"
 #include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
+#include "solvers/periodic/detail/floquet_grid.hpp"
 #include "solvers/periodic/detail/normalised_system.hpp"
+#include "solvers/periodic/detail/slow_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -19,31 +22,6 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr const char* in_floquet_theory = "Floquet theory";
-
-// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each; 0: to be
-// doubled, from one step in two samples.
-struct Grid {
-    int samples, factors, steps;
-};
-
-int smallest_divisor(int number, int least) {
-    for (int d = std::max(least, 1); d < number; ++d)
-        if (number % d == 0) return d;
-    return number;
-}
-
-Grid make_grid(const FloquetOptions& options) {
-    const int Q = options.symmetry.parts;
-    const int wanted = static_cast<int>(std::ceil((4 * options.per_period + 8) / Q));
-    if (options.steps == 0) {
-        const int factors = std::min(options.factors, (wanted + 1) / 2), each = 2 * factors;
-        return {(wanted + each - 1) / each * each, factors, 0};
-    }
-    const int steps = options.steps / Q, samples = smallest_divisor(steps, wanted);
-    int factors = std::min(options.factors, samples);
-    while (samples % factors != 0) --factors;
-    return {samples, factors, steps / samples};
-}
 
 void check(const PeriodicSystem& system, const FloquetOptions& options) {
     const BladeSymmetry& symmetry = options.symmetry;
@@ -88,25 +66,25 @@ ComplexMatrix fourier_transform(const ComplexMatrix& samples) {
     return harmonics / static_cast<double>(S);
 }
 
-// What one step of Radau's method is off by for x' = lambda x, relative: the error of its approximation of exp(z).
-double step_error(double z, int stages) {
-    const double s = stages;
-    return std::min(1.0, std::exp(2 * s * std::log(z) + 2 * std::lgamma(s + 1) - std::log(s) -
-                                  2 * std::lgamma(2 * s + 1) + std::log(2 * s)));
-}
-
 class Analysis {
 public:
     Analysis(const PeriodicSystem& system, const FloquetOptions& options)
-        : raw_(system), options_(options), normalised_(system, in_floquet_theory), grid_(make_grid(options)) {
+        : raw_(system), options_(options), normalised_(system, in_floquet_theory), grid_(floquet_grid(options)) {
         const int Q = options.symmetry.parts;
         angle_ = 2 * pi / Q;
         if (Q > 1) set_permutation();
+        if (options.only_slow) leave_out_fast();
+        // Their harmonics are those of the slow motions, too.
+        const int samples = slow_ ? slow_->azimuths() : grid_.samples * Q;
+        weights_.emplace(raw_, samples, options.weight);
     }
     Floquet compute();
 
 private:
     void set_permutation();
+    void leave_out_fast();
+    /// What is integrated: all motions or the slow ones.
+    const PeriodicSystem& integrated() const { return slow_ ? slow_->system() : normalised_.system; }
     std::vector<Matrix> factors(const std::vector<Matrix>& samples) const;
     void analyse(const ProductEigen& eigen, Floquet& result) const;
     struct Motion {
@@ -132,16 +110,32 @@ private:
     const PeriodicSystem& raw_;
     const FloquetOptions& options_;
     NormalisedSystem normalised_;
-    Grid grid_;
+    FloquetGrid grid_;
     double angle_;                          // omega T / Q
-    Matrix permutation_, raw_permutation_;  // of the normalised and of the raw states
-    std::vector<Matrix> fine_;              // transitions between samples
-    std::vector<Matrix> difference_;        // of the factors, coarse - fine
+    double ratio_ = 2;                      // of the longer steps to these
+    Matrix permutation_, raw_permutation_;  // of the integrated and of the raw states
+    std::optional<SlowMotions> slow_;
+    std::optional<EnergyWeights> weights_;
+    std::vector<Matrix> expansions_;  // at the samples, of the slow motions
+    std::vector<Matrix> fine_;        // transitions between samples
+    std::vector<Matrix> difference_;  // of the factors, coarse - fine
 };
 
 void Analysis::set_permutation() {
     raw_permutation_ = options_.symmetry.of_states(raw_);
     permutation_ = normalised_.unit.cwiseInverse().asDiagonal() * raw_permutation_ * normalised_.unit.asDiagonal();
+}
+
+void Analysis::leave_out_fast() {
+    BladeSymmetry symmetry;
+    if (options_.symmetry.parts > 1)
+        symmetry = {options_.symmetry.parts, permutation_.topLeftCorner(raw_.rows(), raw_.rows())};
+    // Those that are not far above are needed where motions are followed from one system to the next.
+    constexpr double followed = 1.5;
+    slow_ = SlowMotions::find(normalised_.system, symmetry, followed * options_.per_period, options_.tolerance);
+    if (!slow_) return;
+    if (symmetry.parts > 1) permutation_ = slow_->symmetry().of_states(slow_->system());
+    for (int s = 0; s < grid_.samples; ++s) expansions_.push_back(slow_->expansion(angle_ * s / grid_.samples));
 }
 
 // P Phi(T/Q) as a product.
@@ -161,7 +155,7 @@ std::vector<Matrix> Analysis::factors(const std::vector<Matrix>& samples) const 
     return product;
 }
 
-// First-order change of the exponent from steps twice as long to these.
+// First-order change of the exponent from the longer steps to these.
 double Analysis::change(const ProductEigen::Vectors& v) const {
     if (difference_.empty()) return std::numeric_limits<double>::quiet_NaN();
     Complex sum = 0;
@@ -189,23 +183,25 @@ double Analysis::state_share(const ProductEigen::Vectors& v) const {
 }
 
 // What is left of that change. Harmonics of the motion are motions of frequency |lambda_j| for the method, whose error
-// for each is known, long steps included; if this is not what changed, a factor of two per stage is what is certain.
+// for each is known, long steps included; if this is not what changed, the ratio of the steps to the power of the
+// stages is what is certain.
 double Analysis::error(const FloquetMode& mode, double change) const {
     const bool radau = options_.transition.method == TransitionMethod::radau;
     const int stages = radau ? options_.transition.stages : 1;
-    double gain = std::pow(2.0, stages);
+    double gain = std::pow(ratio_, stages);
     if (radau && raw_.is_second_order()) {
         double coarse = 0, fine = 0;
         for (Index i = 0; i < mode.participation.size(); ++i) {
             const double j = mode.first_harmonic + static_cast<double>(i);
             const double z = std::abs(mode.exponent / raw_.frequency() + Complex(0, j)) * step();
-            coarse += mode.participation(i) * step_error(2 * z, stages) / (2 * step());
-            fine += mode.participation(i) * step_error(z, stages) / step();
+            coarse += mode.participation(i) * radau_step_error(ratio_ * z, stages) / (ratio_ * step());
+            fine += mode.participation(i) * radau_step_error(z, stages) / step();
         }
         constexpr double doubt = 4, alike = 10;  // the model's error, that of what it says has changed
         if (change < alike * coarse) gain = std::max(gain, coarse / fine / doubt);
     }
-    return raw_.frequency() * (change / gain + rounding(mode.condition));
+    const double of_slow = slow_ ? slow_->error() / 2 * std::max(1.0, std::abs(mode.exponent) / raw_.frequency()) : 0;
+    return raw_.frequency() * (change / gain + rounding(mode.condition) + of_slow);
 }
 
 Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representative& which) const {
@@ -218,20 +214,27 @@ Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representativ
 // Sets p of motions, all at once. From one factor to the next their vectors are known; between, they are integrated.
 void Analysis::integrate(std::span<Motion> motions) const {
     const int Q = options_.symmetry.parts, S = grid_.samples, each = S / grid_.factors;
-    const Index count = std::ssize(motions), n = raw_.states();
+    const Index count = std::ssize(motions), n = integrated().states();
     Matrix x(n, 2 * count), next(n, 2 * count);  // real and imaginary parts side by side
+    Matrix all(raw_.states(), 2 * count);        // likewise, of all states
     std::vector<Complex> grown(motions.size());  // logarithms
-    for (Motion& m : motions) m.p.resize(n, Index{Q} * S);
+    for (Motion& m : motions) m.p.resize(raw_.states(), Index{Q} * S);
     for (int s = 0; s < S; ++s) {
+        for (Index k = 0; s % each == 0 && k < count; ++k) {
+            const Motion& m = entry(motions, k);
+            x.col(2 * k) = m.vectors.right.col(s / each).real();
+            x.col(2 * k + 1) = m.vectors.right.col(s / each).imag();
+        }
+        if (slow_) {
+            all.setZero();
+            add_product(all, entry(expansions_, s), x);
+        }
+        const Matrix& states = slow_ ? all : x;
         for (Index k = 0; k < count; ++k) {
             Motion& m = entry(motions, k);
-            if (s % each == 0) {
-                x.col(2 * k) = m.vectors.right.col(s / each).real();
-                x.col(2 * k + 1) = m.vectors.right.col(s / each).imag();
-            }
             const Complex factor = std::exp(entry(grown, k) - m.exponent * (angle_ * s / S));
-            m.p.col(s).real() = factor.real() * x.col(2 * k) - factor.imag() * x.col(2 * k + 1);
-            m.p.col(s).imag() = factor.real() * x.col(2 * k + 1) + factor.imag() * x.col(2 * k);
+            m.p.col(s).real() = factor.real() * states.col(2 * k) - factor.imag() * states.col(2 * k + 1);
+            m.p.col(s).imag() = factor.real() * states.col(2 * k + 1) + factor.imag() * states.col(2 * k);
             m.p.col(s).array() *= normalised_.unit.array();
             if ((s + 1) % each == 0) entry(grown, k) += std::log(m.vectors.growth(s / each));
         }
@@ -282,7 +285,8 @@ bool Analysis::wanted(const FloquetMode& mode) const {
 }
 
 bool Analysis::accurate(const FloquetMode& mode) const {
-    return !wanted(mode) || mode.error <= options_.tolerance * raw_.frequency();
+    const double rate = std::max(raw_.frequency(), std::abs(mode.exponent));
+    return !wanted(mode) || mode.error <= options_.tolerance * rate;
 }
 
 // Largest error of modes that are not accurate, and not for rounding; 0 without any.
@@ -297,7 +301,6 @@ double Analysis::worst(const std::vector<FloquetMode>& modes) const {
 void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
     // Below this the factors hold nothing but rounding: log(1e-14).
     constexpr double lowest_level = -32;
-    const EnergyWeights weights(raw_, grid_.samples * options_.symmetry.parts, options_.weight);
     std::vector<Complex> logarithms;
     std::vector<std::size_t> at;
     for (Index i = 0; i < eigen.size(); ++i) {
@@ -318,8 +321,8 @@ void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
         integrate(motions);
         for (const Motion& m : motions) {
             const FloquetSolution one = solution(m);
-            FloquetMode& mode =
-                (one.resolved ? result.modes : result.unresolved).emplace_back(make_mode(one, weights, raw_.period()));
+            FloquetMode& mode = (one.resolved ? result.modes : result.unresolved)
+                                    .emplace_back(make_mode(one, *weights_, raw_.period()));
             mode.error = error(mode, one.error);
         }
     }
@@ -335,11 +338,15 @@ Floquet Analysis::compute() {
     double before = std::numeric_limits<double>::infinity();  // worst() with half the steps
     std::vector<Matrix> product;
     if (refine)
-        product = factors(transitions(normalised_.system, 0, angle_, grid_.samples / 2, 1, options_.transition));
+        product = factors(
+            transitions(integrated(), 0, angle_, grid_.samples / FloquetGrid::first_ratio, 1, options_.transition));
     while (true) {
-        if (refine) grid_.steps = std::max(1, 2 * grid_.steps);
+        if (refine) {
+            ratio_ = grid_.steps == 0 ? FloquetGrid::first_ratio : 2;
+            grid_.steps = std::max(1, 2 * grid_.steps);
+        }
         difference_ = std::move(product);
-        fine_ = transitions(normalised_.system, 0, angle_, grid_.samples, grid_.steps, options_.transition);
+        fine_ = transitions(integrated(), 0, angle_, grid_.samples, grid_.steps, options_.transition);
         product = factors(fine_);
         for (std::size_t k = 0; k < difference_.size(); ++k) difference_[k] -= product[k];
         ProductEigen eigen;

@@ -11,15 +11,20 @@ struct FloquetOptions {
     TransitionOptions transition = {.stages = 7};
     /// Integrates over T/Q only: Phi(T) = P^-Q (P Phi(T/Q))^Q                        [Peters 1994; Lee et al., eq. 18]
     BladeSymmetry symmetry = {};
-    /// Steps per period; 0: doubled until the exponents of all resolved modes with a principal frequency up to
-    /// `per_period` times 2 pi / T have an estimated error below `tolerance` times 2 pi / T, or `max_steps` is
-    /// reached.
+    /// Steps per period; 0: by the error of the method at the frequency `per_period`, then doubled until the exponents
+    /// of all resolved modes with a principal frequency up to `per_period` times 2 pi / T have an estimated error below
+    /// `tolerance` times the larger of 2 pi / T and |exponent|, or `max_steps` is reached.
     int steps = 0;
     double per_period = 10, tolerance = 1e-9;
     int max_steps = 4096;
     /// The monodromy matrix is kept as a product of this many factors (per T/Q): strongly damped motions keep their
     /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;
+    /// Only motions up to `per_period`, and up to half as fast again, are of interest: those that are much faster are
+    /// left out, where they can be told from the others (a system of second order without states beside the
+    /// coordinates, whose frequencies at every azimuth have a gap), and the rest is integrated alone. The rest keeps
+    /// its exponents: what they are off by is part of their errors.
+    bool only_slow = false;
     /// Weight W of x^H W x for the participation of harmonics in a system of first order; empty: unit matrix.
     Matrix weight = {};
 };
@@ -47,10 +52,10 @@ struct Floquet {
 /// Multipliers and vectors of the monodromy matrix, by integration over a period, or over its Q-th part with the blades
 /// renumbered; the product is never formed (ProductEigen).
 ///
-/// Errors of exponents are estimated from the integration with half as many steps, to first order in the difference,
-/// with the left eigenvectors, and from the method's error at the frequencies of the mode's harmonics; for a mode of
-/// frequency f they fall like (f / steps)^(2 stages). Seven stages with two to five steps per period of the fastest
-/// wanted mode cost least. Rounding adds about
+/// Errors of exponents are estimated from the integration with a third as many steps (half, where steps were doubled),
+/// to first order in the difference, with the left eigenvectors, and from the method's error at the frequencies of the
+/// mode's harmonics; for a mode of frequency f they fall like (f / steps)^(2 stages). Seven stages with three or four
+/// steps per period of the fastest wanted mode cost least. Rounding adds about
 /// 1e-15 times the condition number: a defective double multiplier (free yaw) splits by some 1e-8 per period.
 /// Motions too fast for the steps are not resolved: the method damps them, and their stability remains unknown.
 ///

@@ -1,6 +1,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/algebra/anderson.hpp"
 #include "solvers/periodic/detail/half_turn.hpp"
 #include "solvers/periodic/detail/mean_jacobian.hpp"
 #include "solvers/periodic/detail/rotor_equations.hpp"
@@ -42,6 +43,7 @@ private:
     Vector shortest_solution(const Matrix& J, const Vector& right);
     void describe(const Vector& null_vector);
     void note_open(std::string words);
+    void note_open_mean(Index row);
     bool search(const Matrix& dx);
     bool advance();
     bool mean_step();
@@ -247,12 +249,16 @@ void Balance::describe(const Vector& null_vector) {
         note_open(text("the reaction '", name, "' is not unique: its equation is redundant"));
         return;
     }
-    open_mean_ = open_mean_ || harmonic == 0;
-    std::string words = harmonic == 0
-                            ? text("the mean of '", name, "' is held by nothing and stays near where it started")
-                            : text("harmonic ", harmonic, " of '", name,
-                                   "' is not determined (a natural frequency at this multiple of the rotor speed)");
-    note_open(std::move(words));
+    if (harmonic == 0)
+        note_open_mean(row);
+    else
+        note_open(text("harmonic ", harmonic, " of '", name,
+                       "' is not determined (a natural frequency at this multiple of the rotor speed)"));
+}
+
+void Balance::note_open_mean(Index row) {
+    open_mean_ = true;
+    note_open(text("the mean of '", equations_.name(row), "' is held by nothing and stays near where it started"));
 }
 
 void Balance::note_open(std::string words) {
@@ -291,6 +297,7 @@ bool Balance::mean_step() {
         x_ = x;
         R_ = R;
         stale_ = after > good_reduction * before;
+        for (Index row : mean_->open()) note_open_mean(row);
         return true;
     }
     stale_ = true;
@@ -298,28 +305,17 @@ bool Balance::mean_step() {
 }
 
 // Steps with the mean Jacobian that learn from one another, where the equations change so much with the azimuth that a
-// single one is no use: of the last steps those combined that cancel the present one best.
-//                                                                              [Anderson 1965; Walker and Ni 2011]
+// single one is no use.
 bool Balance::accelerated_steps() {
     constexpr int most = 60;
     constexpr Index depth = 10;
     const double start = norm(R_);
-    Matrix x = x_, R = R_, dx, dX(x_.size(), depth), dF(x_.size(), depth);
-    Vector last_x, last_f;
+    Anderson anderson(x_.size(), depth);
+    Matrix x = x_, R = R_, dx;
     double best = start;
     for (int k = 0; k < most && largest(R) > options_.tolerance; ++k) {
         if (!mean_->step(R, 0, dx, true)) break;
-        const Vector f = dx.reshaped();
-        Vector next = x.reshaped() + f;
-        if (k > 0) {
-            const Index column = (k - 1) % depth, known = std::min<Index>(k, depth);
-            dX.col(column) = x.reshaped() - last_x;
-            dF.col(column) = f - last_f;
-            const Vector part = Matrix(dF.leftCols(known)).completeOrthogonalDecomposition().solve(f);
-            next -= (dX.leftCols(known) + dF.leftCols(known)) * part;
-        }
-        last_x = x.reshaped();
-        last_f = f;
+        const Vector next = anderson.next(x.reshaped(), dx.reshaped());
         x = next.reshaped(x.rows(), x.cols());
         if (!evaluate(x, R) || !(norm(R) < 1e3 * start)) break;
         if (!(norm(R) < best)) continue;

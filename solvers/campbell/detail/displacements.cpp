@@ -1,8 +1,12 @@
 #include "solvers/campbell/detail/displacements.hpp"
 
+#include "mbs/base/entry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace cardan::solvers {
 
@@ -73,6 +77,48 @@ void name_weak_spin(std::vector<CampbellMode>& modes, const Matrix& M, Index spi
         }
         const double displaced = slowest * slowest * M(spin, spin) * std::norm(m.mode.shape(spin));
         if (std::isfinite(slowest) && displaced >= mostly_displacement * energy) m.row = static_cast<int>(spin);
+    }
+}
+
+void separate_displacements(std::vector<CampbellMode>& modes, const Matrix& M) {
+    constexpr double parallel = 1e-3;
+    std::vector<CampbellMode*> rigid;
+    for (CampbellMode& mode : modes)
+        if (mode.kind() == FloquetKind::rigid) rigid.push_back(&mode);
+    if (rigid.size() < 2) return;
+    const Index n = M.rows(), count = std::ssize(rigid), states = rigid[0]->mode.states.size();
+    const Vector weight = M.diagonal().cwiseSqrt();
+    // Displacements in units of energy by row, states behind them; Gauss's and Jordan's elimination of the former.
+    ComplexMatrix A(count, n + states);
+    for (Index i = 0; i < count; ++i) {
+        A.row(i) << entry(rigid, i)->mode.shape.cwiseProduct(weight).transpose(),
+            entry(rigid, i)->mode.states.transpose();
+        A.row(i) /= A.row(i).head(n).norm();
+    }
+    std::vector<std::pair<Index, Index>> pivots;  // row of the shapes, and where it has become one
+    Index found = 0;
+    for (; found < count; ++found) {
+        Index i = 0, j = 0;
+        if (!(A.bottomLeftCorner(count - found, n).cwiseAbs().maxCoeff(&i, &j) > parallel)) break;
+        A.row(found).swap(A.row(found + i));
+        A.row(found) /= Complex(A(found, j));
+        for (Index k = 0; k < count; ++k)
+            if (k != found) A.row(k) -= (Complex(A(k, j)) * A.row(found)).eval();
+        pivots.emplace_back(j, found);
+    }
+    if (found < 2) return;
+    std::sort(pivots.begin(), pivots.end());
+    // A free coordinate has two motions, displacement and rate, which are parallel.
+    for (Index i = 0; i < count; ++i) {
+        CampbellMode& mode = *entry(rigid, i);
+        const auto [row, own] = entry(pivots, i % found);
+        const ComplexVector shape = A.row(own).head(n).transpose().cwiseQuotient(weight.cast<Complex>());
+        const double factor = std::sqrt(2 / hermitian_form(M, shape));
+        mode.mode.shape = factor * shape;
+        mode.mode.states = factor * A.row(own).tail(states).transpose();
+        mode.row = static_cast<int>(row);
+        mode.floquet->harmonics = mode.mode.shape;
+        mode.floquet->state_harmonics = mode.mode.states;
     }
 }
 

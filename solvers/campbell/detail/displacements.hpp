@@ -30,4 +30,9 @@ void find_weak_spin(std::vector<FloquetMode>& modes, const Matrix& M, double spe
 /// slowest vibration, which is much faster, it is a displacement.
 void name_weak_spin(std::vector<CampbellMode>& modes, const Matrix& M, Eigen::Index spin);
 
+/// Where several coordinates are free, any mixture of their displacements is a rigid motion, and rounding decides which
+/// ones are found: those of one coordinate each take their place, as far as their number allows.
+/// @param M  in rows of the modes' shapes
+void separate_displacements(std::vector<CampbellMode>& modes, const Matrix& M);
+
 }  // namespace cardan::solvers

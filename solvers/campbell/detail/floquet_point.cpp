@@ -105,7 +105,16 @@ void PeriodicPointSolver::start_from(const Matrix& coordinates, const Matrix& st
     standstill_.start_from(coordinates, states);
     start_ = coordinates;
     state_start_ = states;
+    prepared_.clear();
     state_.reset();
+}
+
+void PeriodicPointSolver::prepare(std::span<const double> rotor_speeds) {
+    for (const double speed : rotor_speeds) {
+        if (speed == 0) continue;
+        find_steady_state(speed);
+        prepared_.insert_or_assign(speed, *state_);
+    }
 }
 
 void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
@@ -117,7 +126,10 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
         if (options_.method == CampbellMethod::averaged) leave_out_free_spin(lowest_elastic(point), point);
         return;
     }
-    find_steady_state(rotor_speed);
+    if (const auto known = prepared_.find(rotor_speed); known != prepared_.end())
+        state_ = known->second;
+    else
+        find_steady_state(rotor_speed);
     const PeriodicSystem periodic = multi_blade_system();
     set_symmetry(periodic);
     set_mean(periodic);
@@ -244,6 +256,7 @@ FloquetOptions PeriodicPointSolver::floquet_options() const {
                          text("frequency per revolution at ", state_->rotor_speed * units::to_rpm, " rpm"),
                          options.per_period, "at most 10000: a higher rotor speed, or a lower largest frequency");
     options.tolerance = own.tolerance;
+    options.only_slow = true;
     options.max_steps =
         own.max_steps > 0 ? own.max_steps : std::max(4096, static_cast<int>(64 * std::min(options.per_period, 1e4)));
     return options;
@@ -267,6 +280,7 @@ void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, Camp
         if (slow && pair) point.modes.push_back(make(FloquetMode(mode)));
         point.modes.push_back(make(std::move(mode)));
     }
+    separate_displacements(point.modes, mean_.M);
     name_weak_spin(point.modes, mean_.M, spin_row());
     std::stable_sort(point.modes.begin(), point.modes.end(), [](const CampbellMode& a, const CampbellMode& b) {
         return a.mode.natural_hz() < b.mode.natural_hz();

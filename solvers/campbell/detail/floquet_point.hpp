@@ -5,6 +5,8 @@
 #include "solvers/campbell/point.hpp"
 #include "solvers/periodic/floquet.hpp"
 
+#include <map>
+
 namespace cardan::solvers {
 
 /// For one rotor speed after another: periodic steady state (harmonic balance, started from the previous one),
@@ -16,6 +18,8 @@ public:
     PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options);
 
     void start_from(const Matrix& coordinates, const Matrix& states) override;
+    /// Finds the steady states.
+    void prepare(std::span<const double> rotor_speeds) override;
     /// @throws InputError for options out of range; NumericalError where no periodic steady state is found (for example
     /// if a mean load acts on an unrestrained coordinate), and as floquet(); the solver can be used again
     void solve(double rotor_speed, CampbellPoint& point) override;
@@ -50,11 +54,12 @@ private:
     const System& system_;
     const RotorMap& rotor_;
     CampbellOptions options_;
-    PointSolver standstill_;      // also: rows, names, energy shares
-    Matrix start_, state_start_;  // of the first point
-    std::optional<PeriodicSteadyState> state_;
-    BladeSymmetry symmetry_;  // of the last point; none if the blades differ
-    double difference_ = 0;   // of the blades
+    PointSolver standstill_;                          // also: rows, names, energy shares
+    Matrix start_, state_start_;                      // of the first point
+    std::map<double, PeriodicSteadyState> prepared_;  // by rotor speed
+    std::optional<PeriodicSteadyState> state_;        // the last one
+    BladeSymmetry symmetry_;                          // of the last point; none if the blades differ
+    double difference_ = 0;                           // of the blades
     bool structure_differs_ = false;
     SecondOrderSystem mean_;
     std::string warning_;

@@ -14,8 +14,9 @@ using Index = Eigen::Index;
 
 // What is smaller than this beside the largest waits for the next step.
 constexpr double small_share = 1e-3;
-// Below, a matrix counts as singular; what that means is left to Newton's method.
-constexpr double least_rcond = 1e-12;
+// Below, a matrix counts as singular; what that means is left to Newton's method, unless it is that nothing holds a
+// mean.
+constexpr double least_rcond = 1e-12, nothing_holds = 1e-14;
 
 // T turns its columns by so many harmonics.
 int highest_harmonic(const ColemanTransform& transform) {
@@ -147,10 +148,28 @@ const HarmonicFactors* MeanJacobian::factors(int harmonic) {
     }
     if (!A.allFinite() || !B.allFinite()) return nullptr;
     const HarmonicFactors& found = factors_.try_emplace(harmonic, A, B, groups_).first->second;
-    return found.rcond() > least_rcond ? &found : nullptr;
+    if (found.rcond() > least_rcond) return &found;
+    if (harmonic > 0 || found.rcond() > nothing_holds || !hold_open(A)) return nullptr;
+    factors_.erase(0);
+    return factors(0);
+}
+
+// What moves most in a mean motion that meets no stiffness. False if there is none, or a blade does.
+bool MeanJacobian::hold_open(const Matrix& A) {
+    Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
+    qr.setThreshold(least_rcond);
+    qr.compute(A);
+    if (qr.rank() == A.rows()) return false;
+    const Matrix motion = qr.colsPermutation() * qr.matrixZ().transpose().rightCols(1);
+    Index row = 0;
+    motion.col(0).cwiseAbs().maxCoeff(&row);
+    if (!hold(row)) return false;
+    open_.push_back(row);
+    return true;
 }
 
 bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx, bool all) {
+    factors(0);  // tells what nothing holds, even if no load asks for it
     Matrix r = to_multi_blade(R);
     for (Index row : held_) r(row, 0) = 0;
     const auto part = [&](int j) { return j == 0 ? r.leftCols(1) : r.middleCols(2 * j - 1, 2); };

@@ -32,8 +32,10 @@ public:
     /// computed when they are first needed.
     /// @param negligible  residual / stiffness
     /// @param all  nothing is left for the next step: the step is a linear function of R
-    /// @returns false if a matrix is singular (something that nothing holds) or not finite
+    /// @returns false if a matrix is singular (a harmonic in resonance, a blade that nothing holds) or not finite
     bool step(const Matrix& R, double negligible, Matrix& dx, bool all = false);
+    /// Unknowns whose mean nothing holds: no step changes it.
+    const std::vector<Eigen::Index>& open() const { return open_; }
 
 private:
     MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics);
@@ -43,6 +45,7 @@ private:
     Matrix from_multi_blade(const Matrix& z) const;
     Vector scale(int harmonic) const;
     const HarmonicFactors* factors(int harmonic);
+    bool hold_open(const Matrix& A);
 
     ColemanTransform transform_;
     double rotor_speed_;
@@ -50,8 +53,8 @@ private:
     std::vector<ColemanTransform::TurningPair> pairs_;
     Matrix at_zero_;  ///< T(0)
     std::vector<double> azimuths_;
-    Matrix basis_, z_basis_;  ///< at the azimuths, by column
-    std::vector<Eigen::Index> held_;
+    Matrix basis_, z_basis_;                 ///< at the azimuths, by column
+    std::vector<Eigen::Index> held_, open_;  ///< open ones are held, too
     SecondOrderSystem mean_, at_;
     std::vector<std::vector<Eigen::Index>> groups_;  ///< of states
     std::map<int, HarmonicFactors> factors_;         ///< by harmonic

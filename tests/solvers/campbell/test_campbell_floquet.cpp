@@ -12,6 +12,7 @@
 #include "tests/support/refusal.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace cardan;
 using namespace cardan::solvers;
@@ -239,9 +240,44 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
 }
 
 TEST_CASE("campbell by Floquet: too few steps give a warning", "[property]") {
-    CampbellOptions options = by(CampbellMethod::floquet);
+    double highest = 0;
+    for (const CampbellMode& m : diagram_of(whirling(2), {0.5}, by(CampbellMethod::floquet)).points[0].modes)
+        highest = std::max(highest, m.mode.natural_hz());
+    // The fastest motion is just below the largest frequency.
+    CampbellOptions options = by(CampbellMethod::floquet, 1.05 * highest);
     options.floquet.max_steps = 1;
     options.floquet.tolerance = 1e-14;
     const Campbell d = diagram_of(whirling(2), {0.5}, options);
     CHECK_THAT(d.warning, Catch::Contains("rpm") && Catch::Contains("less accurate than wanted"));
+}
+
+TEST_CASE("campbell by Floquet: a steady state that is missing at the last speed is found out before any modes",
+          "[property]") {
+    SmallRotorSpec spec{.stiffness = {2000, 2000}};
+    spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
+        // Coordinates: spin, flaps. T (1 + q^2) = K q has no solution for a large T.
+        const auto torque = [](const ForceInput& at) { return 10 * std::pow(at.qd(0), 5); };
+        forces.add_user({.name = "lift",
+                         .force =
+                             [torque](const ForceInput& at, VectorOut Q) {
+                                 for (const int i : {1, 2}) Q(i) += torque(at) * (1 + at.q(i) * at.q(i));
+                             },
+                         .jacobian =
+                             [torque](const ForceInput& at, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
+                                 for (const int i : {1, 2}) {
+                                     dQ_dq(i, i) += 2 * torque(at) * at.q(i);
+                                     dQ_dqd(i, 0) += 5 * torque(at) / at.qd(0) * (1 + at.q(i) * at.q(i));
+                                 }
+                             }});
+    };
+    const SmallRotor rotor = small_rotor(spec);
+    CampbellOptions options = by(CampbellMethod::floquet);
+    options.spin = RotorSpin::prescribed;
+    int points = 0;
+    options.progress = [&points](int, int) { ++points; };
+    CHECK(diagram_of(rotor, {1.0, 1.5}, options).complete);
+    CHECK(points == 2);
+    points = 0;
+    CHECK_THROWS_AS(diagram_of(rotor, {1.0, 1.5, 6.0}, options), NumericalError);
+    CHECK(points == 0);
 }

@@ -17,7 +17,7 @@ namespace {
 // Two coordinates in a plane, with mass, springs and dampers alike, and a force that is a function of both.
 struct Plane {
     double mass = 1, stiffness = 1, damping = 0;
-    std::function<void(double parameter, const ForceInput& in, VectorOut Q)> force;
+    std::function<void(double parameter, const ForceInput& in, VectorOut Q)> force = {};
     RotorMap map = {};  // without parts
     std::optional<System> now = {};
 

@@ -5,6 +5,8 @@
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 
+#include <cmath>
+
 using namespace cardan;
 using namespace cardan::solvers;
 using namespace cardan::testing;
@@ -107,6 +109,59 @@ TEST_CASE("mean Jacobian: steps are Newton's where the equations are constant in
     const double whole = error_after_step(1e-3), half = error_after_step(5e-4);
     CHECK(whole < 0.05 * 1e-3 * away.norm());
     CHECK(whole / half == Approx(4).epsilon(0.02));
+}
+
+TEST_CASE("mean Jacobian: a mean that nothing holds stays where it started, without Newton's matrix", "[crosscheck]") {
+    // Blades are moved twice per revolution; the spring of yaw is taken away. Coordinates: tilt, yaw, spin, flap and
+    // lag of every blade.
+    SmallRotorSpec spec{.stiffness = {500, 500, 500},
+                        .damping = 20,
+                        .hinges = BladeHinges::flap_and_lag,
+                        .lag_damping = 30,
+                        .elastic_support = true};
+    spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
+        const auto angle = [](const ForceInput& at, int blade) { return 2 * (at.q(2) + 2 * pi * blade / 3); };
+        forces.add_user({.name = "moved",
+                         .force =
+                             [angle](const ForceInput& at, VectorOut Q) {
+                                 Q(1) += 7000 * at.q(1);
+                                 for (int k = 0; k < 3; ++k) Q(3 + 2 * k) += 1e-4 * std::cos(angle(at, k));
+                             },
+                         .jacobian =
+                             [angle](const ForceInput& at, MatrixOut dQ_dq, MatrixOut) {
+                                 dQ_dq(1, 1) += 7000;
+                                 for (int k = 0; k < 3; ++k) dQ_dq(3 + 2 * k, 2) -= 2e-4 * std::sin(angle(at, k));
+                             }});
+    };
+    const SmallRotor rotor = small_rotor(spec);
+    const int yaw = rotor.system.model.index("yaw");
+    PeriodicOptions options = turning_at(4);
+    options.start = Matrix::Zero(rotor.system.model.size(), 1);
+    options.start(yaw, 0) = 0.03;
+    const PeriodicSteadyState newton = harmonic_balance(rotor.system, rotor.map.spin, options);
+    REQUIRE(newton.converged);
+    options.rotor = &rotor.map;
+    const PeriodicSteadyState mean = harmonic_balance(rotor.system, rotor.map.spin, options);
+    REQUIRE(mean.converged);
+    CHECK(newton.amplitude(2) > 1e-8);
+    CHECK(mean.coefficients(yaw, 0) == Approx(0.03).epsilon(1e-12));
+    CHECK(mean.note == newton.note);
+    CHECK(mean.note == "the mean of 'yaw' is held by nothing and stays near where it started");
+    // Nothing else depends on where the nacelle looks.
+    Matrix difference = mean.coefficients - newton.coefficients;
+    difference(yaw, 0) = 0;
+    CHECK(difference.cwiseAbs().maxCoeff() < 1e-11);
+    // The steps are its own.
+    const RotorEquations equations(rotor.system, rotor.map.spin, options, "test");
+    RotorEquations own(rotor.system, rotor.map.spin, options, "test");
+    std::optional<MeanJacobian> jacobian = MeanJacobian::make(rotor.map, equations, options.harmonics);
+    REQUIRE(jacobian);
+    const Matrix x = own.start(options.harmonics);
+    jacobian->set(own, x);
+    Matrix dx;
+    CHECK(jacobian->step(residual_harmonics(own, x, options.harmonics), 0, dx));
+    REQUIRE(jacobian->open().size() == 1);
+    CHECK(std::abs(dx(jacobian->open()[0], 0)) < 1e-15);
 }
 
 TEST_CASE("mean Jacobian: held means and what it cannot do", "[crosscheck]") {
