@@ -67,14 +67,8 @@ inline void write_files_and_roots(const solvers::Campbell& diagram, const solver
             shown, prefix + "_roots" + kind,
             {.title = picture.title, .max_frequency_hz = picture.max_frequency_hz, .states = picture.states});
     }
-    std::ptrdiff_t left_out = 0;
-    if (!picture.states) {
-        left_out = std::ranges::count_if(shown.branches, &solvers::Branch::of_states);
-        for (const solvers::CampbellPoint& point : shown.points)
-            left_out = std::max(left_out, std::ssize(point.state_motions));
-    }
-    if (left_out > 0)
-        std::printf("up to %td roots that are mostly states of the air are not drawn: --air-roots\n", left_out);
+    if (!picture.states && !shown.states.empty())
+        std::printf("roots that are mostly states of the air are left out: --air-roots\n");
     std::printf("\nfiles: %s.h5, .csv, .svg, .png, _roots.svg, .png\n", prefix.c_str());
 }
 

@@ -102,6 +102,26 @@ bool LuFactors::regular() const {
     return lu_.diagonal().allFinite() && (lu_.diagonal().array() != 0).all();
 }
 
+double LuFactors::pivot_ratio() const {
+    if (lu_.rows() == 0) return 1;
+    const auto pivots = lu_.diagonal().array().abs();
+    if (!pivots.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+    return pivots.maxCoeff() > 0 ? pivots.minCoeff() / pivots.maxCoeff() : 0;
+}
+
+void LuFactors::solve_transposed(Matrix& B) const {
+    for (Index j = 0; j < B.cols(); ++j) solve_transposed_column(B.col(j).data(), B.rows());
+}
+
+// A = P^T L U: A^-T = P^T L^-T U^-T.
+void LuFactors::solve_transposed_column(double* data, Index size) const {
+    require_size("solution of equations", "b", Eigen::Map<Vector>(data, size), lu_.rows());
+    Eigen::Map<Vector> b(data, size);
+    for (Index k = 0; k < size; ++k) b(k) = (b(k) - lu_.col(k).head(k).dot(b.head(k))) / lu_(k, k);
+    for (Index k = size - 1; k >= 0; --k) b(k) -= lu_.col(k).tail(size - k - 1).dot(b.tail(size - k - 1));
+    for (Index k = size - 1; k >= 0; --k) std::swap(b(k), b(entry(exchanges_, k)));
+}
+
 void LuFactors::solve(Vector& b) const {
     require_size("solution of equations", "b", b, lu_.rows());
     for (Index k = 0; k < b.size(); ++k) std::swap(b(k), b(entry(exchanges_, k)));

@@ -34,12 +34,22 @@ public:
     void factorise();
     /// Whether no pivot is zero or not finite.
     bool regular() const;
+    /// Smallest over largest magnitude of the pivots: of equations whose rows and columns are alike in size, of the
+    /// order of the inverse of the condition number. 0 if a pivot is zero, not a number if one is not finite; 1 without
+    /// rows.
+    double pivot_ratio() const;
     /// b := A^-1 b.  Cost 2 n^2
     void solve(Vector& b) const;
     /// B := A^-1 B.  Cost 2 n^2 columns of B
     void solve(Matrix& B) const;
+    /// b := A^-T b.  Cost 2 n^2
+    void solve_transposed(Vector& b) const { solve_transposed_column(b.data(), b.size()); }
+    /// B := A^-T B, column by column
+    void solve_transposed(Matrix& B) const;
 
 private:
+    void solve_transposed_column(double* b, Eigen::Index size) const;
+
     Matrix lu_;
     std::vector<Eigen::Index> exchanges_;  ///< row that was exchanged with row k
 };

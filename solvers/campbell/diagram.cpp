@@ -55,7 +55,9 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     Sweep sweep(own, choice.reason, rotor_speed.size());
     const std::unique_ptr<PointMethod> solver = point_method(system, rotor, own);
     sweep.set_machine(system, rotor, *solver);
-    solver->prepare(rotor_speed);
+    // So many steady states take seconds; more would keep a diagram that is interrupted from having anything.
+    constexpr std::size_t soon = 50;
+    if (rotor_speed.size() <= soon) solver->prepare(rotor_speed);
     for (const double speed : rotor_speed)
         if (!sweep.add(system, *solver, speed)) break;
     return sweep.finish(rotor, {solver.get()});

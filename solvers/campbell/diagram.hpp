@@ -63,6 +63,10 @@ struct CampbellOptions {
     /// frequency, and as many more as move into these by two per revolution: a small part of the cost for large
     /// machines. What is faster is not known to be stable there.
     bool all_modes = false;
+    /// Constant systems with many states of first order (has_many_states()), as with the air on sections: all motions
+    /// of states, by a dense solver. Otherwise, unless `all_modes`, modes of the motion only (ModeSolver::solve()),
+    /// also at the first speed; the stability margin is theirs, and that nothing else grows is known.
+    bool all_state_motions = false;
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
     CampbellFloquetOptions floquet = {};
     /// Diagram of a similar variant of the machine, with the same method, blades and rows: branches take over the names
@@ -112,10 +116,11 @@ struct StateMotion {
 };
 
 struct CampbellPoint {
-    double rotor_speed = 0;                       ///< rad/s
-    OperatingPoint at;                            ///< steady state, at azimuth 0
-    std::vector<CampbellMode> modes;              ///< by natural frequency
-    std::vector<StateMotion> state_motions = {};  ///< oscillating ones first, each by |eigenvalue|
+    double rotor_speed = 0;           ///< rad/s
+    OperatingPoint at;                ///< steady state, at azimuth 0
+    std::vector<CampbellMode> modes;  ///< by natural frequency
+    /// Oscillating ones first, each by |eigenvalue|. Of many, few or none: CampbellOptions::all_state_motions.
+    std::vector<StateMotion> state_motions = {};
     /// Smallest decay rate of both, except rigid ones, 1/s; negative: unstable. NaN where eigenvalues do not
     /// describe motions (frozen azimuth).
     double stability_margin = std::numeric_limits<double>::quiet_NaN();

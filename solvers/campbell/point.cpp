@@ -83,7 +83,6 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
       lineariser_(system) {
     if (!system.loops.empty()) reduce_unknowns();
     plain_rows_.resize(unknowns_.size());
-    mode_solver_.emplace(std::ssize(unknowns_), system.forces.states().size());
     const bool disc = rotor.blades.empty() && rotor.spin >= 0 && !rotor.rotating_pairs.empty();
     const bool blades = rotor.blades.size() > 1 && without_multi_blade_coordinates(rotor, unknowns_).empty();
     if (disc || blades) coleman_.emplace(rotor, unknowns_, system.forces.states());
@@ -187,7 +186,8 @@ void PointSolver::solve(double rotor_speed, CampbellPoint& point) {
     set_system(rotor_speed);
     point.rotor_speed = rotor_speed;
     point.at = steady_.at;
-    set_modes(mode_solver_->solve(current_, range_.largest(options_, rotor_speed)), point);
+    if (!mode_solver_) mode_solver_.emplace(std::ssize(unknowns_), system_.forces.states().size());
+    set_modes(mode_solver_->solve(current_, range_.largest(options_, rotor_speed, current_)), point);
     range_.set(point.modes, rotor_speed);
     if (rotor_speed == 0 && blades_stand_out()) set_blade_shares(point);
     point.periodic.reset();

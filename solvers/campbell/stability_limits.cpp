@@ -89,6 +89,7 @@ private:
     static CampbellOptions with_method(CampbellOptions modes, CampbellMethod method) {
         modes.method = method;
         modes.keep_shapes = false;
+        modes.all_state_motions = true;  // they are followed as well
         return modes;
     }
     void start(PointMethod& solver, const CampbellCase& one) const;

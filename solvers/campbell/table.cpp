@@ -122,7 +122,8 @@ std::string margins(const Campbell& diagram, const std::vector<std::size_t>& sho
 // Of more states than fit on a screen, the motions that decay most slowly and fastest.
 std::string many_state_motions(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
     std::ostringstream out = text_stream();
-    out << "\nmotions of states rather than of the machine (all of them are in the file)\n" << std::setprecision(4);
+    out << "\nknown motions of states rather than of the machine (all of these are in the file)\n"
+        << std::setprecision(4);
     const auto row = [&](const char* what, const auto& value) {
         out << std::left << std::setw(width) << what << std::right;
         for (const std::size_t i : shown) {
@@ -145,6 +146,8 @@ std::string many_state_motions(const Campbell& diagram, const std::vector<std::s
 // A line for each state and each of its motions: "real part, 1/s; frequency, Hz".
 std::string state_motions(const Campbell& diagram, const std::vector<std::size_t>& shown, int width) {
     constexpr std::size_t most = 24;
+    if (std::ranges::all_of(diagram.points, [](const CampbellPoint& point) { return point.state_motions.empty(); }))
+        return {};
     if (diagram.states.size() > most) return many_state_motions(diagram, shown, width);
     std::vector<std::vector<std::vector<Complex>>> found(diagram.states.size());  // [state][shown]
     for (auto& of_state : found) of_state.resize(shown.size());

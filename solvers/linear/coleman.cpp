@@ -201,10 +201,14 @@ public:
         c = std::cos(factor * psi_);
         s = std::sin(factor * psi_);
     }
-    double c = 1, s = 0;
+    void apply(double& a, double& b) const {
+        const double before = a;
+        a = c * before - s * b;
+        b = s * before + c * b;
+    }
 
 private:
-    double psi_, factor_ = 0;
+    double psi_, factor_ = 0, c = 1, s = 0;
 };
 
 }  // namespace
@@ -223,36 +227,59 @@ void ColemanTransform::transform_columns(const Part& part, double psi, Matrix& A
     Turn turn(psi);
     for (const TurningPair& pair : part.pairs) {
         turn.set(pair.factor);
-        for (Index i = 0; i < A.rows(); ++i) {
-            const double a = A(i, pair.a), b = A(i, pair.b);
-            A(i, pair.a) = turn.c * a - turn.s * b;
-            A(i, pair.b) = turn.s * a + turn.c * b;
-        }
+        for (Index i = 0; i < A.rows(); ++i) turn.apply(A(i, pair.a), A(i, pair.b));
     }
 }
 
 // T^T A: every column alike.
 void ColemanTransform::transform_rows(const Part& part, double psi, Matrix& A) const {
-    std::array<double, max_blades * strip_width> x{}, y{};
+    std::array<double, max_blades> x{};
     Turn turn(psi);
-    for (Index from = 0; from < A.cols(); from += strip_width) {
-        const Index count = std::min<Index>(strip_width, A.cols() - from);
+    for (Index column = 0; column < A.cols(); ++column) {
+        double* const own = A.data() + column * A.rows();
         for (const std::vector<int>& rows : part.at) {
-            for (Index k = 0; k < blades_; ++k)
-                for (Index c = 0; c < count; ++c) entry(x, k * strip_width + c) = A(entry(rows, k), from + c);
-            combine(x.data(), y.data(), blades_, blade_block_.data());
-            for (Index k = 0; k < blades_; ++k)
-                for (Index c = 0; c < count; ++c) A(entry(rows, k), from + c) = entry(y, k * strip_width + c);
+            for (Index k = 0; k < blades_; ++k) entry(x, k) = own[entry(rows, k)];
+            for (Index j = 0; j < blades_; ++j) {
+                const double* const T = blade_block_.data() + j * blades_;
+                double sum = 0;
+                for (Index k = 0; k < blades_; ++k) sum += entry(x, k) * T[k];
+                own[entry(rows, j)] = sum;
+            }
         }
         if (psi == 0) continue;
         for (const TurningPair& pair : part.pairs) {
             turn.set(pair.factor);
-            for (Index j = from; j < from + count; ++j) {
-                const double a = A(pair.a, j), b = A(pair.b, j);
-                A(pair.a, j) = turn.c * a - turn.s * b;
-                A(pair.b, j) = turn.s * a + turn.c * b;
-            }
+            turn.apply(own[pair.a], own[pair.b]);
         }
+    }
+}
+
+// T_s^T A T_s, where every group of A has all blades' states of a kind or none.
+void ColemanTransform::transform_groups(double psi, GroupedMatrix& A) const {
+    std::array<Index, max_blades> at{};
+    std::array<double, max_blades> x{};
+    const auto combined = [&](const auto& value) {  // of the blades: x T(0)
+        for (Index k = 0; k < blades_; ++k) entry(x, k) = value(entry(at, k));
+        for (Index j = 0; j < blades_; ++j) {
+            double sum = 0;
+            for (Index k = 0; k < blades_; ++k) sum += entry(x, k) * blade_block_(k, j);
+            value(entry(at, j)) = sum;
+        }
+    };
+    for (const std::vector<int>& rows : states_.at) {
+        Matrix& block = A.block(A.group_of(rows[0]));
+        for (Index k = 0; k < blades_; ++k) entry(at, k) = A.place_in_group(entry(rows, k));
+        for (Index i = 0; i < block.rows(); ++i) combined([&](Index place) -> double& { return block(i, place); });
+        for (Index j = 0; j < block.cols(); ++j) combined([&](Index place) -> double& { return block(place, j); });
+    }
+    if (psi == 0) return;
+    Turn turn(psi);
+    for (const TurningPair& pair : states_.pairs) {
+        turn.set(pair.factor);
+        Matrix& block = A.block(A.group_of(pair.a));
+        const Index a = A.place_in_group(pair.a), b = A.place_in_group(pair.b);
+        for (Index i = 0; i < block.rows(); ++i) turn.apply(block(i, a), block(i, b));
+        for (Index j = 0; j < block.cols(); ++j) turn.apply(block(a, j), block(b, j));
     }
 }
 
@@ -299,8 +326,8 @@ void ColemanTransform::transform_in_place(SecondOrderSystem& system, double psi,
         C.col(pair.b) += 2 * n * M.col(pair.a);
     }
     if (system.states.size() == 0) return;
-    require_size("multi-blade transformation", "f_s", system.states.f_s, std::ssize(state_rows()),
-                 std::ssize(state_rows()));
+    require_count("multi-blade transformation", "states", static_cast<std::size_t>(system.states.size()),
+                  state_rows().size());
     transform_states(system.states, psi, rotor_speed);
 }
 
@@ -311,8 +338,8 @@ void ColemanTransform::transform_states(StateTerms& terms, double psi, double ro
         transform_rows(states_, psi, *A);
         transform_columns(coordinates_, psi, *A);
     }
-    transform_rows(states_, psi, terms.f_s);
-    transform_columns(states_, psi, terms.f_s);
+    terms.f_s.join(states_.at);
+    transform_groups(psi, terms.f_s);
     for (const TurningPair& pair : turning_pairs()) {
         const double n = pair.factor * rotor_speed;
         terms.f_q.col(pair.a) -= n * terms.f_qd.col(pair.b);
@@ -320,8 +347,10 @@ void ColemanTransform::transform_states(StateTerms& terms, double psi, double ro
     }
     for (const TurningPair& pair : states_.pairs) {
         const double n = pair.factor * rotor_speed;
-        terms.f_s(pair.a, pair.b) -= n;
-        terms.f_s(pair.b, pair.a) += n;
+        Matrix& block = terms.f_s.block(terms.f_s.group_of(pair.a));
+        const Index a = terms.f_s.place_in_group(pair.a), b = terms.f_s.place_in_group(pair.b);
+        block(a, b) -= n;
+        block(b, a) += n;
     }
 }
 

@@ -87,7 +87,8 @@ public:
     ///     Q_s,z = T^T Q_s T_s,  f_qd,z = T_s^T f_qd T,  f_q,z = T_s^T f_q T + Omega f_qd,z G,
     ///     f_s,z = T_s^T f_s T_s - Omega G_s.
     ///
-    /// @param system  overwritten by its transform; nothing is allocated
+    /// @param system  overwritten by its transform; nothing is allocated once groups of f_s hold the states of all
+    /// blades
     void transform_in_place(SecondOrderSystem& system, double psi, double rotor_speed) const;
     /// Transforms a copy.
     SecondOrderSystem transform(SecondOrderSystem system, double psi, double rotor_speed) const;
@@ -105,6 +106,7 @@ private:
     void add_states(const RotorMap& rotor, const StateTable& states);
     void transform_columns(const Part& part, double psi, Matrix& A) const;
     void transform_rows(const Part& part, double psi, Matrix& A) const;
+    void transform_groups(double psi, GroupedMatrix& A) const;
     void congruence(double psi, Matrix& A) const;
     Matrix matrix(const Part& part, double psi, int derivative) const;
     void transform_states(StateTerms& terms, double psi, double rotor_speed) const;

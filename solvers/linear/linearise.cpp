@@ -3,7 +3,6 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/derivatives.hpp"
-#include "solvers/algebra/dense.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
@@ -41,17 +40,18 @@ void check_states(const StateTable& table, const Vector& s) {
 void restrict_states(const Linearisation& lin, const std::vector<int>& coordinates, StateTerms& out) {
     const Eigen::Index n = std::ssize(coordinates), m = lin.states.size();
     const StateDerivatives& all = lin.state_derivatives;
-    out.f_s = all.f_s;
+    out.f_s.set(all.f_s);
     out.Q_s.resize(n, m);
     out.f_q.resize(m, n);
     out.f_qd.resize(m, n);
     out.scales.resize(m);
     for (Eigen::Index i = 0; i < n; ++i) {
         const int at = entry(coordinates, i);
-        out.Q_s.row(i) = all.Q_s.row(at);
         out.f_q.col(i) = all.f_q.col(at);
         out.f_qd.col(i) = all.f_qd.col(at);
     }
+    for (Eigen::Index j = 0; j < m; ++j)
+        for (Eigen::Index i = 0; i < n; ++i) out.Q_s(i, j) = all.Q_s(entry(coordinates, i), j);
     for (int i = 0; i < lin.states.size(); ++i) out.scales(i) = lin.states[i].scale;
 }
 
@@ -181,7 +181,7 @@ void rescale(StateTerms& terms, const Vector& rows, const Vector& states) {
     const Vector inverse = states.cwiseInverse();
     terms.Q_s = (rows.asDiagonal() * terms.Q_s * states.asDiagonal()).eval();
     for (Matrix* f : {&terms.f_q, &terms.f_qd}) *f = (inverse.asDiagonal() * *f * rows.asDiagonal()).eval();
-    terms.f_s = (inverse.asDiagonal() * terms.f_s * states.asDiagonal()).eval();
+    terms.f_s.scale(inverse, states);
 }
 
 double relative_change(const StateTerms& now, const StateTerms& reference, double rate) {
@@ -190,11 +190,16 @@ double relative_change(const StateTerms& now, const StateTerms& reference, doubl
     const auto inverse = reference.scales.cwiseInverse().asDiagonal();
     const auto ratio = [](double change, double size) { return size > 0 ? change / size : change; };
     // Norms of the rows of f, 1/s: a block that is nothing but rounding must not count by itself.
+    const auto scaled = [&](GroupedMatrix f_s) {
+        f_s.scale(reference.scales.cwiseInverse(), reference.scales);
+        return f_s.norm();
+    };
+    GroupedMatrix f_s = now.f_s;
+    f_s.add(reference.f_s, -1);
     const double change = (inverse * (now.f_q - reference.f_q)).norm() +
-                          rate * (inverse * (now.f_qd - reference.f_qd)).norm() +
-                          (inverse * (now.f_s - reference.f_s) * scales).norm(),
+                          rate * (inverse * (now.f_qd - reference.f_qd)).norm() + scaled(std::move(f_s)),
                  size = (inverse * reference.f_q).norm() + rate * (inverse * reference.f_qd).norm() +
-                        (inverse * reference.f_s * scales).norm();
+                        scaled(reference.f_s);
     return std::max(ratio(((now.Q_s - reference.Q_s) * scales).norm(), (reference.Q_s * scales).norm()),
                     ratio(change, size));
 }
@@ -209,7 +214,7 @@ void append_states(SecondOrderSystem& system) {
     system.C.bottomRightCorner(m, m).setIdentity();
     system.K.topRightCorner(n, m) = -t.Q_s;
     system.K.bottomLeftCorner(m, n) = -t.f_q;
-    system.K.bottomRightCorner(m, m) = -t.f_s;
+    system.K.bottomRightCorner(m, m) = -t.f_s.dense();
     system.states = {};
 }
 
@@ -224,12 +229,8 @@ std::string held_inputs(const Forces& forces, const std::vector<std::string>& fr
 Matrix static_stiffness(const SecondOrderSystem& system) {
     const StateTerms& t = system.states;
     if (t.size() == 0) return system.K;
-    LuFactors f_s(t.size());
-    f_s.matrix() = t.f_s;
-    f_s.factorise();
     Matrix follow = t.f_q;
-    f_s.solve(follow);
-    if (!f_s.regular() || !follow.allFinite())
+    if (!t.f_s.solve(follow))
         throw NumericalError(
             text(in_linearisation, ": no static stiffness: a state settles nowhere by itself (an integrator)"));
     return system.K + t.Q_s * follow;

@@ -5,6 +5,7 @@
 #include "mbs/kernels/workspace.hpp"
 #include "mbs/loops/gradient_rates.hpp"
 #include "mbs/system/system.hpp"
+#include "solvers/algebra/grouped_matrix.hpp"
 #include "solvers/linear/operating_point.hpp"
 
 #include <optional>
@@ -82,13 +83,14 @@ Linearisation linearise(const System& system, const OperatingPoint& at, LoopStat
 ///
 ///     M x'' + C x' + K x = Q_s s,   s' = f_q x + f_qd x' + f_s s.
 struct StateTerms {
-    Matrix Q_s, f_q, f_qd, f_s;
+    Matrix Q_s, f_q, f_qd;
+    GroupedMatrix f_s;
     Vector scales;  ///< StateInfo::scale
 
     Eigen::Index size() const { return f_s.rows(); }
     /// Adds the matrices.
     StateTerms& operator+=(const StateTerms& other) {
-        Q_s += other.Q_s, f_q += other.f_q, f_qd += other.f_qd, f_s += other.f_s;
+        Q_s += other.Q_s, f_q += other.f_q, f_qd += other.f_qd, f_s.add(other.f_s);
         return *this;
     }
 };

@@ -1,8 +1,10 @@
 #include "solvers/linear/modes.hpp"
 
+#include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/arnoldi.hpp"
 #include "solvers/linear/detail/left_vector.hpp"
+#include "solvers/linear/detail/modes_of_motion.hpp"
 #include "solvers/linear/detail/shifted_state.hpp"
 
 #include <algorithm>
@@ -109,10 +111,12 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
     check_modes_input(system, n, states_, mass_);
     if (n + states_ == 0) return 0;
     const double scale = lowest_scale(system);
-    shift(system, scale);
-    const bool few =
-        n >= least_for_few && states_ == 0 && largest < doubtful_ratio_of_modes * scale && largest < too_many_;
-    if (!few || !solve_few(scale, largest)) solve_all(system, scale);
+    set_units(system, scale);
+    const bool few = largest < doubtful_ratio_of_modes * scale && largest < too_many_;
+    if (!few || !has_many_states(system) || !solve_motions(system, scale, largest)) {
+        shift(system, scale);
+        if (!few || n < least_for_few || states_ > 0 || !solve_few(scale, largest)) solve_all(system, scale);
+    }
     std::erase_if(found_, [&](const Found& found) { return std::abs(found.eigenvalue) > largest; });
     for (Found& found : found_)
         if (std::isnan(found.state_share)) found.state_share = share_by_iteration(system, found);
@@ -128,11 +132,27 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
     return found_.size();
 }
 
-// Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size.
+// Unit diagonal of the mass matrix, velocities over `scale`: all states alike in size. States of first order in units
+// in which one acts on the motion about as much as the motion on it; powers of two round nothing.
+void ModeSolver::set_units(const SecondOrderSystem& system, double scale) {
+    const Eigen::Index n = rows_, m = states_;
+    const StateTerms& states = system.states;
+    d_.head(n) = system.M.diagonal().cwiseSqrt().cwiseInverse();
+    for (Eigen::Index i = 0; i < m; ++i) {
+        const double own = states.scales(i);
+        double acts = 0, reacts = 0;
+        for (Eigen::Index j = 0; j < n; ++j) {
+            acts += std::abs(d_(j) * states.Q_s(j, i)) * own / (scale * scale);
+            reacts += d_(j) / own * (std::abs(states.f_q(i, j)) / scale + std::abs(states.f_qd(i, j)));
+        }
+        const bool both = acts > 0 && reacts > 0;
+        d_(n + i) = own * (both ? std::exp2(std::round(std::log2(reacts / acts) / 2)) : 1.0);
+    }
+}
+
 void ModeSolver::shift(const SecondOrderSystem& system, double scale) {
     const Eigen::Index n = rows_;
     constexpr double s = mode_shift;
-    d_.head(n) = system.M.diagonal().cwiseSqrt().cwiseInverse();
     for (Eigen::Index j = 0; j < n; ++j)
         for (Eigen::Index i = 0; i < n; ++i) {
             const double unit = d_(i) * d_(j), M = unit * system.M(i, j), C = unit * system.C(i, j) / scale,
@@ -145,20 +165,9 @@ void ModeSolver::shift(const SecondOrderSystem& system, double scale) {
     K_s_.factorise();
 }
 
-// In units in which a state acts on the motion about as much as the motion on it; powers of two round nothing.
 void ModeSolver::shift_states(const StateTerms& states, double scale) {
     const Eigen::Index n = rows_, m = states_;
     constexpr double s = mode_shift;
-    for (Eigen::Index i = 0; i < m; ++i) {
-        const double own = states.scales(i);
-        double acts = 0, reacts = 0;
-        for (Eigen::Index j = 0; j < n; ++j) {
-            acts += std::abs(d_(j) * states.Q_s(j, i)) * own / (scale * scale);
-            reacts += d_(j) / own * (std::abs(states.f_q(i, j)) / scale + std::abs(states.f_qd(i, j)));
-        }
-        const bool both = acts > 0 && reacts > 0;
-        d_(n + i) = own * (both ? std::exp2(std::round(std::log2(reacts / acts) / 2)) : 1.0);
-    }
     for (Eigen::Index i = 0; i < m; ++i) {
         const double own = 1 / d_(n + i);
         for (Eigen::Index j = 0; j < n; ++j) {
@@ -169,12 +178,18 @@ void ModeSolver::shift_states(const StateTerms& states, double scale) {
             right_(n + i, n + m + j) = 0;
             right_(j, n + i) = 0;
         }
-        for (Eigen::Index j = 0; j < m; ++j) {
-            const double unit = i == j ? 1 : 0;
-            K_s_.matrix()(n + i, n + j) = s * unit - own * d_(n + j) * states.f_s(i, j) / scale;
-            right_(n + i, n + j) = -unit;
-        }
     }
+    auto corner = K_s_.matrix().bottomRightCorner(m, m);
+    corner.setZero();
+    for (const GroupedMatrix::Group& group : states.f_s.groups())
+        for (Eigen::Index j = 0; j < group.block.cols(); ++j)
+            for (Eigen::Index i = 0; i < group.block.rows(); ++i) {
+                const Eigen::Index row = entry(group.rows, i), column = entry(group.rows, j);
+                corner(row, column) = -group.block(i, j) / d_(n + row) * d_(n + column) / scale;
+            }
+    corner.diagonal().array() += s;
+    right_.block(n, n, m, m).setZero();
+    right_.block(n, n, m, m).diagonal().setConstant(-1);
 }
 
 void ModeSolver::solve_all(const SecondOrderSystem& system, double scale) {
@@ -252,6 +267,17 @@ bool ModeSolver::solve_few(double scale, double largest) {
         shapes_.col(columns_) = value.vector.head(n).real();
         if (value.mu.imag() != 0) shapes_.col(columns_ + 1) = value.vector.head(n).imag();
         add(value.mu, scale);
+    }
+    return true;
+}
+
+bool ModeSolver::solve_motions(const SecondOrderSystem& system, double scale, double largest) {
+    const ModesOfMotion found = modes_of_motion(system, d_, scale, beyond * largest);
+    if (!found.complete) return false;
+    for (const ModesOfMotion::Value& value : found.values) {
+        found_.push_back({value.eigenvalue, columns_, value.state_share});
+        shapes_.col(columns_++) = value.vector.real();
+        if (value.eigenvalue.imag() != 0) shapes_.col(columns_++) = value.vector.imag();
     }
     return true;
 }
@@ -360,6 +386,12 @@ void ModeSolver::energy_by_row(std::size_t mode, Vector& out) const {
         out /= total;
     else
         out.setZero();
+}
+
+bool has_many_states(const SecondOrderSystem& system) {
+    constexpr Eigen::Index many = 300;
+    const Eigen::Index n = system.M.rows(), m = system.states.size();
+    return m > n && 2 * n + m > many;
 }
 
 std::vector<Mode> modes(const SecondOrderSystem& system, double largest) {

@@ -41,8 +41,8 @@ inline constexpr double max_reliable_ratio = 1e7;
 /// of about 1e-16 r^2. Above 1e6 times the lowest frequency (a coordinate with almost no mass) a mode that does not
 /// satisfy the equations to one per cent is regarded as rounding and left out.
 ///
-/// With states of first order the problem is that of twice the rows and the states, solved densely; zero eigenvalues
-/// are then left out only where they are rigid-body motions, not integrators.
+/// With states of first order the problem is that of twice the rows and the states, solved densely unless
+/// has_many_states(); zero eigenvalues are then left out only where they are rigid-body motions, not integrators.
 ///
 /// Made once for a number of rows and states: only the memory is kept from one system to the next. One per thread.
 class ModeSolver {
@@ -56,6 +56,11 @@ public:
     /// (dominant_eigenvalues(), which allocates), as exactly as all of them; from the dense solver if the system is
     /// small, or if a Krylov space of half of all states does not suffice. NREL 5 MW with 176 unknowns: 7 ms instead of
     /// 47 for the 16 modes below 4 Hz.
+    /// Of systems with many states (has_many_states()) they are those that the modes without lags become, one after
+    /// another, the states eliminated group by group (GroupedMatrix): all with a damping ratio below 0.4 without lags,
+    /// and most of the others. Motions of states are not looked for, but the argument principle tells that none grows
+    /// (by more than 1e-5 of `largest`). Where one does, or a mode is lost, the solver is
+    /// the dense one.
     /// @param largest  of the |eigenvalue| wanted, rad/s; > 0
     /// @returns the number of modes
     /// @throws NumericalError if a matrix is not finite, the mass matrix is not positive definite or the eigenvalue
@@ -75,12 +80,14 @@ private:
         Eigen::Index column;  // of shapes_: real part, with the imaginary part in the next column
         double state_share = 0;
     };
+    void set_units(const SecondOrderSystem& system, double scale);
     void shift(const SecondOrderSystem& system, double scale);
     void shift_states(const StateTerms& states, double scale);
     double share_by_iteration(const SecondOrderSystem& system, const Found& found) const;
     void solve_all(const SecondOrderSystem& system, double scale);
     void balance();
     bool solve_few(double scale, double largest);
+    bool solve_motions(const SecondOrderSystem& system, double scale, double largest);
     void add(Complex mu, double scale);
     bool moves_no_state(const Found& found) const;
     void normalise(const SecondOrderSystem& system);
@@ -99,6 +106,9 @@ private:
     /// Up to here there were more modes than is worth it once, rad/s: the next system, one of a sweep, is like it.
     double too_many_ = std::numeric_limits<double>::infinity();
 };
+
+/// Whether there are more states than rows, and so many of both (300 numbers) that a dense solver takes long.
+bool has_many_states(const SecondOrderSystem& system);
 
 /// The modes, with a temporary ModeSolver.
 std::vector<Mode> modes(const SecondOrderSystem& system, double largest = std::numeric_limits<double>::infinity());

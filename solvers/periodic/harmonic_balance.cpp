@@ -18,8 +18,10 @@ using Index = Eigen::Index;
 constexpr const char* in_harmonic_balance = "harmonic balance";
 // What counts as converged if no step reduces the residual, which may be rounding.
 constexpr double small_residual = 1e-8;
-// Steps with the mean Jacobian: where the residual falls to less than this, the Jacobian is kept; where it does not
-// fall to less than the other, the step is no use.
+// Of coefficients, for which a step at once takes 30 MB.
+constexpr Index many = 2000;
+// Steps with the mean Jacobian: where the residual falls to less than this, single ones do; where it does not fall to
+// less than the other, the step is no use.
 constexpr double good_reduction = 0.1, least_reduction = 0.5;
 
 // Unknowns are the coefficients column after column: entry l n + i is coefficient l of unknown i.
@@ -46,8 +48,10 @@ private:
     void note_open_mean(Index row);
     bool search(const Matrix& dx);
     bool advance();
+    void set_mean();
     bool mean_step();
     bool accelerated_steps();
+    bool mean_steps();
     void finish(PeriodicSteadyState& result, bool small);
 
     PeriodicOptions options_;
@@ -58,8 +62,8 @@ private:
     std::vector<Index> held_;
     std::optional<MeanJacobian> mean_;  // none: Newton's steps only
     std::optional<HalfTurn> half_;      // of two alike blades, as long as the residual has no other harmonics
-    bool stale_ = true;                 // it belongs to another state
-    bool accelerates_ = true;           // its steps together are of use where single ones are not
+    bool stale_ = true;                 // it has to be set
+    bool slow_ = false;                 // its single steps are of little use
     Vector scale_, unit_;               // of residuals, per unknown; of entries for the linear system
     Matrix x_, R_;
     std::string why_ = "the limit of iterations was reached";
@@ -67,10 +71,17 @@ private:
     bool open_mean_ = false;
 };
 
+// Alike blades see the same azimuths, whatever acts on them there: as many in each part of the turn.
+int usual_samples(const PeriodicOptions& options) {
+    const int enough = 4 * (options.harmonics + 1),
+              parts = options.rotor ? std::max(1, static_cast<int>(options.rotor->blades.size())) : 1;
+    return (enough + parts - 1) / parts * parts;
+}
+
 Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
     : options_(options), equations_(system, spin, options, in_harmonic_balance) {
     const int least = 2 * options.harmonics + 1;
-    const int count = options.samples > 0 ? options.samples : 4 * (options.harmonics + 1);
+    const int count = options.samples > 0 ? options.samples : usual_samples(options);
     if (options.samples < 0 || count < least)
         throw InputError(in_harmonic_balance, "number of samples", options.samples, text(">= ", least, ", or 0"));
     const double Omega = options.rotor_speed;
@@ -281,11 +292,14 @@ bool Balance::search(const Matrix& dx) {
     return false;
 }
 
+// The mean Jacobian of this state.
+void Balance::set_mean() {
+    mean_->set(equations_, x_);
+    stale_ = false;
+}
+
 // A step with the mean Jacobian; afterwards x_ is better by half at least, or unchanged.
 bool Balance::mean_step() {
-    const bool fresh = stale_;
-    if (stale_) mean_->set(equations_, x_);
-    stale_ = false;
     Matrix dx, R;
     if (!mean_->step(R_, 0.1 * options_.tolerance, dx)) {
         mean_.reset();
@@ -293,47 +307,59 @@ bool Balance::mean_step() {
     }
     const Matrix x = x_ + dx;
     const double before = norm(R_), after = evaluate(x, R) ? norm(R) : std::numeric_limits<double>::infinity();
-    if (after < least_reduction * before) {
-        x_ = x;
-        R_ = R;
-        stale_ = after > good_reduction * before;
-        for (Index row : mean_->open()) note_open_mean(row);
-        return true;
-    }
-    stale_ = true;
-    return !fresh && mean_step();
+    slow_ = after > good_reduction * before;
+    if (!(after < least_reduction * before)) return false;
+    x_ = x;
+    R_ = R;
+    for (Index row : mean_->open()) note_open_mean(row);
+    return true;
 }
 
 // Steps with the mean Jacobian that learn from one another, where the equations change so much with the azimuth that a
 // single one is no use.
 bool Balance::accelerated_steps() {
-    constexpr int most = 60;
-    constexpr Index depth = 10;
+    constexpr int most = 60, depth = 10, patience = 2 * depth;  // steps that hardly reduce the residual
+    constexpr double worth_it = 0.9;
     const double start = norm(R_);
     Anderson anderson(x_.size(), depth);
     Matrix x = x_, R = R_, dx;
     double best = start;
-    for (int k = 0; k < most && largest(R) > options_.tolerance; ++k) {
+    int best_at = 0;
+    for (int k = 0; k < most && k <= best_at + patience && largest(R) > options_.tolerance; ++k) {
         if (!mean_->step(R, 0, dx, true)) break;
         const Vector next = anderson.next(x.reshaped(), dx.reshaped());
         x = next.reshaped(x.rows(), x.cols());
         if (!evaluate(x, R) || !(norm(R) < 1e3 * start)) break;
         if (!(norm(R) < best)) continue;
+        if (norm(R) < worth_it * best) best_at = k;
         best = norm(R);
         x_ = x;
         R_ = R;
     }
+    return best < least_reduction * start;
+}
+
+// Single steps as long as they are good, then accelerated ones; with a Jacobian of another state first, which costs as
+// much as many steps.
+bool Balance::mean_steps() {
+    const bool fresh = stale_;
+    if (stale_) set_mean();
+    if (!slow_ && mean_step()) return true;
+    if (mean_ && accelerated_steps()) return true;
+    if (!mean_ || fresh) return false;
+    slow_ = false;
     stale_ = true;
-    accelerates_ = best < least_reduction * start;
-    return accelerates_;
+    if (largest(R_) > small_residual) return mean_steps();
+    set_mean();  // kinks keep a single step from being of use, too
+    return mean_step();
 }
 
 // False if nothing makes the residual smaller. What is small already is as good as the arithmetic, or kinks of what
-// acts, allow: a step for all coefficients at once would take their number squared in memory to find that out.
+// acts, allow: with many coefficients, a step for all at once would take their number squared in memory to find that
+// out.
 bool Balance::advance() {
-    if (mean_ && mean_step()) return true;
-    if (mean_ && accelerates_ && accelerated_steps()) return true;
-    if (mean_ && largest(R_) <= small_residual) return false;
+    if (mean_ && mean_steps()) return true;
+    if (mean_ && largest(R_) <= small_residual && x_.size() > many) return false;
     Matrix dx;
     return step(dx) && search(dx);
 }

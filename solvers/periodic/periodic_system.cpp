@@ -57,7 +57,8 @@ void check_states(double time, const SecondOrderSystem& system, Index rows, Inde
         require_size(where.c_str(), name, A, r, c);
         if (!all_finite(A)) throw NumericalError(text(where, ": ", name, " is not finite"));
     };
-    check("f_s", t.f_s, beside, beside);
+    require_count(where.c_str(), "states", static_cast<std::size_t>(t.size()), static_cast<std::size_t>(beside));
+    if (!t.f_s.all_finite()) throw NumericalError(text(where, ": f_s is not finite"));
     check("Q_s", t.Q_s, rows, beside);
     check("f_q", t.f_q, beside, rows);
     check("f_qd", t.f_qd, beside, rows);
@@ -116,7 +117,7 @@ void PeriodicSystem::at(double time, Matrix& E, Matrix& A) const {
     A.block(n, n, n, n) = -own.C;
     if (m == 0) return;
     A.block(n, 2 * n, n, m) = own.states.Q_s;
-    A.bottomRows(m) << own.states.f_q, own.states.f_qd, own.states.f_s;
+    A.bottomRows(m) << own.states.f_q, own.states.f_qd, own.states.f_s.dense();
 }
 
 PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed) {
@@ -147,7 +148,7 @@ void renumber(const Matrix& P, const Matrix& P_beside, StateTerms& t) {
     t.Q_s = (P * t.Q_s * P_beside.transpose()).eval();
     t.f_q = (P_beside * t.f_q * P.transpose()).eval();
     t.f_qd = (P_beside * t.f_qd * P.transpose()).eval();
-    t.f_s = renumbered(P_beside, t.f_s);
+    t.f_s = renumbered(P_beside, t.f_s.dense());
 }
 
 }  // namespace
@@ -178,7 +179,8 @@ SecondOrderSystem mean_over_period(const PeriodicSystem& system, int samples, co
             renumber(back, symmetry.P_beside.transpose(), part);
             mean.states += part;
         }
-        for (Matrix* m : {&mean.states.Q_s, &mean.states.f_q, &mean.states.f_qd, &mean.states.f_s}) *m /= Q;
+        for (Matrix* m : {&mean.states.Q_s, &mean.states.f_q, &mean.states.f_qd}) *m /= Q;
+        mean.states.f_s /= Q;
     }
     for (Matrix* m : {&mean.M, &mean.C, &mean.K, &mean.K_elastic}) {
         Matrix part = *m;
@@ -309,8 +311,10 @@ double asymmetry_of_states(const Coefficients& now, const Coefficients& later, c
         const double largest = a.cwiseAbs().maxCoeff();
         return largest > 0 ? (b - a).cwiseAbs().maxCoeff() / largest : b.cwiseAbs().maxCoeff();
     };
-    return std::max(
-        {part(own.Q_s, next.Q_s), part(own.f_q, next.f_q), part(own.f_qd, next.f_qd), part(own.f_s, next.f_s)});
+    const double size_of_f_s = own.f_s.largest();
+    own.f_s.add(next.f_s, -1);
+    const double of_f_s = size_of_f_s > 0 ? own.f_s.largest() / size_of_f_s : own.f_s.largest();
+    return std::max({part(own.Q_s, next.Q_s), part(own.f_q, next.f_q), part(own.f_qd, next.f_qd), of_f_s});
 }
 
 }  // namespace
@@ -330,7 +334,7 @@ double asymmetry(const PeriodicSystem& system, const BladeSymmetry& symmetry) {
     }
     const double part = system.period() / symmetry.parts, omega = system.frequency();
     double largest = 0;
-    for (double fraction : {0.07, 0.38, 0.81}) {
+    for (double fraction : {0.07, 0.38}) {
         const Coefficients now(system, fraction * part), later(system, (fraction + 1) * part);
         const Vector size = now.size(omega);
         for (std::size_t m = 0; m < now.matrices.size(); ++m) {

@@ -84,7 +84,7 @@ void average(int samples, const At& at, SecondOrderSystem& mean, SecondOrderSyst
         mean.M += scratch.M, mean.C += scratch.C, mean.K += scratch.K, mean.K_elastic += scratch.K_elastic;
         if (mean.states.size() > 0) mean.states += scratch.states;
     }
-    for_each_matrix(mean, [&](Matrix& m) { m /= samples; });
+    for_each_matrix(mean, [&](auto& m) { m /= samples; });
 }
 
 /// Q identical parts that take each other's places after a Q-th of the period: if x(t) is a solution, P x(t + T/Q) is

@@ -66,7 +66,7 @@ inline FirstOrder first_order(const solvers::SecondOrderSystem& z) {
     A.block(n, 2 * n, n, m) = mass.solve(z.states.Q_s);
     A.block(2 * n, 0, m, n) = z.states.f_q;
     A.block(2 * n, n, m, n) = z.states.f_qd;
-    A.block(2 * n, 2 * n, m, m) = z.states.f_s;
+    A.block(2 * n, 2 * n, m, m) = z.states.f_s.dense();
     return {A, n, m};
 }
 

@@ -46,7 +46,8 @@ void declare(CommandLine& app, CampbellArguments& a) {
     add_vibration_options(app, a.air);
     app.add_flag("--floquet", a.air.floquet,
                  "with --wind, Floquet's theory about the periodic state in the place of the mean over the azimuth");
-    app.add_flag("--air-roots", a.air_roots, "with --wind, draw the roots that are mostly states of the air as well");
+    app.add_flag("--air-roots", a.air_roots,
+                 "with --wind, compute all roots that are mostly states of the air, and draw them as well");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 

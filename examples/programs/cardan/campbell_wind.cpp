@@ -68,6 +68,7 @@ int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const 
     };
     modes.spin = rotor_spin(machine);
     modes.floquet.harmonics = a.harmonics;
+    modes.all_state_motions = air_roots;
     if (a.floquet) modes.method = solvers::CampbellMethod::floquet;
     solvers::Campbell diagram = turbines::aeroelastic_campbell(run.operation, run.points, air, modes);
     stop_at_once();

@@ -25,7 +25,7 @@ turbines::AeroelasticOptions air_that_lags(const VibrationArguments& arguments, 
 std::string vibration_in_words(const Air& air, const turbines::AeroelasticOptions& options);
 
 /// @param prefix  of the files
-/// @param air_roots  drawn as well
+/// @param air_roots  all computed, and drawn as well
 /// @return exit code
 int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& air,
                      double max_frequency, const std::string& prefix, bool air_roots, const CommandLine& command);

@@ -172,7 +172,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     };
     while (found.converged && leaves_much() && options.harmonics < most) {
         before = found.state_remainder;
-        options.harmonics = std::min(most, options.harmonics + (options.harmonics + 1) / 2);
+        options.harmonics = std::min(most, 2 * options.harmonics);
         options.start = found.coefficients;
         options.state_start = found.state_coefficients;
         const std::array same_speed{rotor_speed};
@@ -225,7 +225,10 @@ void PeriodicPointSolver::set_symmetry(const PeriodicSystem& periodic) {
     difference_ = asymmetry(periodic, symmetry_);
     structure_differs_ =
         difference_ > small_difference && structure_differs(system_, rotor_, standstill_, symmetry_, small_difference);
-    if (!(difference_ < 1e-8)) symmetry_ = {};
+    // Blades that move alike differ by kinks only, which the mean of all parts of the turn tells no better than one's.
+    const bool alike = difference_ < 1e-8 || (options_.method == CampbellMethod::averaged && !structure_differs_ &&
+                                              blades_move_alike(rotor_, *state_, system_.forces.states()));
+    if (!alike) symmetry_ = {};
 }
 
 // A mode localised in one blade has no frequency in the fixed frame: the average invents one.
@@ -371,7 +374,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
 }
 
 void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
-    for (Mode& mode : modes(mean_, standstill_.mode_range().largest(options_, state_->rotor_speed))) {
+    for (Mode& mode : modes(mean_, standstill_.mode_range().largest(options_, state_->rotor_speed, mean_))) {
         if (mode.is_state_motion()) {
             point.state_motions.push_back(state_motion(std::move(mode), mean_.states.scales));
             continue;

@@ -75,31 +75,26 @@ namespace {
 // vector.
 class SlowTerms {
 public:
-    explicit SlowTerms(const SecondOrderSystem& system) : system_(system), f_s_(system.states.size()) {
-        if (system.states.size() == 0) return;
-        f_s_.matrix() = system.states.f_s;
-        f_s_.factorise();
-    }
+    explicit SlowTerms(const SecondOrderSystem& system) : system_(system) {}
     struct Terms {
         Vector first, second;
     };
-    Terms times(const Vector& x) {
+    Terms times(const Vector& x) const {
         const StateTerms& t = system_.states;
         Terms out{system_.C * x, system_.M * x};
         if (t.size() == 0) return out;
-        Vector follow = t.f_q * x;
-        f_s_.solve(follow);
+        Matrix follow = t.f_q * x;
+        t.f_s.solve(follow);
         follow += t.f_qd * x;
-        f_s_.solve(follow);
+        t.f_s.solve(follow);
         out.first += t.Q_s * follow;
-        f_s_.solve(follow);
+        t.f_s.solve(follow);
         out.second += t.Q_s * follow;
         return out;
     }
 
 private:
     const SecondOrderSystem& system_;
-    LuFactors f_s_;
 };
 
 // K z = b, b without a part along y, z with none either: y^T W z = 0.
@@ -123,7 +118,7 @@ bool grows_below_zero(const SecondOrderSystem& system, const StaticRoots& roots,
     const Matrix W = weights_of(system, roots.sigma);
     const Vector Wx = W * x, yW = W.transpose() * y;
     const double size = y.dot(Wx);
-    SlowTerms slow(system);
+    const SlowTerms slow(system);
     const SlowTerms::Terms own = slow.times(x);
     const double c = y.dot(own.first);
     Vector z = Vector::Zero(x.size());

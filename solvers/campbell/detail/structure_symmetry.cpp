@@ -2,7 +2,9 @@
 
 #include "solvers/equilibrium/detail/closed_start.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace cardan::solvers {
 
@@ -29,6 +31,32 @@ bool structure_differs(const System& system, const RotorMap& rotor, const PointS
         if ((unit.asDiagonal() * change * unit.asDiagonal()).cwiseAbs().maxCoeff() > limit) return true;
     }
     return false;
+}
+
+bool blades_move_alike(const RotorMap& rotor, const PeriodicSteadyState& state, const StateTable& states) {
+    constexpr double rounding = 1e-7;
+    const std::size_t blades = rotor.blades.size();
+    const double part = 2 * pi / static_cast<double>(blades);
+    const std::vector<std::vector<int>> of_blades = states_of_blades(rotor, states);
+    for (const double psi : {0.3, 1.4, 2.9, 5.2}) {
+        const OperatingPoint now = state.at(psi), before = state.at(psi + part);
+        double size = 0, change = 0, size_s = 0, change_s = 0;
+        for (std::size_t k = 0; k < blades; ++k) {
+            const std::size_t next = (k + 1) % blades;
+            for (std::size_t i = 0; i < rotor.blades[k].size(); ++i) {
+                const double own = now.q(rotor.blades[next][i]);
+                size = std::max(size, std::abs(own));
+                change = std::max(change, std::abs(own - before.q(rotor.blades[k][i])));
+            }
+            for (const std::vector<int>& one : of_blades) {
+                const double own = now.s(one[next]), scale = states[one[next]].scale;
+                size_s = std::max(size_s, std::abs(own) / scale);
+                change_s = std::max(change_s, std::abs(own - before.s(one[k])) / scale);
+            }
+        }
+        if (!(change <= rounding * size && change_s <= rounding * size_s)) return false;
+    }
+    return true;
 }
 
 }  // namespace cardan::solvers

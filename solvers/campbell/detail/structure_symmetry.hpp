@@ -14,4 +14,8 @@ namespace cardan::solvers {
 bool structure_differs(const System& system, const RotorMap& rotor, const PointSolver& rows,
                        const BladeSymmetry& symmetry, double limit);
 
+/// Whether blades and their states do at every azimuth what the next ones did a part of a turn before, up to 1e-7 of
+/// the largest.
+bool blades_move_alike(const RotorMap& rotor, const PeriodicSteadyState& state, const StateTable& states);
+
 }  // namespace cardan::solvers

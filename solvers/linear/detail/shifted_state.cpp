@@ -28,10 +28,9 @@ void check_states(const StateTerms& t, Eigen::Index n, Eigen::Index m) {
     require_size("modes", "Q_s", t.Q_s, n, m);
     require_size("modes", "f_q", t.f_q, m, n);
     require_size("modes", "f_qd", t.f_qd, m, n);
-    require_size("modes", "f_s", t.f_s, m, m);
     require_size("modes", "scales of states", t.scales, m);
-    for (const Matrix* A : {&t.Q_s, &t.f_q, &t.f_qd, &t.f_s})
-        if (!all_finite(*A)) throw NumericalError("modes: a matrix of the states is not finite");
+    if (!all_finite(t.Q_s) || !all_finite(t.f_q) || !all_finite(t.f_qd) || !t.f_s.all_finite())
+        throw NumericalError("modes: a matrix of the states is not finite");
     for (const double scale : t.scales) require_positive("modes", "scale of a state", scale);
 }
 

@@ -14,9 +14,9 @@ using Index = Eigen::Index;
 
 // What is smaller than this beside the largest waits for the next step.
 constexpr double small_share = 1e-3;
-// Below, a matrix counts as singular; what that means is left to Newton's method, unless it is that nothing holds a
-// mean.
-constexpr double least_rcond = 1e-12, nothing_holds = 1e-14;
+// Of pivots; below, a matrix counts as singular; what that means is left to Newton's method, unless it is that nothing
+// holds a mean.
+constexpr double least_ratio = 1e-13, nothing_holds = 1e-12;
 
 // T turns its columns by so many harmonics.
 int highest_harmonic(const ColemanTransform& transform) {
@@ -26,10 +26,13 @@ int highest_harmonic(const ColemanTransform& transform) {
     return static_cast<int>(std::lround(highest));
 }
 
-// Multi-blade matrices of alike blades hold harmonics that are multiples of the number of blades; the mean over so many
-// azimuths is exact up to the third of them.
-int azimuths_of_mean(const ColemanTransform& transform) {
-    return 4 * (2 * highest_harmonic(transform) + 1);
+// Multi-blade matrices of alike blades hold harmonics that are multiples of the number of blades: the mean over four
+// azimuths in one part of the turn is exact up to the third of them. Each is one part further on than the one before,
+// so that blades that differ all have their share.
+constexpr int azimuths_of_mean = 4;
+
+double azimuth_of_mean(int s, int parts) {
+    return 2 * pi * s * (1.0 / azimuths_of_mean + 1) / parts;
 }
 
 }  // namespace
@@ -37,17 +40,18 @@ int azimuths_of_mean(const ColemanTransform& transform) {
 std::optional<MeanJacobian> MeanJacobian::make(const RotorMap& rotor, const RotorEquations& equations, int harmonics) {
     if (equations.size() == 0 || rotor.blades.size() == 2) return {};
     if (!ColemanTransform::exists(rotor, equations.unknowns())) return {};
-    return MeanJacobian(ColemanTransform(rotor, equations.unknowns(), equations.states()), equations.rotor_speed(),
-                        harmonics);
+    return MeanJacobian(ColemanTransform(rotor, equations.unknowns(), equations.states()),
+                        std::max(1, static_cast<int>(rotor.blades.size())), equations.rotor_speed(), harmonics);
 }
 
-MeanJacobian::MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics)
+MeanJacobian::MeanJacobian(const ColemanTransform& transform, int parts, double rotor_speed, int harmonics)
     : transform_(transform),
+      parts_(parts),
       rotor_speed_(rotor_speed),
       harmonics_(harmonics),
       z_harmonics_(harmonics + highest_harmonic(transform)),
-      pairs_(transform.turning_pairs()),
-      at_zero_(transform.matrix(0)) {
+      pairs_(transform.turning_pairs()) {
+    add_at_zero(transform.matrix(0), 0);
     append_states();
     // A product of two series, one of x and one of z, is projected without error.
     const int count = 2 * z_harmonics_ + 1;
@@ -62,15 +66,21 @@ MeanJacobian::MeanJacobian(const ColemanTransform& transform, double rotor_speed
 
 // Rows of states come behind those of the coordinates.
 void MeanJacobian::append_states() {
-    const Index n = at_zero_.rows(), m = std::ssize(transform_.state_rows());
+    const Index n = std::ssize(transform_.rows()), m = std::ssize(transform_.state_rows());
     if (m == 0) return;
-    at_zero_.conservativeResizeLike(Matrix::Zero(n + m, n + m));
-    at_zero_.bottomRightCorner(m, m) = transform_.state_matrix(0);
+    add_at_zero(transform_.state_matrix(0), n);
     for (ColemanTransform::TurningPair pair : transform_.state_turning_pairs()) {
         pair.a += static_cast<int>(n);
         pair.b += static_cast<int>(n);
         pairs_.push_back(pair);
     }
+}
+
+// A block on the diagonal of T(0).
+void MeanJacobian::add_at_zero(const Matrix& block, Index first) {
+    for (Index j = 0; j < block.cols(); ++j)
+        for (Index i = 0; i < block.rows(); ++i)
+            if (block(i, j) != 0) at_zero_.push_back({first + i, first + j, block(i, j)});
 }
 
 bool MeanJacobian::hold(Index row) {
@@ -84,19 +94,22 @@ bool MeanJacobian::hold(Index row) {
 }
 
 void MeanJacobian::set(RotorEquations& equations, const Matrix& x) {
-    const int count = azimuths_of_mean(transform_);
     const auto set_at = [&](int s, SecondOrderSystem& out) {
-        const double psi = 2 * pi * s / count;
+        const double psi = azimuth_of_mean(s, parts_);
         equations.set_on(x, psi);
         equations.linearise(out);
         transform_.transform_in_place(out, psi, rotor_speed_);
     };
     set_at(0, mean_);
-    average(count, set_at, mean_, at_);
-    const Index n = mean_.K.rows();
-    solvers::append_states(mean_);
-    groups_ = coupled_groups(mean_.K, n);
+    average(azimuths_of_mean, set_at, mean_, at_);
     factors_.clear();
+    const Vector unit = scale(1).cwiseSqrt().cwiseInverse();
+    const Index n = mean_.M.rows();
+    Vector units = Vector::Ones(x.rows());  // states are in units of their scales
+    units.head(n) = unit.head(n);
+    moving_ = std::make_unique<FirstOrderWithStates>(mean_, units);
+    held_mean_ = std::make_unique<FirstOrderWithStates>(*moving_);
+    for (const Index row : held_) held_mean_->hold(row);
 }
 
 // T(psi) is T(0) with the columns of every turning pair rotated; the same pairs of rows of z, forth or back.
@@ -111,7 +124,9 @@ void MeanJacobian::turn(Matrix& values, double sense) const {
 }
 
 Matrix MeanJacobian::to_multi_blade(const Matrix& R) const {
-    Matrix values = at_zero_.transpose() * R * basis_;
+    Matrix turned = Matrix::Zero(R.rows(), R.cols());
+    for (const Entry& own : at_zero_) turned.row(own.column) += own.value * R.row(own.row);
+    Matrix values = turned * basis_;
     turn(values, 1);
     return fourier_coefficients(values, z_harmonics_);
 }
@@ -119,52 +134,47 @@ Matrix MeanJacobian::to_multi_blade(const Matrix& R) const {
 Matrix MeanJacobian::from_multi_blade(const Matrix& z) const {
     Matrix values = z * z_basis_;
     turn(values, -1);
-    return fourier_coefficients(at_zero_ * values, harmonics_);
+    Matrix turned = Matrix::Zero(values.rows(), values.cols());
+    for (const Entry& own : at_zero_) turned.row(own.row) += own.value * values.row(own.column);
+    return fourier_coefficients(turned, harmonics_);
 }
 
 // The larger of stiffness and inertia; of a state, of 1 / its time constant and the frequency.
 Vector MeanJacobian::scale(int harmonic) const {
     const double omega = std::max(1, harmonic) * rotor_speed_;
-    const Index m = std::ssize(transform_.state_rows()), n = mean_.K.rows() - m;
-    Vector scale = mean_.K.diagonal().cwiseAbs().cwiseMax(omega * omega * mean_.M.diagonal());
+    const Index m = mean_.states.size(), n = mean_.K.rows();
+    Vector scale(n + m);
+    scale.head(n) = mean_.K.diagonal().cwiseAbs().cwiseMax(omega * omega * mean_.M.diagonal());
     if (n > 0) scale.head(n) = scale.head(n).cwiseMax(1e-12 * scale.head(n).maxCoeff());
-    scale.tail(m) = scale.tail(m).cwiseMax(std::abs(omega));
+    if (m > 0) scale.tail(m) = mean_.states.f_s.diagonal().cwiseAbs().cwiseMax(std::abs(omega));
     return scale;
 }
 
-const HarmonicFactors* MeanJacobian::factors(int harmonic) {
-    if (const auto known = factors_.find(harmonic); known != factors_.end()) return &known->second;
-    const double omega = harmonic * rotor_speed_;
-    const Vector unit = scale(harmonic).cwiseSqrt().cwiseInverse();
-    Matrix A = unit.asDiagonal() * (mean_.K - omega * omega * mean_.M) * unit.asDiagonal(), B;
-    if (harmonic == 0) {
-        for (Index row : held_) {
-            A.row(row).setZero();
-            A.col(row).setZero();
-            A(row, row) = 1;
-        }
-    } else {
-        B = omega * (unit.asDiagonal() * mean_.C * unit.asDiagonal());
+const ShiftedStates* MeanJacobian::factors(int harmonic) {
+    auto known = factors_.find(harmonic);
+    if (known == factors_.end()) {
+        known = factors_.try_emplace(harmonic, harmonic == 0 ? *held_mean_ : *moving_).first;
+        known->second.set(Complex(0, harmonic * rotor_speed_));
     }
-    if (!A.allFinite() || !B.allFinite()) return nullptr;
-    const HarmonicFactors& found = factors_.try_emplace(harmonic, A, B, groups_).first->second;
-    if (found.rcond() > least_rcond) return &found;
-    if (harmonic > 0 || found.rcond() > nothing_holds || !hold_open(A)) return nullptr;
-    factors_.erase(0);
+    if (known->second.pivot_ratio() > least_ratio) return &known->second;
+    if (harmonic > 0 || !hold_open(known->second.real_part())) return nullptr;
+    factors_.erase(known);
     return factors(0);
 }
 
 // What moves most in a mean motion that meets no stiffness. False if there is none, or a blade does.
-bool MeanJacobian::hold_open(const Matrix& A) {
+bool MeanJacobian::hold_open(const Matrix& stiffness) {
+    if (!stiffness.allFinite()) return false;
     Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
-    qr.setThreshold(least_rcond);
-    qr.compute(A);
-    if (qr.rank() == A.rows()) return false;
+    qr.setThreshold(nothing_holds);
+    qr.compute(stiffness);
+    if (qr.rank() == stiffness.rows()) return false;
     const Matrix motion = qr.colsPermutation() * qr.matrixZ().transpose().rightCols(1);
     Index row = 0;
     motion.col(0).cwiseAbs().maxCoeff(&row);
     if (!hold(row)) return false;
     open_.push_back(row);
+    held_mean_->hold(row);
     return true;
 }
 
@@ -182,12 +192,16 @@ bool MeanJacobian::step(const Matrix& R, double negligible, Matrix& dx, bool all
             own.setZero();
             continue;
         }
-        const HarmonicFactors* const lu = factors(j);
+        const ShiftedStates* const lu = factors(j);
         if (!lu) return false;
-        const Vector unit = scale(j).cwiseSqrt().cwiseInverse();
-        Matrix z = unit.asDiagonal() * own;
-        lu->solve(z);
-        own = -(unit.asDiagonal() * z);
+        // Coefficients c and s of cosine and sine are those of c - i s.
+        ComplexVector z = own.col(0).cast<Complex>();
+        if (j > 0) z.imag() = -own.col(1);
+        z = moving_->forces(z);
+        lu->respond(z);
+        z = moving_->motion(z);
+        own.col(0) = -z.real();
+        if (j > 0) own.col(1) = z.imag();
     }
     dx = from_multi_blade(r);
     return dx.allFinite();

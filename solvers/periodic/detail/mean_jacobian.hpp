@@ -3,10 +3,11 @@
 #pragma once
 
 #include "solvers/linear/coleman.hpp"
-#include "solvers/periodic/detail/harmonic_factors.hpp"
+#include "solvers/linear/detail/shifted_states.hpp"
 #include "solvers/periodic/detail/rotor_equations.hpp"
 
 #include <map>
+#include <memory>
 #include <optional>
 
 namespace cardan::solvers {
@@ -14,7 +15,7 @@ namespace cardan::solvers {
 /// Newton's step for harmonic balance with M, C and K replaced by their means over the revolution in multi-blade
 /// coordinates z. Where three or more blades are alike, these matrices hardly depend on the azimuth, so the step is
 /// nearly the exact one, and the linear system of n (2 harmonics + 1) rows falls apart into one of n complex rows per
-/// harmonic (states are further rows, see append_states(), and are eliminated by HarmonicFactors):
+/// harmonic, which the states, further rows behind those of the coordinates, are eliminated from (ShiftedStates):
 ///
 ///     (K - (j Omega)^2 M + i j Omega C) dz_j = -(T^T r)_j,    dx = T dz.
 class MeanJacobian {
@@ -38,26 +39,32 @@ public:
     const std::vector<Eigen::Index>& open() const { return open_; }
 
 private:
-    MeanJacobian(const ColemanTransform& transform, double rotor_speed, int harmonics);
+    MeanJacobian(const ColemanTransform& transform, int parts, double rotor_speed, int harmonics);
+    struct Entry {
+        Eigen::Index row, column;
+        double value;
+    };
     void append_states();
+    void add_at_zero(const Matrix& block, Eigen::Index first);
     void turn(Matrix& values, double sense) const;
     Matrix to_multi_blade(const Matrix& R) const;
     Matrix from_multi_blade(const Matrix& z) const;
     Vector scale(int harmonic) const;
-    const HarmonicFactors* factors(int harmonic);
-    bool hold_open(const Matrix& A);
+    const ShiftedStates* factors(int harmonic);
+    bool hold_open(const Matrix& stiffness);
 
     ColemanTransform transform_;
+    int parts_;  ///< blades, which take one another's places; 1: none
     double rotor_speed_;
     int harmonics_, z_harmonics_;  ///< multi-blade coordinates have more
     std::vector<ColemanTransform::TurningPair> pairs_;
-    Matrix at_zero_;  ///< T(0)
+    std::vector<Entry> at_zero_;  ///< T(0), which is sparse
     std::vector<double> azimuths_;
     Matrix basis_, z_basis_;                 ///< at the azimuths, by column
     std::vector<Eigen::Index> held_, open_;  ///< open ones are held, too
     SecondOrderSystem mean_, at_;
-    std::vector<std::vector<Eigen::Index>> groups_;  ///< of states
-    std::map<int, HarmonicFactors> factors_;         ///< by harmonic
+    std::unique_ptr<FirstOrderWithStates> moving_, held_mean_;  ///< the mean system; as the harmonic 0 has it
+    std::map<int, ShiftedStates> factors_;                      ///< by harmonic
 };
 
 }  // namespace cardan::solvers

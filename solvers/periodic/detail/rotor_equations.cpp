@@ -231,7 +231,7 @@ void RotorEquations::finish(const Matrix& own, PeriodicSteadyState& result) cons
 }
 
 Vector RotorEquations::scale(const Matrix& own) {
-    const int azimuths = 8;
+    const int azimuths = 4;
     Vector stiffness = Vector::Zero(size()), inertia = Vector::Zero(size());
     SecondOrderSystem system;
     for (int s = 0; s < azimuths; ++s) {

@@ -74,3 +74,25 @@ TEST_CASE("dense kernels: complex rotations of columns and rows are Eigen's", "[
         CHECK((own - other).norm() < 1e-15 * A.norm());
     }
 }
+TEST_CASE("dense kernels: the transposed equations are solved with the same factors", "[property]") {
+    for (const Eigen::Index n : {1, 7, 60, 190}) {
+        Matrix A = Matrix::Random(n, n);
+        A(0, 0) = 0.1;
+        LuFactors factors(n);
+        factors.matrix() = A;
+        factors.factorise();
+        const Matrix b = Matrix::Random(n, 2);
+        Matrix x = b;
+        factors.solve_transposed(x);
+        Vector y = b.col(0);
+        factors.solve_transposed(y);
+        CHECK((A.transpose() * x - b).norm() < 1e-10);
+        CHECK((x.col(0) - y).norm() == 0);
+        CHECK(factors.pivot_ratio() > 0);
+        CHECK(factors.pivot_ratio() <= 1);
+    }
+    LuFactors singular(2);
+    singular.matrix() << 1, 2, 2, 4;
+    singular.factorise();
+    CHECK(singular.pivot_ratio() < 1e-15);
+}

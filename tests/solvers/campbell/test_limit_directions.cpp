@@ -193,7 +193,7 @@ TEST_CASE("campbell: a rotor that loses speed is told through states that lag", 
     system.K = system.K_elastic = Vector(Eigen::Vector2d(0, k)).asDiagonal();
     StateTerms& t = system.states;
     t.scales = Vector::Ones(lags);
-    t.f_s = -0.3 * Matrix::Identity(lags, lags);
+    t.f_s = Matrix(-0.3 * Matrix::Identity(lags, lags));
     t.f_q = Matrix::Zero(lags, 2);
     t.f_qd = Matrix::Zero(lags, 2);
     t.Q_s = Matrix::Zero(2, lags);

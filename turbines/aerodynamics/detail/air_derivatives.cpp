@@ -262,27 +262,29 @@ private:
         find_mean_wind();
         find_wake();
         find_forces_of_wake();
-        for (Eigen::Index c = 0; c < memory_.of_wake.cols(); ++c) {
-            by_q_.noalias() += memory_.of_wake.col(c) * memory_.wake_q.col(c).transpose();
-            by_qd_.noalias() += memory_.of_wake.col(c) * memory_.wake_qd.col(c).transpose();
+        // Few coordinates change the wake: without a wind that differs from place to place, those of tower and nacelle.
+        for (const int a : parts_.bodies)
+            for (const auto& [wake, force] : {std::pair(&memory_.wake_q, &by_q_), {&memory_.wake_qd, &by_qd_}}) {
+                if (wake->row(a).isZero(0)) continue;
+                force->col(a).noalias() += memory_.of_wake.lazyProduct(wake->row(a).transpose());
+            }
+        if (states_ == nullptr) return;
+        for (const int a : parts_.bodies) {
+            if (!memory_.wake_q.row(a).isZero(0)) add_wake_to_rates(memory_.wake_q, a, states_->f_q);
+            if (!memory_.wake_qd.row(a).isZero(0)) add_wake_to_rates(memory_.wake_qd, a, states_->f_qd);
         }
-        if (states_ != nullptr) add_wake_to_rates();
     }
 
-    void add_wake_to_rates() {
+    void add_wake_to_rates(const Matrix& wake, int a, MatrixOut& rates) const {
         for (std::size_t k = 0; k < parts_.blades.size(); ++k)
             for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
                 const std::size_t all = index(k, i);
                 const int m = parts_.lags->sections[all].states(), first = parts_.lags->first[all];
                 const double lever = air_.sections(k)[i].annulus.radius / parts_.radius;
-                const auto& by = memory_.lagging[all].by;
-                for (int r = 0; r < m; ++r)
-                    for (const auto& [slope, column] : {std::pair(by(3 + r, Slopes::wake_angle), Eigen::Index{0}),
-                                                        {lever * by(3 + r, Slopes::wake_lever), sine_column(k)},
-                                                        {by(3 + r, Slopes::wake_share), share_column()}}) {
-                        states_->f_q.row(first + r) += slope * memory_.wake_q.col(column).transpose();
-                        states_->f_qd.row(first + r) += slope * memory_.wake_qd.col(column).transpose();
-                    }
+                const auto by = memory_.lagging[all].by.block(3, 0, m, Slopes::first_state);
+                rates.col(a).segment(first, m) += wake(a, 0) * by.col(Slopes::wake_angle) +
+                                                  lever * wake(a, sine_column(k)) * by.col(Slopes::wake_lever) +
+                                                  wake(a, share_column()) * by.col(Slopes::wake_share);
             }
     }
 
