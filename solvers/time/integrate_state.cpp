@@ -63,10 +63,12 @@ IntegrationOptions options_from(const System& system, const Checkpoint& from, In
 
 }  // namespace
 
+// Braces take their arguments in this order: the options are moved after the controllers are read.
 Integrator::Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                        IntegrationOptions options)
-    : Integrator(system, drives_from(system, std::move(drives), from, options.controllers), from.time, from.q, from.qd,
-                 options_from(system, from, std::move(options))) {
+    : Integrator{system,    drives_from(system, std::move(drives), from, options.controllers),
+                 from.time, from.q,
+                 from.qd,   options_from(system, from, std::move(options))} {
     go_on_from(from);
 }
 
