@@ -18,8 +18,9 @@ using Index = Eigen::Index;
 constexpr const char* in_harmonic_balance = "harmonic balance";
 // What counts as converged if no step reduces the residual, which may be rounding.
 constexpr double small_residual = 1e-8;
-// Of coefficients, for which a step at once takes 30 MB.
+// Of coefficients, for which a step at once takes 30 MB; with more, kinks may leave ten times as much.
 constexpr Index many = 2000;
+constexpr double small_of_many = 1e-7;
 // Steps with the mean Jacobian: where the residual falls to less than this, single ones do; where it does not fall to
 // less than the other, the step is no use.
 constexpr double good_reduction = 0.1, least_reduction = 0.5;
@@ -359,7 +360,7 @@ bool Balance::mean_steps() {
 // out.
 bool Balance::advance() {
     if (mean_ && mean_steps()) return true;
-    if (mean_ && largest(R_) <= small_residual && x_.size() > many) return false;
+    if (mean_ && x_.size() > many && largest(R_) <= small_of_many) return false;
     Matrix dx;
     return step(dx) && search(dx);
 }
@@ -374,7 +375,9 @@ PeriodicSteadyState Balance::solve() {
         ++result.iterations;
     }
     // If no step reduces it, a small residual is as good as the arithmetic allows.
-    finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : small_residual));
+    finish(result, largest(R_) <= std::max(options_.tolerance, finite             ? 0
+                                                               : x_.size() > many ? small_of_many
+                                                                                  : small_residual));
     return result;
 }
 
