@@ -29,6 +29,14 @@ std::vector<std::vector<Index>> groups_of(DisjointSets& sets, Index count) {
     return groups;
 }
 
+std::vector<std::vector<Index>> coupled_groups(const Matrix& A) {
+    DisjointSets sets(A.rows());
+    for (Index j = 0; j < A.cols(); ++j)
+        for (Index i = 0; i < A.rows(); ++i)
+            if (A(i, j) != 0) sets.join(i, j);
+    return groups_of(sets, A.rows());
+}
+
 // Calls `f` with row, column and entry of every place of a block.
 template <class Group, class F>
 void for_each_entry(Group& group, const F& f) {
@@ -37,14 +45,6 @@ void for_each_entry(Group& group, const F& f) {
 }
 
 }  // namespace
-
-std::vector<std::vector<Index>> coupled_groups(const Matrix& A) {
-    DisjointSets sets(A.rows());
-    for (Index j = 0; j < A.cols(); ++j)
-        for (Index i = 0; i < A.rows(); ++i)
-            if (A(i, j) != 0) sets.join(i, j);
-    return groups_of(sets, A.rows());
-}
 
 void GroupedMatrix::set_groups(std::vector<std::vector<Index>> groups) {
     std::size_t count = 0;

@@ -8,12 +8,8 @@
 
 namespace cardan::solvers {
 
-/// Rows that couple with one another, directly or through others: all of them, each in one group.
-/// @param A  square
-std::vector<std::vector<Eigen::Index>> coupled_groups(const Matrix& A);
-
-/// A square matrix kept as one dense block for every group of rows that couple; it is zero elsewhere. Local states,
-/// such as those of the air on a section, make many small groups.
+/// A square matrix kept as one dense block for every group of rows that couple with one another, directly or through
+/// others; it is zero elsewhere. Local states, such as those of the air on a section, make many small groups.
 class GroupedMatrix {
 public:
     struct Group {
@@ -22,7 +18,7 @@ public:
     };
 
     GroupedMatrix() = default;
-    /// With coupled_groups() of A. Implicit: a dense matrix is one of these.
+    /// With the groups of A. Implicit: a dense matrix is one of these.
     GroupedMatrix(const Matrix& A) { set(A); }  // NOLINT(google-explicit-constructor)
 
     Eigen::Index rows() const { return static_cast<Eigen::Index>(places_.size()); }

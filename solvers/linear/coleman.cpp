@@ -191,6 +191,18 @@ CARDAN_VECTORISED void combine(const double* x, double* out, Index blades, const
     }
 }
 
+// The same for one entry of each blade, in place.
+template <class Entry>
+void combine_one(const Matrix& T, const Entry& of_blade) {
+    std::array<double, ColemanTransform::max_blades> x{};
+    for (Index k = 0; k < T.rows(); ++k) entry(x, k) = of_blade(k);
+    for (Index j = 0; j < T.cols(); ++j) {
+        double sum = 0;
+        for (Index k = 0; k < T.rows(); ++k) sum += entry(x, k) * T(k, j);
+        of_blade(j) = sum;
+    }
+}
+
 // Cosine and sine of factor * psi; those of neighbouring pairs are mostly the same.
 class Turn {
 public:
@@ -233,19 +245,11 @@ void ColemanTransform::transform_columns(const Part& part, double psi, Matrix& A
 
 // T^T A: every column alike.
 void ColemanTransform::transform_rows(const Part& part, double psi, Matrix& A) const {
-    std::array<double, max_blades> x{};
     Turn turn(psi);
     for (Index column = 0; column < A.cols(); ++column) {
         double* const own = A.data() + column * A.rows();
-        for (const std::vector<int>& rows : part.at) {
-            for (Index k = 0; k < blades_; ++k) entry(x, k) = own[entry(rows, k)];
-            for (Index j = 0; j < blades_; ++j) {
-                const double* const T = blade_block_.data() + j * blades_;
-                double sum = 0;
-                for (Index k = 0; k < blades_; ++k) sum += entry(x, k) * T[k];
-                own[entry(rows, j)] = sum;
-            }
-        }
+        for (const std::vector<int>& rows : part.at)
+            combine_one(blade_block_, [&](Index k) -> double& { return own[entry(rows, k)]; });
         if (psi == 0) continue;
         for (const TurningPair& pair : part.pairs) {
             turn.set(pair.factor);
@@ -257,20 +261,13 @@ void ColemanTransform::transform_rows(const Part& part, double psi, Matrix& A) c
 // T_s^T A T_s, where every group of A has all blades' states of a kind or none.
 void ColemanTransform::transform_groups(double psi, GroupedMatrix& A) const {
     std::array<Index, max_blades> at{};
-    std::array<double, max_blades> x{};
-    const auto combined = [&](const auto& value) {  // of the blades: x T(0)
-        for (Index k = 0; k < blades_; ++k) entry(x, k) = value(entry(at, k));
-        for (Index j = 0; j < blades_; ++j) {
-            double sum = 0;
-            for (Index k = 0; k < blades_; ++k) sum += entry(x, k) * blade_block_(k, j);
-            value(entry(at, j)) = sum;
-        }
-    };
     for (const std::vector<int>& rows : states_.at) {
         Matrix& block = A.block(A.group_of(rows[0]));
         for (Index k = 0; k < blades_; ++k) entry(at, k) = A.place_in_group(entry(rows, k));
-        for (Index i = 0; i < block.rows(); ++i) combined([&](Index place) -> double& { return block(i, place); });
-        for (Index j = 0; j < block.cols(); ++j) combined([&](Index place) -> double& { return block(place, j); });
+        for (Index i = 0; i < block.rows(); ++i)
+            combine_one(blade_block_, [&](Index k) -> double& { return block(i, entry(at, k)); });
+        for (Index j = 0; j < block.cols(); ++j)
+            combine_one(blade_block_, [&](Index k) -> double& { return block(entry(at, k), j); });
     }
     if (psi == 0) return;
     Turn turn(psi);

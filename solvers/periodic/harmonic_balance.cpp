@@ -41,6 +41,7 @@ private:
     bool half_holds();
     double largest(const Matrix& R) const;
     double norm(const Matrix& R) const;
+    double small() const { return x_.size() > many ? small_of_many : small_residual; }
     bool step(Matrix& dx);
     bool solve(Matrix& J, Vector& right, const Vector& unit, const std::vector<Index>& held);
     Vector shortest_solution(const Matrix& J, const Vector& right);
@@ -63,7 +64,7 @@ private:
     std::vector<Index> held_;
     std::optional<MeanJacobian> mean_;  // none: Newton's steps only
     std::optional<HalfTurn> half_;      // of two alike blades, as long as the residual has no other harmonics
-    bool stale_ = true;                 // it has to be set
+    bool stale_ = true;                 // it has never been set
     bool slow_ = false;                 // its single steps are of little use
     Vector scale_, unit_;               // of residuals, per unknown; of entries for the linear system
     Matrix x_, R_;
@@ -340,19 +341,16 @@ bool Balance::accelerated_steps() {
     return best < least_reduction * start;
 }
 
-// Single steps as long as they are good, then accelerated ones; with a Jacobian of another state first, which costs as
-// much as many steps.
+// Single steps as long as they are good, then accelerated ones; after these, the same with the Jacobian of this state,
+// which costs as much as many steps. Of a small residual kinks keep a single step from being of use, too.
 bool Balance::mean_steps() {
     const bool fresh = stale_;
     if (stale_) set_mean();
     if (!slow_ && mean_step()) return true;
     if (mean_ && accelerated_steps()) return true;
     if (!mean_ || fresh) return false;
-    slow_ = false;
-    stale_ = true;
-    if (largest(R_) > small_residual) return mean_steps();
-    set_mean();  // kinks keep a single step from being of use, too
-    return mean_step();
+    set_mean();
+    return mean_step() || (mean_ && largest(R_) > small_residual && accelerated_steps());
 }
 
 // False if nothing makes the residual smaller. What is small already is as good as the arithmetic, or kinks of what
@@ -360,7 +358,7 @@ bool Balance::mean_steps() {
 // out.
 bool Balance::advance() {
     if (mean_ && mean_steps()) return true;
-    if (mean_ && x_.size() > many && largest(R_) <= small_of_many) return false;
+    if (mean_ && x_.size() > many && largest(R_) <= small()) return false;
     Matrix dx;
     return step(dx) && search(dx);
 }
@@ -375,9 +373,7 @@ PeriodicSteadyState Balance::solve() {
         ++result.iterations;
     }
     // If no step reduces it, a small residual is as good as the arithmetic allows.
-    finish(result, largest(R_) <= std::max(options_.tolerance, finite             ? 0
-                                                               : x_.size() > many ? small_of_many
-                                                                                  : small_residual));
+    finish(result, largest(R_) <= std::max(options_.tolerance, finite ? 0 : small()));
     return result;
 }
 
