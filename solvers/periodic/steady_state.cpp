@@ -1,6 +1,7 @@
 #include "solvers/periodic/steady_state.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/algebra/azimuth_series.hpp"
 
 #include <algorithm>
@@ -40,6 +41,13 @@ double PeriodicSteadyState::last_harmonics() const {
     double last = 0;
     for (int j = std::max(1, harmonics() - 1); j <= harmonics(); ++j) last = std::max(last, amplitude(j));
     return last / largest;
+}
+
+std::string PeriodicSteadyState::neglected_in_words() const {
+    if (!needs_more_harmonics) return {};
+    return text("at ", rotor_speed * units::to_rpm, " rpm ", harmonics(),
+                " harmonics leave a residual over stiffness of ", remainder, " and of states over their scales of ",
+                state_remainder, " in the periodic steady state: take more");
 }
 
 std::vector<PeriodicSteadyState> periodic_sweep(const System& system, int spin, std::span<const double> rotor_speed,

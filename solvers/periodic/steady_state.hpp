@@ -14,6 +14,9 @@ namespace cardan::solvers {
 struct PeriodicOptions {
     double rotor_speed = 0;  ///< rate of the spin coordinate, rad/s; not zero
     int harmonics = 8;       ///< number of harmonics of the revolution that are kept
+    /// Harmonic balance: their number is doubled, up to four times as many, as long as
+    /// PeriodicSteadyState::needs_more_harmonics.
+    bool more_harmonics = false;
     /// Starting point, as PeriodicSteadyState::coefficients (with any number of harmonics; one column: constant);
     /// empty: zero. Rows of driven coordinates are their prescribed motion (constant pitch, cyclic pitch).
     Matrix start = {};
@@ -60,7 +63,10 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     std::vector<HeldMean> held;
     std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
     double state_remainder = 0;  ///< likewise of the states, over their scales
-    Matrix multipliers = {};     ///< of the loops, Loops::equations(); a row each, as `coefficients`
+    /// Harmonic balance: the remainder is more than 1e-5, or that of the states, or 2e-3 where half as many harmonics
+    /// left less than twice as much of the states: they follow kinks, as of airfoils' polars.
+    bool needs_more_harmonics = false;
+    Matrix multipliers = {};  ///< of the loops, Loops::equations(); a row each, as `coefficients`
     /// With loops, how often each coordinate turns in a revolution, beside its series: q = turns psi + ..., as that of
     /// a rod against its crank. Empty: none does.
     Vector turns = {};
@@ -72,6 +78,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     double amplitude(int harmonic) const;
     /// Amplitude of the last two harmonics relative to the largest of all (mean excluded); 0 if nothing moves.
     double last_harmonics() const;
+    /// A sentence if `needs_more_harmonics`, else nothing.
+    std::string neglected_in_words() const;
 };
 
 /// Harmonic balance: makes the retained harmonics of g qdd + Gamma qd qd - Q on the free coordinates vanish, and those

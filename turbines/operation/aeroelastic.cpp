@@ -120,6 +120,7 @@ solvers::PeriodicSteadyState steady_state(const AeroelasticPoint& point, double 
     solvers::PeriodicOptions options;
     options.rotor_speed = rotor_speed;
     options.harmonics = harmonics;
+    options.more_harmonics = true;
     options.start = point.start;
     options.state_start = point.state_start;
     options.rotor = &rotor;

@@ -56,7 +56,7 @@ solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span
                                        const AeroelasticOptions& air, solvers::CampbellOptions options);
 
 /// The steady state of a point with its lagging air, periodic; for linear models.
-/// @param harmonics  of the revolution
+/// @param harmonics  of the revolution at first (PeriodicOptions::more_harmonics)
 /// @throws InputError for a rotor that does not turn; NumericalError if there is none
 solvers::PeriodicSteadyState steady_state(const AeroelasticPoint& point, double rotor_speed, int harmonics);
 

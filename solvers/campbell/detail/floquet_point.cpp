@@ -26,11 +26,6 @@ using Index = Eigen::Index;
 // Share of the energy that a vibration named after its springs has in them: half where no other stiffness acts, less
 // where the centrifugal force holds the blades.
 constexpr double elastic_limit = 0.05;
-// Residual over stiffness of the harmonics that a steady state leaves out, and of states over their scales.
-constexpr double small_remainder = 1e-5;
-// States that follow curves with kinks, as those of profiles do: further harmonics leave hardly less than before, and
-// as long as it is no more than this nothing is said.
-constexpr double remainder_of_kinks = 2e-3, worth_more_harmonics = 0.5;
 // Asymmetry of the blades relative to the diagonals; more is not rounding.
 constexpr double small_difference = 1e-4;
 // Outer harmonics with less energy are left out.
@@ -153,38 +148,18 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     options.harmonics = options_.floquet.harmonics;
     options.held = options_.floquet.held;
     options.rotor = &rotor_;
-    options.start = start_;
-    options.state_start = state_start_;
-    // The known state first: from it the next one is approached in parts if it has to be.
-    std::vector<double> speeds{rotor_speed};
-    if (state_) {
-        options.start = state_->coefficients;
-        options.state_start = state_->state_coefficients;
-        speeds.insert(speeds.begin(), state_->rotor_speed);
-    }
-    PeriodicSteadyState found = periodic_sweep(system_, rotor_.spin, speeds, options).back();
-    const int most = 4 * options.harmonics;
-    double before = std::numeric_limits<double>::infinity();
-    const auto leaves_much = [&] {
-        const bool kinks = found.state_remainder > worth_more_harmonics * before;
-        return found.remainder > small_remainder ||
-               found.state_remainder > (kinks ? remainder_of_kinks : small_remainder);
-    };
-    while (found.converged && leaves_much() && options.harmonics < most) {
-        before = found.state_remainder;
-        options.harmonics = std::min(most, 2 * options.harmonics);
-        options.start = found.coefficients;
-        options.state_start = found.state_coefficients;
-        const std::array same_speed{rotor_speed};
-        found = periodic_sweep(system_, rotor_.spin, same_speed, options).back();
+    options.more_harmonics = true;
+    options.rotor_speed = rotor_speed;
+    options.start = state_ ? state_->coefficients : start_;
+    options.state_start = state_ ? state_->state_coefficients : state_start_;
+    PeriodicSteadyState found = harmonic_balance(system_, rotor_.spin, options);
+    if (!found.converged && state_) {
+        const std::array from_the_last{state_->rotor_speed, rotor_speed};
+        found = periodic_sweep(system_, rotor_.spin, from_the_last, options).back();
     }
     require_result(found, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
     if (!found.note.empty()) warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
-    if (leaves_much())
-        warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.harmonics(),
-                  " harmonics leave a residual over stiffness of ", found.remainder,
-                  " and of states over their scales of ", found.state_remainder,
-                  " in the periodic steady state: take more"));
+    warn(found.neglected_in_words());
     state_ = std::move(found);
 }
 

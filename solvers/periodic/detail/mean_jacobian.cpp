@@ -45,16 +45,18 @@ std::optional<MeanJacobian> MeanJacobian::make(const RotorMap& rotor, const Roto
 }
 
 MeanJacobian::MeanJacobian(const ColemanTransform& transform, int parts, double rotor_speed, int harmonics)
-    : transform_(transform),
-      parts_(parts),
-      rotor_speed_(rotor_speed),
-      harmonics_(harmonics),
-      z_harmonics_(harmonics + highest_harmonic(transform)),
-      pairs_(transform.turning_pairs()) {
+    : transform_(transform), parts_(parts), rotor_speed_(rotor_speed), pairs_(transform.turning_pairs()) {
     add_at_zero(transform.matrix(0), 0);
     append_states();
+    set_harmonics(harmonics);
+}
+
+void MeanJacobian::set_harmonics(int harmonics) {
+    harmonics_ = harmonics;
+    z_harmonics_ = harmonics + highest_harmonic(transform_);
     // A product of two series, one of x and one of z, is projected without error.
     const int count = 2 * z_harmonics_ + 1;
+    azimuths_.clear();
     basis_.resize(2 * harmonics_ + 1, count);
     z_basis_.resize(2 * z_harmonics_ + 1, count);
     for (int s = 0; s < count; ++s) {

@@ -24,6 +24,8 @@ public:
     /// azimuth in any coordinates.
     static std::optional<MeanJacobian> make(const RotorMap& rotor, const RotorEquations& equations, int harmonics);
 
+    /// Of series in other numbers of harmonics.
+    void set_harmonics(int harmonics);
     /// No step changes the mean of this unknown. @returns false for a blade's coordinate, of which there is none
     bool hold(Eigen::Index row);
     /// Takes the means on the series x, a row per unknown.  Cost O(n^2) at every azimuth

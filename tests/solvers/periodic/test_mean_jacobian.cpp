@@ -191,3 +191,34 @@ TEST_CASE("mean Jacobian: held means and what it cannot do", "[crosscheck]") {
         CHECK(harmonic_balance(few.system, few.map.spin, options).converged);
     }
 }
+
+TEST_CASE("harmonic balance takes more harmonics where those left out matter, and says when they are too few",
+          "[property]") {
+    const SmallRotor rotor = soft_rotor({500, 2000, 500});
+    for (const bool blades_known : {true, false}) {
+        CAPTURE(blades_known);
+        const auto balance = [&](int harmonics, bool more) {
+            PeriodicOptions options = turning_at(4, harmonics);
+            options.more_harmonics = more;
+            if (blades_known) options.rotor = &rotor.map;
+            const PeriodicSteadyState state = harmonic_balance(rotor.system, rotor.map.spin, options);
+            REQUIRE(state.converged);
+            CHECK(state.residual < options.tolerance);
+            return state;
+        };
+        const PeriodicSteadyState few = balance(2, false), doubled = balance(2, true);
+        CHECK(few.harmonics() == 2);
+        CHECK(few.needs_more_harmonics);
+        CHECK(doubled.harmonics() > 2);
+        CHECK(largest_difference(doubled, balance(doubled.harmonics(), false)) < 1e-8);
+        CHECK(doubled.needs_more_harmonics == (doubled.remainder > 1e-5));
+        // One that does not follow the motion well enough yet takes more, up to four times as many.
+        const PeriodicSteadyState one = balance(1, true);
+        CHECK(one.harmonics() == 4);
+        CHECK(one.needs_more_harmonics == (one.remainder > 1e-5));
+        const PeriodicSteadyState enough = balance(16, true);
+        CHECK(enough.harmonics() == 16);
+        CHECK_FALSE(enough.needs_more_harmonics);
+        CHECK(enough.neglected_in_words().empty());
+    }
+}
