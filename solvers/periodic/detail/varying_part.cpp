@@ -68,7 +68,7 @@ std::optional<VaryingPart> VaryingPart::find(const PeriodicSystem& system, doubl
         system.at(system.period() * i / azimuths, at);
         values.col(i) << at.M.reshaped(), at.C.reshaped(), at.K.reshaped();
     }
-    Matrix series = fourier_coefficients(values, most_harmonics);
+    const Matrix series = fourier_coefficients(values, most_harmonics);
     const auto matrix = [&](Index harmonic, Index which) {
         return series.col(harmonic).segment(which * n * n, n * n).reshaped(n, n);
     };
