@@ -2,12 +2,14 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/algebra/azimuth_series.hpp"
 #include "solvers/algebra/dense.hpp"
-#include "solvers/algebra/fft.hpp"
 #include "solvers/algebra/product_eigen.hpp"
 #include "solvers/periodic/detail/floquet_grid.hpp"
+#include "solvers/periodic/detail/motion_vectors.hpp"
 #include "solvers/periodic/detail/normalised_system.hpp"
 #include "solvers/periodic/detail/slow_motions.hpp"
+#include "solvers/periodic/detail/varying_part.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,30 +44,6 @@ void check(const PeriodicSystem& system, const FloquetOptions& options) {
                          "below 1e-7; parts that differ need the whole period");
 }
 
-// Coefficients of exp(i j t) from equidistant samples, j = -J ... J by column, of every row.
-ComplexMatrix fourier_transform(const ComplexMatrix& samples) {
-    const auto S = static_cast<std::size_t>(samples.cols());
-    const Index J = (samples.cols() - 1) / 2;
-    RealFourier fourier(S);
-    Vector row(samples.cols());
-    ComplexVector X(static_cast<Index>(fourier.frequencies())), Y(X.size());
-    const auto transform = [&](ComplexVector& out) {
-        fourier.transform({row.data(), S}, {out.data(), fourier.frequencies()});
-    };
-    ComplexMatrix harmonics(samples.rows(), 2 * J + 1);
-    for (Index i = 0; i < samples.rows(); ++i) {
-        row = samples.row(i).real();
-        transform(X);
-        row = samples.row(i).imag();
-        transform(Y);
-        for (Index j = 0; j <= J; ++j) {
-            harmonics(i, J + j) = X(j) + Complex(0, 1) * Y(j);
-            harmonics(i, J - j) = std::conj(X(j)) + Complex(0, 1) * std::conj(Y(j));
-        }
-    }
-    return harmonics / static_cast<double>(S);
-}
-
 class Analysis {
 public:
     Analysis(const PeriodicSystem& system, const FloquetOptions& options)
@@ -73,16 +51,21 @@ public:
         const int Q = options.symmetry.parts;
         angle_ = 2 * pi / Q;
         if (Q > 1) set_permutation();
-        if (options.only_slow) leave_out_fast();
-        // Their harmonics are those of the slow motions, too.
-        const int samples = slow_ ? slow_->azimuths() : grid_.samples * Q;
+        find_varying_part();
+        if (options.only_slow && raw_.is_second_order()) leave_out_fast();
+        // Their harmonics are those of what has been found, too.
+        const int samples = slow_ ? slow_->azimuths() : varying_ ? VaryingPart::azimuths : grid_.samples * Q;
         weights_.emplace(raw_, samples, options.weight);
     }
     Floquet compute();
 
 private:
     void set_permutation();
+    void find_varying_part();
     void leave_out_fast();
+    void find_slow_motions();
+    /// From sample to sample.
+    std::vector<Matrix> transitions_between(int samples, int steps);
     /// What is integrated: all motions or the slow ones.
     const PeriodicSystem& integrated() const { return slow_ ? slow_->system() : normalised_.system; }
     std::vector<Matrix> factors(const std::vector<Matrix>& samples) const;
@@ -94,10 +77,10 @@ private:
         ComplexMatrix p;   // at the samples over the whole period, in raw states
     };
     Motion motion(const ProductEigen& eigen, const Representative& which) const;
+    bool fast(const Motion& motion) const;
     void integrate(std::span<Motion> motions) const;
     FloquetSolution solution(const Motion& motion) const;
     double change(const ProductEigen::Vectors& v) const;
-    double state_share(const ProductEigen::Vectors& v) const;
     double error(const FloquetMode& mode, double change) const;
     double step() const { return angle_ / grid_.samples / grid_.steps; }
     void transform(const ComplexMatrix& samples, FloquetSolution& out) const;
@@ -107,6 +90,8 @@ private:
     /// Rounding error of an exponent over the frequency.
     double rounding(double condition) const { return 1e-15 * condition / angle_; }
 
+    // Those that are not far above are needed where motions are followed from one system to the next.
+    static constexpr double followed = 1.5;
     const PeriodicSystem& raw_;
     const FloquetOptions& options_;
     NormalisedSystem normalised_;
@@ -114,8 +99,11 @@ private:
     double angle_;                          // omega T / Q
     double ratio_ = 2;                      // of the longer steps to these
     Matrix permutation_, raw_permutation_;  // of the integrated and of the raw states
+    std::optional<VaryingPart> varying_;
+    std::optional<VaryingPartStep> varying_step_;
     std::optional<SlowMotions> slow_;
     std::optional<EnergyWeights> weights_;
+    std::vector<Matrix> inertia_;     // at the factors, to tell fast motions; empty: all are wanted
     std::vector<Matrix> expansions_;  // at the samples, of the slow motions
     std::vector<Matrix> fine_;        // transitions between samples
     std::vector<Matrix> difference_;  // of the factors, coarse - fine
@@ -126,12 +114,34 @@ void Analysis::set_permutation() {
     permutation_ = normalised_.unit.cwiseInverse().asDiagonal() * raw_permutation_ * normalised_.unit.asDiagonal();
 }
 
+void Analysis::find_varying_part() {
+    constexpr double negligible = 0.01;  // part of the tolerance
+    if (options_.transition.method != TransitionMethod::radau) return;
+    varying_ =
+        VaryingPart::find(normalised_.system, std::max(1.0, options_.per_period), negligible * options_.tolerance);
+    if (varying_) varying_step_.emplace(*varying_, options_.transition.stages);
+}
+
+std::vector<Matrix> Analysis::transitions_between(int samples, int steps) {
+    if (varying_step_ && !slow_) return transitions(*varying_step_, integrated().states(), 0, angle_, samples, steps);
+    return transitions(integrated(), 0, angle_, samples, steps, options_.transition);
+}
+
 void Analysis::leave_out_fast() {
+    // With so many samples the search is worth while although a step of a varying part costs little.
+    constexpr int many = 500;
+    if (!varying_ || grid_.samples > many) find_slow_motions();
+    SecondOrderSystem at;
+    for (int k = 0; k < grid_.factors && !slow_; ++k) {
+        normalised_.system.at(angle_ * k / grid_.factors, at);
+        inertia_.push_back(at.M);
+    }
+}
+
+void Analysis::find_slow_motions() {
     BladeSymmetry symmetry;
     if (options_.symmetry.parts > 1)
         symmetry = {options_.symmetry.parts, permutation_.topLeftCorner(raw_.rows(), raw_.rows())};
-    // Those that are not far above are needed where motions are followed from one system to the next.
-    constexpr double followed = 1.5;
     slow_ = SlowMotions::find(normalised_.system, symmetry, followed * options_.per_period, options_.tolerance);
     if (!slow_) return;
     if (symmetry.parts > 1) permutation_ = slow_->symmetry().of_states(slow_->system());
@@ -165,23 +175,6 @@ double Analysis::change(const ProductEigen::Vectors& v) const {
     return std::abs(sum) / angle_;
 }
 
-// Of the states beside the coordinates in the products of left and right vectors, which are 1; all over the period,
-// since they pass it on to the coordinates and back.
-double Analysis::state_share(const ProductEigen::Vectors& v) const {
-    const Index beside = raw_.states_beside(), rest = raw_.states() - beside;
-    if (beside == 0) return 0;
-    double states = 0, coordinates = 0;
-    for (Index k = 0; k < v.right.cols(); ++k) {
-        const auto part = [&](Index first, Index count) {
-            return std::abs(
-                (v.left.col(k).segment(first, count).transpose() * v.right.col(k).segment(first, count)).value());
-        };
-        states += part(rest, beside);
-        coordinates += part(0, rest);
-    }
-    return states / (states + coordinates);
-}
-
 // What is left of that change. Harmonics of the motion are motions of frequency |lambda_j| for the method, whose error
 // for each is known, long steps included; if this is not what changed, the ratio of the steps to the power of the
 // stages is what is certain.
@@ -200,8 +193,11 @@ double Analysis::error(const FloquetMode& mode, double change) const {
         constexpr double doubt = 4, alike = 10;  // the model's error, that of what it says has changed
         if (change < alike * coarse) gain = std::max(gain, coarse / fine / doubt);
     }
-    const double of_slow = slow_ ? slow_->error() / 2 * std::max(1.0, std::abs(mode.exponent) / raw_.frequency()) : 0;
-    return raw_.frequency() * (change / gain + rounding(mode.condition) + of_slow);
+    const double of_equations = (slow_      ? slow_->error()
+                                 : varying_ ? varying_->error()
+                                            : 0) /
+                                2 * std::max(1.0, std::abs(mode.exponent) / raw_.frequency());
+    return raw_.frequency() * (change / gain + rounding(mode.condition) + of_equations);
 }
 
 Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representative& which) const {
@@ -209,6 +205,14 @@ Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representativ
     Complex logarithm = eigen.logarithm(i);
     if (which.real) logarithm.imag(std::abs(logarithm.imag()) < pi / 2 ? 0 : pi);
     return {which, eigen.vectors(i), logarithm / angle_, {}};
+}
+
+// Its principal harmonic is fast, if that has a fifteenth of the energy. What grows is wanted, however fast.
+bool Analysis::fast(const Motion& motion) const {
+    constexpr double least_share = 1.0 / 15;
+    const double limit = followed * options_.per_period;
+    if (inertia_.empty() || motion.exponent.real() > options_.tolerance * limit) return false;
+    return least_share * mean_square_frequency(inertia_, motion.vectors) > limit * limit;
 }
 
 // Sets p of motions, all at once. From one factor to the next their vectors are known; between, they are integrated.
@@ -249,7 +253,7 @@ void Analysis::integrate(std::span<Motion> motions) const {
 // Harmonics of the positions; rates that are not their derivatives belong to motions too fast for the samples.
 void Analysis::transform(const ComplexMatrix& samples, FloquetSolution& out) const {
     const Index J = (samples.cols() - 1) / 2, n = raw_.rows();
-    const ComplexMatrix harmonics = fourier_transform(samples);
+    const ComplexMatrix harmonics = fourier_coefficients(samples);
     out.harmonics = harmonics.topRows(n);
     out.resolved = true;
     if (!raw_.is_second_order()) return;
@@ -275,13 +279,15 @@ FloquetSolution Analysis::solution(const Motion& motion) const {
     out.real_multiplier = motion.which.real;
     out.condition = motion.vectors.condition;
     out.error = change(motion.vectors);
-    out.state_share = state_share(motion.vectors);
+    out.state_share = state_share(raw_, motion.vectors);
     transform(motion.p, out);
     return out;
 }
 
 bool Analysis::wanted(const FloquetMode& mode) const {
-    return mode.kind != FloquetKind::rigid && mode.per_period() <= options_.per_period;
+    // A heavily damped one may be fast and oscillate slowly.
+    const double speed = options_.only_slow ? std::abs(mode.exponent) / raw_.frequency() : mode.per_period();
+    return mode.kind != FloquetKind::rigid && speed <= options_.per_period;
 }
 
 bool Analysis::accurate(const FloquetMode& mode) const {
@@ -314,10 +320,10 @@ void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
     constexpr std::size_t at_once = 16;
     const std::vector<Representative> all = representatives(logarithms);
     std::vector<Motion> motions;
-    for (std::size_t first = 0; first < all.size(); first += at_once) {
-        motions.clear();
-        for (std::size_t i = first; i < std::min(all.size(), first + at_once); ++i)
-            motions.push_back(motion(eigen, {at[all[i].index], all[i].real}));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        motions.push_back(motion(eigen, {at[all[i].index], all[i].real}));
+        if (fast(motions.back())) motions.pop_back();
+        if (motions.size() < at_once && i + 1 < all.size()) continue;
         integrate(motions);
         for (const Motion& m : motions) {
             const FloquetSolution one = solution(m);
@@ -325,6 +331,7 @@ void Analysis::analyse(const ProductEigen& eigen, Floquet& result) const {
                                     .emplace_back(make_mode(one, *weights_, raw_.period()));
             mode.error = error(mode, one.error);
         }
+        motions.clear();
     }
     sort_modes(result.modes);
     sort_modes(result.unresolved);
@@ -337,16 +344,14 @@ Floquet Analysis::compute() {
     const bool refine = grid_.steps == 0;
     double before = std::numeric_limits<double>::infinity();  // worst() with half the steps
     std::vector<Matrix> product;
-    if (refine)
-        product = factors(
-            transitions(integrated(), 0, angle_, grid_.samples / FloquetGrid::first_ratio, 1, options_.transition));
+    if (refine) product = factors(transitions_between(grid_.samples / FloquetGrid::first_ratio, 1));
     while (true) {
         if (refine) {
             ratio_ = grid_.steps == 0 ? FloquetGrid::first_ratio : 2;
             grid_.steps = std::max(1, 2 * grid_.steps);
         }
         difference_ = std::move(product);
-        fine_ = transitions(integrated(), 0, angle_, grid_.samples, grid_.steps, options_.transition);
+        fine_ = transitions_between(grid_.samples, grid_.steps);
         product = factors(fine_);
         for (std::size_t k = 0; k < difference_.size(); ++k) difference_[k] -= product[k];
         ProductEigen eigen;

@@ -20,10 +20,10 @@ struct FloquetOptions {
     /// The monodromy matrix is kept as a product of this many factors (per T/Q): strongly damped motions keep their
     /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;
-    /// Only motions up to `per_period`, and up to half as fast again, are of interest: those that are much faster are
-    /// left out, where they can be told from the others (a system of second order without states beside the
-    /// coordinates, whose frequencies at every azimuth have a gap), and the rest is integrated alone. The rest keeps
-    /// its exponents: what they are off by is part of their errors.
+    /// Only motions up to `per_period`, and up to half as fast again, are of interest: of a system of second order those
+    /// that are much faster are left out of the result. Where they can be told from the others beforehand (without
+    /// states beside the coordinates, and with a gap in the frequencies at every azimuth), the rest is integrated
+    /// alone. The rest keeps its exponents: what they are off by is part of their errors.
     bool only_slow = false;
     /// Weight W of x^H W x for the participation of harmonics in a system of first order; empty: unit matrix.
     Matrix weight = {};
@@ -59,7 +59,9 @@ struct Floquet {
 /// 1e-15 times the condition number: a defective double multiplier (free yaw) splits by some 1e-8 per period.
 /// Motions too fast for the steps are not resolved: the method damps them, and their stability remains unknown.
 ///
-/// Cost for n coordinates and s stages: 2/3 (s n)^3 + 4 s^2 n^3 per step and 30 factors (2 n)^3 per refinement.
+/// Cost for n coordinates and s stages: 2/3 (s n)^3 + 4 s^2 n^3 per step and 30 factors (2 n)^3 per refinement. Where
+/// the coefficients vary in r < n/2 directions only, as those of a rotor on a tower without gravity do, a step of
+/// Radau's method costs 8/3 (s r)^3 + 8 (s r)^2 n + 8 s r n^2.
 ///
 /// @throws InputError for options out of range, and if the system does not have the symmetry (asymmetry() above 1e-7);
 /// NumericalError for coefficients that are not finite, and if the eigenvalue iteration fails

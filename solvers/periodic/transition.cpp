@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/finite.hpp"
 #include "solvers/algebra/radau.hpp"
+#include "solvers/periodic/detail/transition_step.hpp"
 
 #include <memory>
 
@@ -12,14 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-class Step {
-public:
-    virtual ~Step() = default;
-    /// Phi from t to t + h, overwritten.
-    virtual void set(double t, double h, Matrix& Phi) = 0;
-};
-
-class RadauSecondOrder : public Step {
+class RadauSecondOrder : public TransitionStep {
 public:
     RadauSecondOrder(const PeriodicSystem& system, int stages)
         : system_(system),
@@ -45,7 +39,7 @@ private:
 
 // Unknowns are the rates at the stages: E_i k_i = A_i (x + h sum_j a_ij k_j), for all unit vectors x. For algebraic
 // rows, where E is zero, the last stage makes them hold at the end of the step.
-class RadauFirstOrder : public Step {
+class RadauFirstOrder : public TransitionStep {
 public:
     RadauFirstOrder(const PeriodicSystem& system, int stages) : system_(system), method_(stages) {}
 
@@ -70,7 +64,7 @@ private:
 };
 
 // x_m = (x_i + x_f) / 2 from E (x_m - x_i) = h/2 A x_m. What E does not touch is algebraic: constant over the step.
-class Midpoint : public Step {
+class Midpoint : public TransitionStep {
 public:
     explicit Midpoint(const PeriodicSystem& system) : system_(system) {}
 
@@ -91,7 +85,7 @@ private:
     Matrix E_, A_;
 };
 
-std::unique_ptr<Step> make_step(const PeriodicSystem& system, const TransitionOptions& options) {
+std::unique_ptr<TransitionStep> make_step(const PeriodicSystem& system, const TransitionOptions& options) {
     if (options.method == TransitionMethod::midpoint) return std::make_unique<Midpoint>(system);
     if (system.is_second_order()) return std::make_unique<RadauSecondOrder>(system, options.stages);
     return std::make_unique<RadauFirstOrder>(system, options.stages);
@@ -99,25 +93,22 @@ std::unique_ptr<Step> make_step(const PeriodicSystem& system, const TransitionOp
 
 }  // namespace
 
-std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double t1, int intervals, int steps,
-                                const TransitionOptions& options) {
+std::vector<Matrix> transitions(TransitionStep& step, Index states, double t0, double t1, int intervals, int steps) {
     if (intervals < 1) throw InputError("transition matrix", "number of intervals", intervals, ">= 1");
     if (steps < 1) throw InputError("transition matrix", "number of steps", steps, ">= 1");
-    const std::unique_ptr<Step> step = make_step(system, options);
-    const Index n = system.states();
     const double h = (t1 - t0) / intervals / steps;
     std::vector<Matrix> all;
-    Matrix Phi(n, n), product(n, n);
+    Matrix Phi(states, states), product(states, states);
     for (int i = 0; i < intervals; ++i) {
         Matrix X;
         for (int j = 0; j < steps; ++j) {
             const double t = t0 + h * (static_cast<double>(i) * steps + j);
             // From unit vectors, whose right-hand sides are the matrices themselves.
-            step->set(t, h, Phi);
+            step.set(t, h, Phi);
             if (j == 0) {
                 X = Phi;
             } else {
-                product.setZero(n, n);
+                product.setZero();
                 add_product(product, Phi, X);
                 X.swap(product);
             }
@@ -128,6 +119,11 @@ std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double 
         all.push_back(std::move(X));
     }
     return all;
+}
+
+std::vector<Matrix> transitions(const PeriodicSystem& system, double t0, double t1, int intervals, int steps,
+                                const TransitionOptions& options) {
+    return transitions(*make_step(system, options), system.states(), t0, t1, intervals, steps);
 }
 
 Matrix monodromy(const PeriodicSystem& system, int steps, const TransitionOptions& options) {

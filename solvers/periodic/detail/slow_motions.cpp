@@ -18,16 +18,6 @@ using Index = Eigen::Index;
 
 namespace {
 
-// What an iteration leaves of the highest harmonic of X, at most.
-constexpr double largest_rate = 0.9;
-// Of the coordinates; more slow ones cost as much as all.
-constexpr double largest_share = 0.7;
-// Changes that are rounding or a small part of the tolerance, and such that iterations do not reduce: those that are
-// left of higher harmonics.
-constexpr double rounding = 1e-13, settled = 0.03, least_reduction = 0.8;
-constexpr int most_iterations = 60, patience = 4;
-constexpr Index remembered = 6;
-
 // A matrix at all azimuths: each as one column.
 struct Samples {
     Samples(Index height, Index columns, int count) : rows(height), all(Matrix::Zero(height * columns, count)) {}
@@ -40,6 +30,16 @@ struct Samples {
 }  // namespace
 
 class SlowSearch {
+    // What an iteration leaves of the highest harmonic of X, at most.
+    static constexpr double largest_rate = 0.9;
+    // Of the coordinates; more slow ones cost as much as all.
+    static constexpr double largest_share = 0.7;
+    // Changes that are rounding or a small part of the tolerance, and such that iterations do not reduce: those that
+    // are left of higher harmonics.
+    static constexpr double rounding = 1e-13, settled = 0.03, least_reduction = 0.8;
+    static constexpr int most_iterations = 60, patience = 4;
+    static constexpr Index remembered = 6;
+
 public:
     SlowSearch(const PeriodicSystem& system, const BladeSymmetry& symmetry, int harmonics)
         : system_(system),
