@@ -7,7 +7,11 @@
 
 namespace cardan::solvers {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 // Block (k, l): mean over the azimuth of w_k (b''_l M + b'_l C + b_l K).
 Matrix Balance::jacobian() {

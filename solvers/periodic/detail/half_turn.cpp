@@ -9,7 +9,11 @@
 
 namespace cardan::solvers {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 std::optional<HalfTurn> HalfTurn::make(const RotorMap& rotor, const RotorEquations& equations, int harmonics) {
     if (equations.size() == 0 || rotor.blades.size() != 2 || !rotor.evenly_spaced) return {};

@@ -5,7 +5,11 @@
 
 namespace cardan::solvers {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 double state_share(const PeriodicSystem& system, const ProductEigen::Vectors& vectors) {
     const Index beside = system.states_beside(), rest = system.states() - beside;

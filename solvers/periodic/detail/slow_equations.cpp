@@ -7,7 +7,11 @@
 
 namespace cardan::solvers {
 
+namespace {
+
 using Index = Eigen::Index;
+
+}  // namespace
 
 Matrix product(const Matrix& A, const Matrix& B) {
     Matrix C = Matrix::Zero(A.rows(), B.cols());

@@ -14,9 +14,9 @@
 
 namespace cardan::solvers {
 
-using Index = Eigen::Index;
-
 namespace {
+
+using Index = Eigen::Index;
 
 // A matrix at all azimuths: each as one column.
 struct Samples {

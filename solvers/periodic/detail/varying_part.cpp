@@ -10,9 +10,9 @@
 
 namespace cardan::solvers {
 
-using Index = Eigen::Index;
-
 namespace {
+
+using Index = Eigen::Index;
 
 constexpr int most_harmonics = 8;
 
