@@ -48,7 +48,7 @@ public:
     void solve_transposed(Matrix& B) const;
 
 private:
-    void solve_transposed_column(double* b, Eigen::Index size) const;
+    void solve_transposed_column(double* data, Eigen::Index size) const;
 
     Matrix lu_;
     std::vector<Eigen::Index> exchanges_;  ///< row that was exchanged with row k

@@ -48,7 +48,7 @@ void require_shape(const SecondOrderSystem& system, const Mode& mode) {
 }
 
 // A x in real arithmetic.
-ComplexVector product(const Matrix& A, const ComplexVector& x) {
+ComplexVector times_real(const Matrix& A, const ComplexVector& x) {
     ComplexVector y(A.rows());
     y.real() = A * x.real();
     y.imag() = A * x.imag();
@@ -59,8 +59,8 @@ ComplexVector product(const Matrix& A, const ComplexVector& x) {
 
 EnergyProduct::EnergyProduct(const SecondOrderSystem& system, const Mode& y) {
     require_shape(system, y);
-    elastic_ = product(system.K_elastic, y.shape);
-    momentum_ = y.eigenvalue * product(system.M, y.shape);
+    elastic_ = times_real(system.K_elastic, y.shape);
+    momentum_ = y.eigenvalue * times_real(system.M, y.shape);
 }
 
 Complex EnergyProduct::with(const Mode& x) const {
@@ -74,7 +74,7 @@ Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mod
 
 Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
     require_shape(system, mode);
-    const ComplexVector force = product(system.K_elastic, mode.shape);
+    const ComplexVector force = times_real(system.K_elastic, mode.shape);
     const Vector energy = (mode.shape.conjugate().array() * force.array()).real();
     const double total = energy.sum();
     return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());
@@ -306,8 +306,8 @@ double ModeSolver::share_by_iteration(const SecondOrderSystem& system, const Fou
     const ComplexVector left = left_vector(system, lambda, d_);
     const ComplexVector x = right.head(n);
     const Complex states = left.tail(m).dot(right.tail(m)),
-                  motion = left.head(n).dot(2.0 * lambda * product(system.M, x) + product(system.C, x)) -
-                           left.tail(m).dot(product(t.f_qd, x));
+                  motion = left.head(n).dot(2.0 * lambda * times_real(system.M, x) + times_real(system.C, x)) -
+                           left.tail(m).dot(times_real(t.f_qd, x));
     const double total = std::abs(states) + std::abs(motion);
     return total > 0 ? std::abs(states) / total : 0.0;
 }

@@ -75,7 +75,7 @@ int sag(const MachineOptions& machine, const SagOptions& options, const std::str
     const solvers::EnergyBalance energy = integrator.energy();
     const double scale = program::largest(rows.history, "kinetic energy").value;
     bool good = program::check_energy(energy, scale, 10 * options.tolerance);
-    good = program::check_field_energy(energy, scale, 10 * options.tolerance) && good;
+    good = program::check_field_energy(energy, rows.history, 10 * options.tolerance) && good;
     if (end.reached())
         good = program::check("start in equilibrium: change of rotor speed before the sag",
                               program::speed_drift(rows.history, options.at), 1e-3) &&

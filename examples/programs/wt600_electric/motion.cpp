@@ -119,7 +119,7 @@ int motion(const std::string& study, const MotionOptions& given) {
     const solvers::EnergyBalance energy = integrator.energy();
     const double scale = program::largest(rows.history, "kinetic energy").value;
     bool good = program::check_energy(energy, scale, 10 * o.run.tolerance);
-    if (o.order == 5) good = program::check_field_energy(energy, scale, 10 * o.run.tolerance) && good;
+    if (o.order == 5) good = program::check_field_energy(energy, rows.history, 10 * o.run.tolerance) && good;
     if (!from_rest && end.reached())
         good = program::check("start in equilibrium: change of rotor speed before the disturbance",
                               program::speed_drift(rows.history, o.at), 1e-3) &&

@@ -29,7 +29,7 @@ constexpr double shortest_step = 1.0 / 16, small_step = 1.0 / 4;
 // Modes without lags are followed up to so many times the largest frequency: lags make them slower, or faster.
 constexpr double reach = 1.1;
 // Damping ratio from which on a motion without lags may have none of its own with them.
-constexpr double heavily_damped = 0.4;
+constexpr double heavy_damping = 0.4;
 // Growth beside the largest frequency that counts; a motion that nothing holds has less by rounding.
 constexpr double growing = 1e-5;
 // Between the largest frequency and the lowest, the one at which states act as they do without lags.
@@ -178,7 +178,7 @@ ModesOfMotion modes_of_motion(const SecondOrderSystem& system, const Vector& uni
         if (root && !is_known(*root))
             roots.push_back(std::move(*root));
         else if (std::abs(start.lambda) < largest / scale &&
-                 std::abs(start.lambda.real()) < heavily_damped * std::abs(start.lambda))
+                 std::abs(start.lambda.real()) < heavy_damping * std::abs(start.lambda))
             out.complete = false;
     }
     for (const Root& root : roots) known.push_back(root.lambda);

@@ -31,10 +31,10 @@ ComplexVector transposed_times(const Matrix& A, const Vector& x) {
 
 }  // namespace
 
-FirstOrderWithStates::FirstOrderWithStates(const SecondOrderSystem& system, const Vector& units, double scale) {
+FirstOrderWithStates::FirstOrderWithStates(const SecondOrderSystem& system, const Vector& units, double scale)
+    : units_(units) {
     const StateTerms& t = system.states;
     const Index n = system.M.rows(), m = t.size();
-    units_ = units;
     order_.reserve(static_cast<std::size_t>(m));
     for (const GroupedMatrix::Group& group : t.f_s.groups()) {
         const Vector u = units.tail(m)(group.rows);

@@ -58,7 +58,7 @@ private:
     ColemanTransform transform_;
     int parts_;  ///< blades, which take one another's places; 1: none
     double rotor_speed_;
-    int harmonics_, z_harmonics_;  ///< multi-blade coordinates have more
+    int harmonics_ = 0, z_harmonics_ = 0;  ///< multi-blade coordinates have more
     std::vector<ColemanTransform::TurningPair> pairs_;
     std::vector<Entry> at_zero_;  ///< T(0), which is sparse
     std::vector<double> azimuths_;

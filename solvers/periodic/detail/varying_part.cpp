@@ -17,20 +17,20 @@ using Index = Eigen::Index;
 constexpr int most_harmonics = 8;
 
 // Square roots of K_ii + f^p M_ii and f^p, for the matrix of which f^p is compared with K.
-struct Scale {
-    Scale(const SecondOrderSystem& mean, double frequency, int power)
+struct MatrixScale {
+    MatrixScale(const SecondOrderSystem& mean, double frequency, int power)
         : factor(std::pow(frequency, power)),
           root((mean.K.diagonal().cwiseAbs() + factor * mean.M.diagonal()).cwiseSqrt()) {}
     double factor;
     Vector root;
 };
-using Scales = std::array<Scale, 3>;
+using MatrixScales = std::array<MatrixScale, 3>;
 
-Scales scales(const SecondOrderSystem& mean, double frequency) {
-    return {Scale(mean, frequency, 2), Scale(mean, frequency, 1), Scale(mean, frequency, 0)};
+MatrixScales matrix_scales(const SecondOrderSystem& mean, double frequency) {
+    return {MatrixScale(mean, frequency, 2), MatrixScale(mean, frequency, 1), MatrixScale(mean, frequency, 0)};
 }
 
-Matrix scaled(const Vector& left, const Matrix& A, const Scale& own) {
+Matrix scaled(const Vector& left, const Matrix& A, const MatrixScale& own) {
     return own.factor * left.cwiseInverse().asDiagonal() * A * own.root.cwiseInverse().asDiagonal();
 }
 
@@ -74,7 +74,7 @@ std::optional<VaryingPart> VaryingPart::find(const PeriodicSystem& system, doubl
     };
     VaryingPart out;
     out.mean_.M = matrix(0, 0), out.mean_.C = matrix(0, 1), out.mean_.K = matrix(0, 2);
-    const Scales of = scales(out.mean_, frequency);
+    const MatrixScales of = matrix_scales(out.mean_, frequency);
     const Vector& scale = of[2].root;
     const double least = 0.1 * tolerance;
     Matrix columns(n, 6 * n * (series.cols() - 1));
@@ -111,9 +111,9 @@ double VaryingPart::remainder(const PeriodicSystem& system, double time, double 
     system.at(time, now);
     const Matrix a = at(time);
     const Index r = B_.cols();
-    const Scales of = scales(mean_, frequency);
+    const MatrixScales of = matrix_scales(mean_, frequency);
     const auto rest = [&](const Matrix& A, const Matrix& mean, Index which) {
-        const Scale& own = entry(of, which);
+        const MatrixScale& own = entry(of, which);
         const Matrix left = A - mean - B_ * (a.middleCols(which * r, r) * B_.transpose());
         return scaled(own.root, left, own).cwiseAbs().maxCoeff();
     };
