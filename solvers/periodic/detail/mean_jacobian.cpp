@@ -1,5 +1,6 @@
 #include "solvers/periodic/detail/mean_jacobian.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "solvers/periodic/periodic_system.hpp"
 
