@@ -17,6 +17,7 @@ ComplexMatrix assembled(const SecondOrderSystem& system, Complex sigma) {
     const Index n = system.M.rows(), m = t.size();
     ComplexMatrix P(n + m, n + m);
     P.topLeftCorner(n, n) = sigma * sigma * system.M + sigma * system.C + system.K;
+    if (m == 0) return P;
     P.topRightCorner(n, m) = -t.Q_s;
     P.bottomLeftCorner(m, n) = -(t.f_q + sigma * t.f_qd);
     P.bottomRightCorner(m, m) = sigma * Matrix::Identity(m, m) - t.f_s.dense();
