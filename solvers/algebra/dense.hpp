@@ -24,6 +24,15 @@ void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign = 1);
 /// @param A  destroyed.  Cost 2/3 n^3 + 2 n^2 columns of B
 void solve_in_place(Matrix& A, Matrix& B);
 
+/// A z of a real matrix, in real arithmetic.
+template <class Real, class Complexes>
+ComplexVector product_in_parts(const Real& A, const Complexes& z) {
+    ComplexVector out(A.rows());
+    out.real() = A * z.real();
+    out.imag() = A * z.imag();
+    return out;
+}
+
 /// A matrix as triangular factors, for repeated solves.
 class LuFactors {
 public:

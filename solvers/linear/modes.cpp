@@ -47,20 +47,12 @@ void require_shape(const SecondOrderSystem& system, const Mode& mode) {
     require_size("modes", "shape of a mode", mode.shape, n);
 }
 
-// A x in real arithmetic.
-ComplexVector times_real(const Matrix& A, const ComplexVector& x) {
-    ComplexVector y(A.rows());
-    y.real() = A * x.real();
-    y.imag() = A * x.imag();
-    return y;
-}
-
 }  // namespace
 
 EnergyProduct::EnergyProduct(const SecondOrderSystem& system, const Mode& y) {
     require_shape(system, y);
-    elastic_ = times_real(system.K_elastic, y.shape);
-    momentum_ = y.eigenvalue * times_real(system.M, y.shape);
+    elastic_ = product_in_parts(system.K_elastic, y.shape);
+    momentum_ = y.eigenvalue * product_in_parts(system.M, y.shape);
 }
 
 Complex EnergyProduct::with(const Mode& x) const {
@@ -74,7 +66,7 @@ Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mod
 
 Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode) {
     require_shape(system, mode);
-    const ComplexVector force = times_real(system.K_elastic, mode.shape);
+    const ComplexVector force = product_in_parts(system.K_elastic, mode.shape);
     const Vector energy = (mode.shape.conjugate().array() * force.array()).real();
     const double total = energy.sum();
     return total > 0 ? Vector(energy / total) : Vector::Zero(energy.size());
@@ -306,8 +298,9 @@ double ModeSolver::share_by_iteration(const SecondOrderSystem& system, const Fou
     const ComplexVector left = left_vector(system, lambda, d_);
     const ComplexVector x = right.head(n);
     const Complex states = left.tail(m).dot(right.tail(m)),
-                  motion = left.head(n).dot(2.0 * lambda * times_real(system.M, x) + times_real(system.C, x)) -
-                           left.tail(m).dot(times_real(t.f_qd, x));
+                  motion =
+                      left.head(n).dot(2.0 * lambda * product_in_parts(system.M, x) + product_in_parts(system.C, x)) -
+                      left.tail(m).dot(product_in_parts(t.f_qd, x));
     const double total = std::abs(states) + std::abs(motion);
     return total > 0 ? std::abs(states) / total : 0.0;
 }

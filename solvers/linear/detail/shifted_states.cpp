@@ -12,23 +12,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-// A x and A^T x in real arithmetic.
-template <class Product, class Vector>
-ComplexVector by_parts(Index size, const Vector& x, const Product& product) {
-    ComplexVector y(size);
-    y.real() = product(x.real());
-    y.imag() = product(x.imag());
-    return y;
-}
-template <class Matrix, class Vector>
-ComplexVector times(const Matrix& A, const Vector& x) {
-    return by_parts(A.rows(), x, [&](const auto& part) { return cardan::Vector(A * part); });
-}
-template <class Matrix, class Vector>
-ComplexVector transposed_times(const Matrix& A, const Vector& x) {
-    return by_parts(A.cols(), x, [&](const auto& part) { return cardan::Vector(A.transpose() * part); });
-}
-
 }  // namespace
 
 FirstOrderWithStates::FirstOrderWithStates(const SecondOrderSystem& system, const Vector& units, double scale)
@@ -83,7 +66,7 @@ void FirstOrderWithStates::find_loads() {
 
 ComplexVector FirstOrderWithStates::times_B(const ComplexVector& z) const {
     ComplexVector out = z;
-    out.segment(rows(), rows()) = times(M, z.segment(rows(), rows()));
+    out.segment(rows(), rows()) = product_in_parts(M, z.segment(rows(), rows()));
     return out;
 }
 
@@ -198,7 +181,8 @@ ComplexMatrix ShiftedStates::of_states() const {
 
 void ShiftedStates::set_states(ComplexVector& z) const {
     const Index n = system_.rows(), m = system_.states();
-    z.tail(m) = eliminated(times(system_.f_q(), z.head(n)) + times(system_.f_qd(), z.segment(n, n)), false);
+    z.tail(m) = eliminated(
+        product_in_parts(system_.f_q(), z.head(n)) + product_in_parts(system_.f_qd(), z.segment(n, n)), false);
 }
 
 double ShiftedStates::pivot_ratio() const {
@@ -246,8 +230,8 @@ void ShiftedStates::respond(ComplexVector& r) const {
         return;
     }
     const ComplexVector r_s = r.tail(m);
-    const ComplexVector x = solved(r.head(n) + times(z.Q_s, eliminated(r_s, false)), false);
-    r << x, eliminated(r_s + times(z.f_q(), x) + sigma_ * times(z.f_qd(), x), false);
+    const ComplexVector x = solved(r.head(n) + product_in_parts(z.Q_s, eliminated(r_s, false)), false);
+    r << x, eliminated(r_s + product_in_parts(z.f_q(), x) + sigma_ * product_in_parts(z.f_qd(), x), false);
 }
 
 // v = b_x + sigma x: S x = -b_v - (C + sigma M) b_x + ..., with rates f_qd b_x - b_s of the states.
@@ -256,7 +240,8 @@ void ShiftedStates::solve(const ComplexVector& b, ComplexVector& out) const {
     const Index n = z.rows(), m = z.states();
     const ComplexVector b_x = b.head(n);
     ComplexVector r(n + m);
-    r << -b.segment(n, n) - times(z.C, b_x) - sigma_ * times(z.M, b_x), times(z.f_qd(), b_x) - b.tail(m);
+    r << -b.segment(n, n) - product_in_parts(z.C, b_x) - sigma_ * product_in_parts(z.M, b_x),
+        product_in_parts(z.f_qd(), b_x) - b.tail(m);
     respond(r);
     out.resize(z.size());
     out << r.head(n), b_x + sigma_ * r.head(n), r.tail(m);
@@ -270,13 +255,14 @@ void ShiftedStates::solve_adjoint(const ComplexVector& b, ComplexVector& out) co
     const Index n = z.rows(), m = z.states();
     const Complex sigma = std::conj(sigma_);
     const ComplexVector b_s = b.tail(m), own = eliminated(b_s, true);
-    const ComplexVector w_v = solved(-(b.head(n) + sigma * b.segment(n, n) + transposed_times(z.f_q(), own) +
-                                       sigma * transposed_times(z.f_qd(), own)),
-                                     true);
-    const ComplexVector w_s = eliminated(transposed_times(z.Q_s, w_v) - b_s, true);
+    const ComplexVector w_v =
+        solved(-(b.head(n) + sigma * b.segment(n, n) + product_in_parts(z.f_q().transpose(), own) +
+                 sigma * product_in_parts(z.f_qd().transpose(), own)),
+               true);
+    const ComplexVector w_s = eliminated(product_in_parts(z.Q_s.transpose(), w_v) - b_s, true);
     out.resize(z.size());
-    out << b.segment(n, n) + transposed_times(z.C, w_v) + sigma * transposed_times(z.M, w_v) -
-               transposed_times(z.f_qd(), w_s),
+    out << b.segment(n, n) + product_in_parts(z.C.transpose(), w_v) + sigma * product_in_parts(z.M.transpose(), w_v) -
+               product_in_parts(z.f_qd().transpose(), w_s),
         w_v, w_s;
 }
 
