@@ -84,15 +84,6 @@ build() { # <preset> [options of cmake]
     cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" --parallel "$jobs"
 }
 
-# quickly <command>...: for clang outside of our CMake project; within it, cmake/cardanQuickBuild.cmake says why.
-quickly() {
-    if [[ "$(/sbin/ldconfig -p)" == *libmimalloc.so.2* ]]; then
-        env LD_PRELOAD=libmimalloc.so.2 MIMALLOC_LARGE_OS_PAGES=1 "$@"
-    else
-        "$@"
-    fi
-}
-
 # A project of its own, with find_package(cardan) and the compiler's default flags, against an installed copy.
 check_package() {
     local prefix="$PWD/build/packaging/prefix" consumer="$PWD/build/packaging/consumer"
@@ -124,13 +115,13 @@ check_across_compilers() {
 check_headers() {
     cmake -S tests/packaging -B build/packaging/headers -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
         -DCMAKE_CXX_COMPILER=clang++ &&
-        quickly cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
+        cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
 }
 
 # run-clang-tidy <options>... <regular expression of sources>, on the compile commands of preset tidy: sources joined across
 # targets (cmake/cardanTidy.cmake).
 tidy() {
-    quickly run-clang-tidy -quiet -j "$jobs" -p build/tidy "$@" 2>&1 | { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
+    run-clang-tidy -quiet -j "$jobs" -p build/tidy "$@" 2>&1 | { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 
 # The library and the programs. A joined source includes .cpp files, which are no mistake and "headers" to report.

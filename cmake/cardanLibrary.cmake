@@ -1,73 +1,31 @@
-# cardan_precompile(<target> [FROM <owner>] [HEADERS <headers>]): headers that most sources include are compiled once, or
-# taken as another target has compiled them. Sources do not rely on it: the presets thread and debug are made without.
+# cardan_precompile(<target>): headers that most sources include are compiled once, with cardan_mbs, and taken from there.
+# Sources do not rely on it: the presets thread and debug are made without.
 function(cardan_precompile target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "HEADERS")
-    if(CARDAN_PRECOMPILE_HEADERS AND arg_FROM)
-        target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
-    elseif(CARDAN_PRECOMPILE_HEADERS)
-        target_precompile_headers(
-            ${target}
-            PRIVATE
-            <algorithm>
-            <array>
-            <cmath>
-            <filesystem>
-            <functional>
-            <iostream>
-            <limits>
-            <optional>
-            <span>
-            <string>
-            <vector>
-            ${PROJECT_SOURCE_DIR}/mbs/base/decompositions.hpp
-            ${PROJECT_SOURCE_DIR}/mbs/base/detail/products.hpp
-            ${PROJECT_SOURCE_DIR}/mbs/base/error.hpp
-            ${PROJECT_SOURCE_DIR}/mbs/system/channel.hpp
-            ${PROJECT_SOURCE_DIR}/mbs/system/system.hpp
-            ${arg_HEADERS})
-    endif()
-endfunction()
-
-# What cardan_compile_quickly() precompiles headers for.
-function(cardan_quick_headers)
-    if(TARGET cardan_quick_headers)
+    if(NOT CARDAN_PRECOMPILE_HEADERS)
         return()
     endif()
-    set(nothing ${PROJECT_BINARY_DIR}/generated/quick_headers.cpp)
-    file(CONFIGURE OUTPUT ${nothing} CONTENT "// What the headers are precompiled for.\n")
-    add_library(cardan_quick_headers OBJECT ${nothing})
-    target_compile_options(cardan_quick_headers PRIVATE $<$<CONFIG:Release>:-O1>)
-    target_link_libraries(cardan_quick_headers PRIVATE cardan_mbs cardan_warnings)
-    set_target_properties(cardan_quick_headers PROPERTIES CXX_EXTENSIONS OFF)
-    cardan_precompile(cardan_quick_headers)
-endfunction()
-
-# cardan_compile_quickly(<targets>...): in Release with -O1, which takes a compiler three quarters of -O3's time. For what
-# reads, writes, describes and asks, and for solvers whose run time is that of the kernels they call. GCC's precompiled
-# headers carry the level they were made with, so there these targets have headers of their own.
-function(cardan_compile_quickly)
-    set(headers cardan_mbs)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        set(headers cardan_quick_headers)
-        cardan_quick_headers()
+    if(NOT target STREQUAL "cardan_mbs")
+        target_precompile_headers(${target} REUSE_FROM cardan_mbs)
+        return()
     endif()
-    foreach(target IN LISTS ARGN)
-        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-        cardan_precompile(${target} FROM ${headers})
-    endforeach()
-endfunction()
-
-# cardan_join_fewer(<target> CLANG <sources> GCC <sources>): no more joined sources in an object, so that it takes the
-# compiler no longer than 25 s.
-function(cardan_join_fewer target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "CLANG;GCC" "")
-    set(sources ${arg_CLANG})
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        set(sources ${arg_GCC})
-    endif()
-    if(CMAKE_UNITY_BUILD_BATCH_SIZE GREATER sources)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${sources})
-    endif()
+    target_precompile_headers(
+        cardan_mbs
+        PRIVATE
+        <algorithm>
+        <array>
+        <cmath>
+        <filesystem>
+        <functional>
+        <iostream>
+        <limits>
+        <optional>
+        <span>
+        <string>
+        <vector>
+        ${PROJECT_SOURCE_DIR}/mbs/base/decompositions.hpp
+        ${PROJECT_SOURCE_DIR}/mbs/base/error.hpp
+        ${PROJECT_SOURCE_DIR}/mbs/system/channel.hpp
+        ${PROJECT_SOURCE_DIR}/mbs/system/system.hpp)
 endfunction()
 
 # cardan_link_headers(<from> <to> <folders>...): what is in <from>/<folder> is also <to>/cardan/<folder>, as installed.
@@ -88,15 +46,15 @@ function(cardan_rooms out)
     set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# cardan_add_library(<name> [COMPILE_QUICKLY] [ROOMS <folders>] [WITHOUT <files>] [SOURCES <files>] [PUBLIC <targets>]
+# cardan_add_library(<name> [ROOMS <folders>] [WITHOUT <files>] [SOURCES <files>] [PUBLIC <targets>]
 #                    [PRIVATE <targets>])
 #
 # Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms, those of WITHOUT left
-# out, and of SOURCES. Without any it is a name for several libraries. COMPILE_QUICKLY: see above. Users include headers as
+# out, and of SOURCES. Without any it is a name for several libraries. Users include headers as
 # <cardan/<folder>/<room>/<file>.hpp>, from include/ installed or from links in generated/include; sources and tests of our
 # own as "<folder>/<room>/<file>.hpp".
 function(cardan_add_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "COMPILE_QUICKLY" "" "ROOMS;WITHOUT;SOURCES;PUBLIC;PRIVATE")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;WITHOUT;SOURCES;PUBLIC;PRIVATE")
     set(target cardan_${name})
     cardan_rooms(sources ${arg_ROOMS})
     list(REMOVE_ITEM sources ${arg_WITHOUT})
@@ -105,13 +63,7 @@ function(cardan_add_library name)
         add_library(${target} ${sources})
         set(public PUBLIC)
         target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:cardan_warnings>)
-        if(arg_COMPILE_QUICKLY)
-            cardan_compile_quickly(${target})
-        elseif(name STREQUAL "mbs")
-            cardan_precompile(cardan_mbs)
-        else()
-            cardan_precompile(${target} FROM cardan_mbs)
-        endif()
+        cardan_precompile(${target})
     else()
         add_library(${target} INTERFACE)
         set(public INTERFACE)

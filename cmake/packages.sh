@@ -2,7 +2,7 @@
 # shellcheck shell=bash disable=SC2034
 
 cardan_build_packages=(
-    g++ cmake ninja-build lld libmimalloc2.0
+    g++ cmake ninja-build lld
     libeigen3-dev libsundials-dev liburdfdom-dev libhdf5-dev libmatio-dev libcli11-dev catch2 libbenchmark-dev libboost-dev
     libtbb-dev libyaml-dev gnuplot-nox help2man locales
 )
