@@ -6,13 +6,11 @@ usage() {
     cat <<'TEXT'
 usage: ./test.sh [--full] [--keep-going] [--help]
 
-  (nothing)  format check, release build with clang, which takes two thirds of GCC's time, installed-package consumer, and
-             one that GCC makes, all tests but the slow ones and those of the studies (other beams to compare with, papers,
-             the teetered machine), which are not built
-  --full     the same with GCC (a consumer that clang makes) and the studies, then each header by itself, the reference,
-             clang-tidy, the benchmarks parsed, clang's build, which has GCC's symbols, and the tests without studies under
-             its address and undefined-behaviour sanitizers, C++ blocks of the documents, two sweeps at once under the
-             thread sanitizer, one minute of fuzzing for each reader, and the slow tests
+  (nothing)  format check, release build with clang, a project of its own against the installed package, by GCC, and all
+             tests but the slow ones
+  --full     the same, the benchmarks built as well, then each header by itself, the reference, clang-tidy, GCC's build with
+             its tests and a program of clang's, the tests under the address and undefined-behaviour sanitizers, two
+             sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and the slow tests
   --keep-going
              a step that fails does not end the run; the failed ones are named at its end
 
@@ -76,19 +74,21 @@ check_format() {
         echo "${#files[@]} files are formatted"
 }
 
-# Of the release build.
-preset=clang
-if ((full)); then preset=release; fi
-
 build() { # <preset> [options of cmake]
     cmake --preset "$1" "${@:2}" && cmake --build --preset "$1" --parallel "$jobs"
 }
 
-# A project of its own, with find_package(cardan) and the compiler's default flags, against an installed copy.
+# install <preset>: `prefix` holds a copy of what a build has made.
+prefix="$PWD/build/packaging/prefix"
+install() {
+    rm -rf "$prefix" && cmake --install "build/$1" --prefix "$prefix" >/dev/null
+}
+
+# A project of its own, with find_package(cardan) and the system's compiler with its default flags.
 check_package() {
-    local prefix="$PWD/build/packaging/prefix" consumer="$PWD/build/packaging/consumer"
+    local consumer="$PWD/build/packaging/consumer"
     rm -rf build/packaging &&
-        cmake --install "build/$preset" --prefix "$prefix" >/dev/null &&
+        install release &&
         cmake -S tests/packaging -B "$consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" &&
         cmake --build "$consumer" --parallel "$jobs" &&
         (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
@@ -96,49 +96,28 @@ check_package() {
         "$prefix/bin/cardan-wt600-campbell" --help >/dev/null
 }
 
-# A program made by the compiler that the library is not made by: it finds what it calls.
+# check_across_compilers <compiler>: its programs find what they call in the library that is installed.
 check_across_compilers() {
-    local compiler=g++ across="$PWD/build/packaging/across"
-    if ((full)); then compiler=clang++; fi
-    if ! command -v "$compiler" >/dev/null; then
-        echo "there is no $compiler here: that its programs link the library is not tested"
-        return 0
-    fi
+    local across="$PWD/build/packaging/across"
     rm -rf "$across" &&
-        cmake -S tests/packaging/across -B "$across" -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
-            -DCMAKE_CXX_COMPILER="$compiler" &&
+        cmake -S tests/packaging/across -B "$across" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$1" &&
         cmake --build "$across" --parallel "$jobs" &&
         "$across/across"
 }
 
-# With clang, which reads Eigen in less time.
 check_headers() {
-    cmake -S tests/packaging -B build/packaging/headers -G Ninja -DCMAKE_PREFIX_PATH="$PWD/build/packaging/prefix" \
-        -DCMAKE_CXX_COMPILER=clang++ &&
+    cmake -S tests/packaging -B build/packaging/headers -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER=clang++ &&
         cmake --build build/packaging/headers --target consumer_headers --parallel "$jobs"
 }
 
-# run-clang-tidy <options>... <regular expression of sources>, on the compile commands of preset tidy: sources joined across
-# targets (cmake/cardanTidy.cmake).
-tidy() {
-    run-clang-tidy -quiet -j "$jobs" -p build/tidy "$@" 2>&1 | { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
-}
-
-# The library and the programs. A joined source includes .cpp files, which are no mistake and "headers" to report.
+# The libraries, the programs and the benchmarks, as the release build joins their sources. These include .cpp files, which
+# are no mistake, and "headers" to report.
 check_tidy() {
-    local ours='(mbs|elements|turbines|solvers|examples)/[a-z0-9_/]+\.[ch]pp$'
-    cmake --preset tidy >/dev/null &&
-        tidy -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" '^(?!.*(tests/peers|bench_))'
+    local ours='(mbs|elements|turbines|solvers|examples|bench)/[a-z0-9_/]+\.[ch]pp$'
+    run-clang-tidy -quiet -j "$jobs" -p build/release -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" \
+        "^$PWD/(build/release/(CMakeFiles|examples|bench)|examples|bench)/" 2>&1 |
+        { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
-
-# After check_tidy, which makes the compile commands. Interfaces move, and nothing else here compiles the benchmarks: they
-# are read by the parser only, with one check that finds nothing in them.
-check_benchmarks() {
-    grep -q bench_air build/tidy/compile_commands.json && tidy -checks='-*,misc-unused-using-decls' bench_
-}
-
-# The blocks of C++ in the documents. With clang, which reads them in three quarters of GCC's time.
-check_documents() { ctest --test-dir build/sanitize --output-on-failure --no-tests=error --tests-regex '^document_snippets$'; }
 
 check_threads() { build thread && build/thread/tests/two_sweeps; }
 
@@ -147,23 +126,24 @@ if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_p
 
 step "Packages" require_packages "${packages[@]}"
 step "Format" check_format
-step "Build, preset $preset" build "$preset" -D CARDAN_BUILD_STUDIES="$( ((full)) && echo ON || echo OFF)"
+step "Build, preset release" build release -D CARDAN_BUILD_BENCH="$( ((full)) && echo ON || echo OFF)"
 step "Installed package" check_package
-step "Program of the other compiler" check_across_compilers
-step "Tests, preset $preset" ctest --preset "$preset" --parallel "$jobs"
+step "Program of GCC" check_across_compilers g++
+step "Tests, preset release" ctest --preset release --parallel "$jobs"
 if ((full)); then
     step "Headers, each by itself" check_headers
     step "Reference" cmake --build --preset release --target reference
     step "clang-tidy" check_tidy
-    step "Benchmarks, parsed" check_benchmarks
-    step "Build with clang and sanitizers" build sanitize -D CARDAN_BUILD_STUDIES=OFF
-    step "Symbols of both compilers" tests/packaging/across/symbols.sh build/release build/sanitize
-    step "Tests, sanitizers" ctest --preset sanitize --parallel "$jobs"
-    step "C++ in documents" check_documents
+    step "Build, preset gcc" build gcc
+    step "Symbols of both compilers" tests/packaging/across/symbols.sh build/release build/gcc
+    step "Installed package of GCC" install gcc
+    step "Program of clang" check_across_compilers clang++
+    step "Tests, preset gcc" ctest --preset gcc --parallel "$jobs"
+    step "Build, preset sanitize" build sanitize
+    step "Tests, preset sanitize" ctest --preset sanitize --parallel "$jobs"
     step "Thread sanitizer" check_threads
     step "Fuzzing" tests/fuzz/run.sh 60
-    step "Slow tests" ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$' \
-        --exclude-regex '^document_snippets$' --parallel "$jobs"
+    step "Slow tests" ctest --test-dir build/release --output-on-failure --no-tests=error --label-regex '^slow$' --parallel "$jobs"
 fi
 
 if ((${#failed[@]} > 0)); then

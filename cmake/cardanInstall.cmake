@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cardan)
 get_property(libraries GLOBAL PROPERTY CARDAN_LIBRARIES)
-list(TRANSFORM libraries REPLACE "^cardan_" "" OUTPUT_VARIABLE CARDAN_COMPONENTS)
+get_property(CARDAN_COMPONENTS GLOBAL PROPERTY CARDAN_COMPONENTS)
 set(CARDAN_NEEDS "")
 foreach(component IN LISTS CARDAN_COMPONENTS)
     cardan_packages(packages cardan_${component})
@@ -29,12 +29,9 @@ if(programs)
             DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME cardan)
 endif()
 
-# All headers but those in detail/, which are the inside of the libraries, and of what is not built.
-if(NOT CARDAN_BUILD_STUDIES)
-    set(not_built PATTERN "elements/reference" EXCLUDE PATTERN "turbines/studies" EXCLUDE)
-endif()
+# All headers but those in detail/, which are the inside of the libraries.
 install(DIRECTORY mbs elements turbines solvers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE ${not_built})
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/base/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/mbs/base)
 
 file(GLOB data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/turbines/data/*.csv)

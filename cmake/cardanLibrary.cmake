@@ -1,15 +1,28 @@
-# cardan_precompile(<target>): headers that most sources include are compiled once, with cardan_mbs, and taken from there.
-# Sources do not rely on it: the presets thread and debug are made without.
+# A static library for each room of cmake/rooms.cmake, linked as that table says, and the components that users name: groups
+# of rooms.
+
+# What the names behind USES stand for. Without a line: headers only.
+set(links_dl ${CMAKE_DL_LIBS})
+list(TRANSFORM CARDAN_SUNDIALS_COMPONENTS PREPEND SUNDIALS:: OUTPUT_VARIABLE links_sundials)
+set(links_hdf5 hdf5::hdf5_hl hdf5::hdf5)
+set(links_matio matio::matio)
+set(links_libyaml libyaml::libyaml)
+set(links_tbb TBB::tbb)
+set(links_urdfdom urdfdom::urdfdom_model)
+set(links_boost $<BUILD_INTERFACE:Boost::headers>)
+
+# cardan_precompile(<target>): headers that most sources include are compiled once, with mbs/base, and taken from there.
+# Sources do not rely on it: the preset debug is made without.
 function(cardan_precompile target)
     if(NOT CARDAN_PRECOMPILE_HEADERS)
         return()
     endif()
-    if(NOT target STREQUAL "cardan_mbs")
-        target_precompile_headers(${target} REUSE_FROM cardan_mbs)
+    if(NOT target STREQUAL "cardan_mbs_base")
+        target_precompile_headers(${target} REUSE_FROM cardan_mbs_base)
         return()
     endif()
     target_precompile_headers(
-        cardan_mbs
+        ${target}
         PRIVATE
         <algorithm>
         <array>
@@ -36,47 +49,55 @@ function(cardan_link_headers from to)
     endforeach()
 endfunction()
 
-# cardan_rooms(<out> <room>...): the sources of rooms, which are folders below the current one; detail/ is what is inside.
-function(cardan_rooms out)
-    set(sources "")
-    foreach(room IN LISTS ARGN)
-        file(GLOB found CONFIGURE_DEPENDS ${room}/*.cpp ${room}/detail/*.cpp)
-        list(APPEND sources ${found})
-    endforeach()
-    set(${out} ${sources} PARENT_SCOPE)
-endfunction()
-
-# cardan_add_library(<name> [ROOMS <folders>] [WITHOUT <files>] [SOURCES <files>] [PUBLIC <targets>]
-#                    [PRIVATE <targets>])
-#
-# Makes the target cardan_<name>, alias and export name cardan::<name>, of all sources of its rooms, those of WITHOUT left
-# out, and of SOURCES. Without any it is a name for several libraries. Users include headers as
+# cardan_export(<target> <PUBLIC|INTERFACE>): it has a name for users, cardan::<name>, and finds its headers: as
 # <cardan/<folder>/<room>/<file>.hpp>, from include/ installed or from links in generated/include; sources and tests of our
-# own as "<folder>/<room>/<file>.hpp".
-function(cardan_add_library name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;WITHOUT;SOURCES;PUBLIC;PRIVATE")
-    set(target cardan_${name})
-    cardan_rooms(sources ${arg_ROOMS})
-    list(REMOVE_ITEM sources ${arg_WITHOUT})
-    list(APPEND sources ${arg_SOURCES})
-    if(sources)
-        add_library(${target} ${sources})
-        set(public PUBLIC)
-        target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:cardan_warnings>)
-        cardan_precompile(${target})
-    else()
-        add_library(${target} INTERFACE)
-        set(public INTERFACE)
-    endif()
+# own write "<folder>/<room>/<file>.hpp".
+function(cardan_export target scope)
+    string(REGEX REPLACE "^cardan_" "" name ${target})
     add_library(cardan::${name} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS OFF)
-    target_compile_features(${target} ${public} cxx_std_20)
+    target_compile_features(${target} ${scope} cxx_std_20)
     target_include_directories(
-        ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+        ${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
         $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated/include>
         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cardan> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    target_link_libraries(${target} ${public} ${arg_PUBLIC})
     set_property(GLOBAL APPEND PROPERTY CARDAN_LIBRARIES ${target})
+endfunction()
+
+# room(<folder> [SEES <rooms>] [USES <libraries>]), as in cmake/rooms.cmake: the library cardan_<folder>, with _ for /, of
+# the room's sources. The rooms of examples/ are no libraries.
+function(room folder)
+    if(folder MATCHES "^examples")
+        return()
+    endif()
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SEES;USES")
+    string(REPLACE "/" "_" target cardan_${folder})
+    list(TRANSFORM arg_SEES REPLACE "/" "_")
+    list(TRANSFORM arg_SEES PREPEND cardan_)
+    set(folder ${PROJECT_SOURCE_DIR}/${folder})
+    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/detail/*.cpp)
+    add_library(${target} STATIC ${sources})
+    target_link_libraries(${target} PUBLIC ${arg_SEES} PRIVATE $<BUILD_INTERFACE:cardan_warnings>)
+    foreach(library IN LISTS arg_USES)
+        target_link_libraries(${target} PRIVATE ${links_${library}})
+    endforeach()
+    cardan_export(${target} PUBLIC)
+    cardan_precompile(${target})
+endfunction()
+
+# library(...), as in cmake/rooms.cmake: for the test `layering` only.
+function(library)
+endfunction()
+
+# cardan_component(<name> <rooms>...): what users name; cardan::<name> stands for the rooms and those they see.
+function(cardan_component name)
+    set(target cardan_${name})
+    list(TRANSFORM ARGN REPLACE "/" "_")
+    list(TRANSFORM ARGN PREPEND cardan_)
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${ARGN})
+    cardan_export(${target} INTERFACE)
+    set_property(GLOBAL APPEND PROPERTY CARDAN_COMPONENTS ${name})
 endfunction()
 
 # cardan_packages(<out> <target>): what a library and those that it links stand on, as Eigen3 and SUNDIALS, the names

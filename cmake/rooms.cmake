@@ -1,5 +1,6 @@
-# The rooms of the house and what each may include: itself, what stands here, and what those may include. The test
-# `layering` holds all #include lines, and the drawing in CONTRIBUTING.md, against this table.
+# The rooms of the house and what each may include: itself, what stands here, and what those may include. Each is a library
+# that links those (cmake/cardanLibrary.cmake); the test `layering` holds all #include lines, and the drawing in
+# CONTRIBUTING.md, against this table.
 #
 # room(<folder> [SEES <rooms>] [USES <libraries>])
 
@@ -14,11 +15,10 @@ room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files
 
 room(elements/sections SEES mbs/model USES boost) # cross sections, reference lines
 room(elements/machine SEES mbs/system) # joints, drives, brakes, generators, stops, loads
-room(elements/control SEES mbs/system) # signals, filters, actuators, controllers
+room(elements/control SEES mbs/system USES dl) # signals, filters, actuators, controllers
 room(elements/aerodynamics SEES mbs/model USES boost) # polars, wind, blade-element momentum
 room(elements/electric SEES elements/machine elements/control) # circuits, electric machines, the grid
 room(elements/cardan_beam SEES elements/sections elements/machine) # the cardanic joint beam element
-room(elements/reference SEES elements/sections) # other beams to compare with: mixed element, assumed modes
 
 room(solvers/algebra SEES mbs/base USES sundials fft) # eigenvalues, Schur forms, Fourier, collocation
 room(solvers/linear SEES solvers/algebra mbs/system) # operating point, linearisation, modes, Coleman transformation
@@ -42,9 +42,8 @@ room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teeter
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) # operating points over the wind, and their modes
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
-room(turbines/studies SEES turbines/machines elements/reference) # machines with other beams, to compare with
 
-room(examples SEES turbines/studies turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
+room(examples SEES turbines/machines turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
 room(examples/shared SEES examples USES cli11) # what programs and studies have in common
 room(examples/programs SEES examples/shared) # installed
 room(examples/studies SEES examples/shared) # of papers and methods
@@ -55,6 +54,7 @@ library(hdf5 hdf5 H5)
 library(matio matio)
 library(libyaml yaml.h)
 library(boost boost/)
+library(dl dlfcn.h)
 library(tbb tbb/ oneapi/)
 library(urdfdom urdf tinyxml console_bridge)
 library(fft unsupported/)

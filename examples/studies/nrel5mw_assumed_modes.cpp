@@ -1,7 +1,7 @@
 // The NREL 5 MW blade by assumed modes, beside a paper of 2018 that has the same model and beside the joint chain.
 //
 // Problem: beam equations after Hodges and Dowell in a frame that moves with the hub, Galerkin's method
-// (elements/reference/assumed_modes_blade.hpp). Frequencies and mode shapes of the rotating blade with the functions of
+// (examples/studies/beams/assumed_modes_blade.hpp). Frequencies and mode shapes of the rotating blade with the functions of
 // the paper, with the tension integrated from the wrong end (its Table 2) and from the free tip, and with functions
 // that converge; periodic response to gravity and to a pitching platform with and without the time derivatives of the
 // frame's velocities, which the paper's Annex A does not have.

@@ -2,17 +2,27 @@
 /// How the kernels use the vector instructions of the processor without changing a flag of the build.
 #pragma once
 
-/// A function that is compiled twice, for any processor and for those with AVX2 and FMA; the right version is chosen
-/// when the program starts. Everything it calls must be CARDAN_INLINE or a loop of its own. Only pointers and plain
-/// numbers may be passed in and out, so that no type depends on the processor. GCC on x86-64 Linux only: clang 14 has
-/// no such clones. The clones are resolved before a sanitizer is initialised, so sanitizer builds use the vector types
-/// without them.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__)
+/// A function that is compiled twice, for any processor and for those with AVX2 (GCC: and FMA, which clang 14 cannot ask
+/// for beside it); the right version is chosen when the program starts. Everything it calls must be CARDAN_INLINE or a
+/// loop of its own. Only pointers and plain numbers may be passed in and out, so that no type depends on the processor.
+/// The versions are chosen before a sanitizer is initialised, so sanitizer builds use the vector types without them.
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__gnu_linux__)
 #define CARDAN_HAS_VECTOR_TYPES
 #endif
-#if defined(CARDAN_HAS_VECTOR_TYPES) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CARDAN_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define CARDAN_SANITIZED
+#endif
+#endif
+#if defined(CARDAN_HAS_VECTOR_TYPES) && !defined(CARDAN_SANITIZED)
 #define CARDAN_HAS_CLONES
+#if defined(__clang__)
+#define CARDAN_VECTORISED __attribute__((target_clones("avx2", "default")))
+#else
 #define CARDAN_VECTORISED __attribute__((target_clones("arch=x86-64-v3", "default")))
+#endif
 #else
 #define CARDAN_VECTORISED
 #endif

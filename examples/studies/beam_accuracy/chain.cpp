@@ -1,6 +1,6 @@
 #include "examples/studies/beam_accuracy/chain.hpp"
 
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"

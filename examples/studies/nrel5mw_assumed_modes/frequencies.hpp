@@ -2,7 +2,7 @@
 /// Frequencies of the rotating blade: what the paper of 2018 prints, and by which model.
 #pragma once
 
-#include "turbines/studies/nrel5mw_assumed_modes.hpp"
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 #include <array>
 #include <string>

@@ -2,7 +2,7 @@
 /// Assumed functions of the program: those of the paper of 2018, or others in their place.
 #pragma once
 
-#include "elements/reference/assumed_modes_basis.hpp"
+#include "examples/studies/beams/assumed_modes_basis.hpp"
 
 #include "examples/shared/command_line.hpp"
 #include <string>

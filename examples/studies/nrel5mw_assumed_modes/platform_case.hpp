@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solvers/periodic/forced_response.hpp"
-#include "turbines/studies/nrel5mw_assumed_modes.hpp"
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 #include <array>
 #include <string>

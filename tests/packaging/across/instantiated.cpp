@@ -6,9 +6,6 @@
 #include <cardan/mbs/kernels/dynamics.hpp>
 #include <cardan/mbs/kernels/lagrange.hpp>
 #include <cardan/mbs/system/forces.hpp>
-#if __has_include(<cardan/turbines/studies/teetered_mixed.hpp>)
-#include <cardan/turbines/studies/teetered_mixed.hpp>
-#endif
 
 namespace cardan {
 namespace {
@@ -28,10 +25,6 @@ void name_all() {
     name(&Loops::residual<S>, &Loops::gradient<S>, &Loops::bias<S>);
     name(&Forces::generalised_forces_of_elements<S>);
     name(&RotorCurve::torque<S>, &RotorCurve::thrust_force<S>);
-#if __has_include(<cardan/turbines/studies/teetered_mixed.hpp>)
-    name(&rodrigues_rotation<S>, &inertial_load<S>, &MixedBeam::residual<S>, &mixed_residual<S>);
-    name(&turbines::TeeteredMixed::residual<S>);
-#endif
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 /// Floquet exponents than integration, and one that takes descriptor systems as they are.
 #pragma once
 
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 

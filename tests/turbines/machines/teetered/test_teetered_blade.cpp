@@ -1,5 +1,5 @@
 // The blade of the two-bladed teetered machine, clamped to a rigid hub, at rest and at 6.02 rad/s.
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/entry.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"

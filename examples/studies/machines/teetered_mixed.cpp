@@ -1,4 +1,4 @@
-#include "turbines/studies/teetered_mixed.hpp"
+#include "examples/studies/machines/teetered_mixed.hpp"
 
 #include "elements/machine/joints.hpp"
 #include "mbs/base/error.hpp"

@@ -1,5 +1,5 @@
 // Frequencies of the mixed beam of Lee, Hodges and Patil (2002) against printed digits, closed forms and oracles.
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/root_finding.hpp"

@@ -1,4 +1,4 @@
-#include "turbines/studies/nrel5mw_assumed_modes.hpp"
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 #include "turbines/machines/nrel5mw_geometry.hpp"
 

@@ -1,4 +1,4 @@
-#include "elements/reference/assumed_modes_section.hpp"
+#include "examples/studies/beams/assumed_modes_section.hpp"
 
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"

@@ -4,7 +4,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "solvers/linear/modes.hpp"
-#include "tests/elements/reference/assumed_modes.hpp"
+#include "tests/studies/beams/assumed_modes.hpp"
 #include "tests/oracles/rotating_blade.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"

@@ -1,9 +1,9 @@
 /// @file
-/// The two-bladed teetered machine with mixed beam elements (elements/reference/mixed_beam.hpp), as in the paper of
+/// The two-bladed teetered machine with mixed beam elements (examples/studies/beams/mixed_beam.hpp), as in the paper of
 /// Lee, Hodges and Patil (2002): the same description with a different model, without a tree or joint chain.
 #pragma once
 
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "turbines/machines/teetered.hpp"
 
 #include <cstdint>

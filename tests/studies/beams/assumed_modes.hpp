@@ -2,7 +2,7 @@
 /// Uniform beams by assumed modes.
 #pragma once
 
-#include "elements/reference/assumed_modes_blade.hpp"
+#include "examples/studies/beams/assumed_modes_blade.hpp"
 #include "mbs/base/entry.hpp"
 
 namespace cardan::testing {

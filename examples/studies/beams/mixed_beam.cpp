@@ -1,4 +1,4 @@
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/entry.hpp"

@@ -1,5 +1,5 @@
 // Boundary equations, steady state and small vibrations of the mixed beam.
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"

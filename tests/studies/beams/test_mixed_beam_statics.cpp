@@ -1,5 +1,5 @@
 // Statics, derivatives and refusals of the mixed beam of Lee, Hodges and Patil (2002).
-#include "elements/reference/mixed_beam.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"

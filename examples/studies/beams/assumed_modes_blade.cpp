@@ -1,4 +1,4 @@
-#include "elements/reference/assumed_modes_blade.hpp"
+#include "examples/studies/beams/assumed_modes_blade.hpp"
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"

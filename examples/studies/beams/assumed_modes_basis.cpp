@@ -1,4 +1,4 @@
-#include "elements/reference/assumed_modes_basis.hpp"
+#include "examples/studies/beams/assumed_modes_basis.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "elements/reference/hub_motion.hpp"
+#include "examples/studies/beams/hub_motion.hpp"
 
 #include "mbs/model/spatial.hpp"
 

@@ -6,7 +6,7 @@
 #include "tests/turbines/machines/teetered/hill.hpp"
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
 #include "tests/turbines/machines/teetered/teetered_machine.hpp"
-#include "turbines/studies/teetered_mixed.hpp"
+#include "examples/studies/machines/teetered_mixed.hpp"
 
 #include <tuple>
 
