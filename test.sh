@@ -121,7 +121,7 @@ check_tidy() {
 
 check_threads() { build thread && build/thread/tests/two_sweeps; }
 
-packages=("${cardan_build_packages[@]}" "${cardan_clang_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
+packages=("${cardan_build_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
 if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_packages[@]}"); fi
 
 step "Packages" require_packages "${packages[@]}"

@@ -2,7 +2,7 @@
 # shellcheck shell=bash disable=SC2034
 
 cardan_build_packages=(
-    g++ cmake ninja-build lld
+    clang g++ cmake ninja-build lld
     libeigen3-dev libsundials-dev liburdfdom-dev libhdf5-dev libmatio-dev libcli11-dev catch2 libbenchmark-dev libboost-dev
     libtbb-dev libyaml-dev gnuplot-nox help2man locales
 )
@@ -10,7 +10,6 @@ cardan_build_packages=(
 cardan_peer_packages=(libsimbody-dev libmujoco-dev python3-xarray python3-netcdf4 python3-h5netcdf netcdf-bin)
 cardan_format_packages=(clang-format)
 cardan_reference_packages=(doxygen graphviz libjs-mathjax python3)
-cardan_clang_packages=(clang)
 cardan_check_packages=(clang-tidy libclang-rt-14-dev)
 cardan_debian_packages=(debootstrap dpkg-dev)
 
