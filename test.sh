@@ -93,7 +93,7 @@ check_package() {
         cmake --build "$consumer" --parallel "$jobs" &&
         (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
             ./consumer_sanitized) &&
-        "$prefix/bin/cardan-wt600-campbell" --help >/dev/null
+        "$prefix/bin/cardan" modes wt600 >/dev/null
 }
 
 # check_across_compilers <compiler>: its programs find what they call in the library that is installed.
@@ -113,9 +113,9 @@ check_headers() {
 # The libraries, the programs and the benchmarks, as the release build joins their sources. These include .cpp files, which
 # are no mistake, and "headers" to report.
 check_tidy() {
-    local ours='(mbs|elements|turbines|solvers|examples|bench)/[a-z0-9_/]+\.[ch]pp$'
+    local ours='(mbs|elements|turbines|solvers|programs|examples|bench)/[a-z0-9_/]+\.[ch]pp$'
     run-clang-tidy -quiet -j "$jobs" -p build/release -checks=-bugprone-suspicious-include -header-filter="$PWD/$ours" \
-        "^$PWD/(build/release/(CMakeFiles|examples|bench)|examples|bench)/" 2>&1 |
+        "^$PWD/(build/release/(CMakeFiles|programs|examples|bench)|programs|examples|bench)/" 2>&1 |
         { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Peak memory and CPU time of every program with its default options, as a table.
 
-usage: bench/memory.py [FOLDER OF THE PROGRAMS, default build/release/examples]
+usage: bench/memory.py [BUILD FOLDER, default build/release]
 """
 import os
 import pathlib
@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAMS = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/examples").resolve()
+BUILD = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release").resolve()
 
 # Programs that want to be told what to do.
 ARGUMENTS = {
@@ -31,13 +31,12 @@ def run(command, folder):
 
 
 def main():
-    names = sorted(p.stem for p in (ROOT / "examples/programs").glob("*.cpp")) + sorted(
-        p.stem for p in (ROOT / "examples/studies").glob("*.cpp"))
+    names = ["cardan"] + sorted(p.stem for p in (ROOT / "examples/studies").glob("*.cpp"))
     print("| Program | peak, MiB | CPU, s |\n|---|---|---|")
     for name in names:
         for arguments in ARGUMENTS.get(name, [[]]):
             with tempfile.TemporaryDirectory() as folder:
-                result = run([str(PROGRAMS / name), *arguments], folder)
+                result = run([str(BUILD / ("programs" if name == "cardan" else "examples") / name), *arguments], folder)
             shown = " ".join([name, *(pathlib.Path(a).name for a in arguments)])
             print(f"| `{shown}` | " + ("failed | |" if result is None else f"{result[0]:.0f} | {result[1]:.1f} |"),
                   flush=True)

@@ -15,17 +15,11 @@ endforeach()
 install(TARGETS ${libraries} EXPORT cardanTargets)
 install(EXPORT cardanTargets NAMESPACE cardan:: DESTINATION ${package_dir})
 
-# Beside `cardan`, those of single machines: `wt600_campbell` is `cardan-wt600-campbell`.
-get_property(programs GLOBAL PROPERTY CARDAN_PROGRAMS)
-foreach(program IN LISTS programs)
-    string(REPLACE "_" "-" name cardan-${program})
-    string(REGEX REPLACE "^cardan-cardan$" "cardan" name ${name})
-    install(PROGRAMS $<TARGET_FILE:${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${name})
-endforeach()
-get_property(manual GLOBAL PROPERTY CARDAN_MANUAL)
-install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-if(programs)
-    install(FILES ${PROJECT_SOURCE_DIR}/examples/programs/cardan/completion.bash
+if(CARDAN_BUILD_EXAMPLES)
+    install(TARGETS cardan)
+    get_property(manual GLOBAL PROPERTY CARDAN_MANUAL)
+    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${PROJECT_SOURCE_DIR}/programs/cardan/completion.bash
             DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME cardan)
 endif()
 

@@ -65,9 +65,9 @@ function(cardan_export target scope)
 endfunction()
 
 # room(<folder> [SEES <rooms>] [USES <libraries>]), as in cmake/rooms.cmake: the library cardan_<folder>, with _ for /, of
-# the room's sources. The rooms of examples/ are no libraries.
+# the room's sources. Those of programs/ and examples/ are no libraries.
 function(room folder)
-    if(folder MATCHES "^examples")
+    if(folder MATCHES "^(programs|examples)")
         return()
     endif()
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SEES;USES")

@@ -24,7 +24,7 @@ endfunction()
 
 # The commands and what they are for stand in the program's own table.
 cardan_manual_page(cardan "" "wind turbines as multibody systems")
-set(table ${CMAKE_CURRENT_SOURCE_DIR}/programs/cardan.cpp)
+set(table ${CMAKE_CURRENT_SOURCE_DIR}/cardan.cpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
 file(STRINGS ${table} rows REGEX "^    Command{\"")
 foreach(row IN LISTS rows)

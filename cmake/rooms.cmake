@@ -43,10 +43,11 @@ room(turbines/control SEES turbines/model elements/control) # pitch drives and g
 room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) # operating points over the wind, and their modes
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 
-room(examples SEES turbines/machines turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf)
-room(examples/shared SEES examples USES cli11) # what programs and studies have in common
-room(examples/programs SEES examples/shared) # installed
-room(examples/studies SEES examples/shared) # of papers and methods
+room(programs/shared SEES turbines/machines turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
+room(programs/cardan SEES programs/shared) # the commands of `cardan`
+room(programs SEES programs/cardan)
+room(examples SEES turbines/machines turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf) # short scripts
+room(examples/studies SEES examples programs/shared) # of papers and methods
 
 # Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)
 library(sundials sundials/ cvode/ cvodes/ ida/ idas/ arkode/ kinsol/ nvector/ sunmatrix/ sunlinsol/ sunnonlinsol/)

@@ -3,13 +3,13 @@ cmake_minimum_required(VERSION 3.25)
 # Fails when a source includes what its room must not see (cmake/rooms.cmake), when a source stands in no room, when the
 # inside of a folder (detail/) is included from another one, when an oracle includes the library, and when the drawing in
 # CONTRIBUTING.md shows other arrows.
-set(folders mbs elements turbines solvers examples bench tests)
+set(folders mbs elements turbines solvers programs examples bench tests)
 set(rooms "")
 set(libraries "")
 set(violations "")
 
-# split(<path>): `parts` of a path from the root of the source tree, its top `folder` and its `room`: examples/shared for
-# examples/shared/program.hpp, examples for examples/cantilever.cpp.
+# split(<path>): `parts` of a path from the root of the source tree, its top `folder` and its `room`: programs/shared for
+# programs/shared/program.hpp, examples for examples/cantilever.cpp.
 macro(split path)
     string(REPLACE "/" ";" parts ${path})
     list(GET parts 0 folder)
@@ -32,7 +32,7 @@ macro(room name)
             message(FATAL_ERROR "${name} sees ${other}, which does not stand above it: rooms go one way")
         endif()
         list(APPEND sees_${name} ${sees_${other}})
-        if(NOT folder STREQUAL "examples") # they see nearly all
+        if(NOT folder MATCHES "^(programs|examples)$") # they see nearly all
             list(APPEND arrows "${name} --> ${other}")
         endif()
     endforeach()
@@ -108,7 +108,7 @@ function(check_include file header)
 endfunction()
 
 set(count 0)
-foreach(searched IN ITEMS mbs elements turbines solvers examples)
+foreach(searched IN ITEMS mbs elements turbines solvers programs examples)
     file(GLOB_RECURSE files RELATIVE ${source_dir} ${source_dir}/${searched}/*.hpp ${source_dir}/${searched}/*.cpp)
     foreach(file IN LISTS files)
         split(${file})

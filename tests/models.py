@@ -102,7 +102,7 @@ def row(program, model, refined, timeout):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--refined", action="store_true", help="compare the first ten modes with a refined mesh")
-    parser.add_argument("--cardan", default=str(ROOT / "build/release/examples/cardan"))
+    parser.add_argument("--cardan", default=str(ROOT / "build/release/programs/cardan"))
     parser.add_argument("--timeout", type=float, default=300)
     options = parser.parse_args()
     options.cardan = str(pathlib.Path(options.cardan).resolve())  # it runs in another folder

@@ -9,8 +9,8 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
 
-#include "examples/shared/program.hpp"
 #include "examples/studies/beam_accuracy/figure.hpp"
+#include "programs/shared/program.hpp"
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

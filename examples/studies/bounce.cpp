@@ -8,7 +8,7 @@
 #include "solvers/pictures/stack.hpp"
 #include "solvers/time/integrate.hpp"
 
-#include "examples/shared/study.hpp"
+#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

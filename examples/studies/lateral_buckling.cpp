@@ -9,7 +9,7 @@
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/pictures/stack.hpp"
 
-#include "examples/shared/study.hpp"
+#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -8,8 +8,8 @@
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/stack.hpp"
 
-#include "examples/shared/study.hpp"
 #include "examples/studies/nelson_mcvaugh_rotor/rotor.hpp"
+#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -1,20 +1,20 @@
 // The NREL 5 MW blade by assumed modes, beside a paper of 2018 that has the same model and beside the joint chain.
 //
 // Problem: beam equations after Hodges and Dowell in a frame that moves with the hub, Galerkin's method
-// (examples/studies/beams/assumed_modes_blade.hpp). Frequencies and mode shapes of the rotating blade with the functions of
-// the paper, with the tension integrated from the wrong end (its Table 2) and from the free tip, and with functions
-// that converge; periodic response to gravity and to a pitching platform with and without the time derivatives of the
-// frame's velocities, which the paper's Annex A does not have.
-// References: the tables of the paper; converged frequencies and response of the same blade by other methods
-// (docs/nrel5mw_blade.md, docs/nrel5mw_platform.md).
+// (examples/studies/beams/assumed_modes_blade.hpp). Frequencies and mode shapes of the rotating blade with the
+// functions of the paper, with the tension integrated from the wrong end (its Table 2) and from the free tip, and with
+// functions that converge; periodic response to gravity and to a pitching platform with and without the time
+// derivatives of the frame's velocities, which the paper's Annex A does not have. References: the tables of the paper;
+// converged frequencies and response of the same blade by other methods (docs/nrel5mw_blade.md,
+// docs/nrel5mw_platform.md).
 #include "mbs/base/units.hpp"
 #include "solvers/pictures/stack.hpp"
 #include "turbines/machines/nrel5mw_platform.hpp"
 
-#include "examples/shared/program.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/functions.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/platform_case.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/shapes.hpp"
+#include "programs/shared/program.hpp"
 #include <cmath>
 #include <iomanip>
 #include <iostream>

@@ -15,8 +15,8 @@
 #include "solvers/pictures/blade_shapes.hpp"
 #include "turbines/machines/nrel5mw_blade.hpp"
 
-#include "examples/shared/program.hpp"
-#include "examples/shared/words.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/words.hpp"
 #include <array>
 #include <filesystem>
 #include <iomanip>

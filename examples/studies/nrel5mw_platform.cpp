@@ -10,10 +10,10 @@
 // Goal: 0.5 % and 1 degree on every harmonic above 0.01 m with 16 elements.
 #include "mbs/base/units.hpp"
 
-#include "examples/shared/motion_option.hpp"
-#include "examples/shared/simulation.hpp"
+#include "examples/studies/motion_option.hpp"
 #include "examples/studies/nrel5mw_platform/files.hpp"
 #include "examples/studies/nrel5mw_platform/reference.hpp"
+#include "programs/shared/simulation.hpp"
 #include <array>
 #include <iomanip>
 #include <optional>

@@ -11,7 +11,7 @@
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/stack.hpp"
 
-#include "examples/shared/study.hpp"
+#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -9,7 +9,7 @@
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
 
-#include "examples/shared/study.hpp"
+#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -8,7 +8,7 @@
 #include "solvers/periodic/steady_state.hpp"
 #include "solvers/pictures/stack.hpp"
 
-#include "examples/shared/study.hpp"
+#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

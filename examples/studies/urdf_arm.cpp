@@ -10,9 +10,9 @@
 #include "mbs/kernels/metric.hpp"
 #include "solvers/linear/modes.hpp"
 
-#include "examples/shared/named_values.hpp"
-#include "examples/shared/program.hpp"
 #include "examples/studies/urdf_arm/tube.hpp"
+#include "programs/shared/named_values.hpp"
+#include "programs/shared/program.hpp"
 #include <iomanip>
 #include <iostream>
 

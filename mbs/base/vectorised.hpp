@@ -2,10 +2,11 @@
 /// How the kernels use the vector instructions of the processor without changing a flag of the build.
 #pragma once
 
-/// A function that is compiled twice, for any processor and for those with AVX2 (GCC: and FMA, which clang 14 cannot ask
-/// for beside it); the right version is chosen when the program starts. Everything it calls must be CARDAN_INLINE or a
-/// loop of its own. Only pointers and plain numbers may be passed in and out, so that no type depends on the processor.
-/// The versions are chosen before a sanitizer is initialised, so sanitizer builds use the vector types without them.
+/// A function that is compiled twice, for any processor and for those with AVX2 (GCC: and FMA, which clang 14 cannot
+/// ask for beside it); the right version is chosen when the program starts. Everything it calls must be CARDAN_INLINE
+/// or a loop of its own. Only pointers and plain numbers may be passed in and out, so that no type depends on the
+/// processor. The versions are chosen before a sanitizer is initialised, so sanitizer builds use the vector types
+/// without them.
 #if defined(__GNUC__) && defined(__x86_64__) && defined(__gnu_linux__)
 #define CARDAN_HAS_VECTOR_TYPES
 #endif

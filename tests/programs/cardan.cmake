@@ -79,7 +79,7 @@ add_example_test(example_foundation_bad cardan 1 "soft.yaml.*small_v1.yaml|small
 
 # Completion: what bash offers.
 add_test(NAME example_completion COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/programs/completion.sh
-         ${PROJECT_SOURCE_DIR}/examples/programs/cardan/completion.bash $<TARGET_FILE:cardan>)
+         ${PROJECT_SOURCE_DIR}/programs/cardan/completion.bash $<TARGET_FILE:cardan>)
 get_property(manual GLOBAL PROPERTY CARDAN_MANUAL)
 if(manual)
     add_test(NAME example_manual COMMAND grep -q "max.*frequency" ${PROJECT_BINARY_DIR}/examples/manual/cardan-campbell.1)

@@ -1,6 +1,5 @@
 #include "examples/studies/beam_accuracy/chain.hpp"
 
-#include "examples/studies/beams/mixed_beam.hpp"
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
@@ -12,6 +11,7 @@
 #include "solvers/linear/modes.hpp"
 
 #include "examples/studies/beam_accuracy/corotational.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include <cmath>
 
 namespace cardan::accuracy {

@@ -9,17 +9,17 @@
 ///
 ///     M q'' + G(A) q' + (K_e + sum_ab W_ab K_ab + sum_c a_c K_c) q = f,   W = [A_dot x] + [A x]^2,
 ///
-/// with the acceleration a of the frame's origin minus gravity (examples/studies/beams/hub_motion.hpp). Left out: all terms
-/// of second order in the equations (deflections of several per cent of the length, their coupling with torsion, the
-/// steady stretch of the axis, for which see stretched()), shear strain, warping and the tension-torsion (trapeze)
+/// with the acceleration a of the frame's origin minus gravity (examples/studies/beams/hub_motion.hpp). Left out: all
+/// terms of second order in the equations (deflections of several per cent of the length, their coupling with torsion,
+/// the steady stretch of the axis, for which see stretched()), shear strain, warping and the tension-torsion (trapeze)
 /// effect. Equations: docs/nrel5mw_paper2018.md. [Hodges and Dowell 1974, NASA TN D-7818]
 #pragma once
+
+#include "elements/sections/section.hpp"
 
 #include "examples/studies/beams/assumed_modes_basis.hpp"
 #include "examples/studies/beams/assumed_modes_section.hpp"
 #include "examples/studies/beams/hub_motion.hpp"
-#include "elements/sections/section.hpp"
-
 #include <array>
 
 namespace cardan {

@@ -2,9 +2,9 @@
 /// One section of an assumed-modes blade: quadratic forms of its kinetic and elastic energy.
 #pragma once
 
-#include "examples/studies/beams/hub_motion.hpp"
 #include "elements/sections/section.hpp"
 
+#include "examples/studies/beams/hub_motion.hpp"
 #include <array>
 #include <span>
 

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "examples/studies/beams/assumed_modes_basis.hpp"
-
-#include "examples/shared/command_line.hpp"
+#include "programs/shared/command_line.hpp"
 #include <string>
 
 namespace cardan::paper2018 {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "solvers/periodic/forced_response.hpp"
-#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 #include <array>
 #include <string>
 #include <vector>

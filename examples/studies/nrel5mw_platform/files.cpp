@@ -3,7 +3,7 @@
 #include "mbs/base/pending_file.hpp"
 #include "turbines/model/channels.hpp"
 
-#include "examples/shared/simulation.hpp"
+#include "programs/shared/simulation.hpp"
 #include <iomanip>
 #include <sstream>
 #include <utility>

@@ -2,8 +2,9 @@
 /// Uniform beams by assumed modes.
 #pragma once
 
-#include "examples/studies/beams/assumed_modes_blade.hpp"
 #include "mbs/base/entry.hpp"
+
+#include "examples/studies/beams/assumed_modes_blade.hpp"
 
 namespace cardan::testing {
 

@@ -2,11 +2,11 @@
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "tests/studies/beams/assumed_modes.hpp"
 #include "tests/oracles/column_buckling.hpp"
 #include "tests/oracles/coupled_bending_torsion.hpp"
 #include "tests/oracles/euler_bernoulli.hpp"
 #include "tests/oracles/rotating_beam_series.hpp"
+#include "tests/studies/beams/assumed_modes.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace cardan;

@@ -11,6 +11,7 @@
 #include "turbines/machines/nrel5mw_platform.hpp"
 #include "turbines/readers/csv.hpp"
 #include "turbines/readers/detail/embedded_data.hpp"
+
 #include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 namespace cardan::testing::nrel5mw_assumed_modes {

@@ -6,8 +6,8 @@
 #include "tests/turbines/machines/teetered/hill.hpp"
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
 #include "tests/turbines/machines/teetered/teetered_machine.hpp"
-#include "examples/studies/machines/teetered_mixed.hpp"
 
+#include "examples/studies/machines/teetered_mixed.hpp"
 #include <tuple>
 
 using namespace cardan;

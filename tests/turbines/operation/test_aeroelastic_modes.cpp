@@ -8,7 +8,7 @@
 #include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/csv.hpp"
 
-#include "examples/programs/nrel5mw_campbell/assumed_shapes.hpp"
+#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>
 #include <array>
 #include <map>

@@ -4,6 +4,7 @@
 #include "tests/oracles/platform_frames.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
+
 #include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 namespace cardan::testing::blade_root_tests {

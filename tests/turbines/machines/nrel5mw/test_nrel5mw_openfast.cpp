@@ -10,7 +10,7 @@
 #include "turbines/readers/csv.hpp"
 #include "turbines/readers/detail/embedded_data.hpp"
 
-#include "examples/programs/nrel5mw_campbell/assumed_shapes.hpp"
+#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>
 
 namespace cardan::testing::nrel5mw_openfast {

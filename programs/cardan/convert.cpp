@@ -1,0 +1,105 @@
+// Files in other formats: a machine as our own YAML, channels of a time history as CSV.
+//
+// Reference: docs/file_formats.md. A result holds the machine that was computed, which is a machine like any other.
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/campbell/csv.hpp"
+#include "solvers/hdf5/history.hpp"
+#include "turbines/model/description_text.hpp"
+
+#include "programs/cardan/commands.hpp"
+#include "programs/shared/machine_file.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/run_record.hpp"
+#include <iomanip>
+#include <iostream>
+#include <system_error>
+
+namespace cardan::program {
+
+namespace {
+
+struct ConvertArguments {
+    MachineOptions machine;
+    std::string to;
+    solvers::HistorySelection selection;
+};
+
+void declare(CommandLine& app, ConvertArguments& a) {
+    app.add_option("from", a.machine.model, "a machine, or the file of a time history (.h5)").required();
+    app.add_option("to", a.to, "file to write: FILE.yaml, the machine; FILE.csv, channels of the history").required();
+    app.add_option("--channel", a.selection.channels, "CSV: names or aliases (default: all)").one_word();
+    app.add_option("--from", a.selection.from, "CSV: first time, s").hide_default();
+    app.add_option("--to", a.selection.to, "CSV: last time, s").hide_default();
+    add_source_options(app, a.machine);
+    app.footer(text("\n", machine_help()));
+}
+
+std::string field(const std::string& name, const std::string& units) {
+    return solvers::csv_field(name + "[" + (units == "1" ? "-" : units) + "]");
+}
+
+std::string rows(const solvers::History& history) {
+    std::ostringstream out = text_stream();
+    out << field("time", "s");
+    for (const Channel& channel : history.channels) out << "," << field(channel.name, channel.units);
+    out << "\n" << std::setprecision(10);
+    for (std::size_t row = 0; row < history.time.size(); ++row) {
+        out << history.time[row];
+        for (const std::vector<double>& values : history.values) out << "," << values[row];
+        out << "\n";
+    }
+    return out.str();
+}
+
+void write_csv(const ConvertArguments& a) {
+    const solvers::History history = solvers::read_history(a.machine.model, a.selection);
+    write_file(a.to, rows(history));
+    std::cout << a.to << ": " << history.time.size() << " rows of " << history.channels.size() << " channels\n";
+}
+
+// How the machine runs is no part of it: what is to be said again.
+std::string how_it_runs(const MachineFile& machine) {
+    const turbines::TurbineFile& model = machine.file;
+    std::string words;
+    if (model.pitch != 0) words += text(" --pitch ", model.pitch * units::to_degrees);
+    if (model.dofs.tower_fore_aft != model.dofs.tower_side_side)
+        words += model.dofs.tower_fore_aft ? " --tower fore-aft" : " --tower side-side";
+    if (!model.dofs.blades) words += " --blades rigid";
+    return words;
+}
+
+void write_yaml(ConvertArguments& a) {
+    const MachineFile machine = prepared_machine(a.machine);
+    std::error_code error;
+    if (std::filesystem::equivalent(a.to, a.machine.model, error))
+        throw InputError("to", "file", a.to, "another one than the machine's");
+    turbines::write_description(machine.file.description, a.to);
+    std::cout << a.to << ": " << machine.file.description.name << "\n";
+    if (const std::string words = how_it_runs(machine); !words.empty())
+        std::cout << "note: " << a.to << " holds the machine, not how it runs:" << words << "\n";
+}
+
+int run(ConvertArguments& a, const CommandLine& /*command*/) {
+    stop_at_once();
+    if (is_yaml(a.to))
+        write_yaml(a);
+    else if (std::filesystem::path(a.to).extension() == ".csv")
+        write_csv(a);
+    else
+        throw InputError("to", "file", a.to, "one that ends in .yaml (a machine) or .csv (a time history)");
+    return std::cout.flush() ? 0 : 1;
+}
+
+}  // namespace
+
+int convert_command(int argc, char** argv) {
+    return run_command<ConvertArguments>(
+        "cardan convert",
+        "A machine, from any source, as our own YAML; a time history as CSV, one line per "
+        "time and one column per channel.",
+        argc, argv, declare, run);
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,105 @@
+// Modes of any machine at one rotor speed: a Campbell diagram of one point, with all that is known of each mode.
+//
+// Problem and theory are those of `cardan campbell`; at rest the modes of all degrees of freedom, a rotor that is free
+// to turn included.
+#include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
+
+#include "programs/cardan/commands.hpp"
+#include "programs/cardan/operation.hpp"
+#include "programs/shared/campbell_program.hpp"
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <ranges>
+
+namespace cardan::program {
+
+namespace {
+
+struct ModesArguments {
+    MachineOptions machine;
+    double rpm = 0;
+    std::optional<double> max_frequency;
+    std::string out;
+    bool shapes = false;
+};
+
+void declare(CommandLine& app, ModesArguments& a) {
+    add_machine(app, a.machine);
+    app.add_option("--rpm", a.rpm, "rotor speed, rev/min");
+    add_machine_options(app, a.machine);
+    app.add_option("--max-frequency", a.max_frequency,
+                   "modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
+    app.add_flag("--gravity", a.machine.gravity, "with gravity");
+    app.add_flag("--shapes", a.shapes, "draw the shapes: PREFIX/<mode>_<rpm>rpm.svg, .png");
+    app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _modes)");
+}
+
+// The three largest parts of the elastic energy: "blade flap 1 81 %, tower fore-aft 1 12 %".
+std::string energy_in_words(const solvers::Campbell& diagram, const solvers::CampbellMode& mode) {
+    std::vector<const solvers::Share*> shares;
+    shares.reserve(mode.shares.size());
+    for (const solvers::Share& share : mode.shares) shares.push_back(&share);
+    std::ranges::sort(shares, std::ranges::greater(), [](const solvers::Share* s) { return s->total(); });
+    if (shares.size() > 3) shares.resize(3);
+    std::string words;
+    for (const solvers::Share* share : shares) {
+        if (share->total() < 0.01) break;
+        const solvers::Component& c = entry(diagram.components, share->component);
+        words +=
+            text(words.empty() ? "" : ", ", c.ordinal, ". ", c.family, " ", std::lround(100 * share->total()), " %");
+    }
+    return words;
+}
+
+void print(const solvers::Campbell& diagram) {
+    std::printf("%s: modes at %g rpm; %s\n", diagram.machine.c_str(),
+                diagram.points.front().rotor_speed * units::to_rpm, method_in_words(diagram).c_str());
+    if (!diagram.remark.empty()) std::printf("%s\n", diagram.remark.c_str());
+    std::printf("\n%-36s %14s %11s %9s   %s\n", "mode", "|lambda|/2pi Hz", "damped Hz", "damping %", "elastic energy");
+    for (const solvers::Branch& branch : diagram.branches) {
+        const solvers::CampbellMode* mode = diagram.mode(branch, 0);
+        if (mode == nullptr) continue;
+        std::printf("%-36s %14.4f %12.4f %9.3f   %s\n", (branch.name + (branch.doubtful[0] ? " ?" : "")).c_str(),
+                    diagram.natural_hz(branch, 0), diagram.damped_hz(branch, 0), 100 * diagram.damping_ratio(branch, 0),
+                    energy_in_words(diagram, *mode).c_str());
+    }
+    std::printf("%s\n", diagram.accuracy.c_str());
+    if (!diagram.warning.empty()) std::printf("\nwarning: %s\n", diagram.warning.c_str());
+}
+
+int run(ModesArguments& a, const CommandLine& command) {
+    const MachineFile machine = prepared_machine(a.machine);
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, "modes");
+    const double speed = a.rpm * units::rpm;
+    set_pitch(machine, a.machine, speed);
+    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
+    const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, std::abs(speed));
+    check_outputs(a.out, {".h5", ".csv"});
+    solvers::CampbellOptions options = campbell_options(*a.max_frequency);
+    options.progress = {};
+    options.method = diagram_method(machine, a.machine);
+    options.spin = rotor_spin(machine);
+    solvers::Campbell diagram = solvers::campbell(ready.turbine.system(), ready.turbine.rotor(), {speed}, options);
+    stop_at_once();
+    if (diagram.points.empty()) return 130;
+    tell_origin(diagram, machine, ready, run_text("modes", command));
+    print(diagram);
+    solvers::write_hdf5(diagram, a.out + ".h5");
+    solvers::write_csv(diagram, a.out + ".csv");
+    if (a.shapes) draw_modes(diagram, a.out);
+    std::printf("\nfiles: %s.h5, .csv%s\n", a.out.c_str(), a.shapes ? text("; shapes in ", a.out, "/").c_str() : "");
+    return 0;
+}
+
+}  // namespace
+
+int modes_command(int argc, char** argv) {
+    return run_command<ModesArguments>("cardan modes",
+                                       "Modes of any machine at one rotor speed, with their elastic energy by parts.\n"
+                                       "Writes PREFIX.h5 and PREFIX.csv, and prints a table.",
+                                       argc, argv, declare, run);
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,150 @@
+// Steady state of any machine: at one rotor speed without air, deflections and loads over a revolution; or in the wind,
+// over the wind speed (steady_wind.cpp).
+//
+// Problem: the rotor turns at constant speed and everything else has the period of a revolution: gravity, two blades,
+// blades that differ; the steady state is found by harmonic balance. At rest, or where nothing depends on the azimuth,
+// it is constant. Without wind what is seen is what weights and rotation do.
+// Checked: what the neglected harmonics would have to balance is printed.
+#include "mbs/base/error.hpp"
+#include "mbs/base/outcome.hpp"
+#include "mbs/base/units.hpp"
+#include "solvers/hdf5/history.hpp"
+#include "solvers/pictures/history.hpp"
+#include "turbines/model/channels.hpp"
+
+#include "programs/cardan/commands.hpp"
+#include "programs/cardan/operation.hpp"
+#include "programs/cardan/revolution.hpp"
+#include "programs/cardan/steady_wind.hpp"
+#include "programs/shared/channel_choice.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/steady_rotation.hpp"
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace cardan::program {
+
+namespace {
+
+struct SteadyArguments {
+    MachineOptions machine;
+    WindArguments wind;
+    RevolutionOptions revolution;
+    std::optional<double> rpm;
+    double azimuth = 0;
+    bool no_gravity = false, all = false;
+    std::string out;
+};
+
+void declare(CommandLine& app, SteadyArguments& a) {
+    add_machine(app, a.machine);
+    app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the machine's)");
+    app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at rest, deg, zero upward");
+    app.add_option("--azimuths", a.revolution.azimuths, "azimuths per revolution that are written").range(4, 100000);
+    app.add_option("--harmonics", a.revolution.harmonics, "harmonics of the revolution that are balanced")
+        .range(1, 200);
+    app.add_flag("--no-gravity", a.no_gravity, "without gravity");
+    app.add_flag("--all", a.all, "print all channels, not only the main ones");
+    add_station_options(app, a.revolution.stations);
+    add_wind_options(app, a.wind);
+    add_wake_option(app, a.wind.air);
+    add_machine_options(app, a.machine);
+    app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
+}
+
+// One revolution; at rest one state.
+struct Revolution {
+    std::vector<solvers::OperatingPoint> states;
+    std::string about;
+};
+
+Revolution standing(const turbines::Turbine& turbine, double azimuth) {
+    solvers::SteadyOptions options;
+    options.azimuth = azimuth;
+    const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);
+    require_result(state);
+    return {{state.at}, "at rest"};
+}
+
+Revolution revolution(const turbines::Turbine& turbine, double speed, const SteadyArguments& a) {
+    if (speed == 0) return standing(turbine, a.azimuth * units::degree);
+    const solvers::PeriodicSteadyState state = steady_rotation(turbine, speed, a.revolution.harmonics);
+    Revolution all;
+    const double turn = std::copysign(2 * pi, speed);  // in the order of time
+    for (int i = 0; i < a.revolution.azimuths; ++i) all.states.push_back(state.at(turn * i / a.revolution.azimuths));
+    std::array<char, 16> remainder{};
+    std::snprintf(remainder.data(), remainder.size(), "%.1e", state.remainder);
+    all.about =
+        text(state.harmonics(),
+             " harmonics; what those left out would have to balance, over stiffness: ", remainder.data(), " rad or m");
+    return all;
+}
+
+void print(const solvers::History& history, const std::vector<std::string>& names) {
+    std::printf("\n%-40s %14s %14s %14s\n", "over a revolution", "mean", "least", "most");
+    for (const std::string& name : names) {
+        const std::size_t i = history.index(name);
+        const auto [mean, least, most] = mean_and_range(history.values[i]);
+        std::printf("%-40s %14.6g %14.6g %14.6g   %s\n", history.channels[i].name.c_str(), mean, least, most,
+                    history.channels[i].units.c_str());
+    }
+}
+
+void write(const solvers::History& history, const std::string& path, const std::string& description) {
+    solvers::HistoryWriter writer = solvers::HistoryWriter::create(
+        path, history.channels, {.title = history.title, .method = "steady state", .description = description},
+        {.replace = true});
+    std::vector<double> row(history.channels.size());
+    for (std::size_t k = 0; k < history.time.size(); ++k) {
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = history.values[i][k];
+        writer.append(history.time[k], row);
+    }
+    writer.finish();
+}
+
+int run(SteadyArguments& a, const CommandLine& command) {
+    a.machine.gravity = !a.no_gravity;
+    const MachineFile machine = prepared_machine(a.machine);
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, a.wind.speeds.empty() ? "steady" : "wind");
+    if (!a.wind.speeds.empty()) {
+        if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
+        return steady_in_wind(machine, a.machine, a.wind, a.revolution, a.out, command);
+    }
+    const double speed = rotor_speed(a.rpm, machine);
+    a.rpm = speed * units::to_rpm;
+    set_pitch(machine, a.machine, speed);
+    const ReadyMachine ready = ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
+    const turbines::Turbine& turbine = ready.turbine;
+    check_outputs(a.out, {".h5", ".svg", ".png"});
+    const Revolution states = revolution(turbine, speed, a);
+    stop_at_once();
+    const std::vector<ChannelGroup> groups = channels_of(turbine, a.revolution.stations);
+    const solvers::History history = history_of(turbine.system(), groups, states.states,
+                                                text(machine.file.description.name, ", steady at ", *a.rpm, " rpm"));
+    std::printf("%s: %s\n%s\n", history.title.c_str(), states.about.c_str(), in_words(ready.mesh).c_str());
+    print(history, a.all ? all_names(history.channels) : main_channels(turbine.layout(), history.channels));
+    write(history, a.out + ".h5", run_text("steady", command) + turbine.rotor().description);
+    std::printf("\nfiles: %s.h5 (%zu azimuths, %zu channels)", a.out.c_str(), history.time.size(),
+                history.channels.size());
+    if (history.time.size() > 1) {
+        for (const char* ending : {".svg", ".png"})
+            solvers::plot(history, usual_panels(turbine.layout(), history.channels), a.out + ending);
+        std::printf(", .svg, .png");
+    }
+    std::printf("\n");
+    return 0;
+}
+
+}  // namespace
+
+int steady_command(int argc, char** argv) {
+    return run_command<SteadyArguments>(
+        "cardan steady",
+        "Steady state of any machine at one rotor speed without wind, or with --wind over the wind speed.\n"
+        "Prints the main channels; writes all over a revolution, or over the wind speed, to PREFIX.h5, and pictures "
+        "to PREFIX.svg and .png.",
+        argc, argv, declare, run);
+}
+
+}  // namespace cardan::program

@@ -1,0 +1,161 @@
+#include "programs/shared/command_line.hpp"
+
+#include "mbs/base/text.hpp"
+#include "mbs/base/version.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace cardan::program {
+
+Option& Option::required() {
+    option_->required();
+    return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& allowed) {
+    option_->check(CLI::IsMember(allowed));
+    return *this;
+}
+
+Option& Option::range(int least, int most) {
+    option_->check(CLI::Range(least, most));
+    return *this;
+}
+
+Option& Option::positive() {
+    option_->check(CLI::PositiveNumber);
+    return *this;
+}
+
+Option& Option::delimiter(char character) {
+    option_->delimiter(character);
+    return *this;
+}
+
+Option& Option::one_word() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Option& Option::type_name(const std::string& name) {
+    option_->type_name(name);
+    return *this;
+}
+
+Option& Option::hide_default() {
+    option_->default_str("");
+    return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Option& Option::needs(const Option& other) {
+    option_->needs(other.option_);
+    return *this;
+}
+
+std::string Option::name() const {
+    return option_->get_name();
+}
+
+bool Option::given() const {
+    return option_->count() > 0;
+}
+
+CommandLine::CommandLine(const std::string& description) : app_(std::make_shared<CLI::App>(description)) {}
+
+void CommandLine::remember(const std::string& name, std::function<void(Words&)> value) {
+    if (name.starts_with("--")) told_.push_back(std::move(value));
+}
+
+Option CommandLine::add_option(const std::string& name, int& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + text(target)); });
+    return Option(*app_->add_option(name, target, what)->capture_default_str());
+}
+
+Option CommandLine::add_option(const std::string& name, double& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) { all.push_back(name + "=" + digits(target)); });
+    return Option(*app_->add_option(name, target, what)->capture_default_str());
+}
+
+Option CommandLine::add_option(const std::string& name, std::optional<double>& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (target) all.push_back(name + "=" + digits(*target));
+    });
+    return Option(*app_->add_option(name, target, what));
+}
+
+Option CommandLine::add_option(const std::string& name, std::string& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (!target.empty()) all.push_back(name + "=" + target);
+    });
+    return Option(*app_->add_option(name, target, what)->capture_default_str());
+}
+
+Option CommandLine::add_option(const std::string& name, std::filesystem::path& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (!target.empty()) all.push_back(name + "=" + target.string());
+    });
+    return Option(*app_->add_option(name, target, what)->capture_default_str());
+}
+
+Option CommandLine::add_option(const std::string& name, std::vector<std::string>& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        for (const std::string& word : target) all.push_back(std::string(name).append("=").append(word));
+    });
+    CLI::Option* option = app_->add_option(name, target, what);
+    if (!target.empty()) option->capture_default_str();
+    return Option(*option);
+}
+
+Option CommandLine::add_flag(const std::string& name, bool& target, const std::string& what) {
+    const std::size_t comma = name.find(",!");
+    const std::string set = name.substr(0, comma), unset = comma == std::string::npos ? "" : name.substr(comma + 2);
+    remember(name, [set, unset, &target](Words& all) {
+        if (const std::string& word = target ? set : unset; !word.empty()) all.push_back(word);
+    });
+    return Option(*app_->add_flag(name, target, what));
+}
+
+std::vector<std::string> CommandLine::words() const {
+    Words all;
+    for (const auto& tell : told_) tell(all);
+    return all;
+}
+
+void CommandLine::footer(const std::string& text) {
+    app_->footer(text);
+}
+
+CommandLine CommandLine::add_subcommand(const std::string& name, const std::string& what) {
+    app_->require_subcommand(1);
+    return CommandLine(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, what)));
+}
+
+void CommandLine::fallthrough() {
+    app_->fallthrough();
+}
+
+std::string CommandLine::subcommand() {
+    return app_->get_subcommands().front()->get_name();
+}
+
+int CommandLine::parse(int argc, char** argv) {
+    app_->set_version_flag("--version", std::string(version()));
+    try {
+        app_->parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app_->exit(error) == 0 ? 0 : 2;
+    }
+    return -1;
+}
+
+int CommandLine::refuse(const std::string& option, const std::string& beside) {
+    app_->exit(CLI::ExcludesError(option, beside));
+    return 2;
+}
+
+}  // namespace cardan::program

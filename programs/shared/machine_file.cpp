@@ -1,0 +1,386 @@
+#include "programs/shared/machine_file.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/text_file.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/readers/openfast.hpp"
+#include "turbines/yaml/description.hpp"
+#include "turbines/yaml/foundation.hpp"
+#include "turbines/yaml/windio.hpp"
+
+#include "programs/shared/built_in_machines.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/run_record.hpp"
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace cardan::program {
+
+namespace {
+
+void refuse(const std::vector<turbines::ModelAddition>& additions) {
+    if (!additions.empty())
+        throw InputError("additions to the machine", "value", additions.front().name, "none: it is no model of windIO");
+}
+
+// "a.b=1" as YAML.
+turbines::ModelAddition addition_of(const std::string& assignment) {
+    const std::size_t equal = assignment.find('=');
+    if (equal == 0 || equal == std::string::npos)
+        throw InputError("--set", "value", assignment, "KEY=VALUE, as in components.hub.elastic_properties.mass=1e5");
+    std::string begin, end;
+    for (std::size_t at = 0; at < equal;) {
+        const std::size_t dot = std::min(assignment.find('.', at), equal);
+        begin += (begin.empty() ? "" : ": {") + assignment.substr(at, dot - at);
+        end += begin.find('{') == std::string::npos ? "" : "}";
+        at = dot + 1;
+    }
+    return {text(begin, ": ", assignment.substr(equal + 1), end, "\n"), text("--set ", assignment)};
+}
+
+}  // namespace
+
+std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options) {
+    std::vector<turbines::ModelAddition> additions;
+    for (const std::string& file : options.with) additions.push_back({text_file(file), file});
+    for (const std::string& assignment : options.set) additions.push_back(addition_of(assignment));
+    return additions;
+}
+
+namespace {
+
+// A word that can only be meant as a name.
+bool is_word(const std::filesystem::path& path) {
+    std::error_code error;
+    return !path.has_parent_path() && !path.has_extension() && !std::filesystem::exists(path, error);
+}
+
+MachineFile read_file(const std::filesystem::path& path, const std::vector<turbines::ModelAddition>& additions) {
+    MachineFile machine;
+    if (is_result(path)) {
+        machine = machine_of(turbines::parse_description(machine_text(path), path.string()), MachineKind::result);
+    } else if (!is_yaml(path)) {
+        machine.kind = MachineKind::openfast;
+        machine.file = turbines::read_openfast(path);
+    } else if (turbines::is_description(text_file(path))) {
+        machine = machine_of(turbines::read_description(path), MachineKind::description);
+    } else {
+        machine.kind = MachineKind::windio;
+        machine.file = turbines::read_windio(path, additions);
+    }
+    if (machine.kind != MachineKind::windio) refuse(additions);
+    return machine;
+}
+
+// Directions in which the sections are rigid have no coordinate.
+CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extension) {
+    CardanBeamOptions options;
+    options.elements = elements;
+    options.partition = Partition::mean_difference;  // converges fastest on tapered blades (docs/beam_accuracy.md)
+    const Mat6 compliance = line.section(line.length / 2).compliance;
+    options.torsion = compliance(3, 3) > 0;
+    options.extension = extension && compliance(0, 0) > 0;
+    return options;
+}
+
+void set_tower(const std::string& asked, turbines::TurbineFile& model) {
+    turbines::FileDofs& f = model.dofs;
+    if (!asked.empty()) {
+        f.tower_fore_aft = asked == "bends" || asked == "fore-aft";
+        f.tower_side_side = asked == "bends" || asked == "side-side";
+    }
+    model.description.tower.rigid = !f.tower_fore_aft && !f.tower_side_side;
+}
+
+// What was asked for in the place of what the machine's source says.
+void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
+    turbines::Bearing& yaw = model.description.yaw.rotation;
+    if (!a.generator.empty()) model.dofs.generator = a.generator == "free";
+    model.description.drive_train.spin = model.dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
+    if (!a.blades.empty()) model.dofs.blades = a.blades == "bend";
+    set_tower(a.tower, model);
+    if (a.yaw == "locked") yaw = turbines::rigid_joint;
+    if (a.yaw == "driven") yaw = turbines::driven_joint;
+    if (a.yaw != "free" || !yaw.is_rigid()) return;
+    if (model.yaw_drive.is_rigid())
+        throw InputError("--yaw", "value", "free", "locked: the model gives no spring of a yaw drive");
+    yaw = model.yaw_drive;
+}
+
+void tell_dofs(const turbines::TurbineFile& model, MachineOptions& a) {
+    const turbines::FileDofs& f = model.dofs;
+    a.generator = f.generator ? "free" : "locked";
+    const turbines::Bearing& yaw = model.description.yaw.rotation;
+    a.yaw = yaw.is_rigid() ? "locked" : yaw.hold == turbines::Bearing::Hold::driven ? "driven" : "free";
+    a.blades = f.blades ? "bend" : "rigid";
+    a.tower =
+        f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
+}
+
+// A diagram of a machine that a file holds altogether would be empty: its beams bend.
+void free_beams_if_nothing_moves(turbines::TurbineFile& model) {
+    const turbines::TurbineDescription& d = model.description;
+    const bool teeters = d.hub.teeter && !d.hub.teeter->bearing.is_rigid();
+    turbines::FileDofs& f = model.dofs;
+    if (f.generator || f.blades || !d.tower.rigid || teeters || !d.yaw.rotation.is_rigid() ||
+        !d.drive_train.main_shaft.is_rigid())
+        return;
+    f.blades = f.tower_fore_aft = f.tower_side_side = true;
+    model.description.tower.rigid = false;
+    std::cout << "note: the model switches off all degrees of freedom: tower and blades bend here\n";
+}
+
+std::string dofs_in_words(const turbines::TurbineFile& model) {
+    const turbines::FileDofs& f = model.dofs;
+    std::string locked = f.generator ? "" : ", generator locked";
+    const turbines::Bearing& yaw = model.description.yaw.rotation;
+    if (yaw.is_rigid()) locked += ", yaw bearing locked";
+    if (yaw.hold == turbines::Bearing::Hold::driven) locked += ", yaw prescribed";
+    if (model.description.drive_train.main_shaft.is_rigid()) locked += ", main shaft rigid";
+    if (!f.tower_fore_aft) locked += ", tower rigid fore-aft";
+    if (!f.tower_side_side) locked += ", tower rigid side-side";
+    if (!f.blades) locked += ", blades rigid";
+    return locked.empty() ? "generator and yaw bearing free" : locked.substr(2);
+}
+
+// The beams of a machine that was read, with what its file holds rigid.
+void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::AssemblyOptions& o) {
+    const turbines::TurbineDescription& d = machine.file.description;
+    const turbines::FileDofs& dofs = machine.file.dofs;
+    if (!d.tower.rigid) {
+        o.tower_beam = beam_options(d.tower.line, a.tower_elements, false);
+        o.tower_beam->held_y = !dofs.tower_side_side;
+        o.tower_beam->held_z = !dofs.tower_fore_aft;
+    }
+    if (d.blades == 0) return;
+    o.blade_beam = beam_options(d.blade.line, a.blade_elements, true);
+    if (!dofs.blades) o.blade_beam->hold_all();
+}
+
+}  // namespace
+
+void print_notes(const std::vector<turbines::FileNote>& notes, bool all) {
+    int groups = 0;
+    for (const turbines::FileNote& note : notes) {
+        const bool group = note.line == 0 && note.keyword != turbines::unusual_entries;
+        if (group) ++groups;
+        if (all || !group) std::cout << "note: " << to_text(note) << "\n";
+    }
+    if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
+}
+
+MachineFile machine_of(turbines::TurbineDescription description, MachineKind kind) {
+    MachineFile machine;
+    machine.kind = kind;
+    turbines::TurbineFile& file = machine.file;
+    file.rotor_speed = description.rotor_speed;
+    file.yaw_drive = description.yaw.rotation;
+    file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
+    file.dofs.tower_fore_aft = file.dofs.tower_side_side = !description.tower.rigid;
+    file.description = std::move(description);
+    return machine;
+}
+
+bool is_yaml(const std::filesystem::path& path) {
+    const std::string ending = lower_case(path.extension().string());
+    return ending == ".yaml" || ending == ".yml";
+}
+
+std::string machine_help() {
+    return "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own, .h5 of a result), or "
+           "one "
+           "of:\n" +
+           built_in_help();
+}
+
+MachineFile read_machine(const std::string& machine, const std::vector<turbines::ModelAddition>& additions) {
+    if (std::optional<MachineFile> built_in = built_in_machine(machine)) {
+        refuse(additions);
+        return *std::move(built_in);
+    }
+    const std::filesystem::path path(machine);
+    if (is_word(path)) throw InputError("machine", "name", machine, text(built_in_names(), ", or a file"));
+    return read_file(path, additions);
+}
+
+void add_machine(CommandLine& app, MachineOptions& options) {
+    app.add_option("model", options.model,
+                   "name of a built-in machine, FILE.fst, ElastoDyn.dat, FILE.yaml or RESULT.h5")
+        .required();
+    app.footer(text("\n", machine_help()));
+}
+
+void add_source_options(CommandLine& app, MachineOptions& options) {
+    app.add_option(
+           "--with", options.with,
+           "windIO: a file with entries that the model lacks, or others in the place of its own, under the same "
+           "keys; may be given several times")
+        .one_word()
+        .type_name("FILE");
+    app.add_option("--set", options.set, "windIO: the same for a single entry").one_word().type_name("KEY=VALUE");
+    const std::vector<std::string> free_or_locked{"free", "locked"};
+    app.add_option("--generator", options.generator,
+                   "free: the rotor turns freely; locked: at its speed, whatever happens (default: the model's, GenDOF "
+                   "of ElastoDyn; else free)")
+        .one_of(free_or_locked);
+    app.add_option("--yaw", options.yaw,
+                   "yaw bearing: free on the spring of the yaw drive, locked, or driven, as a controller in a library "
+                   "turns it (default: the model's, YawDOF of ElastoDyn)")
+        .one_of({"free", "locked", "driven"});
+    app.add_option("--tower", options.tower,
+                   "tower: it bends, only in one direction, or is rigid (default: the model's, TwFADOF and TwSSDOF of "
+                   "ElastoDyn)")
+        .one_of({"bends", "fore-aft", "side-side", "rigid"});
+    app.add_option("--blades", options.blades,
+                   "blades: they bend, or are rigid (default: the model's, FlapDOF and EdgeDOF of ElastoDyn)")
+        .one_of({"bend", "rigid"});
+    app.add_option(
+           "--foundation", options.foundation,
+           "file (.yaml) with what the tower stands on: stiffness, mass and damping, 6 x 6 matrices at its foot "
+           "(default: it is clamped there)")
+        .type_name("FILE");
+    app.add_option("--generator-inertia", options.generator_inertia,
+                   "inertia of the generator on its own shaft, kg m^2, for models that do not give it")
+        .hide_default();
+    app.add_flag("--notes", options.notes, "print all notes; else those on groups of entries are only counted");
+}
+
+void add_machine_options(CommandLine& app, MachineOptions& options) {
+    add_source_options(app, options);
+    app.add_option("--pitch", options.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
+    app.add_option("--blade-elements", options.blade_elements, "beam elements per blade (default: as many as it takes)")
+        .range(1, 1000)
+        .hide_default();
+    app.add_option("--tower-elements", options.tower_elements,
+                   "beam elements of the tower (default: as many as it takes)")
+        .range(1, 1000)
+        .hide_default();
+    app.add_flag("--undamped", options.undamped, "leave out all damping");
+    app.add_flag("--summary", options.summary, "print bodies, coordinates and masses first");
+}
+
+namespace {
+
+void set_foundation(const std::string& file, turbines::TurbineFile& model) {
+    if (file.empty()) return;
+    if (model.description.platform)
+        throw InputError("--foundation", "file", file,
+                         text("none: the tower stands on ", model.description.platform->name));
+    model.description.platform = turbines::read_foundation(file);
+}
+
+// What the model's tower stands on, where it is left out.
+bool is_clamped(const MachineFile& machine) {
+    const turbines::TurbineDescription& d = machine.file.description;
+    return !d.missing_foundation.name.empty() && !d.platform;
+}
+
+}  // namespace
+
+std::string foundation_in_words(const MachineFile& machine) {
+    const std::string& name = machine.file.description.missing_foundation.name;
+    return is_clamped(machine) ? text("tower clamped at its foot, ", name, " left out") : "";
+}
+
+MachineFile prepared_machine(MachineOptions& options) {
+    MachineFile machine = read_machine(options.model, additions_of(options));
+    turbines::TurbineFile& model = machine.file;
+    print_notes(model.notes, options.notes);
+    set_dofs(options, model);
+    set_foundation(options.foundation, model);
+    if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(model);
+    tell_dofs(model, options);
+    std::cout << "degrees of freedom: " << dofs_in_words(model) << "\n";
+    if (is_clamped(machine)) {
+        const auto& [name, where] = model.description.missing_foundation;
+        std::cout << "foundation: the " << name << " of the model is left out, and the tower clamped at its foot, "
+                  << where << "; --foundation FILE gives it springs\n";
+    }
+    if (options.generator_inertia != 0) model.description.drive_train.generator_inertia = options.generator_inertia;
+    return machine;
+}
+
+turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options) {
+    turbines::AssemblyOptions o;
+    set_beams(machine, options, o);
+    o.spin = CoordinateRole::free;  // how it turns (FileDofs::generator) is left to the analysis
+    o.pitch = options.pitch ? *options.pitch * units::degree : machine.file.pitch;
+    if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
+    if (options.undamped) o.structural_damping = o.joint_damping = false;
+    return o;
+}
+
+namespace {
+
+MachineOptions with_elements(MachineOptions options, int blade, int tower) {
+    options.blade_elements = blade;
+    options.tower_elements = tower;
+    return options;
+}
+
+}  // namespace
+
+int first_blade(const turbines::TurbineDescription& description) {
+    int first = 1;
+    while (first <= description.blades && description.blade_at(first) == nullptr) ++first;
+    return first;
+}
+
+double usual_frequency(const MachineFile& machine, const MachineOptions& options) {
+    const turbines::TurbineDescription& d = machine.file.description;
+    const int first = first_blade(d);
+    if (first > d.blades || !machine.file.dofs.blades) return 5;
+    const std::vector<double> hz = turbines::clamped_blade_hz(
+        d, assembly_options(machine, with_elements(options, 12, 1)), std::numeric_limits<double>::infinity(), first);
+    if (hz.size() < 3) return 5;
+    const double wanted = 1.3 * hz[2], unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+    return unit * std::ceil(wanted / unit);
+}
+
+namespace {
+
+turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
+    turbines::MeshOptions mesh;
+    mesh.largest_hz = largest_hz;
+    mesh.rotor_speed = rotor_speed;
+    if (options.blade_elements > 0) mesh.blade_elements = options.blade_elements;
+    if (options.tower_elements > 0) mesh.tower_elements = options.tower_elements;
+    MachineOptions plain = options;
+    plain.gravity = false;
+    const turbines::Mesh found = turbines::converged_mesh(
+        machine.file.description,
+        [&](int blade, int tower) { return assembly_options(machine, with_elements(plain, blade, tower)); }, mesh);
+    options.blade_elements = found.blade_elements;
+    options.tower_elements = found.tower_elements;
+    return found;
+}
+
+}  // namespace
+
+ReadyMachine ready_machine(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
+    const turbines::Mesh mesh = choose_mesh(machine, options, largest_hz, rotor_speed);
+    if (machine.file.description.platform)
+        std::cout << "mesh: chosen with the " << machine.file.description.platform->name << " held\n";
+    ReadyMachine ready{turbines::assemble(machine.file.description, assembly_options(machine, options)), mesh};
+    introduce(ready.turbine, options.summary);
+    return ready;
+}
+
+std::string run_text(const std::string& command, const CommandLine& options) {
+    return to_text({command, {}, options.words()});
+}
+
+std::string in_words(const turbines::Mesh& mesh) {
+    std::ostringstream out = text_stream();
+    out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements
+        << " in the tower; with twice as many no frequency at rest changes by more than " << std::fixed
+        << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3) << mesh.at_hz
+        << " Hz, of " << mesh.modes << ")";
+    return out.str();
+}
+
+}  // namespace cardan::program

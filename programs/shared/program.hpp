@@ -1,0 +1,123 @@
+/// @file
+/// What the programs have in common: signals, errors and exit codes, progress, an early check of the output files.
+#pragma once
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/pending_file.hpp"
+
+#include "programs/shared/command_line.hpp"
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <filesystem>
+#include <initializer_list>
+#include <iostream>
+#include <string>
+#include <unistd.h>
+
+namespace cardan::program {
+
+/// The signal that asked the program to stop; 0: none has.
+inline std::atomic<int> interrupt{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+/// Ctrl-C, kill and the end of a batch job, a terminal that was closed: what was computed is saved after all of them.
+inline constexpr int stopping_signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+/// Was the program asked to stop? Asked by it where it can stop tidily.
+inline bool interrupted() {
+    return interrupt != 0;
+}
+
+/// What is ignored, as under nohup, stays ignored.
+inline void handle_signals(void (*handler)(int)) {
+    for (const int signal : stopping_signals)
+        if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+/// For a last part that is short: from here on such a signal ends the program at once.
+inline void stop_at_once() {
+    handle_signals(SIG_DFL);
+}
+
+/// For people only: nothing is written to files and pipes.
+inline void progress(const std::string& what) {
+    static const bool terminal = isatty(STDERR_FILENO) != 0;
+    if (terminal) std::cerr << what << std::flush;
+}
+
+/// Files that cannot be written are noticed before the work, not after it, and what a killed run has left
+/// behind is named and removed.
+inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings) {
+    if (std::filesystem::path(prefix).filename().empty())
+        throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
+    for (const char* ending : endings) {
+        const PendingFile file(prefix + ending);
+        if (file.left_over())
+            std::cerr << "note: " << file.partial() << " was left behind by a run that was killed; it is removed\n";
+        file.discard();
+    }
+}
+
+/// What the assembly has to say, before the work.
+template <class Turbine>
+void introduce(const Turbine& turbine, bool summary) {
+    if (summary) std::cout << turbine.summary() << "\n";
+    for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
+}
+
+/// What ends a program: its errors, and the signals that came.
+/// @param name  for messages
+/// @param body  returns an exit code, 130 if it was interrupted
+/// @return exit code; 1 after an error, which is printed with the name of the program; if it was interrupted 128 and
+///         the number of the signal: 130, 143 or 129
+template <class Body>
+int with_errors(const char* name, const Body& body) {
+    try {
+        const int code = body();
+        return code == 130 && interrupted() ? 128 + interrupt : code;
+    } catch (const Error& error) {
+        std::cerr << name << ": " << error.what() << "\n";
+    } catch (const std::exception& error) {
+        std::cerr << name << ": unexpected: " << error.what() << "\n";
+    }
+    return 1;
+}
+
+/// From here on signals are caught; what there is no memory for is an error with advice.
+template <class Body>
+int working(const Body& body) {
+    handle_signals([](int signal) { interrupt = signal; });
+    return with_memory("this run; fewer elements, times or speeds need less", body);
+}
+
+/// The body of main().
+/// @param parse  fills the arguments; an exit code >= 0 ends the program there, -1 goes on
+/// @param run    does the work; signals are caught from here on; returns 130 if it was interrupted
+/// @return as with_errors()
+template <class Arguments>
+int run_program(const char* name, int argc, char** argv, int (*parse)(int, char**, Arguments&),
+                int (*run)(const Arguments&)) {
+    return with_errors(name, [&] {
+        Arguments arguments;
+        if (const int code = parse(argc, argv, arguments); code >= 0) return code;
+        return working([&] { return run(arguments); });
+    });
+}
+
+/// Likewise for a command that keeps its command line, to say in its files how they were made.
+/// @param name     "cardan campbell"
+/// @param options  declares the options, with their targets in the arguments
+template <class Arguments>
+int run_command(const char* name, const char* about, int argc, char** argv, void (*options)(CommandLine&, Arguments&),
+                int (*run)(Arguments&, const CommandLine&)) {
+    return with_errors(name, [&] {
+        Arguments arguments;
+        CommandLine command(about);
+        options(command, arguments);
+        if (const int code = command.parse(argc, argv); code >= 0) return code;
+        return working([&] { return run(arguments, command); });
+    });
+}
+
+}  // namespace cardan::program
