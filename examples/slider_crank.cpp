@@ -28,12 +28,14 @@ int main() {
     loops.add_joint({"wrist pin", CutKind::revolute, rod_end, slider.frame});
     const System system(tree, ForceSet(), loops);
 
-    // Any position nearby will do for a start, and any rates; the crank's are kept. Order: crank, rod, slider.
+    // Any position nearby will do for a start, and any rates; the crank's are kept.
     const double theta = 1;
-    const ClosureOptions keep_crank{.held = {0}};
-    const Closure start = close_loops(system.model, system.loops, Vec3(theta, -1, 0.3), keep_crank);
+    const CoordinateTable& table = system.model.coordinates();
+    const ClosureOptions keep_crank{.held = {table.index("crank")}};
+    const Vector nearby = table.vector({{"crank", theta}, {"rod", -1}, {"slider", 0.3}});
+    const Closure start = close_loops(system.model, system.loops, nearby, keep_crank);
     require_result(start);
-    const Vector rates = close_rates(system.model, system.loops, start.q, Vec3(speed, 0, 0), keep_crank);
+    const Vector rates = close_rates(system.model, system.loops, start.q, table.vector({{"crank", speed}}), keep_crank);
     solvers::Integrator motion(system, {}, 0, start.q, rates);
 
     // With lambda = r/l, sin(beta) = lambda sin(theta): x = r cos(theta) + l cos(beta).
@@ -46,8 +48,9 @@ int main() {
         std::printf("%-24s %14.6f %14.6f  %s\n", what, computed, formula, unit);
     };
     std::printf("%39s %14s\n", "computed", "formula");
-    print("slider", start.q(2), r * c + l * root, "m");
-    print("its acceleration", motion.state().qdd(2), acceleration, "m/s^2");
+    const int slides = table.index("slider");
+    print("slider", start.q(slides), r * c + l * root, "m");
+    print("its acceleration", motion.state().qdd(slides), acceleration, "m/s^2");
     const Kinematics kin = kinematics(system.model, motion.state().q, workspace);
     print("force of the pin along x", system.loops.reaction(kin, 0, motion.state().lambda).force.x(),
           slider_mass * acceleration, "N");

@@ -66,18 +66,19 @@ System four_bar() {
 }
 
 // In the order of free_bodies().
-ChannelGroup joint_forces() {
+ChannelGroup joint_forces(const CoordinateTable& table) {
     ChannelGroup group;
     for (const char* joint : {"O", "A", "B", "C"})
         for (const char* axis : {" x", " y"})
             group.channels.push_back({.name = text(joint, axis), .units = "N", .long_name = "force of the joint"});
     group.channels.push_back({.name = "M", .units = "N m", .long_name = "torque of the drive"});
-    group.sample = [](const ChannelInput& in, double* values) {
-        // Bodies in the order in which they were added: crank, coupler, rocker.
-        const std::vector<Wrench>& joint = in.loads.joint;
-        for (const Vec3& force : {joint[0].force, joint[1].force, in.loads.loops[0].force, joint[2].force})
+    group.sample = [crank = table.index("crank"), coupler = table.index("coupler"), rocker = table.index("rocker")](
+                       const ChannelInput& in, double* values) {
+        const auto of_joint = [&](int coordinate) { return entry(in.loads.joint, coordinate).force; };
+        const Vec3 at_B = in.loads.loops.front().force;
+        for (const Vec3& force : {of_joint(crank), of_joint(coupler), at_B, of_joint(rocker)})
             for (const int axis : {0, 1}) *values++ = force(axis);
-        *values = in.actuator(0);
+        *values = in.actuator(crank);
     };
     return group;
 }
@@ -91,13 +92,15 @@ int main(int argc, char** argv) {
     return study.run(argc, argv, [&] {
         const System system = four_bar();
         // A start near the open branch will do; the crank stays where it is.
-        const Closure start = close_loops(system.model, system.loops, Vec3(0, 1.3, 2.2));
+        const CoordinateTable& table = system.model.coordinates();
+        const Closure start =
+            close_loops(system.model, system.loops, table.vector({{"coupler", 1.3}, {"rocker", 2.2}}));
         require_result(start);
-        const Vector rates = close_rates(system.model, system.loops, start.q, Vec3(speed, 0, 0));
+        const Vector rates = close_rates(system.model, system.loops, start.q, table.vector({{"crank", speed}}));
         solvers::IntegrationOptions options;
         options.tolerances = {1e-10, 1e-11, 1e-11, 1e-10, 1e-10};
         solvers::Integrator run(system, {}, 0, start.q, rates, options);
-        const ChannelGroup forces = joint_forces();
+        const ChannelGroup forces = joint_forces(table);
         solvers::Recorder recorder(run, {forces});
         solvers::History history;
         history.title = "Four-bar with a driven crank, one revolution";

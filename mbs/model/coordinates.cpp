@@ -15,6 +15,18 @@ int CoordinateTable::index(std::string_view name) const {
                           size() > 12 ? ", ..." : ""));
 }
 
+Vector CoordinateTable::vector(std::initializer_list<NamedNumber> named) const {
+    Vector all = Vector::Zero(size());
+    std::vector<bool> given(rows_.size());
+    for (const NamedNumber& one : named) {
+        const int at = index(one.coordinate);
+        if (entry(given, at)) throw InputError(text("coordinate '", one.coordinate, "' is given twice"));
+        entry(given, at) = true;
+        all(at) = one.value;
+    }
+    return all;
+}
+
 std::vector<int> CoordinateTable::free() const {
     std::vector<int> indices;
     for (int i = 0; i < size(); ++i)

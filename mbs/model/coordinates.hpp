@@ -7,6 +7,7 @@
 #include "mbs/base/types.hpp"
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,12 @@ struct CoordinateInfo {
     int blade = 0;                               ///< blade number counted from 1, 0: belongs to no blade
     CoordinateRole role = CoordinateRole::free;  ///< default role; solvers may be told otherwise
     std::string unit = {};                       ///< "rad" or "m"; filled in by the tree
+};
+
+/// A number for a coordinate, by its name.
+struct NamedNumber {
+    std::string_view coordinate;
+    double value;
 };
 
 /// Coordinates of a model in its order.
@@ -40,6 +47,9 @@ public:
 
     /// @throws InputError naming the coordinate and some that exist.
     int index(std::string_view name) const;
+    /// A number for each coordinate, such as positions or rates: those that are named, zero for the others.
+    /// @throws InputError for a name that does not exist or stands twice
+    Vector vector(std::initializer_list<NamedNumber> named) const;
     /// Indices of the coordinates with role free.
     std::vector<int> free() const;
     /// The free coordinates without one of them: the unknowns of a steady rotation, whose spin is prescribed; -1: all.
