@@ -23,7 +23,7 @@ room(elements/cardan_beam SEES elements/sections elements/machine) # the cardani
 room(solvers/algebra SEES mbs/base USES sundials fft) # eigenvalues, Schur forms, Fourier, collocation
 room(solvers/linear SEES solvers/algebra mbs/system) # operating point, linearisation, modes, Coleman transformation
 room(solvers/equilibrium SEES solvers/linear USES sundials) # steady states, load paths, buckling
-room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Floquet, Hill, forced response
+room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Floquet, forced response
 room(solvers/campbell SEES solvers/periodic USES boost) # Campbell diagrams: points, names, tracking, tables
 room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
 room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
@@ -42,11 +42,12 @@ room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teeter
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) # operating points over the wind, and their modes
 room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
+room(turbines/machine SEES turbines/yaml turbines/machines turbines/operation solvers/hdf5) # a machine with all that belongs to it, from whatever source
 
-room(programs/shared SEES turbines/machines turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
+room(programs/shared SEES turbines/control turbines/mesh turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
 room(programs/cardan SEES programs/shared) # the commands of `cardan`
 room(programs SEES programs/cardan)
-room(examples SEES turbines/machines turbines/control turbines/operation turbines/mesh turbines/yaml solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf) # short scripts
+room(examples SEES turbines/control turbines/mesh turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
 room(examples/studies SEES examples programs/shared) # of papers and methods
 
 # Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)

@@ -41,8 +41,9 @@ public:
     const std::string& name() const { return name_; }
     /// Has it several tables?
     bool over_reynolds() const { return tables_.size() > 1; }
-    std::vector<double> reynolds() const;                         ///< of the tables
-    const Table& table() const { return tables_.front().table; }  ///< the first one
+    std::vector<double> reynolds() const;  ///< of the tables
+    std::size_t tables() const { return tables_.size(); }
+    const Table& table(std::size_t i = 0) const { return tables_[i].table; }  ///< by ascending Reynolds number
     /// Lift at small angles, slope * angle + offset: of the first table at 0.08 rad, where flow is attached.
     struct LiftLine {
         double slope = 0, offset = 0;

@@ -90,6 +90,7 @@ public:
     Wind over(double ground) const;
     /// Where it is not smooth: those of the table. Empty: it is steady.
     std::vector<double> breaks() const;
+    const std::vector<double>& times() const { return times_; }  ///< of the rows, s; of a steady wind 0
     const std::vector<SteadyWind>& rows() const { return rows_; }
 
 private:

@@ -8,6 +8,13 @@
 #include <cmath>
 #include <cstddef>
 
+// Before a loop over whole vectors: one vector at a time, so that no number is left over and treated alone.
+#if defined(__clang__)
+#define CARDAN_WHOLE_VECTORS _Pragma("clang loop interleave_count(1)")
+#else
+#define CARDAN_WHOLE_VECTORS
+#endif
+
 namespace cardan {
 
 namespace {
@@ -19,16 +26,19 @@ CARDAN_VECTORISED void all_sines(std::ptrdiff_t n, const double* __restrict q, d
 }
 
 CARDAN_VECTORISED void all_tangents(std::ptrdiff_t n, const double* __restrict x, double* __restrict out) {
+    CARDAN_WHOLE_VECTORS
     for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = ::tan(x[i]);
 }
 
 CARDAN_VECTORISED void all_arc_tangents(std::ptrdiff_t n, const double* __restrict y, const double* __restrict x,
                                         double* __restrict out) {
+    CARDAN_WHOLE_VECTORS
     for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = ::atan2(y[i], x[i]);
 }
 
 CARDAN_VECTORISED void all_powers(std::ptrdiff_t n, const double* __restrict x, double exponent,
                                   double* __restrict out) {
+    CARDAN_WHOLE_VECTORS
     for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = ::pow(x[i], exponent);
 }
 

@@ -51,12 +51,12 @@ void declare(CommandLine& app, CampbellArguments& a) {
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 
-std::vector<double> speeds_of(CampbellArguments& a, const turbines::TurbineFile& model) {
+std::vector<double> speeds_of(CampbellArguments& a, const turbines::Machine& machine) {
     if (!a.rpm.empty()) return rotor_speeds(a.rpm);
-    const double rated = model.rotor_speed * units::to_rpm;
+    const double rated = machine.operation.rotor_speed * units::to_rpm;
     if (!(rated > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", rpm_format);
     std::cout << "rotor speeds: 0 to " << 1.2 * rated << " rpm, 1.2 times " << rated << " rpm";
-    if (!model.rotor_speed_source.empty()) std::cout << " (" << model.rotor_speed_source << ")";
+    if (!machine.operation.rotor_speed_source.empty()) std::cout << " (" << machine.operation.rotor_speed_source << ")";
     std::cout << "\n";
     const double step = read_number(text(0.1 * rated)).value;  // in few digits
     a.rpm = text("0:", digits(12 * step), ":", digits(step));
@@ -88,14 +88,15 @@ std::string schedule_words(const std::vector<turbines::PitchAt>& schedule) {
 }
 
 // That of the options, or the machine's; empty: one angle for all speeds.
-std::vector<turbines::PitchAt> schedule_of(const CampbellArguments& a, const turbines::TurbineFile& model) {
+std::vector<turbines::PitchAt> schedule_of(const CampbellArguments& a, const turbines::Machine& machine) {
     if (!a.pitch_schedule.empty()) return parse_schedule(a.pitch_schedule);
-    return a.machine.pitch ? std::vector<turbines::PitchAt>() : model.pitch_schedule;
+    return a.machine.pitch ? std::vector<turbines::PitchAt>() : machine.operation.pitch_schedule;
 }
 
 // Degrees, by rotor speed. A schedule that does not change between the speeds is one angle, which --pitch holds.
-std::vector<double> pitch_angles(CampbellArguments& a, const MachineFile& machine, const std::vector<double>& speeds) {
-    const std::vector<turbines::PitchAt> schedule = schedule_of(a, machine.file);
+std::vector<double> pitch_angles(CampbellArguments& a, const turbines::Machine& machine,
+                                 const std::vector<double>& speeds) {
+    const std::vector<turbines::PitchAt> schedule = schedule_of(a, machine);
     std::vector<double> angles;
     angles.reserve(speeds.size());
     for (const double speed : speeds)
@@ -108,22 +109,22 @@ std::vector<double> pitch_angles(CampbellArguments& a, const MachineFile& machin
         return std::vector<double>(speeds.size(), *a.machine.pitch);
     }
     std::cout << "pitch: " << least << " to " << most << " deg over the rotor speed";
-    if (a.pitch_schedule.empty()) std::cout << " (" << machine.file.pitch_source << ")";
+    if (a.pitch_schedule.empty()) std::cout << " (" << machine.operation.pitch_source << ")";
     std::cout << "\n";
     a.pitch_schedule = schedule_words(schedule);
     return angles;
 }
 
 // One machine for all speeds, or one for each.
-solvers::Campbell diagram_of(const MachineFile& machine, const CampbellArguments& a, const turbines::Turbine& first,
-                             const std::vector<double>& speeds, const std::vector<double>& pitch,
-                             const solvers::CampbellOptions& options) {
+solvers::Campbell diagram_of(const turbines::Machine& machine, const CampbellArguments& a,
+                             const turbines::Turbine& first, const std::vector<double>& speeds,
+                             const std::vector<double>& pitch, const solvers::CampbellOptions& options) {
     if (a.pitch_schedule.empty()) return solvers::campbell(first.system(), first.rotor(), speeds, options);
     std::vector<turbines::Turbine> machines;
     MachineOptions own = a.machine;
     for (const double angle : pitch) {
         own.pitch = angle;
-        machines.push_back(turbines::assemble(machine.file.description, assembly_options(machine, own)));
+        machines.push_back(turbines::assemble(machine.description, assembly_options(machine, own)));
     }
     std::vector<solvers::CampbellCase> cases;
     for (std::size_t i = 0; i < speeds.size(); ++i)
@@ -131,20 +132,21 @@ solvers::Campbell diagram_of(const MachineFile& machine, const CampbellArguments
     return solvers::campbell(cases, "", options);
 }
 
-int run_in_wind(CampbellArguments& a, const MachineFile& machine, const CommandLine& command) {
+int run_in_wind(CampbellArguments& a, turbines::Machine machine, const CommandLine& command) {
     if (!a.rpm.empty()) throw InputError("--rpm", "value", a.rpm, "none beside --wind: see --schedule");
     if (!a.pitch_schedule.empty())
         throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
+    take_wind(machine, a.air.wind, a.machine.notes);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell_wind");
     if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
     return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, a.air_roots, command);
 }
 
 int run(CampbellArguments& a, const CommandLine& command) {
-    const MachineFile machine = prepared_machine(a.machine);
+    const turbines::Machine machine = prepared_machine(a.machine);
     if (!a.air.wind.speeds.empty()) return run_in_wind(a, machine, command);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell");
-    const std::vector<double> speeds = speeds_of(a, machine.file), pitch = pitch_angles(a, machine, speeds);
+    const std::vector<double> speeds = speeds_of(a, machine), pitch = pitch_angles(a, machine, speeds);
     if (!a.pitch_schedule.empty()) a.machine.pitch = pitch.back();
     if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
     const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, std::abs(speeds.back()));
@@ -156,7 +158,7 @@ int run(CampbellArguments& a, const CommandLine& command) {
     options.spin = rotor_spin(machine);
     solvers::Campbell diagram = diagram_of(machine, a, ready.turbine, speeds, pitch, options);
     stop_at_once();
-    tell_origin(diagram, machine, ready, run_text("campbell", command));
+    tell_origin(diagram, "campbell", command, machine, ready);
     print_table(diagram);
     if (diagram.points.empty()) return 130;
     solvers::CampbellPlotOptions picture;

@@ -29,15 +29,15 @@ void write_wind_diagram(const solvers::Campbell& diagram, const std::string& pre
 
 }  // namespace
 
-turbines::AeroelasticOptions air_that_lags(const VibrationArguments& a, const Air& air) {
+turbines::AeroelasticOptions air_that_lags(const VibrationArguments& a, const turbines::Aerodynamics& air) {
     turbines::AeroelasticOptions options;
     // Without induced velocities none can lag.
     if (a.wind.air.wake != "none") options.wake = turbines::wake_named(a.wind.air.wake, "--wake");
-    if (!a.steady_profiles) options.profiles = air.profiles;
+    if (!a.steady_profiles) options.profiles = air.unsteady_airfoils;
     return options;
 }
 
-std::string vibration_in_words(const Air& air, const turbines::AeroelasticOptions& options) {
+std::string vibration_in_words(const turbines::Aerodynamics& air, const turbines::AeroelasticOptions& options) {
     return air_in_words(air.options.induction ? name_of(options.wake) : "none", !options.profiles.empty());
 }
 
@@ -53,7 +53,7 @@ void add_vibration_options(CommandLine& app, VibrationArguments& a) {
         .range(1, 200);
 }
 
-int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& a,
+int campbell_in_wind(const turbines::Machine& machine, MachineOptions& options, const VibrationArguments& a,
                      double max_frequency, const std::string& prefix, bool air_roots, const CommandLine& command) {
     WindRun run = wind_run(machine, options, a.wind, a.harmonics, azimuths_of_states, max_frequency);
     const turbines::AeroelasticOptions air = air_that_lags(a, run.air);
@@ -73,7 +73,7 @@ int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const 
     solvers::Campbell diagram = turbines::aeroelastic_campbell(run.operation, run.points, air, modes);
     stop_at_once();
     diagram.remark = vibration_in_words(run.air, air);
-    tell_origin(diagram, machine, run.ready, run_text("campbell", command));
+    tell_origin(diagram, "campbell", command, machine, run.ready);
     print_table(diagram);
     if (diagram.points.empty()) return 130;
     write_wind_diagram(diagram, prefix, max_frequency, air_roots);

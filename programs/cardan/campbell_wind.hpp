@@ -20,14 +20,15 @@ struct VibrationArguments {
 
 void add_vibration_options(CommandLine& app, VibrationArguments& arguments);
 /// As asked for, with the lags that the profiles have.
-turbines::AeroelasticOptions air_that_lags(const VibrationArguments& arguments, const Air& air);
+turbines::AeroelasticOptions air_that_lags(const VibrationArguments& arguments, const turbines::Aerodynamics& air);
 /// air_in_words()
-std::string vibration_in_words(const Air& air, const turbines::AeroelasticOptions& options);
+std::string vibration_in_words(const turbines::Aerodynamics& air, const turbines::AeroelasticOptions& options);
 
+/// @param machine  take_wind()
 /// @param prefix  of the files
 /// @param air_roots  all computed, and drawn as well
 /// @return exit code
-int campbell_in_wind(const MachineFile& machine, MachineOptions& options, const VibrationArguments& air,
+int campbell_in_wind(const turbines::Machine& machine, MachineOptions& options, const VibrationArguments& air,
                      double max_frequency, const std::string& prefix, bool air_roots, const CommandLine& command);
 
 }  // namespace cardan::program

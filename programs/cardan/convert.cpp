@@ -3,15 +3,13 @@
 // Reference: docs/file_formats.md. A result holds the machine that was computed, which is a machine like any other.
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
-#include "mbs/base/units.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/history.hpp"
-#include "turbines/model/description_text.hpp"
+#include "turbines/machine/machine_text.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/program.hpp"
-#include "programs/shared/run_record.hpp"
 #include <iomanip>
 #include <iostream>
 #include <system_error>
@@ -59,31 +57,20 @@ void write_csv(const ConvertArguments& a) {
     std::cout << a.to << ": " << history.time.size() << " rows of " << history.channels.size() << " channels\n";
 }
 
-// How the machine runs is no part of it: what is to be said again.
-std::string how_it_runs(const MachineFile& machine) {
-    const turbines::TurbineFile& model = machine.file;
-    std::string words;
-    if (model.pitch != 0) words += text(" --pitch ", model.pitch * units::to_degrees);
-    if (model.dofs.tower_fore_aft != model.dofs.tower_side_side)
-        words += model.dofs.tower_fore_aft ? " --tower fore-aft" : " --tower side-side";
-    if (!model.dofs.blades) words += " --blades rigid";
-    return words;
-}
-
 void write_yaml(ConvertArguments& a) {
-    const MachineFile machine = prepared_machine(a.machine);
+    const turbines::Machine machine = prepared_machine(a.machine);
     std::error_code error;
     if (std::filesystem::equivalent(a.to, a.machine.model, error))
         throw InputError("to", "file", a.to, "another one than the machine's");
-    turbines::write_description(machine.file.description, a.to);
-    std::cout << a.to << ": " << machine.file.description.name << "\n";
-    if (const std::string words = how_it_runs(machine); !words.empty())
-        std::cout << "note: " << a.to << " holds the machine, not how it runs:" << words << "\n";
+    if (machine.air) print_notes(machine.air->notes, a.machine.notes);
+    turbines::write_machine(machine, a.to);
+    std::cout << a.to << ": " << machine.description.name << "\n";
+    if (!machine.air) std::cout << "note: without air: " << machine.no_air << "\n";
 }
 
 int run(ConvertArguments& a, const CommandLine& /*command*/) {
     stop_at_once();
-    if (is_yaml(a.to))
+    if (turbines::is_yaml(a.to))
         write_yaml(a);
     else if (std::filesystem::path(a.to).extension() == ".csv")
         write_csv(a);

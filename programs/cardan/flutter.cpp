@@ -12,7 +12,7 @@
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/stability_limits.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/machine/machine_text.hpp"
 
 #include "programs/cardan/air.hpp"
 #include "programs/cardan/commands.hpp"
@@ -64,13 +64,11 @@ void declare(CommandLine& app, FlutterArguments& a) {
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _flutter)");
 }
 
-// Torsion feels where the lift acts, which AeroDyn's files of the built-in machine leave out and its report has.
-Air air_for_torsion(const MachineFile& machine, const FlutterArguments& a) {
-    Air air = air_of(machine, a.machine, a.air);
-    if (machine.kind == MachineKind::built_in && a.air.file.empty()) {
-        std::cout << "aerodynamic centres: as in the machine's report\n";
-        air.blade = turbines::nrel5mw_aero_blade(turbines::Nrel5mwCentres::report);
-    }
+// Torsion feels where the lift acts.
+turbines::Aerodynamics air_for_torsion(const turbines::Machine& machine, const FlutterArguments& a) {
+    turbines::Aerodynamics air = air_of(machine, a.air);
+    if (!air.torsion_sweep.empty()) std::cout << "aerodynamic centres: those for torsion\n";
+    air.blade = air.torsion_blade();
     return air;
 }
 
@@ -78,9 +76,9 @@ struct SpeedRange {
     double first, last;  // rad/s
 };
 
-SpeedRange speed_range(FlutterArguments& a, const MachineFile& machine) {
+SpeedRange speed_range(FlutterArguments& a, const turbines::Machine& machine) {
     constexpr auto format = "FIRST:LAST, rev/min, 0 < FIRST < LAST";
-    const double own = machine.file.rotor_speed * units::to_rpm;
+    const double own = machine.operation.rotor_speed * units::to_rpm;
     if (a.rpm.empty()) {
         if (!(own > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", format);
         a.rpm = text(digits(slowest * own), ":", digits(fastest * own));
@@ -93,13 +91,13 @@ SpeedRange speed_range(FlutterArguments& a, const MachineFile& machine) {
     return range;
 }
 
-turbines::Turbine blade_of(const MachineFile& machine, const MachineOptions& options) {
-    const turbines::TurbineDescription& d = machine.file.description;
+turbines::Turbine blade_of(const turbines::Machine& machine, const MachineOptions& options) {
+    const turbines::TurbineDescription& d = machine.description;
     return turbines::isolated_blade(d, assembly_options(machine, options), first_blade(d));
 }
 
 // The first torsion of the blade at rest, without air, Hz.
-double torsion_hz(const MachineFile& machine, MachineOptions options) {
+double torsion_hz(const turbines::Machine& machine, MachineOptions options) {
     constexpr int enough = 12;  // elements
     if (options.blade_elements == 0) options.blade_elements = enough;
     options.tower_elements = 1;
@@ -110,21 +108,21 @@ double torsion_hz(const MachineFile& machine, MachineOptions options) {
     const solvers::Campbell at_rest = solvers::campbell(blade.system(), blade.rotor(), {0.0}, all);
     for (const solvers::Branch& branch : at_rest.branches)
         if (branch.family == "blade torsion") return at_rest.natural_hz(branch, 0);
-    throw InputError(machine.file.description.name, "blades", "rigid in torsion",
+    throw InputError(machine.description.name, "blades", "rigid in torsion",
                      "ones that twist: without torsion there is no flutter");
 }
 
-bool profiles_lag(const Air& air, const FlutterArguments& a) {
-    return !a.steady_profiles && !air.profiles.empty();
+bool profiles_lag(const turbines::Aerodynamics& air, const FlutterArguments& a) {
+    return !a.steady_profiles && !air.unsteady_airfoils.empty();
 }
 
-solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const Air& air, const FlutterArguments& a,
-                                   const SpeedRange& range, int steps) {
+solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const turbines::Aerodynamics& air,
+                                   const FlutterArguments& a, const SpeedRange& range, int steps) {
     RotorAirOptions own_motion = air.options;
     own_motion.induction = false;
     own_motion.skew = Skew::none;
     turbines::MachineAir still(blade, air.blade, SteadyWind{.density = air.density}, own_motion);
-    if (profiles_lag(air, a)) still = still.lagging({.profiles = air.profiles});
+    if (profiles_lag(air, a)) still = still.lagging({.profiles = air.unsteady_airfoils});
     const turbines::Turbine in_air = still.on(blade);
 
     solvers::StabilityOptions options;
@@ -145,8 +143,8 @@ struct FinerLimit {
     std::optional<solvers::StabilityLimit> limit;  // none: not found next to the other
 };
 
-std::vector<FinerLimit> finer_limits(const solvers::StabilityLimit& limit, const MachineFile& machine, const Air& air,
-                                     const FlutterArguments& a) {
+std::vector<FinerLimit> finer_limits(const solvers::StabilityLimit& limit, const turbines::Machine& machine,
+                                     const turbines::Aerodynamics& air, const FlutterArguments& a) {
     std::vector<FinerLimit> all;
     const SpeedRange range{(1 - width_about) * limit.rotor_speed, (1 + width_about) * limit.rotor_speed};
     const auto distance = [&](const solvers::StabilityLimit& other) {
@@ -212,13 +210,13 @@ std::string limit_in_words(const solvers::StabilityLimit& limit, const std::vect
     return words + (limit.doubtful ? " (which mode it is, is doubtful)" : "");
 }
 
-void print_limits(const solvers::StabilityLimits& found, const MachineFile& machine, const Air& air,
-                  const FlutterArguments& a) {
+void print_limits(const solvers::StabilityLimits& found, const turbines::Machine& machine,
+                  const turbines::Aerodynamics& air, const FlutterArguments& a) {
     for (const solvers::StabilityLimit& limit : found.limits) {
         const std::vector<FinerLimit> others = finer_limits(limit, machine, air, a);
         std::printf("%s of %s %s %s\n", limit.kind == solvers::Instability::flutter ? "flutter" : "divergence",
                     limit.name.c_str(), limit.begins ? "from" : "ends at",
-                    limit_in_words(limit, others, machine.file.rotor_speed, air.blade.position.back()).c_str());
+                    limit_in_words(limit, others, machine.operation.rotor_speed, air.blade.position.back()).c_str());
     }
     if (found.limits.empty() && found.diagram.complete) std::printf("neither flutter nor divergence begins or ends\n");
     if (!found.note.empty()) std::printf("note: %s\n", found.note.c_str());
@@ -226,11 +224,12 @@ void print_limits(const solvers::StabilityLimits& found, const MachineFile& mach
 }
 
 int run(FlutterArguments& a, const CommandLine& command) {
-    const MachineFile machine = prepared_machine(a.machine);
+    turbines::Machine machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "flutter");
     const SpeedRange range = speed_range(a, machine);
-    const Air air = air_for_torsion(machine, a);
-    set_pitch(machine, a.machine, machine.file.rotor_speed);
+    take_air(machine, a.air, a.machine.notes);
+    const turbines::Aerodynamics air = air_for_torsion(machine, a);
+    set_pitch(machine, a.machine, machine.operation.rotor_speed);
     if (!a.max_frequency) a.max_frequency = modes_up_to * torsion_hz(machine, a.machine);
     const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);
     check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
@@ -242,7 +241,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
     solvers::Campbell& diagram = found.diagram;
     diagram.remark = "blade alone in still air, " + answer;
     diagram.accuracy = in_words(ready.mesh);
-    diagram.source = run_text("flutter", command) + diagram.source;
+    diagram.source = run_text("flutter", command) + turbines::with_machine(diagram.source, machine);
     if (diagram.points.empty()) return 130;
     std::printf("\n");
     print_limits(found, machine, air, a);

@@ -8,12 +8,12 @@
 #include "mbs/model/summary.hpp"
 #include "solvers/hdf5/file.hpp"
 #include "solvers/hdf5/history.hpp"
+#include "turbines/machine/result.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/shared/history_state.hpp"
 #include "programs/shared/program.hpp"
-#include "programs/shared/run_record.hpp"
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -90,11 +90,11 @@ void print_file(const solvers::Hdf5File& file) {
 }
 
 void print_result(const std::string& file, bool description) {
-    if (is_history(file))
+    if (turbines::is_history(file))
         print_history(file);
     else
         print_file(solvers::Hdf5File::open(file));
-    if (description) std::cout << "\ninput description:\n" << input_description(file) << "\n";
+    if (description) std::cout << "\ninput description:\n" << turbines::input_description(file) << "\n";
 }
 
 void print_masses(const turbines::Turbine& turbine) {
@@ -120,26 +120,47 @@ void print_size(const turbines::TurbineDescription& d) {
     if (d.platform) std::printf("stands on     %s\n", d.platform->name.c_str());
 }
 
-void print_blade(const MachineFile& machine, const MachineOptions& options) {
+void print_air(const turbines::Machine& machine) {
+    if (machine.air)
+        std::printf("air           %zu sections, %zu airfoils%s, %g kg/m^3\n", machine.air->blade.sections(),
+                    machine.air->blade.polars.size(), machine.air->unsteady_airfoils.empty() ? "" : " with lags",
+                    machine.air->density);
+    else
+        std::printf("air           none: %s\n", machine.no_air.c_str());
+}
+
+void print_operation(const turbines::Machine& machine) {
+    const turbines::MachineOperation& o = machine.operation;
+    if (o.rated_power > 0) std::printf("rated power   %g kW on the rotor\n", o.rated_power / 1e3);
+    if (o.min_speed > 0) std::printf("least speed   %g rpm\n", o.min_speed * units::to_rpm);
+    if (o.tip_speed_ratio > 0) std::printf("tip speed     %g times the wind's below rated power\n", o.tip_speed_ratio);
+    const turbines::ModelController& c = machine.controller;
+    if (!c.library.empty()) std::printf("controller    %s\n", c.library.c_str());
+    if (!c.input.empty()) std::printf("its input     %s\n", c.input.c_str());
+    if (c.generator_efficiency > 0) std::printf("generator     efficiency %g\n", c.generator_efficiency);
+}
+
+void print_blade(const turbines::Machine& machine, const MachineOptions& options) {
     MachineOptions fine = options;
     fine.blade_elements = 12;
     fine.tower_elements = 1;
-    if (machine.file.description.blade_at(1) == nullptr) return;
-    const std::vector<double> hz =
-        turbines::clamped_blade_hz(machine.file.description, assembly_options(machine, fine));
+    if (machine.description.blade_at(1) == nullptr) return;
+    const std::vector<double> hz = turbines::clamped_blade_hz(machine.description, assembly_options(machine, fine));
     std::printf("blade 1 clamped at its root and at rest, Hz (12 elements)\n ");
     for (std::size_t i = 0; i < hz.size() && i < 6; ++i) std::printf(" %.4f", hz[i]);
     std::printf("\n");
 }
 
 void print_machine(InfoArguments& a) {
-    const MachineFile machine = prepared_machine(a.machine);
-    const turbines::TurbineDescription& d = machine.file.description;
+    const turbines::Machine machine = prepared_machine(a.machine);
+    const turbines::TurbineDescription& d = machine.description;
     const double speed = rotor_speed({}, machine);
     set_pitch(machine, a.machine, speed);
     std::cout << std::flush;
     std::printf("machine       %s\n", d.name.c_str());
     print_size(d);
+    print_air(machine);
+    print_operation(machine);
     MachineOptions coarse = a.machine;
     coarse.blade_elements = coarse.tower_elements = 4;
     const turbines::Turbine turbine = turbines::assemble(d, assembly_options(machine, coarse));
@@ -150,7 +171,7 @@ void print_machine(InfoArguments& a) {
 
 int run(InfoArguments& a, const CommandLine& /*command*/) {
     stop_at_once();
-    if (is_result(a.machine.model))
+    if (turbines::is_result(a.machine.model))
         print_result(a.machine.model, a.description);
     else
         print_machine(a);

@@ -10,6 +10,7 @@
 // of the Campbell diagram at this rotor speed.
 #include "mbs/model/summary.hpp"
 #include "solvers/periodic/floquet.hpp"
+#include "turbines/machine/machine_text.hpp"
 
 #include "programs/cardan/campbell_wind.hpp"
 #include "programs/cardan/commands.hpp"
@@ -187,9 +188,10 @@ void add_balanced(std::vector<solvers::NamedModel>& models, const LineariseArgum
 // The constant forms of a model, its modes beside those of the Campbell diagram, and the files.
 // @param diagram  of a form; called once
 int finish(LineariseArguments& a, const CommandLine& command, const turbines::Turbine& turbine,
-           const turbines::TurbineDescription& description, solvers::LinearModel model,
+           const turbines::Machine& machine, solvers::LinearModel model,
            const std::function<std::optional<solvers::Campbell>(Form)>& diagram) {
-    model.description = run_text("linearise", command) + model.description;
+    const turbines::TurbineDescription& description = machine.description;
+    model.description = run_text("linearise", command) + turbines::with_machine(model.description, machine);
     const Form form = form_of(model, description);
     std::vector<solvers::NamedModel> constant;
     if (form == Form::multi_blade) {
@@ -231,8 +233,9 @@ solvers::OperatingPoint standing(const turbines::AeroelasticPoint& point) {
 }
 
 // At an operating point in the wind; wind and pitch are inputs, and what the air does to the rotor an output.
-int run_in_wind(LineariseArguments& a, const MachineFile& machine, const CommandLine& command) {
+int run_in_wind(LineariseArguments& a, turbines::Machine machine, const CommandLine& command) {
     if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
+    take_wind(machine, a.air.wind, a.machine.notes);
     WindRun run = wind_run(machine, a.machine, a.air.wind, a.air.harmonics, a.model.azimuths, a.model.max_frequency);
     if (run.speeds.size() != 1)
         throw InputError("--wind", "number of wind speeds", run.speeds.size(), "1 for a linear model");
@@ -269,12 +272,12 @@ int run_in_wind(LineariseArguments& a, const MachineFile& machine, const Command
     solvers::LinearModel model = operation.rotor_speed == 0
                                      ? about(standing(point))
                                      : about(turbines::steady_state(point, operation.rotor_speed, a.air.harmonics));
-    return finish(a, command, turbine, machine.file.description, std::move(model), modes);
+    return finish(a, command, turbine, machine, std::move(model), modes);
 }
 
 int run(LineariseArguments& a, const CommandLine& command) {
     const bool windy = !a.air.wind.speeds.empty();
-    const MachineFile machine = prepared_machine(a.machine);
+    const turbines::Machine machine = prepared_machine(a.machine);
     if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
     if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
     a.model.max_frequency = *a.max_frequency;
@@ -289,7 +292,7 @@ int run(LineariseArguments& a, const CommandLine& command) {
     const solvers::RotorSpin spin = rotor_spin(machine);
     solvers::LinearModel model = linearise(ready.turbine, a.model, speed, spin,
                                            a.machine.gravity ? LinearisedAbout::periodic : LinearisedAbout::automatic);
-    return finish(a, command, ready.turbine, machine.file.description, std::move(model),
+    return finish(a, command, ready.turbine, machine, std::move(model),
                   [&](Form form) { return diagram(ready.turbine, a, speed, spin, form); });
 }
 

@@ -70,7 +70,7 @@ void print(const solvers::Campbell& diagram) {
 }
 
 int run(ModesArguments& a, const CommandLine& command) {
-    const MachineFile machine = prepared_machine(a.machine);
+    const turbines::Machine machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "modes");
     const double speed = a.rpm * units::rpm;
     set_pitch(machine, a.machine, speed);
@@ -84,7 +84,7 @@ int run(ModesArguments& a, const CommandLine& command) {
     solvers::Campbell diagram = solvers::campbell(ready.turbine.system(), ready.turbine.rotor(), {speed}, options);
     stop_at_once();
     if (diagram.points.empty()) return 130;
-    tell_origin(diagram, machine, ready, run_text("modes", command));
+    tell_origin(diagram, "modes", command, machine, ready);
     print(diagram);
     solvers::write_hdf5(diagram, a.out + ".h5");
     solvers::write_csv(diagram, a.out + ".csv");

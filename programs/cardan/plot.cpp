@@ -10,13 +10,13 @@
 #include "solvers/pictures/campbell.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/signals/sampling.hpp"
+#include "turbines/machine/result.hpp"
 #include "turbines/readers/csv.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/shared/history_parts.hpp"
 #include "programs/shared/program.hpp"
-#include "programs/shared/run_record.hpp"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -251,7 +251,7 @@ int run(PlotArguments& a, const CommandLine& /*command*/) {
     require_not_negative("--rpm", "value", a.rpm);
     if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string();
     a.spectrum = a.spectrum || a.density;
-    if (is_result(a.file) && !is_history(a.file)) return draw_diagram(a);
+    if (turbines::is_result(a.file) && !turbines::is_history(a.file)) return draw_diagram(a);
     const solvers::History history = load(a.file);
     std::cout << std::setprecision(4);
     if (a.list) {

@@ -2,12 +2,15 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/version.hpp"
 #include "solvers/hdf5/history.hpp"
+#include "turbines/machine/result.hpp"
+#include "turbines/machine/wind_text.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/run_record.hpp"
 #include <algorithm>
+#include <string_view>
 
 namespace cardan::program {
 
@@ -31,9 +34,18 @@ void set_duration(std::vector<std::string>& words, const std::string& file) {
     if (duration != words.end()) *duration = "--duration=" + digits(solvers::read_history_info(file).last_time);
 }
 
+// A wind over time, from the file that holds it as it was read.
+void set_wind(std::vector<std::string>& words, const std::string& file) {
+    constexpr std::string_view option = "--wind=";
+    const auto wind = std::ranges::find_if(words, [&](const std::string& w) { return w.starts_with(option); });
+    if (wind == words.end() || read_number(wind->substr(option.size())).good()) return;
+    if (turbines::wind_of(turbines::input_description(file), file)) *wind = text(option, file);
+}
+
 int run(RepeatArguments& a, const CommandLine& /*command*/) {
     RunRecord record = read_run_record(a.file);
     set_duration(record.words, a.file);
+    set_wind(record.words, a.file);
     if (a.out.empty()) a.out = std::filesystem::path(a.file).stem().string() + "_repeated";
     std::vector<std::string> words{"cardan " + record.command, a.file};
     words.insert(words.end(), record.words.begin(), record.words.end());

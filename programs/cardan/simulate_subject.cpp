@@ -2,6 +2,8 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/machine/machine_text.hpp"
+#include "turbines/machine/wind_text.hpp"
 
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/simulate.hpp"
@@ -61,7 +63,8 @@ std::string options_of(const SimulateArguments& a, double speed, const RotorTorq
     if (a.controller.acts()) changed += ", " + in_words(a.controller);
     if (rotor.acts()) changed += ", " + rotor.in_words();
     if (!a.wind.empty())
-        changed += text(", wind ", a.wind, ", ", in_words(a.air), ", ", air_in_words(a.air.wake, false));
+        changed += text(", wind ", read_number(a.wind).good() ? a.wind : "of a file", ", ", in_words(a.air), ", ",
+                        air_in_words(a.air.wake, false));
     return text("start ", a.start, " at ", speed, " rad/s, azimuth ", a.azimuth, " deg", changed, ", ",
                 options_text(a.run));
 }
@@ -76,14 +79,14 @@ Pair in_the_air(const turbines::Turbine& machine, const std::optional<turbines::
     return {air->on(machine), air->in(air->wind().at(0)).on(machine)};
 }
 
-std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, const MachineFile& machine,
+std::optional<turbines::MachineAir> air_on(const turbines::Turbine& turbine, const turbines::Machine& machine,
                                            const SimulateArguments& a) {
     if (a.wind.empty()) return std::nullopt;
-    const Air air = air_of(machine, a.machine, a.air);
+    const turbines::Aerodynamics air = air_of(machine, a.air);
     tell_air("run", air_in_equilibrium(air));
-    const SteadyWind profile = wind_profile(a.air, air, machine, turbine);
+    const SteadyWind profile = wind_profile(a.air, air.density, machine, turbine);
     return turbines::MachineAir(turbine, air.blade, wind_of(a.wind, profile, a.machine.notes), air.options,
-                                support_of(air, machine, turbine));
+                                turbines::support_on(turbine, machine, air.support));
 }
 
 // About the shaft, mean over a revolution in steady rotation, N m.
@@ -159,10 +162,11 @@ void add_rotor_torque(const RotorTorque& rotor, Subject& subject) {
 }  // namespace
 
 Subject subject_of(SimulateArguments& a) {
-    MachineFile machine = prepared_machine(a.machine);
+    turbines::Machine machine = prepared_machine(a.machine);
     check_controller(a.controller, machine);
+    if (!a.wind.empty()) take_air(machine, a.air, a.machine.notes);
     const RotorTorque rotor = rotor_torque(a.rotor_torque);
-    if (a.controller.acts()) make_pitch_drives(a.controller, machine.file.description);
+    if (a.controller.acts()) make_pitch_drives(a.controller, machine.description);
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = speed * units::to_rpm;
@@ -175,7 +179,7 @@ Subject subject_of(SimulateArguments& a) {
     double driving = 0;
     if (air) {
         wind.push_back(air->channels());
-        if (!a.torque && machine.file.dofs.generator) driving = torque_of(*air, pair.at_start, speed);
+        if (!a.torque && machine.dofs.generator) driving = torque_of(*air, pair.at_start, speed);
     } else if (a.controller.acts() && rotor.acts()) {
         driving = rotor.first();
     }
@@ -183,11 +187,14 @@ Subject subject_of(SimulateArguments& a) {
         a.controller.acts() ? controlled(a, pair, speed, driving, wind) : uncontrolled(a, pair, speed, driving);
     subject.channels.insert(subject.channels.end(), wind.begin(), wind.end());
     add_rotor_torque(rotor, subject);
-    subject.driven = !machine.file.dofs.generator;
+    subject.driven = !machine.dofs.generator;
     const std::string foundation = foundation_in_words(machine);
-    subject.title = text(machine.file.description.name, foundation.empty() ? "" : ", ", foundation,
+    subject.title = text(machine.description.name, foundation.empty() ? "" : ", ", foundation,
                          a.machine.gravity ? "" : ", no gravity");
-    subject.about = text(options_of(a, speed, rotor), "\n", subject.turbine.rotor().description);
+    subject.about =
+        turbines::with_machine(text(options_of(a, speed, rotor), "\n", air ? turbines::to_yaml(air->wind()) : "",
+                                    subject.turbine.rotor().description),
+                               std::move(machine));
     return subject;
 }
 

@@ -10,6 +10,7 @@
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "solvers/pictures/history.hpp"
+#include "turbines/machine/machine_text.hpp"
 #include "turbines/model/channels.hpp"
 
 #include "programs/cardan/commands.hpp"
@@ -105,10 +106,11 @@ void write(const solvers::History& history, const std::string& path, const std::
 
 int run(SteadyArguments& a, const CommandLine& command) {
     a.machine.gravity = !a.no_gravity;
-    const MachineFile machine = prepared_machine(a.machine);
+    turbines::Machine machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, a.wind.speeds.empty() ? "steady" : "wind");
     if (!a.wind.speeds.empty()) {
         if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
+        take_wind(machine, a.wind, a.machine.notes);
         return steady_in_wind(machine, a.machine, a.wind, a.revolution, a.out, command);
     }
     const double speed = rotor_speed(a.rpm, machine);
@@ -121,10 +123,11 @@ int run(SteadyArguments& a, const CommandLine& command) {
     stop_at_once();
     const std::vector<ChannelGroup> groups = channels_of(turbine, a.revolution.stations);
     const solvers::History history = history_of(turbine.system(), groups, states.states,
-                                                text(machine.file.description.name, ", steady at ", *a.rpm, " rpm"));
+                                                text(machine.description.name, ", steady at ", *a.rpm, " rpm"));
     std::printf("%s: %s\n%s\n", history.title.c_str(), states.about.c_str(), in_words(ready.mesh).c_str());
     print(history, a.all ? all_names(history.channels) : main_channels(turbine.layout(), history.channels));
-    write(history, a.out + ".h5", run_text("steady", command) + turbine.rotor().description);
+    write(history, a.out + ".h5",
+          run_text("steady", command) + turbines::with_machine(turbine.rotor().description, machine));
     std::printf("\nfiles: %s.h5 (%zu azimuths, %zu channels)", a.out.c_str(), history.time.size(),
                 history.channels.size());
     if (history.time.size() > 1) {

@@ -6,6 +6,8 @@
 // Checked: what the neglected harmonics would have to balance is printed; what does not converge is named.
 #include "programs/cardan/steady_wind.hpp"
 
+#include "turbines/machine/machine_text.hpp"
+
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/wind_results.hpp"
 #include "programs/shared/program.hpp"
@@ -19,9 +21,9 @@ namespace cardan::program {
 namespace {
 
 // At the wind with the largest thrust.
-void tell_mesh(const WindRun& run, const WindResults& results, const MachineFile& machine,
+void tell_mesh(const WindRun& run, const WindResults& results, const turbines::Machine& machine,
                const MachineOptions& options, const RevolutionOptions& revolution) {
-    if (run.ready.turbine.layout().blades.empty() || !machine.file.dofs.blades) return;
+    if (run.ready.turbine.layout().blades.empty() || !machine.dofs.blades) return;
     const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindPoint::thrust);
     const double wind = largest->operation.wind;
     FinerPoint finer = finer_point(run, machine, options, largest->operation);
@@ -38,9 +40,9 @@ void tell_mesh(const WindRun& run, const WindResults& results, const MachineFile
 
 }  // namespace
 
-int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind,
+int steady_in_wind(const turbines::Machine& machine, MachineOptions& options, const WindArguments& wind,
                    const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command) {
-    const turbines::TurbineDescription& d = machine.file.description;
+    const turbines::TurbineDescription& d = machine.description;
     WindRun run =
         wind_run(machine, options, wind, revolution.harmonics, revolution.azimuths, usual_frequency(machine, options));
     check_outputs(prefix, {".h5", ".csv", ".svg", ".png"});
@@ -51,7 +53,7 @@ int steady_in_wind(const MachineFile& machine, MachineOptions& options, const Wi
         wind_results(run.operation, std::move(run.points), revolution.stations, text(d.name, ", in the wind"));
     write_csv(results, prefix);
     write_hdf5(results, prefix + ".h5", air_in_equilibrium(run.air),
-               run_text("steady", command) + run.ready.turbine.rotor().description);
+               run_text("steady", command) + turbines::with_machine(run.ready.turbine.rotor().description, machine));
     std::printf("\n%s\n%s\n", results.title.c_str(), in_words(run.ready.mesh).c_str());
     if (!run.operation.is_constant())
         std::printf(

@@ -10,7 +10,7 @@ namespace cardan::program {
 
 /// @param prefix  of the files
 /// @return exit code
-int steady_in_wind(const MachineFile& machine, MachineOptions& options, const WindArguments& wind,
+int steady_in_wind(const turbines::Machine& machine, MachineOptions& options, const WindArguments& wind,
                    const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command);
 
 }  // namespace cardan::program

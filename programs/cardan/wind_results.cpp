@@ -216,7 +216,7 @@ void write_hdf5(const WindResults& results, const std::string& path, const std::
     solvers::Hdf5File file = solvers::Hdf5File::create(path);
     file.set_attribute("/", {"title", text("operating points in the wind: ", air)});
     file.write("input_description", std::vector<std::string>{description}, {},
-               "how it was made, and the machine that was computed; not the profiles of the air");
+               "how it was made, and the machine that was computed, with its air");
     std::vector<double> positions;
     for (const SectionMean& section : results.points.front().sections) positions.push_back(section.position);
     const solvers::Hdf5Axis wind{"wind", winds_of(results), {"m s-1", "wind speed at the reference height"}},

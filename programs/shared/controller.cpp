@@ -215,7 +215,7 @@ void add_controller_options(CommandLine& app, ControllerOptions& options) {
                    "electrical over mechanical power, for the power that is recorded and that the controller measures");
 }
 
-void check_controller(ControllerOptions& options, const MachineFile& machine) {
+void check_controller(ControllerOptions& options, const turbines::Machine& machine) {
     require_positive("--controller-period", "value [s]", options.period);
     if (!(options.efficiency > 0 && options.efficiency <= 1))
         throw InputError("--generator-efficiency", "value", options.efficiency, "0 ... 1, not 0");
@@ -228,21 +228,22 @@ void check_controller(ControllerOptions& options, const MachineFile& machine) {
         throw InputError("--pitch-control", "value", options.pitch_control,
                          "collective: individual pitch needs a library as --controller");
     if (options.acts() && options.pitch_control.empty())
-        options.pitch_control = !options.is_baseline() && machine.file.individual_pitch ? "individual" : "collective";
+        options.pitch_control =
+            !options.is_baseline() && machine.controller.individual_pitch ? "individual" : "collective";
     if (!options.pitch_actuator.empty() && !options.acts())
         throw InputError("--pitch-actuator", "value", options.pitch_actuator, "only with --controller");
     static_cast<void>(actuator_options(options));
     if (!options.acts()) return;
-    if (!machine.file.dofs.generator)
+    if (!machine.dofs.generator)
         throw InputError("--controller", "rotor", "driven, at constant speed", "free: --generator free");
-    const turbines::TurbineDescription& d = machine.file.description;
+    const turbines::TurbineDescription& d = machine.description;
     if (!options.is_baseline()) {
         if (d.blades < 1 || d.blades > 3)
             throw InputError("--controller", "number of blades", d.blades, "1 ... 3, as DISCON has them");
         return;
     }
     const VariableSpeedParameters own = turbines::nrel5mw_controller();
-    const double rated = machine.file.rotor_speed * d.drive_train.gear_ratio;
+    const double rated = machine.operation.rotor_speed * d.drive_train.gear_ratio;
     if (std::abs(rated / own.reference_speed - 1) > 0.02)
         throw InputError("--controller baseline", "rated speed of the machine's generator [rpm]", rated * units::to_rpm,
                          text("about ", own.reference_speed * units::to_rpm,

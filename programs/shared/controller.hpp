@@ -33,7 +33,7 @@ void add_controller_options(CommandLine& app, ControllerOptions& options);
 /// Puts what the model says of the pitch where the options say nothing.
 /// @throws InputError for a period or an efficiency out of range, an input without a controller that reads it, a rotor
 /// that is driven, and the baseline controller on a machine that is another one than the NREL 5 MW machine
-void check_controller(ControllerOptions& options, const MachineFile& machine);
+void check_controller(ControllerOptions& options, const turbines::Machine& machine);
 
 /// Makes the pitch bearings of a machine that is to be controlled: blades without a spring of their own are prescribed,
 /// or get one for the actuator that is asked for.

@@ -3,12 +3,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/readers/openfast.hpp"
-#include "turbines/yaml/description.hpp"
+#include "turbines/machine/built_in.hpp"
 #include "turbines/yaml/foundation.hpp"
-#include "turbines/yaml/windio.hpp"
 
-#include "programs/shared/built_in_machines.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/run_record.hpp"
 #include <algorithm>
@@ -21,11 +18,6 @@
 namespace cardan::program {
 
 namespace {
-
-void refuse(const std::vector<turbines::ModelAddition>& additions) {
-    if (!additions.empty())
-        throw InputError("additions to the machine", "value", additions.front().name, "none: it is no model of windIO");
-}
 
 // "a.b=1" as YAML.
 turbines::ModelAddition addition_of(const std::string& assignment) {
@@ -42,38 +34,12 @@ turbines::ModelAddition addition_of(const std::string& assignment) {
     return {text(begin, ": ", assignment.substr(equal + 1), end, "\n"), text("--set ", assignment)};
 }
 
-}  // namespace
-
+// What --with and --set add to a model of windIO.
 std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options) {
     std::vector<turbines::ModelAddition> additions;
     for (const std::string& file : options.with) additions.push_back({text_file(file), file});
     for (const std::string& assignment : options.set) additions.push_back(addition_of(assignment));
     return additions;
-}
-
-namespace {
-
-// A word that can only be meant as a name.
-bool is_word(const std::filesystem::path& path) {
-    std::error_code error;
-    return !path.has_parent_path() && !path.has_extension() && !std::filesystem::exists(path, error);
-}
-
-MachineFile read_file(const std::filesystem::path& path, const std::vector<turbines::ModelAddition>& additions) {
-    MachineFile machine;
-    if (is_result(path)) {
-        machine = machine_of(turbines::parse_description(machine_text(path), path.string()), MachineKind::result);
-    } else if (!is_yaml(path)) {
-        machine.kind = MachineKind::openfast;
-        machine.file = turbines::read_openfast(path);
-    } else if (turbines::is_description(text_file(path))) {
-        machine = machine_of(turbines::read_description(path), MachineKind::description);
-    } else {
-        machine.kind = MachineKind::windio;
-        machine.file = turbines::read_windio(path, additions);
-    }
-    if (machine.kind != MachineKind::windio) refuse(additions);
-    return machine;
 }
 
 // Directions in which the sections are rigid have no coordinate.
@@ -87,7 +53,7 @@ CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extensio
     return options;
 }
 
-void set_tower(const std::string& asked, turbines::TurbineFile& model) {
+void set_tower(const std::string& asked, turbines::Machine& model) {
     turbines::FileDofs& f = model.dofs;
     if (!asked.empty()) {
         f.tower_fore_aft = asked == "bends" || asked == "fore-aft";
@@ -97,7 +63,7 @@ void set_tower(const std::string& asked, turbines::TurbineFile& model) {
 }
 
 // What was asked for in the place of what the machine's source says.
-void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
+void set_dofs(const MachineOptions& a, turbines::Machine& model) {
     turbines::Bearing& yaw = model.description.yaw.rotation;
     if (!a.generator.empty()) model.dofs.generator = a.generator == "free";
     model.description.drive_train.spin = model.dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
@@ -111,7 +77,7 @@ void set_dofs(const MachineOptions& a, turbines::TurbineFile& model) {
     yaw = model.yaw_drive;
 }
 
-void tell_dofs(const turbines::TurbineFile& model, MachineOptions& a) {
+void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
     const turbines::FileDofs& f = model.dofs;
     a.generator = f.generator ? "free" : "locked";
     const turbines::Bearing& yaw = model.description.yaw.rotation;
@@ -122,7 +88,7 @@ void tell_dofs(const turbines::TurbineFile& model, MachineOptions& a) {
 }
 
 // A diagram of a machine that a file holds altogether would be empty: its beams bend.
-void free_beams_if_nothing_moves(turbines::TurbineFile& model) {
+void free_beams_if_nothing_moves(turbines::Machine& model) {
     const turbines::TurbineDescription& d = model.description;
     const bool teeters = d.hub.teeter && !d.hub.teeter->bearing.is_rigid();
     turbines::FileDofs& f = model.dofs;
@@ -134,7 +100,7 @@ void free_beams_if_nothing_moves(turbines::TurbineFile& model) {
     std::cout << "note: the model switches off all degrees of freedom: tower and blades bend here\n";
 }
 
-std::string dofs_in_words(const turbines::TurbineFile& model) {
+std::string dofs_in_words(const turbines::Machine& model) {
     const turbines::FileDofs& f = model.dofs;
     std::string locked = f.generator ? "" : ", generator locked";
     const turbines::Bearing& yaw = model.description.yaw.rotation;
@@ -148,9 +114,9 @@ std::string dofs_in_words(const turbines::TurbineFile& model) {
 }
 
 // The beams of a machine that was read, with what its file holds rigid.
-void set_beams(const MachineFile& machine, const MachineOptions& a, turbines::AssemblyOptions& o) {
-    const turbines::TurbineDescription& d = machine.file.description;
-    const turbines::FileDofs& dofs = machine.file.dofs;
+void set_beams(const turbines::Machine& machine, const MachineOptions& a, turbines::AssemblyOptions& o) {
+    const turbines::TurbineDescription& d = machine.description;
+    const turbines::FileDofs& dofs = machine.dofs;
     if (!d.tower.rigid) {
         o.tower_beam = beam_options(d.tower.line, a.tower_elements, false);
         o.tower_beam->held_y = !dofs.tower_side_side;
@@ -173,38 +139,13 @@ void print_notes(const std::vector<turbines::FileNote>& notes, bool all) {
     if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
 }
 
-MachineFile machine_of(turbines::TurbineDescription description, MachineKind kind) {
-    MachineFile machine;
-    machine.kind = kind;
-    turbines::TurbineFile& file = machine.file;
-    file.rotor_speed = description.rotor_speed;
-    file.yaw_drive = description.yaw.rotation;
-    file.dofs.generator = description.drive_train.spin == CoordinateRole::free;
-    file.dofs.tower_fore_aft = file.dofs.tower_side_side = !description.tower.rigid;
-    file.description = std::move(description);
-    return machine;
-}
-
-bool is_yaml(const std::filesystem::path& path) {
-    const std::string ending = lower_case(path.extension().string());
-    return ending == ".yaml" || ending == ".yml";
-}
-
 std::string machine_help() {
-    return "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own, .h5 of a result), or "
-           "one "
-           "of:\n" +
-           built_in_help();
-}
-
-MachineFile read_machine(const std::string& machine, const std::vector<turbines::ModelAddition>& additions) {
-    if (std::optional<MachineFile> built_in = built_in_machine(machine)) {
-        refuse(additions);
-        return *std::move(built_in);
-    }
-    const std::filesystem::path path(machine);
-    if (is_word(path)) throw InputError("machine", "name", machine, text(built_in_names(), ", or a file"));
-    return read_file(path, additions);
+    std::string help =
+        "A machine is a file (.fst or ElastoDyn file of OpenFAST, .yaml of windIO or our own, .h5 of a result), or one "
+        "of:\n";
+    for (const turbines::BuiltInMachine& one : turbines::built_in_machines())
+        help += text("  ", one.name, std::string(18 - one.name.size(), ' '), one.about, "\n");
+    return help;
 }
 
 void add_machine(CommandLine& app, MachineOptions& options) {
@@ -265,7 +206,7 @@ void add_machine_options(CommandLine& app, MachineOptions& options) {
 
 namespace {
 
-void set_foundation(const std::string& file, turbines::TurbineFile& model) {
+void set_foundation(const std::string& file, turbines::Machine& model) {
     if (file.empty()) return;
     if (model.description.platform)
         throw InputError("--foundation", "file", file,
@@ -274,41 +215,40 @@ void set_foundation(const std::string& file, turbines::TurbineFile& model) {
 }
 
 // What the model's tower stands on, where it is left out.
-bool is_clamped(const MachineFile& machine) {
-    const turbines::TurbineDescription& d = machine.file.description;
+bool is_clamped(const turbines::Machine& machine) {
+    const turbines::TurbineDescription& d = machine.description;
     return !d.missing_foundation.name.empty() && !d.platform;
 }
 
 }  // namespace
 
-std::string foundation_in_words(const MachineFile& machine) {
-    const std::string& name = machine.file.description.missing_foundation.name;
+std::string foundation_in_words(const turbines::Machine& machine) {
+    const std::string& name = machine.description.missing_foundation.name;
     return is_clamped(machine) ? text("tower clamped at its foot, ", name, " left out") : "";
 }
 
-MachineFile prepared_machine(MachineOptions& options) {
-    MachineFile machine = read_machine(options.model, additions_of(options));
-    turbines::TurbineFile& model = machine.file;
-    print_notes(model.notes, options.notes);
-    set_dofs(options, model);
-    set_foundation(options.foundation, model);
-    if (machine.kind == MachineKind::openfast) free_beams_if_nothing_moves(model);
-    tell_dofs(model, options);
-    std::cout << "degrees of freedom: " << dofs_in_words(model) << "\n";
+turbines::Machine prepared_machine(MachineOptions& options) {
+    turbines::Machine machine = turbines::read_machine(options.model, additions_of(options));
+    print_notes(machine.notes, options.notes);
+    set_dofs(options, machine);
+    set_foundation(options.foundation, machine);
+    free_beams_if_nothing_moves(machine);
+    tell_dofs(machine, options);
+    std::cout << "degrees of freedom: " << dofs_in_words(machine) << "\n";
     if (is_clamped(machine)) {
-        const auto& [name, where] = model.description.missing_foundation;
+        const auto& [name, where] = machine.description.missing_foundation;
         std::cout << "foundation: the " << name << " of the model is left out, and the tower clamped at its foot, "
                   << where << "; --foundation FILE gives it springs\n";
     }
-    if (options.generator_inertia != 0) model.description.drive_train.generator_inertia = options.generator_inertia;
+    if (options.generator_inertia != 0) machine.description.drive_train.generator_inertia = options.generator_inertia;
     return machine;
 }
 
-turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options) {
+turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options) {
     turbines::AssemblyOptions o;
     set_beams(machine, options, o);
     o.spin = CoordinateRole::free;  // how it turns (FileDofs::generator) is left to the analysis
-    o.pitch = options.pitch ? *options.pitch * units::degree : machine.file.pitch;
+    o.pitch = options.pitch ? *options.pitch * units::degree : machine.operation.pitch;
     if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
     if (options.undamped) o.structural_damping = o.joint_damping = false;
     return o;
@@ -330,10 +270,10 @@ int first_blade(const turbines::TurbineDescription& description) {
     return first;
 }
 
-double usual_frequency(const MachineFile& machine, const MachineOptions& options) {
-    const turbines::TurbineDescription& d = machine.file.description;
+double usual_frequency(const turbines::Machine& machine, const MachineOptions& options) {
+    const turbines::TurbineDescription& d = machine.description;
     const int first = first_blade(d);
-    if (first > d.blades || !machine.file.dofs.blades) return 5;
+    if (first > d.blades || !machine.dofs.blades) return 5;
     const std::vector<double> hz = turbines::clamped_blade_hz(
         d, assembly_options(machine, with_elements(options, 12, 1)), std::numeric_limits<double>::infinity(), first);
     if (hz.size() < 3) return 5;
@@ -343,7 +283,8 @@ double usual_frequency(const MachineFile& machine, const MachineOptions& options
 
 namespace {
 
-turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
+turbines::Mesh choose_mesh(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+                           double rotor_speed) {
     turbines::MeshOptions mesh;
     mesh.largest_hz = largest_hz;
     mesh.rotor_speed = rotor_speed;
@@ -352,7 +293,7 @@ turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, 
     MachineOptions plain = options;
     plain.gravity = false;
     const turbines::Mesh found = turbines::converged_mesh(
-        machine.file.description,
+        machine.description,
         [&](int blade, int tower) { return assembly_options(machine, with_elements(plain, blade, tower)); }, mesh);
     options.blade_elements = found.blade_elements;
     options.tower_elements = found.tower_elements;
@@ -361,11 +302,12 @@ turbines::Mesh choose_mesh(const MachineFile& machine, MachineOptions& options, 
 
 }  // namespace
 
-ReadyMachine ready_machine(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed) {
+ReadyMachine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+                           double rotor_speed) {
     const turbines::Mesh mesh = choose_mesh(machine, options, largest_hz, rotor_speed);
-    if (machine.file.description.platform)
-        std::cout << "mesh: chosen with the " << machine.file.description.platform->name << " held\n";
-    ReadyMachine ready{turbines::assemble(machine.file.description, assembly_options(machine, options)), mesh};
+    if (machine.description.platform)
+        std::cout << "mesh: chosen with the " << machine.description.platform->name << " held\n";
+    ReadyMachine ready{turbines::assemble(machine.description, assembly_options(machine, options)), mesh};
     introduce(ready.turbine, options.summary);
     return ready;
 }

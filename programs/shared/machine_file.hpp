@@ -1,50 +1,20 @@
 /// @file
-/// A machine as the argument of a program: a built-in one by its name, or a file of any kind that can be read.
+/// A machine as the argument of a program, with the options that change it, on its way to a solver.
 #pragma once
 
+#include "turbines/machine/read_machine.hpp"
 #include "turbines/mesh/mesh.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/readers/turbine_file.hpp"
-#include "turbines/yaml/model_addition.hpp"
 
 #include "programs/shared/command_line.hpp"
-#include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cardan::program {
 
-enum class MachineKind : std::uint8_t {
-    built_in,     ///< turbines/machines
-    description,  ///< our own YAML
-    result,       ///< HDF5 that a command has written, with the machine in it
-    windio,       ///< other YAML
-    openfast      ///< everything else
-};
-
-/// A machine, with what its source says of how it runs.
-struct MachineFile {
-    turbines::TurbineFile file;
-    MachineKind kind = MachineKind::built_in;
-};
-
-/// A description, with what it says of how it runs.
-MachineFile machine_of(turbines::TurbineDescription description, MachineKind kind);
-
 /// What may be given as a machine, with the names of the built-in ones: for the help of a program.
 std::string machine_help();
-
-/// A name of a built-in machine comes first: a file of that name is read as ./NAME.
-/// @param machine    name, or path of a .yaml (ours or windIO's), an .fst or an ElastoDyn file, a result (.h5)
-/// @param additions  to a model of windIO
-/// @throws InputError for a word that is neither a name nor a file, with the names there are, and for additions to
-/// another machine; as the readers
-MachineFile read_machine(const std::string& machine, const std::vector<turbines::ModelAddition>& additions = {});
-
-/// Is it YAML, by the ending of its name?
-bool is_yaml(const std::filesystem::path& path);
 
 /// What programs for any machine ask about it.
 struct MachineOptions {
@@ -65,20 +35,17 @@ void add_source_options(CommandLine& app, MachineOptions& options);
 /// The same, with pitch, numbers of elements, damping and what is printed; gravity is left to the program.
 void add_machine_options(CommandLine& app, MachineOptions& options);
 
-/// What --with and --set add to a model of windIO.  @throws FileError
-std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options);
-
 /// Prints notes; those on groups of entries without meaning are counted, unless `all` are wanted.
 void print_notes(const std::vector<turbines::FileNote>& notes, bool all);
 
 /// Reads the machine, prints notes, degrees of freedom and what the tower stands on, and puts what was asked for in the
 /// place of what the machine's source says. The options then hold what was taken in all cases.
 /// @throws InputError also for a yaw bearing that is to be free without a spring
-MachineFile prepared_machine(MachineOptions& options);
+turbines::Machine prepared_machine(MachineOptions& options);
 
 /// Of a machine whose foundation is left out, for titles: "tower clamped at its foot, substructure left out"; else
 /// empty.
-std::string foundation_in_words(const MachineFile& machine);
+std::string foundation_in_words(const turbines::Machine& machine);
 
 /// A machine on its way to a solver.
 struct ReadyMachine {
@@ -90,22 +57,24 @@ struct ReadyMachine {
 /// elements.
 /// @param largest_hz   frequencies up to here shall be right
 /// @param rotor_speed  highest, rad/s
-ReadyMachine ready_machine(const MachineFile& machine, MachineOptions& options, double largest_hz, double rotor_speed);
+ReadyMachine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+                           double rotor_speed);
 
 /// Beams, pitch, gravity and damping.
-turbines::AssemblyOptions assembly_options(const MachineFile& machine, const MachineOptions& options);
+turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options);
 
 /// The first blade that is there, from 1; beyond the number of blades: there is none.
 int first_blade(const turbines::TurbineDescription& description);
 
 /// A frequency that suits the machine: 1.3 times the third of its first blade, clamped and at rest (second flap, as a
 /// rule), rounded up to two digits, Hz; 5 if the blade does not bend.
-double usual_frequency(const MachineFile& machine, const MachineOptions& options);
+double usual_frequency(const turbines::Machine& machine, const MachineOptions& options);
 
 /// What a mesh is good for, in one line.
 std::string in_words(const turbines::Mesh& mesh);
 
-/// Head of the input description of a result: the command with its options as they were used.
+/// Head of the input description of a result: the command with its options as they were used. Behind it stands
+/// turbines::with_machine().
 std::string run_text(const std::string& command, const CommandLine& options);
 
 }  // namespace cardan::program

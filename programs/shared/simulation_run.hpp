@@ -3,8 +3,11 @@
 #pragma once
 
 #include "mbs/base/error.hpp"
+#include "turbines/model/description_text.hpp"
 
 #include "programs/shared/simulation.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace cardan::program {
 
@@ -35,19 +38,48 @@ inline std::string options_text(const RunArguments& a) {
     return text("method ", a.method, ", order ", a.order, ", tolerance ", a.tolerance, ", step ", a.step, " s");
 }
 
+/// Of a description what makes a run: without the command, and without what its machine was read from and why it has no
+/// air, where files are named that may be called from elsewhere.
+inline std::string what_is_run(std::string description) {
+    const auto erase = [&](std::size_t from, std::size_t to) {
+        if (from < to && to != std::string::npos) description.erase(from, to - from);
+    };
+    if (description.starts_with("made by ")) erase(0, description.find("\n\n") + 2);
+    erase(description.find(turbines::source_of_machine), description.rfind(turbines::computed_machine));
+    const std::size_t reason = description.find("\nno_air: ");
+    if (reason != std::string::npos) erase(reason, description.find('\n', reason + 1));
+    return description;
+}
+
+/// The first parts in which two texts differ: entries of a line, separated by ", ".
+struct Difference {
+    std::string first, second;
+};
+inline Difference difference(const std::string& a, const std::string& b) {
+    const auto part = [](const std::string& all, std::size_t& at) -> std::string {
+        at = std::min(all.find_first_not_of(", \n", at), all.size());
+        if (at == all.size()) return "nothing more";
+        const std::size_t from = std::exchange(at, std::min({all.find('\n', at), all.find(", ", at), all.size()}));
+        return all.substr(from, at - from);
+    };
+    for (std::size_t i = 0, k = 0; i < a.size() || k < b.size();) {
+        const Difference found{part(a, i), part(b, k)};
+        if (found.first != found.second) return found;
+    }
+    return {};
+}
+
 /// The checkpoint that a run goes on from; none: it begins.
-/// @throws FileError, InputError if the file has no checkpoint or is of another run
+/// @throws FileError, InputError if the file has no checkpoint or is of another run: what differs is named
 inline std::optional<solvers::Checkpoint> start_of(const RunArguments& a, const std::string& description) {
     if (!a.resume) return std::nullopt;
     const std::string path = a.out + ".h5";
     const solvers::HistoryInfo info = solvers::read_history_info(path);
     if (!info.checkpoint) throw InputError("--resume", path, "without a checkpoint", "a run that was broken off");
-    const std::string& made = info.about.description;
-    if (made.ends_with(description)) return info.checkpoint;
-    const std::size_t own = made.starts_with("made by ") ? made.find("\n\n") + 2 : 0;  // behind the command
-    throw InputError("--resume", text("options that ", path, " was made with"),
-                     made.substr(own, made.find('\n', own) - own),
-                     text("those of this run: ", description.substr(0, description.find('\n'))));
+    const std::string made = what_is_run(info.about.description), wanted = what_is_run(description);
+    if (made == wanted) return info.checkpoint;
+    const Difference differs = difference(made, wanted);
+    throw InputError("--resume", text("run of ", path), differs.first, text("that of this run: ", differs.second));
 }
 
 inline solvers::IntegrationOptions integration_options(const RunArguments& a) {

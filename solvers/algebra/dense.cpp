@@ -88,6 +88,7 @@ void solve_upper_factor(const Matrix& A, double* B, Index columns) {
 void add_product(MatrixOut C, MatrixIn A, MatrixIn B, double sign) {
     require_size("product", "B", B, A.cols(), B.cols());
     require_size("product", "C", C, A.rows(), B.cols());
+    if (C.size() == 0) return;  // what is empty may have no memory
     for (Index k = 0; k < A.cols(); k += product_depth)
         add_block_product(A.rows(), B.cols(), std::min(product_depth, A.cols() - k), sign,
                           A.data() + k * A.outerStride(), A.outerStride(), B.data() + k, B.outerStride(), C.data(),

@@ -300,9 +300,9 @@ void LimitSearch::find_divergence(std::size_t i) {
     if (!roots_[i] || !roots_[i + 1]) return;  // as the note says
     constexpr double small = 1e-5;
     const StaticRoots &first = *roots_[i], &last = *roots_[i + 1];
-    const auto [least, most] = std::minmax({number_below_zero(first), number_below_zero(last)});
+    const auto [fewer, more] = std::minmax({number_below_zero(first), number_below_zero(last)});
     int found = 0;
-    for (int k = least; k < most; ++k) {
+    for (int k = fewer; k < more; ++k) {
         const auto root_at = [&](double at) { return static_root(certain_roots(at), k); };
         const double parameter = root(root_at, i, static_root(first, k), static_root(last, k));
         // A pair of complex roots may become two real ones, of which both are negative, or the other way round: nothing

@@ -29,7 +29,7 @@ struct FloquetOptions {
     Matrix weight = {};
 };
 
-/// Result of floquet() and hill().
+/// Result of floquet().
 struct Floquet {
     double period = 0;  ///< s
     /// Sorted by principal frequency, then by growth; one of every complex conjugate pair.

@@ -9,7 +9,7 @@ cd "$1"
 # A line per file.
 code="$(mktemp)"
 trap 'rm -f "$code"' EXIT
-find mbs elements solvers turbines examples -name '*.[ch]pp' -exec \
+find mbs elements solvers turbines programs examples -name '*.[ch]pp' -exec \
     awk 'FNR == 1 && NR > 1 { print "" } { sub("//.*", ""); printf "%s ", $0 } END { print "" }' {} + >"$code"
 
 found() { # <name>

@@ -1,4 +1,5 @@
 #include "tests/fuzz/fuzz.hpp"
+#include "turbines/machine/machine_text.hpp"
 #include "turbines/model/assembly.hpp"
 #include "turbines/yaml/description.hpp"
 
@@ -10,9 +11,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text(fuzz::text_of(data, size));
     return fuzz::try_it([&] {
         (void)is_description(text);
-        const TurbineDescription machine = parse_description(text, "a.yaml");
+        const Machine machine = parse_machine(text, "a.yaml");
         const std::string written = to_yaml(machine);
-        if (to_yaml(parse_description(written, "b.yaml")) != written) std::abort();
-        (void)assemble(machine, {.tower_elements = 1, .blade_elements = 1});
+        if (to_yaml(parse_machine(written, "b.yaml")) != written) std::abort();
+        if (to_yaml(parse_description(written, "b.yaml")) != to_yaml(machine.description)) std::abort();
+        (void)assemble(machine.description, {.tower_elements = 1, .blade_elements = 1});
     });
 }

@@ -34,8 +34,6 @@ add_example_test(example_openfast_save cardan 1 "to: file = example.dat; allowed
                  ${models}/openfast/small.fst example.dat)
 add_example_test(example_openfast_pitched cardan 0 "1st blade flap" campbell ${models}/openfast/small.fst --rpm 45 --pitch 10
                  --max-frequency 12 ${coarse} --out example_openfast_pitched)
-add_example_test(example_openfast_pitch_kept cardan 0 "holds the machine, not how it runs: --pitch 1.5" convert
-                 ${models}/openfast/small.fst example_openfast_pitched.yaml)
 add_example_test(example_openfast_gravity cardan 0 "mean over the azimuth.*1st tower fore-aft" campbell
                  ${models}/openfast/small.fst --rpm 0,45 --gravity ${coarse} --out example_openfast_gravity)
 # Degrees of freedom of the file, and what replaces them. A locked generator has drive-train torsion of the rotor alone.

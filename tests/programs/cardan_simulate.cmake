@@ -45,7 +45,7 @@ add_example_test(example_turbine_time_list cardan 0 "blade 2 root moment y +Root
 set(resumed teetered ${options} --out example_turbine_time_resume)
 add_example_test(example_turbine_time_begin cardan 0 "61 samples" simulate ${resumed} --duration 3)
 add_example_test(example_turbine_time_resume cardan 0 "energy lost.*ok.*81 samples" simulate ${resumed} --duration 4 --resume)
-add_example_test(example_turbine_time_resume_other cardan 1 "--resume: options that .*azimuth 10 deg" simulate
+add_example_test(example_turbine_time_resume_other cardan 1 "--resume: run of .*azimuth 0 deg; .*: azimuth 10 deg" simulate
     ${resumed} --duration 5 --resume --azimuth 10)
 set_tests_properties(example_turbine_time_begin PROPERTIES FIXTURES_SETUP begun_turbine_run)
 set_tests_properties(example_turbine_time_resume PROPERTIES FIXTURES_REQUIRED begun_turbine_run FIXTURES_SETUP resumed_turbine_run)

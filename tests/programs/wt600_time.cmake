@@ -35,7 +35,7 @@ add_example_test(example_time_resume wt600_time_history 0
               "connected at synchronous speed.*against the balance of torques.*ok.*files: [^ ]* .801 samples" ${resumed}
               --duration 40 --resume)
 add_example_test(example_time_resume_other wt600_time_history 1
-              "--resume: options that example_time_resume.h5 was made with = .*; allowed: those of this run: .*wind 9 m/s"
+              "--resume: run of example_time_resume.h5 = .*; allowed: that of this run: .*9 m/s"
               ${resumed} --duration 41 --resume --wind 9)
 add_example_test(example_time_resume_none wt600_time_history 1 "no_such_run.h5" --resume --out no_such_run)
 set_tests_properties(example_time_begin PROPERTIES FIXTURES_SETUP begun_run)

@@ -78,7 +78,7 @@ message(STATUS "documents: ${count} C++ blocks")
 
 # Compiled when the test asks for it, not with everything else; nobody links the objects, so none are written.
 add_library(document_snippets OBJECT EXCLUDE_FROM_ALL ${snippets})
-target_link_libraries(document_snippets PRIVATE $<TARGET_NAME_IF_EXISTS:cardan_studies> ${links_solvers} cardan::batch cardan::urdf)
+target_link_libraries(document_snippets PRIVATE ${libraries})
 target_compile_options(document_snippets PRIVATE -fsyntax-only)
 # Blocks stand alone: several have a main().
 set_target_properties(document_snippets PROPERTIES CXX_EXTENSIONS OFF UNITY_BUILD OFF)

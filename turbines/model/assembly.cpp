@@ -135,8 +135,7 @@ void Turbine::finish(const Assembler& assembler, const std::string& name, std::s
     rotor_ = rotor_map(assembler, system_->model, name);
     warnings_ = assembler.warnings;
     source_ = std::move(source);
-    rotor_.description =
-        text(summary(), "\nassembled with ", settings, "\n\nread from (before changes made in a program)\n", source_);
+    rotor_.description = text(summary(), "\nassembled with ", settings, source_of_machine, source_);
 }
 
 namespace {
@@ -145,7 +144,7 @@ namespace {
 std::string computed(TurbineDescription description) {
     description.source.clear();
     if (description.platform) description.platform->source.clear();
-    return text("\n\nthe machine that was computed\n", description_text(description));
+    return text(computed_machine, description_text(description));
 }
 
 }  // namespace

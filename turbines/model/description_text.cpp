@@ -10,8 +10,7 @@ namespace {
 
 std::string written(const TurbineDescription& description, BeamLines lines) {
     Writer writer(lines);
-    writer.out = text("# A wind turbine, read by cardan. SI units, radians; axes and signs: docs/conventions.md.\n",
-                      "cardan_turbine: ", description_yaml_version, "\n");
+    writer.out = text(description_comment, "cardan_turbine: ", description_yaml_version, "\n");
     description_fields(writer, description);
     return writer.out;
 }

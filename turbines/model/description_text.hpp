@@ -9,7 +9,13 @@
 namespace cardan::turbines {
 
 /// Version of the format, the value of the key `cardan_turbine`.
-inline constexpr int description_yaml_version = 2;
+inline constexpr int description_yaml_version = 3;
+/// What begins a file in this format, and what stands before the machine at the end of Turbine::rotor().description.
+inline constexpr auto description_comment =
+    "# A wind turbine, read by cardan. SI units, radians; axes and signs: docs/conventions.md.\n";
+/// What stands before the text of its source there.
+inline constexpr auto source_of_machine = "\n\nread from (before changes made in a program)\n";
+inline constexpr auto computed_machine = "\n\nthe machine that was computed\n";
 
 /// The description as YAML text. Numbers have enough digits to be read back exactly: parse_description(to_yaml(d))
 /// equals d bit for bit.

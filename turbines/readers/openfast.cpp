@@ -68,7 +68,7 @@ void set_operation(TurbineFile& out, const ServoDyn& servo) {
     }
     out.pitch_schedule = servo.pitch_schedule;
     out.operation = servo.operation;
-    out.individual_pitch = servo.individual_pitch;
+    out.controller = servo.controller;
 }
 
 }  // namespace

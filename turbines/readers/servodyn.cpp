@@ -6,6 +6,8 @@
 #include "turbines/readers/detail/controller_file.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
+#include <algorithm>
+
 namespace cardan::turbines {
 
 namespace {
@@ -61,6 +63,23 @@ void read_pitch(OpenFastFile& file, const std::optional<ControllerFile>& control
         in_file(servo.pitch_schedule.empty() ? "PC_FinePit" : "PS_BldPitchMin", file.path("DLL_InFile"));
 }
 
+// @param acts  a library sets pitch or torque
+ModelController controller_of(OpenFastFile& file, bool acts) {
+    ModelController controller;
+    const double efficiency = file.number_or("GenEff", 0) / 100;
+    if (efficiency > 0 && efficiency <= 1) controller.generator_efficiency = efficiency;
+    controller.individual_pitch = file.has("Ptch_Cntrl") && file.integer("Ptch_Cntrl", 0, 1) == 1;
+    if (!acts) return controller;
+    const auto path = [&file](const char* keyword) {
+        if (!file.has(keyword) || file.word(keyword).empty()) return std::string();
+        return std::filesystem::absolute(file.path(keyword)).lexically_normal().string();
+    };
+    controller.library = path("DLL_FileName");
+    controller.input = path("DLL_InFile");
+    controller.period = std::max(0.0, file.number_or_default("DLL_DT", 0));
+    return controller;
+}
+
 Bearing yaw_drive(OpenFastFile& file) {
     const Bearing drive{file.number("YawSpr"), file.number("YawDamp")};
     if (drive.damping < 0) file.fail("YawDamp", text("YawDamp = ", drive.damping, "; allowed: >= 0"));
@@ -92,7 +111,7 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
         file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
     for (const char* keyword : {"CompNTMD", "CompTTMD"})
         if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
-    servo.individual_pitch = file.has("Ptch_Cntrl") && file.integer("Ptch_Cntrl", 0, 1) == 1;
+    servo.controller = controller_of(file, needed);
     servo.notes = file.notes({{{"*"}, "control, brakes and electrical drive: not part of the description"}});
     servo.source = text("# ", path.string(), "\n", file.text());
     return servo;

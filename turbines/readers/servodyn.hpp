@@ -20,7 +20,7 @@ struct ServoDyn {
     std::optional<double> fine_pitch;
     std::vector<PitchAt> pitch_schedule;  ///< by speed of the rotor, of such a controller (PS_BldPitchMin)
     std::string pitch_source;
-    bool individual_pitch = false;  ///< every blade has a pitch demand of its own (Ptch_Cntrl)
+    ModelController controller = {};  ///< library, input and period if it acts (PCMode or VSContrl 5)
     std::vector<FileNote> notes;
     std::string source;            ///< text of the file
     FileOperation operation = {};  ///< of a ROSCO controller

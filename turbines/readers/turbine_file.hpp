@@ -47,6 +47,15 @@ struct FileOperation {
     std::string source = {};  ///< name of the file
 };
 
+/// The controller of a machine, as its files name it; 0 and empty: they do not.
+struct ModelController {
+    std::string library = {};         ///< absolute path of a shared library with Bladed's function DISCON
+    std::string input = {};           ///< absolute path of the file that it reads
+    double period = 0;                ///< between its calls, s
+    double generator_efficiency = 0;  ///< electrical over mechanical power, 0 ... 1
+    bool individual_pitch = false;    ///< it demands the pitch of every blade (Ptch_Cntrl of ServoDyn)
+};
+
 /// Keyword of the note on angles and ratios that machines do not have: see admit_unusual().
 inline constexpr auto unusual_entries = "angles and ratios";
 
@@ -65,7 +74,7 @@ struct TurbineFile {
     /// Pitch over rotor speed, as the controller sets it up to the rated speed, by rising speed; empty: not given.
     std::vector<PitchAt> pitch_schedule;
     FileOperation operation = {};
-    bool individual_pitch = false;  ///< a controller demands the pitch of every blade (Ptch_Cntrl of ServoDyn)
+    ModelController controller = {};
     /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
     std::optional<double> tower_foot = std::nullopt;
 };

@@ -1,6 +1,6 @@
 // The symmetry of equal blades, which takes floquet() from the whole period to a part of it.
-#include "solvers/periodic/hill.hpp"
 #include "tests/solvers/periodic/floquet_tools.hpp"
+#include "tests/solvers/periodic/hill.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"

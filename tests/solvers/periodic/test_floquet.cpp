@@ -1,9 +1,9 @@
 // Floquet's theory on small systems whose multipliers or exponents are known in closed form.
 #include "mbs/base/entry.hpp"
 #include "solvers/periodic/floquet.hpp"
-#include "solvers/periodic/hill.hpp"
 #include "tests/oracles/mathieu.hpp"
 #include "tests/solvers/periodic/floquet_tools.hpp"
+#include "tests/solvers/periodic/hill.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 

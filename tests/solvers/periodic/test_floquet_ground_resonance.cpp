@@ -1,8 +1,8 @@
 // Ground resonance of two-bladed rotors by Floquet's theory and Hill's method: against constant equations in rotating
 // axes, equations in fixed axes written by hand, and their determinant.
 #include "mbs/base/error.hpp"
-#include "solvers/periodic/hill.hpp"
 #include "tests/solvers/periodic/floquet_tools.hpp"
+#include "tests/solvers/periodic/hill.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
 

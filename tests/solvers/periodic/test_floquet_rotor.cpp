@@ -4,10 +4,10 @@
 #include "mbs/base/units.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
-#include "solvers/periodic/hill.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/oracles/mathieu.hpp"
 #include "tests/solvers/periodic/floquet_tools.hpp"
+#include "tests/solvers/periodic/hill.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 

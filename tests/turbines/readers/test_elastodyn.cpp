@@ -329,7 +329,8 @@ TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring ho
     CHECK(file.description.yaw.rotation.damping == 3e4);
     CHECK(file.rotor_speed == Approx(46 * units::rpm).epsilon(1e-14));  // 1150 rpm of the generator over 25
     CHECK(test::has_note(file.notes, "Gravity", "without meaning"));
-    CHECK(test::has_note(file.notes, "GenEff", "control"));
+    CHECK(test::has_note(file.notes, "VS_RtTq", "control"));
+    CHECK(file.controller.generator_efficiency == Approx(0.95).epsilon(1e-15));
     const test::ModelFolder model("openfast");
     std::filesystem::remove(model / "small_ServoDyn.dat");
     const TurbineFile without = read_openfast(model / "small.fst");

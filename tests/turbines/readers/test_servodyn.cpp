@@ -52,6 +52,26 @@ TEST_CASE("servodyn: a ROSCO controller's file has the rated speed; others, and 
     CHECK(read().rated_generator_speed == 0);
 }
 
+TEST_CASE("servodyn: library, input, period and efficiency are kept; what no library reads is not its input",
+          "[property]") {
+    const test::ModelFolder model("openfast");
+    model.replace("small_ServoDyn.dat", "             1   VSContrl ",
+                  "\"lib/libdiscon.so\" DLL_FileName\n\"DISCON.IN\" DLL_InFile\n0.02 DLL_DT\n1 Ptch_Cntrl\n"
+                  "             5   VSContrl ");
+    const auto read = [&] { return read_servodyn(model / "small_ServoDyn.dat").controller; };
+    CHECK(read().library == model / "lib/libdiscon.so");
+    CHECK(read().input == model / "DISCON.IN");
+    CHECK(read().period == 0.02);
+    CHECK(read().generator_efficiency == Approx(0.95).epsilon(1e-15));
+    CHECK(read().individual_pitch);
+    model.replace("small_ServoDyn.dat", "0.02 DLL_DT", "\"default\" DLL_DT");
+    CHECK(read().period == 0);
+    model.replace("small_ServoDyn.dat", "5   VSContrl ", "1   VSContrl ");
+    CHECK(read().library.empty());
+    CHECK(read().input.empty());
+    CHECK(read().generator_efficiency == Approx(0.95).epsilon(1e-15));
+}
+
 TEST_CASE("servodyn: the pitch below rated power is that of the controller", "[analytic]") {
     const test::ModelFolder model("openfast");
     model.replace("small_ServoDyn.dat", "             0   PCMode ",

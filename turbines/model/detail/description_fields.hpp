@@ -146,6 +146,17 @@ void description_fields(Archive& archive, Description& d) {
     });
 }
 
+/// Keys of a file beside those of the description, since version 3: the rest of a machine.
+inline constexpr std::array machine_keys{"degrees_of_freedom", "yaw_drive", "site",  "operation",
+                                         "controller",         "air",       "no_air"};
+
+/// A column of a table with a row of numbers for each entry.
+template <class Row>
+struct RowColumn {
+    const char* name;
+    double Row::*of;
+};
+
 /// A column of the sections of a beam.
 struct SectionColumn {
     const char* name;

@@ -70,14 +70,28 @@ public:
         entry(key, text(value));
     }
     void number(const char* key, double value) { entry(key, digits(value, key)); }
+    void numbers(const char* key, const std::vector<double>& values) { entry(key, list(values)); }
     void flag(const char* key, bool value) { entry(key, value ? "true" : "false"); }
-    /// Those that a file may leave out are written all the same.
+    /// Those that a file may leave out are written all the same, unless there is nothing to write.
+    void optional_word(const char* key, const std::string& value) {
+        if (!value.empty()) word(key, value);
+    }
     void optional_flag(const char* key, bool value) { flag(key, value); }
     void optional_number(const char* key, double value) { number(key, value); }
+    void optional_number(const char* key, const std::optional<double>& value) {
+        if (value) number(key, *value);
+    }
+    void optional_numbers(const char* key, const std::vector<double>& values) {
+        if (!values.empty()) numbers(key, values);
+    }
     void role(const char* key, CoordinateRole value) { entry(key, name_of(value)); }
     void optional_role(const char* key, CoordinateRole value) { role(key, value); }
     void optional_role(const char* key, const std::optional<CoordinateRole>& value) {
         if (value) role(key, *value);
+    }
+    template <class Value>
+    void optional_choice(const char* key, Value value, std::initializer_list<Value> /*allowed*/) {
+        entry(key, name_of(value));
     }
     void vector(const char* key, const Vec3& value) { entry(key, list(value)); }
     void matrix(const char* key, const Mat6& value) { entry(key, rows(value)); }
@@ -93,6 +107,17 @@ public:
         for (Value value : values) all += text(all.empty() ? "" : ", ", name_of(value));
         entry(key, "[" + all + "]");
     }
+    template <class Row>
+    void optional_rows(const char* key, const std::vector<Row>& rows, std::initializer_list<RowColumn<Row>> columns) {
+        if (rows.empty()) return;
+        group(key, [&] {
+            for (const RowColumn<Row>& column : columns) {
+                std::vector<double> values;
+                for (const Row& row : rows) values.push_back(row.*column.of);
+                numbers(column.name, values);
+            }
+        });
+    }
     void bearing(const char* key, const Bearing& b) {
         const std::string damping = text("damping: ", digits(b.damping, key), "}");
         if (b.hold == Bearing::Hold::spring)
@@ -102,6 +127,7 @@ public:
         else
             entry(key, name_of(b.hold));
     }
+    void optional_bearing(const char* key, const Bearing& b) { bearing(key, b); }
     void inertia(const char* key, const RigidInertia& i) {
         group(key, [&] {
             number("mass", i.mass);
@@ -149,6 +175,12 @@ public:
     template <class T, class Content>
     void optional_group(const char* key, const std::optional<T>& value, const Content& content) {
         if (value) group(key, [&] { content(*value); });
+    }
+    template <class T, class Content>
+    void counted_groups(const char* key, const std::vector<T>& values, const Content& content) {
+        group(key, [&] {
+            for (std::size_t i = 0; i < values.size(); ++i) group(text(i + 1).c_str(), [&] { content(values[i]); });
+        });
     }
     template <class T, class Content>
     void numbered_groups(const char* key, const std::map<int, std::optional<T>>& values, int /*count*/,

@@ -2,7 +2,7 @@
 // half revolutions, Hill's method. Against each other, against the independent computation of test_teetered_floquet.cpp
 // and against converged frequencies.
 #include "mbs/base/entry.hpp"
-#include "solvers/periodic/hill.hpp"
+#include "tests/solvers/periodic/hill.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
 #include "tests/turbines/machines/teetered/teetered_machine.hpp"
@@ -146,7 +146,7 @@ TEST_CASE(
     CHECK(periodic.state.coefficients.isZero(0));
     CHECK(solvers::asymmetry(periodic.system, periodic.half_turn) < 1e-13);
     const solvers::Floquet whole = periodic.modes(16, false), half = periodic.modes(16, true),
-                           balanced = solvers::hill(periodic.system, {.harmonics = 9});
+                           balanced = hill(periodic.system, {.harmonics = 9});
     CHECK(whole.note.empty());
     CHECK(half.note.empty());
     CHECK(up_to(16, half).size() == 12);
@@ -214,7 +214,7 @@ TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslu
 
     CHECK(solvers::asymmetry(periodic.system, periodic.half_turn) < 1e-10);
     const solvers::Floquet whole = periodic.modes(16, false), half = periodic.modes(16, true),
-                           balanced = solvers::hill(periodic.system, {.harmonics = 11});
+                           balanced = hill(periodic.system, {.harmonics = 11});
     CHECK(half.stability_margin() > 0);  // yaw and teeter have dampers
     check_close(up_to(16, half), up_to(16, whole), {1e-9, 1e-7});
     check_close(up_to(16, half), up_to(16, balanced), {1e-6, 1e-4});
@@ -249,6 +249,6 @@ TEST_CASE("modes of the teetered machine: two elements per part, Hill's method",
     const Turbine machine = teetered_machine(2);
     const Periodic periodic(machine);
     const solvers::Floquet half = periodic.modes(16, true);
-    const solvers::Floquet balanced = solvers::hill(periodic.system, {.harmonics = 16});
+    const solvers::Floquet balanced = hill(periodic.system, {.harmonics = 16});
     check_close(up_to(4, half), up_to(4, balanced), {1e-5, 1e-3});
 }

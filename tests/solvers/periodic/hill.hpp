@@ -1,10 +1,11 @@
 /// @file
-/// Hill's method: exponents of a linear periodic system from the harmonic balance of its solutions.
+/// Hill's method: exponents of a linear periodic system from the harmonic balance of its solutions, to compare those of
+/// floquet() with.
 #pragma once
 
 #include "solvers/periodic/floquet.hpp"
 
-namespace cardan::solvers {
+namespace cardan::testing {
 
 struct HillOptions {
     int harmonics = 10;  ///< of the periodic vectors, on each side
@@ -26,6 +27,6 @@ struct HillOptions {
 /// about 10 (states (2 H + 1))^3: for small systems.
 /// @throws InputError for numbers out of range; NumericalError if the iteration fails or if not as many exponents are
 /// found as there are states (too few harmonics)
-Floquet hill(const PeriodicSystem& system, const HillOptions& options = {});
+solvers::Floquet hill(const solvers::PeriodicSystem& system, const HillOptions& options = {});
 
-}  // namespace cardan::solvers
+}  // namespace cardan::testing

@@ -1,4 +1,4 @@
-#include "solvers/periodic/hill.hpp"
+#include "tests/solvers/periodic/hill.hpp"
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
@@ -11,7 +11,12 @@
 #include <limits>
 #include <utility>
 
-namespace cardan::solvers {
+namespace cardan::testing {
+
+namespace hills_method {
+
+using namespace solvers;
+using solvers::PeriodicSystem;  // rather than other tests' own
 
 namespace {
 
@@ -184,9 +189,7 @@ std::vector<Candidate> candidates(const PeriodicSystem& system, const Matrix& S,
     return found;
 }
 
-}  // namespace
-
-Floquet hill(const PeriodicSystem& system, const HillOptions& options) {
+Floquet exponents(const PeriodicSystem& system, const HillOptions& options) {
     const int H = options.harmonics;
     if (H < 1 || H > 200) throw InputError(in_hills_method, "number of harmonics", H, "1 ... 200");
     const int samples = options.samples > 0 ? options.samples : std::max(64, 8 * (H + 1));
@@ -221,4 +224,12 @@ Floquet hill(const PeriodicSystem& system, const HillOptions& options) {
     return result;
 }
 
-}  // namespace cardan::solvers
+}  // namespace
+
+}  // namespace hills_method
+
+solvers::Floquet hill(const solvers::PeriodicSystem& system, const HillOptions& options) {
+    return hills_method::exponents(system, options);
+}
+
+}  // namespace cardan::testing

@@ -1,0 +1,91 @@
+/// @file
+/// A machine with all that belongs to it: structure, degrees of freedom, air, operation, controller.
+#pragma once
+
+#include "elements/aerodynamics/rigid_rotor.hpp"
+#include "elements/aerodynamics/tower.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "turbines/operation/wind_operation.hpp"
+#include "turbines/readers/turbine_file.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// What the air does to a machine, as far as it is the machine's: airfoils, tower and nacelle, how induction is found.
+struct Aerodynamics {
+    AeroBlade blade;  ///< of all blades
+    RotorAirOptions options = {};
+    double density = 1.225;  ///< kg/m^3
+    /// Drag of tower and nacelle, tower influence. Heights as the file has them: support_on() sets the tower's foot.
+    AeroSupport support = {};
+    /// In the place of the blade's polars, one for each, where the flow lags behind the motion
+    /// (AirLagOptions::profiles); empty: there are no data of it.
+    std::vector<UnsteadyProfile> unsteady_airfoils = {};
+    /// Of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
+    /// `blade` has them on that axis for the sake of comparison; empty: those of `blade` hold.
+    std::vector<double> torsion_sweep = {};
+    std::vector<FileNote> notes = {};  ///< of the reader
+
+    /// `blade` with the aerodynamic centres of `torsion_sweep`.
+    AeroBlade torsion_blade() const;
+};
+
+/// Where a machine stands, as its model says.
+struct Site {
+    double density = 1.225;                 ///< of the air, kg/m^3, where a file of airfoils says "default"
+    double viscosity = standard_viscosity;  ///< likewise, kinematic, m^2/s
+    /// Of the tower's foot above the ground or the still water, m, as the model counts heights; none: as the machine
+    /// stands.
+    std::optional<double> tower_foot = std::nullopt;
+};
+
+/// How a machine runs, as far as its source says so; 0 and empty: it does not.
+struct MachineOperation {
+    double rotor_speed = 0;                    ///< rated or, without a controller, initial one, rad/s
+    std::string rotor_speed_source = {};       ///< a keyword and its file
+    double pitch = 0;                          ///< of the blades, leading edge upwind, rad
+    std::string pitch_source = {};             ///< empty: the pitch is not given
+    std::vector<PitchAt> pitch_schedule = {};  ///< over the rotor speed, up to the rated one
+    double rated_power = 0;                    ///< of the rotor, W: that of the generator over its efficiency
+    double min_speed = 0;                      ///< of the rotor, rad/s
+    double tip_speed_ratio = 0;
+    std::vector<PitchAtWind> min_pitch = {};
+    std::vector<Operation> schedule = {};  ///< over the wind; in the place of all that
+    std::string source = {};               ///< of power, limits and ratio: name of the file
+};
+
+/// A machine, from whatever source: read_machine(). Also the content of a file in our own format: to_yaml().
+struct Machine {
+    TurbineDescription description;
+    FileDofs dofs = {};
+    /// Spring of the yaw drive, even if the yaw bearing is locked; rigid: none is given.
+    Bearing yaw_drive = rigid_joint;
+    Site site = {};
+    MachineOperation operation = {};
+    ModelController controller = {};
+    std::optional<Aerodynamics> air = std::nullopt;
+    std::string no_air = "the machine has no airfoils";  ///< why there is no air, in a clause
+    std::vector<FileNote> notes = {};                    ///< of the reader; those on the air stand there
+
+    /// @throws InputError that says why, if there is none
+    const Aerodynamics& require_air() const;
+};
+
+/// A description, and what it says of the degrees of freedom and the rotor speed.
+Machine machine_of(TurbineDescription description);
+/// What the reader of a model returns.
+Machine machine_of(TurbineFile file);
+
+/// Tower and nacelle of its air, on the foot of the tower: Site::tower_foot, else that of the machine at rest.
+AeroSupport support_on(const Turbine& turbine, const Machine& machine, AeroSupport support);
+/// A uniform wind of no speed whose heights are those of the machine: reference height at the rotor's centre, ground
+/// below the tower's foot.
+SteadyWind still_wind(const Turbine& turbine, const Machine& machine, double density);
+
+/// The machine's law of variable speed. What it does not say is zero, and has to be set: best_tip_speed_ratio().
+VariableSpeed variable_speed(const MachineOperation& operation);
+
+}  // namespace cardan::turbines

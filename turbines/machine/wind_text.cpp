@@ -1,0 +1,95 @@
+#include "turbines/machine/wind_text.hpp"
+
+#include "turbines/model/detail/description_writer.hpp"
+#include "turbines/yaml/detail/description_reader.hpp"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace cardan {
+
+inline const char* name_of(Shear shear) {
+    return shear == Shear::none ? "none" : shear == Shear::power ? "power" : "logarithmic";
+}
+
+}  // namespace cardan
+
+namespace cardan::turbines {
+
+namespace {
+
+constexpr auto wind_key = "cardan_wind";
+constexpr double wind_version = 1;
+
+struct WindColumn {
+    const char* name;
+    double SteadyWind::*of;
+};
+constexpr std::array wind_columns{
+    WindColumn{"speed", &SteadyWind::speed},       WindColumn{"reference_height", &SteadyWind::reference_height},
+    WindColumn{"exponent", &SteadyWind::exponent}, WindColumn{"roughness", &SteadyWind::roughness},
+    WindColumn{"gradient", &SteadyWind::gradient}, WindColumn{"direction", &SteadyWind::direction},
+    WindColumn{"veer", &SteadyWind::veer},         WindColumn{"upflow", &SteadyWind::upflow},
+    WindColumn{"density", &SteadyWind::density},   WindColumn{"lateral", &SteadyWind::lateral},
+    WindColumn{"gust", &SteadyWind::gust},         WindColumn{"vertical", &SteadyWind::vertical},
+    WindColumn{"ground", &SteadyWind::ground}};
+
+struct WindFields {
+    double version = wind_version;
+    Shear shear = Shear::none;
+    std::vector<double> times;
+    std::array<std::vector<double>, wind_columns.size()> columns;
+};
+
+template <class Archive, class Fields>
+void wind_fields(Archive& archive, Fields& f) {
+    archive.number(wind_key, f.version);
+    archive.optional_choice("shear", f.shear, {Shear::none, Shear::power, Shear::logarithmic});
+    archive.numbers("time", f.times);
+    for (std::size_t k = 0; k < wind_columns.size(); ++k) archive.numbers(wind_columns.at(k).name, f.columns.at(k));
+}
+
+Wind wind_of(WindFields fields) {
+    std::vector<SteadyWind> rows(fields.times.size());
+    for (SteadyWind& row : rows) row.shear = fields.shear;
+    for (std::size_t k = 0; k < wind_columns.size(); ++k) {
+        const std::vector<double>& values = fields.columns.at(k);
+        if (values.size() != rows.size())
+            throw InputError("wind", text("values of ", wind_columns.at(k).name), values.size(),
+                             text(rows.size(), ", one per time"));
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*wind_columns.at(k).of = values[i];
+    }
+    return {std::move(fields.times), std::move(rows)};
+}
+
+}  // namespace
+
+std::string to_yaml(const Wind& wind) {
+    WindFields fields;
+    fields.shear = wind.rows().front().shear;
+    fields.times = wind.times();
+    for (std::size_t k = 0; k < wind_columns.size(); ++k)
+        for (const SteadyWind& row : wind.rows()) fields.columns.at(k).push_back(row.*wind_columns.at(k).of);
+    Writer writer(BeamLines::exact);
+    wind_fields(writer, std::as_const(fields));
+    return writer.out + "\n";
+}
+
+std::optional<Wind> wind_of(const std::string& input_description, const std::string& result) {
+    const std::size_t at = input_description.find(text("\n", wind_key, ":"));
+    if (at == std::string::npos) return std::nullopt;
+    const std::size_t end = input_description.find("\n\n", at + 1);
+    const YamlNode root = YamlNode::parse(input_description.substr(at + 1, end - at), result);
+    DescriptionReader reader(root);
+    WindFields fields;
+    wind_fields(reader, fields);
+    reader.finish();
+    try {
+        return wind_of(std::move(fields));
+    } catch (const InputError& error) {
+        root.fail(error.what());
+    }
+}
+
+}  // namespace cardan::turbines
