@@ -7,9 +7,10 @@ usage() {
 usage: ./demo.sh [--help]
 
 Builds two programs and what they use of the library in build/release, computes the Campbell diagram of the 600 kW
-turbine and simulates its emergency stop. Files go to out/ (wt600_campbell.h5, .csv, .svg, .png and the mode shapes; wt600_emergency_stop.h5, .svg, .png and the pictures of
-energies and spectra). Missing Debian packages are installed (root or passwordless sudo); otherwise the command that
-installs them is printed. CARDAN_SKIP_PACKAGES=1 leaves out the check.
+turbine and simulates its emergency stop. Files go to out/ (wt600_campbell.h5, .csv, .svg, .png and the mode shapes;
+wt600_emergency_stop.h5, .svg, .png and the pictures of energies and spectra). Missing Debian packages are installed
+(root or passwordless sudo); otherwise the command that installs them is printed. CARDAN_SKIP_PACKAGES=1 leaves out the
+check.
 TEXT
 }
 

@@ -93,7 +93,7 @@ check_package() {
         cmake --build "$consumer" --parallel "$jobs" &&
         (cd "$consumer" && ./consumer && ./consumer_mbs && ./consumer_yaml && ./consumer_urdf && ./use_shared &&
             ./consumer_sanitized) &&
-        "$prefix/bin/cardan" modes wt600 >/dev/null
+        (cd build/packaging && "$prefix/bin/cardan" modes wt600 >/dev/null)
 }
 
 # check_across_compilers <compiler>: its programs find what they call in the library that is installed.
