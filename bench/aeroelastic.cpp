@@ -4,8 +4,8 @@
 
 #include "bench/pairs.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -4,8 +4,8 @@
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/system/forward_derivatives.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 
 #include <benchmark/benchmark.h>
 

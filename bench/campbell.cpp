@@ -14,7 +14,7 @@ using namespace cardan;
 namespace {
 
 const turbines::Turbine& machine() {
-    static const turbines::Turbine turbine = turbines::wt600();
+    static const turbines::Turbine turbine = turbines::wt600(turbines::wt600_paper_assembly());
     return turbine;
 }
 
@@ -35,7 +35,7 @@ const turbines::Turbine& heavy_machine() {
 // 3 elements per blade and tower.
 const turbines::Turbine& two_blades() {
     static const turbines::Turbine turbine =
-        turbines::assemble(turbines::teetered_description(), turbines::teetered_assembly(3));
+        turbines::assemble(turbines::teetered_description(), turbines::teetered_paper_assembly(3));
     return turbine;
 }
 
@@ -168,7 +168,7 @@ void point_whole(benchmark::State& state) {
 BENCHMARK(point_whole)->Unit(benchmark::kMicrosecond);
 
 void assembly(benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(turbines::wt600());
+    for (auto _ : state) benchmark::DoNotOptimize(turbines::wt600(turbines::wt600_paper_assembly()));
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond);
 

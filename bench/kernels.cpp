@@ -13,8 +13,7 @@ namespace {
 
 struct Fixture {
     explicit Fixture(benchmark::State& state)
-        : turbine(turbines::wt600({.tower_elements = static_cast<int>(state.range(0)),
-                                   .blade_elements = static_cast<int>(state.range(0))})),
+        : turbine(turbines::wt600(turbines::wt600_paper_assembly(static_cast<int>(state.range(0))))),
           model(turbine.system().model),
           workspace(model),
           n(model.size()),

@@ -44,8 +44,7 @@ struct Run {
 const Vec3 gravity{0, 0, -units::standard_gravity};
 
 turbines::Turbine wt600(int elements) {
-    turbines::AssemblyOptions options;
-    options.tower_elements = options.blade_elements = elements;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(elements);
     options.gravity = gravity;
     return turbines::wt600(options);
 }

@@ -50,7 +50,7 @@ inline Tree turbine_tree(int blades = 3) {
 /// The 600 kW machine in a form that engines without armatures understand: each becomes a ring about the joint axis on
 /// the outermost body that it is geared to, with a little mass, for some engines keep inertia per mass.
 inline Tree wt600_tree(int elements) {
-    const turbines::Turbine turbine = turbines::wt600({.tower_elements = elements, .blade_elements = elements});
+    const turbines::Turbine turbine = turbines::wt600(turbines::wt600_paper_assembly(elements));
     std::vector<RigidInertia> spinning(turbine.tree().bodies().size());
     for (const Armature& armature : turbine.tree().armatures()) {
         RigidInertia& at = entry(spinning, armature.spin.back().first.index);

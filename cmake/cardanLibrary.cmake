@@ -1,6 +1,9 @@
 # A static library for each room of cmake/rooms.cmake, linked as that table says, and the components that users name: groups
 # of rooms.
 
+# A library's sources need nothing that those before it make: all are compiled side by side.
+set(CMAKE_OPTIMIZE_DEPENDENCIES ON)
+
 # What the names behind USES stand for. Without a line: headers only.
 set(links_dl ${CMAKE_DL_LIBS})
 list(TRANSFORM CARDAN_SUNDIALS_COMPONENTS PREPEND SUNDIALS:: OUTPUT_VARIABLE links_sundials)

@@ -34,20 +34,21 @@ room(solvers/hdf5_models SEES solvers/hdf5 solvers/control) # linear models as H
 room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB files
 room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 
-room(turbines/model SEES elements/cardan_beam) # description of a turbine, assembly to a system, channels
-room(turbines/readers SEES turbines/model elements/aerodynamics) # OpenFAST's files, tables
+room(turbines/model SEES elements/cardan_beam) # description of a turbine, its mesh, assembly to a system, channels
+room(turbines/tables SEES mbs/base) # CSV; the tables of the machines, within the library
+room(turbines/readers SEES turbines/model turbines/tables elements/aerodynamics) # OpenFAST's files
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
-room(turbines/aerodynamics SEES turbines/model elements/aerodynamics) # air on the blades and the tower of a machine
-room(turbines/machines SEES turbines/readers elements/electric) # 600 kW, teetered, NREL 5 MW
+room(turbines/aerodynamics SEES turbines/model turbines/tables elements/aerodynamics) # air on the blades and the tower of a machine
+room(turbines/machines SEES turbines/model turbines/tables elements/control) # 600 kW, teetered, NREL 5 MW
+room(turbines/electric SEES turbines/machines elements/electric) # machines with their generators as circuits
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) # operating points over the wind, and their modes
-room(turbines/mesh SEES turbines/model solvers/linear) # how many elements a machine needs
 room(turbines/machine SEES turbines/yaml turbines/machines turbines/operation solvers/hdf5) # a machine with all that belongs to it, from whatever source
 
-room(programs/shared SEES turbines/control turbines/mesh turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
+room(programs/shared SEES turbines/control turbines/electric turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
 room(programs/cardan SEES programs/shared) # the commands of `cardan`
 room(programs SEES programs/cardan)
-room(examples SEES turbines/control turbines/mesh turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
+room(examples SEES turbines/control turbines/electric turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
 room(examples/studies SEES examples programs/shared) # of papers and methods
 
 # Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)

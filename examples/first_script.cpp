@@ -11,7 +11,7 @@ int main() try {
     turbines::TurbineDescription machine = turbines::wt600_description();
     machine.yaw.rotation.stiffness *= 2;  // N m/rad
 
-    const turbines::Turbine turbine = turbines::assemble(machine, {.blade_elements = 4});
+    const turbines::Turbine turbine = turbines::assemble(machine);
     const solvers::Campbell diagram =
         solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 33, 1));
 

@@ -11,8 +11,7 @@
 using namespace cardan;
 
 int main() try {
-    const turbines::Turbine turbine =
-        turbines::assemble(turbines::teetered_description(), turbines::teetered_assembly(3));
+    const turbines::Turbine turbine = turbines::assemble(turbines::teetered_description());
     solvers::CampbellOptions options;
     options.method = solvers::CampbellMethod::floquet;
     options.max_frequency_hz = 4;

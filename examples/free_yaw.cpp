@@ -22,7 +22,7 @@ turbines::TurbineDescription downwind_machine() {
 }
 
 solvers::Campbell diagram_of(double gravity) {
-    turbines::AssemblyOptions options = turbines::teetered_assembly(3);
+    turbines::AssemblyOptions options = turbines::teetered_paper_assembly(3);
     options.gravity = {0, 0, -gravity};
     const turbines::Turbine turbine = turbines::assemble(downwind_machine(), options);
     solvers::CampbellOptions sweep;

@@ -20,10 +20,10 @@ double estimate(const turbines::TurbineDescription& machine, const turbines::Tur
 int main(int argc, char** argv) try {
     const turbines::TurbineDescription machine =
         turbines::read_description(argc > 1 ? argv[1] : CARDAN_EXAMPLE_DATA "/own_turbine.yaml");
-    const turbines::Turbine turbine = turbines::assemble(machine, {.tower_elements = 6, .blade_elements = 6});
+    const turbines::Turbine turbine = turbines::assemble(machine);
     for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
-    std::printf("%s: %.0f kg, %d coordinates\n", machine.name.c_str(), turbine.system().model.mass(),
-                turbine.system().model.size());
+    std::printf("%s: %.0f kg, %d coordinates\n%s\n", machine.name.c_str(), turbine.system().model.mass(),
+                turbine.system().model.size(), in_words(turbine.mesh()).c_str());
 
     const solvers::Campbell diagram =
         solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 40, 10));

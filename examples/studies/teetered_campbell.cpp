@@ -49,12 +49,13 @@ int run(const Arguments& a) {
     program::introduce(turbine, a.machine.summary);
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
     const double max_frequency = a.max_per_rev ? *a.max_per_rev * first_speed(speeds) / (2 * pi) : a.max_frequency;
-    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds,
-                                                        program::campbell_options(a.machine, turbine, max_frequency));
+    solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds,
+                                                  program::campbell_options(a.machine, turbine, max_frequency));
+    program::tell_elements(diagram, turbine);
     program::stop_at_once();
     program::print_table(diagram);
     if (diagram.points.empty()) return 130;
-    program::write_files(diagram, a.out);
+    program::write_files(diagram, a.out, {.title = text(diagram.machine, ", ", diagram.remark)});
     if (a.modes && diagram.complete) program::draw_modes(diagram, a.out + "_modes");
     std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png"
               << (a.modes ? text("; mode shapes in ", a.out, "_modes/") : "") << "\n";

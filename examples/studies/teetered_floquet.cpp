@@ -58,7 +58,9 @@ solvers::Campbell modes_of(const Arguments& a, const turbines::Turbine& machine)
         program::campbell_options(a.machine, machine, a.max_per_rev * a.speed / (2 * pi));
     options.progress = {};
     const std::array speeds{a.speed};
-    return solvers::campbell(machine.system(), machine.rotor(), speeds, options);
+    solvers::Campbell diagram = solvers::campbell(machine.system(), machine.rotor(), speeds, options);
+    program::tell_elements(diagram, machine);
+    return diagram;
 }
 
 // "0: 99.97 %, +2: 0.03 %", largest first.
@@ -83,7 +85,9 @@ public:
 
     void print(std::ostream& out) {
         out << d_.machine << "\n"
-            << d_.method << ", " << d_.points[0].rotor_speed << " rad/s\n\n"
+            << d_.method << ", " << d_.points[0].rotor_speed << " rad/s\n"
+            << d_.remark << "\n"
+            << d_.accuracy << "\n\n"
             << std::left << std::setw(name_width) << "mode" << std::right << std::setw(10) << "per rev" << std::setw(11)
             << "Hz" << std::setw(13) << "growth/Omega";
         if (as_published_) out << std::setw(11) << "reference" << std::setw(9) << "error" << std::setw(9) << "paper";

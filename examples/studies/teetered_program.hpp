@@ -38,12 +38,18 @@ inline turbines::Turbine machine(const TeeteredArguments& a) {
     if (a.tower_ratio) description = turbines::with_tower_rigidity(description, *a.tower_ratio);
     if (a.no_teeter) description.hub.teeter->bearing = turbines::rigid_joint;
     description.tower.rigid = a.rigid_tower;
-    turbines::AssemblyOptions options = turbines::teetered_assembly();
+    turbines::AssemblyOptions options = turbines::teetered_paper_assembly();
     options.blade_beam->elements = a.blade_elements;
     options.tower_beam->elements = a.tower_elements;
     options.blade_beam->torsion_armature = options.tower_beam->torsion_armature = -1. / 12;  // of fourth order
     if (a.gravity) options.gravity = {0, 0, -units::standard_gravity};
     return turbines::assemble(description, options);
+}
+
+/// Which elements these are, for tables and titles.
+inline void tell_elements(solvers::Campbell& diagram, const turbines::Turbine& machine) {
+    diagram.accuracy = turbines::in_words(machine.mesh());
+    diagram.remark += text(diagram.remark.empty() ? "" : "; ", "elements of the paper");
 }
 
 /// By Floquet's theory, up to a frequency in Hz.

@@ -3,7 +3,7 @@
 // Problem: at every rotor speed the machine of Zhao, Maisser and Wu, Renewable Energy 32 (2007) 532-546, is brought to
 // its steady state and linearised, M x'' + (C + G) x' + K x = 0; the multi-blade transformation makes the equations
 // constant, their eigenvalues are the natural frequencies and damping ratios in the fixed frame.
-// Reference: the values with 3 elements per blade and tower in docs/wt600.md.
+// Reference: the values with 3 elements per blade and tower in docs/wt600.md, those of --paper.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/difference.hpp"
@@ -26,9 +26,17 @@ struct Arguments {
     program::GeneratorOption generator;
     turbines::AssemblyOptions assembly;
     bool undamped = false, frozen = false, modes = false, summary = false;
-    bool gravity = false, shaft_beam = false, floquet = false;
+    bool gravity = false, shaft_beam = false, floquet = false, paper = false;
     double max_frequency = 16;
 };
+
+void set_assembly(Arguments& a, bool with_limit) {
+    if (a.paper) a.assembly = turbines::wt600_paper_assembly();
+    if (with_limit) a.assembly.mesh.largest_hz = a.max_frequency;
+    if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
+    if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
+    if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};
+}
 
 int parse(int argc, char** argv, Arguments& a) {
     program::CommandLine app(
@@ -36,11 +44,20 @@ int parse(int argc, char** argv, Arguments& a) {
         "Writes PREFIX.h5, PREFIX.csv, PREFIX.svg, PREFIX.png, PREFIX_tower_yaw_tilt.png and "
         "PREFIX_flap_edge.png, and prints a table.");
     app.add_option("--rpm", a.rpm, text("rotor speeds, ", program::rpm_format));
-    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade");
-    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower");
+    const program::Option blade = app.add_option("--blade-elements", a.assembly.blade_elements,
+                                                 "beam elements per blade (default: as many as it takes)"),
+                          tower = app.add_option("--tower-elements", a.assembly.tower_elements,
+                                                 "beam elements of the tower (default: as many as it takes)");
+    app.add_flag("--paper", a.paper,
+                 "with the elements of the comparison with the paper: three per blade and tower, second flap 4.5 % low")
+        .excludes(blade)
+        .excludes(tower);
     app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
-    app.add_option("--max-frequency", a.max_frequency, "follow modes up to this frequency, Hz");
+    const program::Option limit = app.add_option("--max-frequency", a.max_frequency,
+                                                 "follow modes up to this frequency, Hz; if it is given, the elements "
+                                                 "are chosen for it (by default for those up "
+                                                 "to the second flap)");
     app.add_flag("--undamped", a.undamped, "leave out all damping");
     program::add_generator_option(app, a.generator);
     const program::Option frozen =
@@ -58,9 +75,7 @@ int parse(int argc, char** argv, Arguments& a) {
                  "also draw mode shapes at the first and last rotor speed (PREFIX_modes/*.svg, *.png)");
     app.add_flag("--summary", a.summary, "print bodies, coordinates and masses first");
     if (const int code = app.parse(argc, argv); code >= 0) return code;
-    if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
-    if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
-    if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};
+    set_assembly(a, limit.given());
     return -1;
 }
 
@@ -113,17 +128,21 @@ int run(const Arguments& a) {
     options.spin = a.generator.spin();
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"});
     if (a.floquet) program::check_outputs(a.out, {"_averaged.csv", "_difference.svg", "_difference.png"});
-    const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);
+    diagram.accuracy = turbines::in_words(turbine.mesh());
+    if (a.paper) diagram.remark += text(diagram.remark.empty() ? "" : "; ", "elements of the paper");
     program::stop_at_once();
     program::print_table(diagram);
     if (diagram.points.empty()) return 130;
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = std::min(a.max_frequency, 10.0);  // the panels show the rest
+    if (!diagram.remark.empty()) picture.title = text(diagram.machine, ", ", diagram.remark);
     program::write_files(diagram, a.out, picture);
     if (diagram.complete && speeds.size() > 1) {
         solvers::CampbellOptions blade_options = options;
         blade_options.progress = {};
-        const turbines::Turbine blade = turbines::isolated_blade(description, a.assembly);
+        const turbines::Turbine blade =
+            turbines::isolated_blade(description, turbines::with_elements(a.assembly, turbine.mesh()));
         draw_panels(diagram, solvers::campbell(blade.system(), blade.rotor(), speeds, blade_options), a.out);
         files += ", _tower_yaw_tilt.png, _flap_edge.png";
     }

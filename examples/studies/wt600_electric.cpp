@@ -1,6 +1,6 @@
 // The 600 kW machine with its induction generator as a circuit.
 //
-// Problem: bodies, and fluxes of stator and rotor, in one system of equations (turbines/machines/electric_wt600.hpp).
+// Problem: bodies, and fluxes of stator and rotor, in one system of equations (turbines/electric/electric_wt600.hpp).
 // Three motions in time, with gravity and a prescribed load on the rotor (no aerodynamics): a direct start from
 // standstill; the grid lost for a moment and back; a sag of its voltage. And the damping that the generator gives the
 // torsion of the drive train, by models of all orders beside the slope of its steady curve. Checks: the balance of

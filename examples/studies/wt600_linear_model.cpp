@@ -31,8 +31,10 @@ int parse(int argc, char** argv, Arguments& a) {
     app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min");
     program::add_linear_model_options(app, a.model);
     app.add_option("--max-frequency", a.model.max_frequency, program::max_frequency_of_models);
-    app.add_option("--blade-elements", a.assembly.blade_elements, "beam elements per blade");
-    app.add_option("--tower-elements", a.assembly.tower_elements, "beam elements of the tower");
+    app.add_option("--blade-elements", a.assembly.blade_elements,
+                   "beam elements per blade (default: as many as it takes)");
+    app.add_option("--tower-elements", a.assembly.tower_elements,
+                   "beam elements of the tower (default: as many as it takes)");
     app.add_flag("--gravity", a.gravity, "about the periodic steady state under gravity");
     program::add_generator_option(app, a.generator);
     app.add_option("--data", a.data, "folder with wt600_blade.csv and wt600_turbine.csv (default: built in)");
@@ -93,6 +95,7 @@ int run(const Arguments& a) {
     const solvers::MultiBladeModel fixed = solvers::multi_blade(model, turbine.rotor());
     const solvers::BalancedModel small = program::balanced(fixed, a.model, sizes(fixed));
     program::introduce(model, a.rotor_rpm, &fixed);
+    std::printf("%s\n", turbines::in_words(turbine.mesh()).c_str());
     program::print_modes(fixed, diagram(turbine, a), a.model.max_frequency);
     program::print(fixed, small, a.model.max_frequency);
     program::write_files(model,

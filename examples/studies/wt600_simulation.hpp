@@ -17,6 +17,14 @@ struct SimulationArguments : RunArguments {
     std::string data;
 };
 
+/// The kind of elements with which the paper is reproduced: few coordinates, and none as stiff as an extension.
+inline turbines::AssemblyOptions elements_of_paper(int blade_elements, int tower_elements) {
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly();
+    options.blade_elements = blade_elements;
+    options.tower_elements = tower_elements;
+    return options;
+}
+
 inline void add_simulation_options(CommandLine& app, SimulationArguments& a) {
     add_run_options(app, a);
     app.add_option("--blade-elements", a.blade_elements, "beam elements per blade");
@@ -32,8 +40,9 @@ inline std::string options_text(const SimulationArguments& a) {
 
 inline turbines::Wt600OperationOptions operation_options(const SimulationArguments& a) {
     turbines::Wt600OperationOptions options;
-    options.assembly.blade_elements = a.blade_elements;
-    options.assembly.tower_elements = a.tower_elements;
+    const Vec3 gravity = options.assembly.gravity;
+    options.assembly = elements_of_paper(a.blade_elements, a.tower_elements);
+    options.assembly.gravity = gravity;
     options.data = a.data;
     return options;
 }

@@ -125,7 +125,7 @@ std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, doub
 // First fore-aft frequency of the tower at standstill, Hz.
 double tower_frequency(const Arguments& a) {
     const turbines::Turbine turbine =
-        turbines::wt600({.tower_elements = a.simulation.tower_elements, .blade_elements = a.simulation.blade_elements});
+        turbines::wt600(program::elements_of_paper(a.simulation.blade_elements, a.simulation.tower_elements));
     const solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 0, 1));
     return diagram.natural_hz(diagram.branch("1st tower fore-aft"), 0);
 }

@@ -1,7 +1,6 @@
 /// @file
-/// Eigen's dense decompositions, compiled once because they dominate compile time. Include this instead of Eigen's own
-/// headers. Those of general and of complex matrices, which few programs need, are in cardan::decompositions; the
-/// others are in cardan::mbs.
+/// Eigen's dense decompositions, of dynamic size, compiled once because they dominate compile time. Include this
+/// instead of Eigen's own headers.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -18,8 +17,6 @@
     DECLARE PartialPivLU<cardan::Matrix>::PartialPivLU(const EigenBase<cardan::Matrix>&);                             \
     DECLARE class LLT<cardan::Matrix>;                                                                                \
     DECLARE LLT<cardan::Matrix>& LLT<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&);                      \
-    DECLARE class LDLT<cardan::Matrix>;                                                                               \
-    DECLARE LDLT<cardan::Matrix>& LDLT<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&);                    \
     DECLARE class HouseholderQR<cardan::Matrix>;                                                                      \
     DECLARE class ColPivHouseholderQR<cardan::Matrix>;                                                                \
     DECLARE class CompleteOrthogonalDecomposition<cardan::Matrix>;                                                    \
@@ -38,17 +35,9 @@
     DECLARE RealSchur<cardan::Matrix>& RealSchur<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool); \
     DECLARE class EigenSolver<cardan::Matrix>;                                                                     \
     DECLARE EigenSolver<cardan::Matrix>& EigenSolver<cardan::Matrix>::compute(const EigenBase<cardan::Matrix>&, bool);
-#define CARDAN_COMPLEX_DECOMPOSITIONS(DECLARE)                                                             \
-    DECLARE class PartialPivLU<cardan::ComplexMatrix>;                                                     \
-    DECLARE PartialPivLU<cardan::ComplexMatrix>::PartialPivLU(const EigenBase<cardan::ComplexMatrix>&);    \
-    DECLARE class JacobiSVD<cardan::ComplexMatrix>;                                                        \
-    DECLARE class HessenbergDecomposition<cardan::ComplexMatrix>;                                          \
-    DECLARE class ComplexSchur<cardan::ComplexMatrix>;                                                     \
-    DECLARE ComplexSchur<cardan::ComplexMatrix>& ComplexSchur<cardan::ComplexMatrix>::compute(             \
-        const EigenBase<cardan::ComplexMatrix>&, bool);                                                    \
-    DECLARE class ComplexEigenSolver<cardan::ComplexMatrix>;                                               \
-    DECLARE ComplexEigenSolver<cardan::ComplexMatrix>& ComplexEigenSolver<cardan::ComplexMatrix>::compute( \
-        const EigenBase<cardan::ComplexMatrix>&, bool);
+#define CARDAN_COMPLEX_DECOMPOSITIONS(DECLARE)         \
+    DECLARE class PartialPivLU<cardan::ComplexMatrix>; \
+    DECLARE PartialPivLU<cardan::ComplexMatrix>::PartialPivLU(const EigenBase<cardan::ComplexMatrix>&);
 
 namespace Eigen {
 CARDAN_FACTORISATIONS(extern template)

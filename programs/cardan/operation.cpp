@@ -34,7 +34,7 @@ solvers::CampbellMethod diagram_method(const turbines::Machine& machine, const M
 }
 
 solvers::RotorSpin rotor_spin(const turbines::Machine& machine) {
-    return machine.dofs.generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
+    return dofs_of(machine.description).generator ? solvers::RotorSpin::free : solvers::RotorSpin::prescribed;
 }
 
 void tell_origin(solvers::Campbell& diagram, const std::string& name, const CommandLine& command,

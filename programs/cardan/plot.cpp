@@ -11,7 +11,7 @@
 #include "solvers/pictures/history.hpp"
 #include "solvers/signals/sampling.hpp"
 #include "turbines/machine/result.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"

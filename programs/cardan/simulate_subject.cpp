@@ -179,7 +179,7 @@ Subject subject_of(SimulateArguments& a) {
     double driving = 0;
     if (air) {
         wind.push_back(air->channels());
-        if (!a.torque && machine.dofs.generator) driving = torque_of(*air, pair.at_start, speed);
+        if (!a.torque && dofs_of(machine.description).generator) driving = torque_of(*air, pair.at_start, speed);
     } else if (a.controller.acts() && rotor.acts()) {
         driving = rotor.first();
     }
@@ -187,7 +187,7 @@ Subject subject_of(SimulateArguments& a) {
         a.controller.acts() ? controlled(a, pair, speed, driving, wind) : uncontrolled(a, pair, speed, driving);
     subject.channels.insert(subject.channels.end(), wind.begin(), wind.end());
     add_rotor_torque(rotor, subject);
-    subject.driven = !machine.dofs.generator;
+    subject.driven = !dofs_of(machine.description).generator;
     const std::string foundation = foundation_in_words(machine);
     subject.title = text(machine.description.name, foundation.empty() ? "" : ", ", foundation,
                          a.machine.gravity ? "" : ", no gravity");

@@ -23,7 +23,7 @@ namespace {
 // At the wind with the largest thrust.
 void tell_mesh(const WindRun& run, const WindResults& results, const turbines::Machine& machine,
                const MachineOptions& options, const RevolutionOptions& revolution) {
-    if (run.ready.turbine.layout().blades.empty() || !machine.dofs.blades) return;
+    if (run.ready.turbine.layout().blades.empty() || !dofs_of(machine.description).blades) return;
     const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindPoint::thrust);
     const double wind = largest->operation.wind;
     FinerPoint finer = finer_point(run, machine, options, largest->operation);

@@ -81,6 +81,13 @@ Option CommandLine::add_option(const std::string& name, double& target, const st
     return Option(*app_->add_option(name, target, what)->capture_default_str());
 }
 
+Option CommandLine::add_option(const std::string& name, std::optional<int>& target, const std::string& what) {
+    remember(name, [name, &target](Words& all) {
+        if (target) all.push_back(text(name, "=", *target));
+    });
+    return Option(*app_->add_option(name, target, what));
+}
+
 Option CommandLine::add_option(const std::string& name, std::optional<double>& target, const std::string& what) {
     remember(name, [name, &target](Words& all) {
         if (target) all.push_back(name + "=" + digits(*target));

@@ -55,6 +55,7 @@ public:
 
     /// @param name  "--name", or "name" for one that is known by its place
     Option add_option(const std::string& name, int& target, const std::string& what);
+    Option add_option(const std::string& name, std::optional<int>& target, const std::string& what);
     Option add_option(const std::string& name, double& target, const std::string& what);
     Option add_option(const std::string& name, std::optional<double>& target, const std::string& what);
     Option add_option(const std::string& name, std::string& target, const std::string& what);

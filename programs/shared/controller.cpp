@@ -234,7 +234,7 @@ void check_controller(ControllerOptions& options, const turbines::Machine& machi
         throw InputError("--pitch-actuator", "value", options.pitch_actuator, "only with --controller");
     static_cast<void>(actuator_options(options));
     if (!options.acts()) return;
-    if (!machine.dofs.generator)
+    if (!dofs_of(machine.description).generator)
         throw InputError("--controller", "rotor", "driven, at constant speed", "free: --generator free");
     const turbines::TurbineDescription& d = machine.description;
     if (!options.is_baseline()) {

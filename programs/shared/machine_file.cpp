@@ -10,10 +10,8 @@
 #include "programs/shared/run_record.hpp"
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <limits>
-#include <sstream>
 
 namespace cardan::program {
 
@@ -42,33 +40,17 @@ std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options)
     return additions;
 }
 
-// Directions in which the sections are rigid have no coordinate.
-CardanBeamOptions beam_options(const BeamLine& line, int elements, bool extension) {
-    CardanBeamOptions options;
-    options.elements = elements;
-    options.partition = Partition::mean_difference;  // converges fastest on tapered blades (docs/beam_accuracy.md)
-    const Mat6 compliance = line.section(line.length / 2).compliance;
-    options.torsion = compliance(3, 3) > 0;
-    options.extension = extension && compliance(0, 0) > 0;
-    return options;
-}
-
-void set_tower(const std::string& asked, turbines::Machine& model) {
-    turbines::FileDofs& f = model.dofs;
-    if (!asked.empty()) {
-        f.tower_fore_aft = asked == "bends" || asked == "fore-aft";
-        f.tower_side_side = asked == "bends" || asked == "side-side";
-    }
-    model.description.tower.rigid = !f.tower_fore_aft && !f.tower_side_side;
-}
-
 // What was asked for in the place of what the machine's source says.
 void set_dofs(const MachineOptions& a, turbines::Machine& model) {
     turbines::Bearing& yaw = model.description.yaw.rotation;
-    if (!a.generator.empty()) model.dofs.generator = a.generator == "free";
-    model.description.drive_train.spin = model.dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
-    if (!a.blades.empty()) model.dofs.blades = a.blades == "bend";
-    set_tower(a.tower, model);
+    turbines::FileDofs f = dofs_of(model.description);
+    if (!a.generator.empty()) f.generator = a.generator == "free";
+    if (!a.blades.empty()) f.blades = a.blades == "bend";
+    if (!a.tower.empty()) {
+        f.tower_fore_aft = a.tower == "bends" || a.tower == "fore-aft";
+        f.tower_side_side = a.tower == "bends" || a.tower == "side-side";
+    }
+    set_dofs(f, model.description);
     if (a.yaw == "locked") yaw = turbines::rigid_joint;
     if (a.yaw == "driven") yaw = turbines::driven_joint;
     if (a.yaw != "free" || !yaw.is_rigid()) return;
@@ -78,7 +60,7 @@ void set_dofs(const MachineOptions& a, turbines::Machine& model) {
 }
 
 void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
-    const turbines::FileDofs& f = model.dofs;
+    const turbines::FileDofs f = dofs_of(model.description);
     a.generator = f.generator ? "free" : "locked";
     const turbines::Bearing& yaw = model.description.yaw.rotation;
     a.yaw = yaw.is_rigid() ? "locked" : yaw.hold == turbines::Bearing::Hold::driven ? "driven" : "free";
@@ -91,17 +73,17 @@ void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
 void free_beams_if_nothing_moves(turbines::Machine& model) {
     const turbines::TurbineDescription& d = model.description;
     const bool teeters = d.hub.teeter && !d.hub.teeter->bearing.is_rigid();
-    turbines::FileDofs& f = model.dofs;
+    turbines::FileDofs f = dofs_of(model.description);
     if (f.generator || f.blades || !d.tower.rigid || teeters || !d.yaw.rotation.is_rigid() ||
         !d.drive_train.main_shaft.is_rigid())
         return;
     f.blades = f.tower_fore_aft = f.tower_side_side = true;
-    model.description.tower.rigid = false;
+    set_dofs(f, model.description);
     std::cout << "note: the model switches off all degrees of freedom: tower and blades bend here\n";
 }
 
 std::string dofs_in_words(const turbines::Machine& model) {
-    const turbines::FileDofs& f = model.dofs;
+    const turbines::FileDofs f = dofs_of(model.description);
     std::string locked = f.generator ? "" : ", generator locked";
     const turbines::Bearing& yaw = model.description.yaw.rotation;
     if (yaw.is_rigid()) locked += ", yaw bearing locked";
@@ -111,20 +93,6 @@ std::string dofs_in_words(const turbines::Machine& model) {
     if (!f.tower_side_side) locked += ", tower rigid side-side";
     if (!f.blades) locked += ", blades rigid";
     return locked.empty() ? "generator and yaw bearing free" : locked.substr(2);
-}
-
-// The beams of a machine that was read, with what its file holds rigid.
-void set_beams(const turbines::Machine& machine, const MachineOptions& a, turbines::AssemblyOptions& o) {
-    const turbines::TurbineDescription& d = machine.description;
-    const turbines::FileDofs& dofs = machine.dofs;
-    if (!d.tower.rigid) {
-        o.tower_beam = beam_options(d.tower.line, a.tower_elements, false);
-        o.tower_beam->held_y = !dofs.tower_side_side;
-        o.tower_beam->held_z = !dofs.tower_fore_aft;
-    }
-    if (d.blades == 0) return;
-    o.blade_beam = beam_options(d.blade.line, a.blade_elements, true);
-    if (!dofs.blades) o.blade_beam->hold_all();
 }
 
 }  // namespace
@@ -246,23 +214,14 @@ turbines::Machine prepared_machine(MachineOptions& options) {
 
 turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options) {
     turbines::AssemblyOptions o;
-    set_beams(machine, options, o);
+    if (options.blade_elements > 0) o.blade_elements = options.blade_elements;
+    if (options.tower_elements > 0) o.tower_elements = options.tower_elements;
     o.spin = CoordinateRole::free;  // how it turns (FileDofs::generator) is left to the analysis
     o.pitch = options.pitch ? *options.pitch * units::degree : machine.operation.pitch;
     if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
     if (options.undamped) o.structural_damping = o.joint_damping = false;
     return o;
 }
-
-namespace {
-
-MachineOptions with_elements(MachineOptions options, int blade, int tower) {
-    options.blade_elements = blade;
-    options.tower_elements = tower;
-    return options;
-}
-
-}  // namespace
 
 int first_blade(const turbines::TurbineDescription& description) {
     int first = 1;
@@ -271,58 +230,28 @@ int first_blade(const turbines::TurbineDescription& description) {
 }
 
 double usual_frequency(const turbines::Machine& machine, const MachineOptions& options) {
-    const turbines::TurbineDescription& d = machine.description;
-    const int first = first_blade(d);
-    if (first > d.blades || !machine.dofs.blades) return 5;
-    const std::vector<double> hz = turbines::clamped_blade_hz(
-        d, assembly_options(machine, with_elements(options, 12, 1)), std::numeric_limits<double>::infinity(), first);
-    if (hz.size() < 3) return 5;
-    const double wanted = 1.3 * hz[2], unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
-    return unit * std::ceil(wanted / unit);
+    return turbines::usual_frequency(machine.description, assembly_options(machine, options));
 }
-
-namespace {
-
-turbines::Mesh choose_mesh(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
-                           double rotor_speed) {
-    turbines::MeshOptions mesh;
-    mesh.largest_hz = largest_hz;
-    mesh.rotor_speed = rotor_speed;
-    if (options.blade_elements > 0) mesh.blade_elements = options.blade_elements;
-    if (options.tower_elements > 0) mesh.tower_elements = options.tower_elements;
-    MachineOptions plain = options;
-    plain.gravity = false;
-    const turbines::Mesh found = turbines::converged_mesh(
-        machine.description,
-        [&](int blade, int tower) { return assembly_options(machine, with_elements(plain, blade, tower)); }, mesh);
-    options.blade_elements = found.blade_elements;
-    options.tower_elements = found.tower_elements;
-    return found;
-}
-
-}  // namespace
 
 ReadyMachine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
                            double rotor_speed) {
-    const turbines::Mesh mesh = choose_mesh(machine, options, largest_hz, rotor_speed);
-    if (machine.description.platform)
-        std::cout << "mesh: chosen with the " << machine.description.platform->name << " held\n";
-    ReadyMachine ready{turbines::assemble(machine.description, assembly_options(machine, options)), mesh};
-    introduce(ready.turbine, options.summary);
-    return ready;
+    const turbines::TurbineDescription& description = machine.description;
+    turbines::AssemblyOptions assembly = assembly_options(machine, options);
+    assembly.mesh.largest_hz = largest_hz;
+    assembly.mesh.rotor_speed = rotor_speed;
+    const turbines::Turbine turbine = turbines::assemble(description, assembly);
+    // Numbers that were asked for are judged as well.
+    const turbines::Mesh mesh =
+        turbine.mesh().largest_hz > 0 ? turbine.mesh() : turbines::converged_mesh(description, assembly);
+    options.blade_elements = mesh.blade_elements;
+    options.tower_elements = mesh.tower_elements;
+    if (description.platform) std::cout << "mesh: chosen with the " << description.platform->name << " held\n";
+    introduce(turbine, options.summary);
+    return {turbine, mesh};
 }
 
 std::string run_text(const std::string& command, const CommandLine& options) {
     return to_text({command, {}, options.words()});
-}
-
-std::string in_words(const turbines::Mesh& mesh) {
-    std::ostringstream out = text_stream();
-    out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements
-        << " in the tower; with twice as many no frequency at rest changes by more than " << std::fixed
-        << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3) << mesh.at_hz
-        << " Hz, of " << mesh.modes << ")";
-    return out.str();
 }
 
 }  // namespace cardan::program

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "turbines/machine/read_machine.hpp"
-#include "turbines/mesh/mesh.hpp"
 #include "turbines/model/assembly.hpp"
 
 #include "programs/shared/command_line.hpp"
@@ -53,8 +52,7 @@ struct ReadyMachine {
     turbines::Mesh mesh;
 };
 
-/// Chooses the mesh, assembles, prints the mesh and what the assembly has to say. The options then hold the numbers of
-/// elements.
+/// Chooses the mesh, assembles, prints what the assembly has to say. The options then hold the numbers of elements.
 /// @param largest_hz   frequencies up to here shall be right
 /// @param rotor_speed  highest, rad/s
 ReadyMachine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
@@ -66,12 +64,8 @@ turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, con
 /// The first blade that is there, from 1; beyond the number of blades: there is none.
 int first_blade(const turbines::TurbineDescription& description);
 
-/// A frequency that suits the machine: 1.3 times the third of its first blade, clamped and at rest (second flap, as a
-/// rule), rounded up to two digits, Hz; 5 if the blade does not bend.
+/// As turbines::usual_frequency().
 double usual_frequency(const turbines::Machine& machine, const MachineOptions& options);
-
-/// What a mesh is good for, in one line.
-std::string in_words(const turbines::Mesh& mesh);
 
 /// Head of the input description of a result: the command with its options as they were used. Behind it stands
 /// turbines::with_machine().

@@ -5,7 +5,7 @@
 #include "elements/machine/load_over_time.hpp"
 #include "mbs/system/channel.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include "programs/shared/command_line.hpp"
 #include "programs/shared/words.hpp"

@@ -1,5 +1,5 @@
 #include "tests/fuzz/fuzz.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace cardan;

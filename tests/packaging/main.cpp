@@ -14,7 +14,9 @@
 
 int main() try {
     using namespace cardan;
-    const turbines::Turbine turbine = turbines::wt600({.structural_damping = false, .joint_damping = false});
+    turbines::AssemblyOptions assembly = turbines::wt600_paper_assembly();
+    assembly.structural_damping = assembly.joint_damping = false;
+    const turbines::Turbine turbine = turbines::wt600(assembly);
     const solvers::Campbell diagram =
         solvers::campbell(turbine.system(), turbine.rotor(), solvers::rpm_range(0, 27, 27));
     solvers::write_hdf5(diagram, "consumer.h5");

@@ -55,7 +55,7 @@ TEST_CASE("simbody: several joints with one centre between bodies", "[peers]") {
 }
 
 TEST_CASE("simbody: the 600 kW machine but for its armatures", "[peers]") {
-    const turbines::Turbine turbine = turbines::wt600();
+    const turbines::Turbine turbine = turbines::wt600(turbines::wt600_paper_assembly());
     const Model& model = turbine.system().model;
     for (unsigned seed = 0; seed < 10; ++seed) {
         Random random(seed);

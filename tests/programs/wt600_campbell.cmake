@@ -2,7 +2,16 @@ add_example_test(example_wt600 wt600_campbell 0 "files: example_wt600.h5" --rpm 
 add_example_test(example_wt600_frozen wt600_campbell 0 "warning: frozen azimuth" --rpm 0:30:15 --frozen-azimuth --undamped
                  --shaft-beam --generator locked --blade-elements 2 --tower-elements 2 --out example_frozen)
 add_example_test(example_wt600_slip wt600_campbell 0 "1st drive-train torsion +1.4286 . 52.14. . +1.4290 . 52.24. ." --rpm 0:27:27
-                 --generator slip --out example_wt600_slip)
+                 --generator slip --paper --out example_wt600_slip)
+# One number for library, command, program and example: that of tests/turbines/machines/wt600/test_wt600_default_mesh and of
+# examples.cmake.
+add_example_test(example_wt600_mesh wt600_campbell 0 "2nd blade flap .collective. +5[.]6394 .*mesh: 5 elements per blade, 3 in the tower; " --rpm 0
+                 --out example_wt600_mesh)
+add_example_test(example_wt600_mesh_command cardan 0 "2nd blade flap .collective. +5[.]6394 .*mesh: 5 elements per blade, 3 in the tower; " campbell wt600
+                 --rpm 0 --out example_wt600_mesh_command)
+add_example_test(example_wt600_paper wt600_campbell 0 "elements of the paper.*2nd blade flap .collective. +5[.]3759 .*mesh: 3 elements per blade, 3 in the tower, as given"
+                 --rpm 0 --paper --out example_wt600_paper)
+add_example_test(example_wt600_paper_excludes wt600_campbell 2 "excludes" --paper --blade-elements 4)
 add_example_test(example_wt600_generator wt600_campbell 2 "--generator" --generator grid)
 add_example_test(example_wt600_generator_torque wt600_campbell 1 "--generator-torque: value .N m. = 100; allowed: 0, or --generator slip"
                  --generator-torque 100)
@@ -22,7 +31,7 @@ add_example_test(example_long_file wt600_campbell 1 "File name too long" --rpm 0
 add_example_test(example_no_file_name wt600_campbell 1 "ends in a file name" --rpm 0 --out ./)
 add_example_test(example_no_data wt600_campbell 1 "no_such_folder/wt600_[a-z]+.csv: cannot be read" --data no_such_folder)
 add_example_test(example_gravity_in_rotation wt600_campbell 1 "--gravity: rotor speed .rev.min. = 10; allowed: 0, or --floquet" --gravity --rpm 10)
-add_example_test(example_elements wt600_campbell 1 "number of elements = 0; allowed: >= 1" --blade-elements 0)
+add_example_test(example_elements wt600_campbell 1 "number of elements = 0; allowed: 1 ... 1000" --blade-elements 0)
 add_example_test(example_wt600_floquet wt600_campbell 0
     "stability margin.*Floquet .principal frequencies.*against Coleman.*mean over the azimuth.*1st tower fore-aft.*files: .*example_floquet.*_difference.svg"
     --floquet --gravity --rpm 0:24:12 --blade-elements 1 --tower-elements 1 --out example_floquet)

@@ -73,8 +73,7 @@ TEST_CASE("pinned: crossings of the 600 kW machine with 2P and 3P up to 40 rpm",
 }
 
 TEST_CASE("pinned: the parked 600 kW machine under its own weight, two elements, delta = 1/6", "[regression]") {
-    turbines::AssemblyOptions options;
-    options.tower_elements = options.blade_elements = 2;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(2);
     options.delta = 1. / 6;
     options.gravity = Vec3(0, 0, -units::standard_gravity);
     const turbines::Turbine machine = turbines::wt600(options);

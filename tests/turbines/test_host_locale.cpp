@@ -21,8 +21,8 @@
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/machines/wt600.hpp"
 #include "turbines/readers/aerodyn.hpp"
-#include "turbines/readers/csv.hpp"
 #include "turbines/readers/inflow_wind.hpp"
+#include "turbines/tables/csv.hpp"
 #include "turbines/yaml/windio.hpp"
 #include "turbines/yaml/windio_air.hpp"
 

@@ -1,14 +1,14 @@
 #include "turbines/machine/built_in.hpp"
 
 #include "mbs/base/units.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/machines/oc3_hywind.hpp"
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/beam_table.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include <array>
 #include <cstdint>

@@ -39,8 +39,6 @@ Machine machine_of(TurbineDescription description) {
     Machine machine;
     machine.operation.rotor_speed = description.rotor_speed;
     machine.yaw_drive = description.yaw.rotation;
-    machine.dofs.generator = description.drive_train.spin == CoordinateRole::free;
-    machine.dofs.tower_fore_aft = machine.dofs.tower_side_side = !description.tower.rigid;
     machine.description = std::move(description);
     return machine;
 }
@@ -48,7 +46,6 @@ Machine machine_of(TurbineDescription description) {
 Machine machine_of(TurbineFile file) {
     Machine machine;
     machine.description = std::move(file.description);
-    machine.dofs = file.dofs;
     machine.yaw_drive = file.yaw_drive;
     machine.site.tower_foot = file.tower_foot;
     machine.operation = {.rotor_speed = file.rotor_speed,

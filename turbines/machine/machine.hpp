@@ -1,5 +1,5 @@
 /// @file
-/// A machine with all that belongs to it: structure, degrees of freedom, air, operation, controller.
+/// A machine with all that belongs to it: structure, air, operation, controller.
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
@@ -60,7 +60,6 @@ struct MachineOperation {
 /// A machine, from whatever source: read_machine(). Also the content of a file in our own format: to_yaml().
 struct Machine {
     TurbineDescription description;
-    FileDofs dofs = {};
     /// Spring of the yaw drive, even if the yaw bearing is locked; rigid: none is given.
     Bearing yaw_drive = rigid_joint;
     Site site = {};
@@ -74,7 +73,7 @@ struct Machine {
     const Aerodynamics& require_air() const;
 };
 
-/// A description, and what it says of the degrees of freedom and the rotor speed.
+/// A description, and what it says of the rotor speed.
 Machine machine_of(TurbineDescription description);
 /// What the reader of a model returns.
 Machine machine_of(TurbineFile file);

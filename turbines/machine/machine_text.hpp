@@ -16,7 +16,7 @@ std::string to_yaml(const Machine& machine);
 /// @throws FileError, InputError
 void write_machine(const Machine& machine, const std::filesystem::path& path);
 
-/// Files of all versions. What a file does not say of degrees of freedom and operation is that of machine_of().
+/// Files of all versions. What a file does not say of operation is that of machine_of().
 /// @param file  name for messages
 /// @throws ParseError: as parse_description(); air that does not fit together
 Machine parse_machine(const std::string& text, const std::string& file);

@@ -1,8 +1,8 @@
 #include "turbines/machines/nrel5mw_geometry.hpp"
 
 #include "mbs/base/units.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 namespace cardan::turbines {
 

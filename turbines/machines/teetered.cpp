@@ -4,8 +4,8 @@
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/model/beam_table.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 namespace cardan::turbines {
 
@@ -134,10 +134,10 @@ TurbineDescription with_tower_rigidity(TurbineDescription d, double ratio) {
     return d;
 }
 
-AssemblyOptions teetered_assembly(int elements) {
+AssemblyOptions teetered_paper_assembly(int elements) {
     AssemblyOptions options;
-    options.tower_beam.emplace().elements = elements;
-    options.blade_beam.emplace().elements = elements;
+    options.partition = Partition::segment_masses;
+    options.tower_beam = options.blade_beam = CardanBeamOptions{.elements = elements, .partition = options.partition};
     return options;
 }
 

@@ -23,7 +23,8 @@ TurbineDescription teetered_description(const std::filesystem::path& folder);
 /// @throws InputError: ratio not finite and positive, a tower or a blade whose sections are not a table
 TurbineDescription with_tower_rigidity(TurbineDescription description, double ratio);
 
-/// The same number of elements for tower and blades; rotor speed prescribed, as in the paper.
-AssemblyOptions teetered_assembly(int elements = 6);
+/// The elements with which the paper is reproduced (docs/teetered.md): the same number for tower and blades, true
+/// segments (Partition::segment_masses), extension condensed.
+AssemblyOptions teetered_paper_assembly(int elements = 6);
 
 }  // namespace cardan::turbines

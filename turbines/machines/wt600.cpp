@@ -3,8 +3,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/model/beam_table.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 namespace cardan::turbines {
 
@@ -46,6 +47,14 @@ BeamLine blade_line(const CsvTable& t, double length) {
     return line;
 }
 
+// As a table, so that every machine can be written to a file and is the same when it is read: so finely divided that no
+// frequency moves by 1e-6.
+BeamLine as_table(const BeamLine& line, int parts) {
+    BeamTable table = sampled(line, parts);
+    table.interpolation = Interpolation::log_linear_stiffness;
+    return beam_line(table);
+}
+
 TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     TurbineDescription d;
     d.name = "600 kW three-blade machine (Zhao, Maisser, Wu 2007)";
@@ -64,7 +73,7 @@ TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     tube_spec.E = q.number("steel_youngs_modulus", "Pa");
     tube_spec.G = q.number("steel_shear_modulus", "Pa");
     tube_spec.density = q.number("steel_density", "kg/m^3");
-    d.tower = {tube(tube_spec, "tower"), q.number("structural_damping_ratio_tower_first", "-")};
+    d.tower = {as_table(tube(tube_spec, "tower"), 128), q.number("structural_damping_ratio_tower_first", "-")};
 
     d.yaw.rotation = spring("yaw_stiffness_rotation", "yaw_damping_rotation");
     d.yaw.translation = {q.number("yaw_stiffness_translation", "N/m"), q.number("yaw_damping_translation", "N s/m")};
@@ -92,7 +101,7 @@ TurbineDescription describe(const CsvTable& blade, const CsvQuantities& q) {
     d.hub.inertia.J = Vec3(hub[1], hub[1], hub[0]).asDiagonal();
     d.hub.radius = q.number("hub_radius", "m");
 
-    d.blade.line = blade_line(blade, q.number("rotor_radius", "m") - d.hub.radius);
+    d.blade.line = as_table(blade_line(blade, q.number("rotor_radius", "m") - d.hub.radius), 16);
     d.blade.pitch = spring("pitch_bearing_stiffness", "pitch_bearing_damping");
     d.blade.cone = q.number("cone", "deg") * units::degree;
     d.blade.first_flap_damping = q.number("structural_damping_ratio_blade_first_flap", "-");
@@ -114,6 +123,14 @@ TurbineDescription wt600_description(const std::filesystem::path& folder) {
     TurbineDescription d = describe(CsvTable::read(blade), CsvQuantities::read(turbine));
     d.source = text(text_file(turbine), "\n", text_file(blade));
     return d;
+}
+
+AssemblyOptions wt600_paper_assembly(int elements) {
+    AssemblyOptions options;
+    options.tower_elements = options.blade_elements = elements;
+    options.partition = Partition::segment_masses;
+    options.extension = false;
+    return options;
 }
 
 }  // namespace cardan::turbines

@@ -7,6 +7,9 @@
 #include "turbines/model/assembly_settings.hpp"
 #include "turbines/model/description_text.hpp"
 #include "turbines/model/detail/assembler.hpp"
+#include "turbines/model/detail/beam_options.hpp"
+#include "turbines/model/detail/mesh_search.hpp"
+#include "turbines/model/detail/parts.hpp"
 
 #include <algorithm>
 
@@ -48,7 +51,7 @@ BeamDamping tower_damping(const TurbineDescription& d, const AssemblyOptions& op
 
 BeamDamping blade_damping(const TurbineDescription& d, const AssemblyOptions& options, int number) {
     const BladeDescription& blade = *d.blade_at(number);
-    if (blade.first_flap_damping == 0) return blade.damping;
+    if (blade.first_flap_damping == 0 || blade.rigid) return blade.damping;
     const PartDamping none;
     Assembler alone(d, options, none);
     alone.one_blade(number);
@@ -86,7 +89,7 @@ Turbine Turbine::with_forces(const ForceSet& forces, const std::string& remark) 
 }
 
 std::string Turbine::summary() const {
-    std::string out = text(rotor_.machine, "\n", cardan::summary(*tree_));
+    std::string out = text(rotor_.machine, "\n", cardan::summary(*tree_), "\n", in_words(mesh_), "\n");
     for (const std::string& warning : warnings_) out += text("\nwarning: ", warning, "\n");
     return out;
 }
@@ -125,8 +128,20 @@ RotorMap rotor_map(const Assembler& a, const Model& model, const std::string& na
 
 }  // namespace
 
+namespace {
+
+// Of a machine whose numbers were given.
+Mesh given_mesh(const MachineLayout& layout) {
+    Mesh mesh;
+    if (!layout.blades.empty()) mesh.blade_elements = static_cast<int>(layout.blades.front().elements.size());
+    if (layout.tower) mesh.tower_elements = static_cast<int>(layout.tower->elements.size());
+    return mesh;
+}
+
+}  // namespace
+
 void Turbine::finish(const Assembler& assembler, const std::string& name, std::string source,
-                     const std::string& settings) {
+                     const std::string& settings, const std::optional<Mesh>& found) {
     tree_ = std::make_shared<const Tree>(assembler.tree);
     forces_ = std::make_shared<const ForceSet>(assembler.forces);
     layout_ = std::make_shared<const MachineLayout>(assembler.layout);
@@ -134,6 +149,7 @@ void Turbine::finish(const Assembler& assembler, const std::string& name, std::s
     system_ = std::make_shared<const System>(assembler.tree, assembler.forces, assembler.loops);
     rotor_ = rotor_map(assembler, system_->model, name);
     warnings_ = assembler.warnings;
+    mesh_ = found ? *found : given_mesh(*layout_);
     source_ = std::move(source);
     rotor_.description = text(summary(), "\nassembled with ", settings, source_of_machine, source_);
 }
@@ -151,64 +167,23 @@ std::string computed(TurbineDescription description) {
 
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options) {
     description.check();
-    const PartDamping damping = part_damping(description, options);
-    Assembler assembler(description, options, damping);
+    std::optional<Mesh> found;
+    if (seeks_blade_elements(description, options) || seeks_tower_elements(description, options))
+        found = converged_mesh(description, options);
+    const AssemblyOptions elements = found ? with_elements(options, *found) : options;
+    const PartDamping damping = part_damping(description, elements);
+    Assembler assembler(description, elements, damping);
     assembler.whole_machine();
     Turbine turbine;
     const bool told = description.platform && !description.platform->source.empty();
     turbine.finish(assembler, description.name,
                    description.source + (told ? "\n" + description.platform->source : std::string()),
-                   settings(description, options));
+                   settings(description, elements), found);
     turbine.rotor_.description += computed(description);
     return turbine;
 }
 
 namespace {
-
-// What one blade needs; it stays at its place.
-TurbineDescription blade_alone(const TurbineDescription& d, int number) {
-    const BladeDescription* blade = number < 1 || number > d.blades ? nullptr : d.blade_at(number);
-    if (blade == nullptr) throw InputError(d.name, "number of the blade", number, "that of a blade of the machine");
-    TurbineDescription alone;
-    alone.name = d.name;
-    alone.source = d.source;
-    alone.rotor_speed = d.rotor_speed;
-    alone.blades = d.blades;
-    alone.yaw.rotation = alone.drive_train.main_shaft = rigid_joint;
-    alone.drive_train.spin = d.drive_train.spin;
-    alone.hub.radius = d.hub.radius;
-    alone.blade = *blade;
-    alone.blade.pitch = rigid_joint;
-    alone.blade.linkage.reset();
-    alone.unusual = d.unusual;
-    return alone;
-}
-
-TurbineDescription tower_alone(const TurbineDescription& d) {
-    TurbineDescription alone;
-    alone.name = d.name;
-    alone.source = d.source;
-    alone.blades = 0;
-    alone.tower = d.tower;
-    alone.yaw.rotation = alone.drive_train.main_shaft = rigid_joint;
-    alone.unusual = d.unusual;
-    return alone;
-}
-
-// The rest as far as it is given, on the ground: masses and records need no bearings.
-TurbineDescription completed(TurbineDescription d) {
-    const auto complete = [](Bearing& bearing) {
-        if (bearing.hold == Bearing::Hold::spring && std::isnan(bearing.stiffness)) bearing = rigid_joint;
-    };
-    for (Bearing* bearing : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing,
-                             &d.drive_train.high_speed_shaft, &d.drive_train.main_shaft, &d.blade.pitch})
-        complete(*bearing);
-    if (d.hub.teeter) complete(d.hub.teeter->bearing);
-    for (auto& [number, blade] : d.own_blades)
-        if (blade) complete(blade->pitch);
-    d.platform.reset();
-    return d;
-}
 
 // Its ratio is that of the first mode with everything on top.
 PartDamping damping_of_tower(const TurbineDescription& whole, const AssemblyOptions& options) {
@@ -224,47 +199,32 @@ PartDamping damping_of_tower(const TurbineDescription& whole, const AssemblyOpti
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options, int number) {
     const TurbineDescription alone = blade_alone(description, number);
     alone.check();
-    const PartDamping damping = part_damping(alone, options);
-    Assembler assembler(alone, options, damping);
+    std::optional<Mesh> found;
+    if (seeks_blade_elements(alone, options)) found = blade_mesh(alone, options, number);
+    const AssemblyOptions elements = found ? with_elements(options, *found) : options;
+    const PartDamping damping = part_damping(alone, elements);
+    Assembler assembler(alone, elements, damping);
     assembler.one_blade(number);
     Turbine turbine;
-    turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(alone, options));
+    turbine.finish(assembler, description.name + ", isolated blade", description.source, settings(alone, elements),
+                   found);
     turbine.rotor_.description += computed(completed(description));
     return turbine;
 }
-
-namespace {
-
-// Of everything above the tower, in axes of the tower top.
-RigidInertia tower_top_inertia(const Turbine& machine) {
-    const Model& model = machine.system().model;
-    const Vector zero = Vector::Zero(model.size());
-    Workspace workspace(model);
-    const Kinematics kin = kinematics(model, zero, workspace);
-    const auto placement = [&](FrameId frame) {
-        const Pose<double> at = pose(kin, frame);
-        return Placement{at.R, at.p};
-    };
-    const Placement to_top = placement(machine.layout().tower_top).inverse();
-    RigidInertia sum;
-    for (const Tree::Piece& piece : machine.tree().pieces())
-        if (piece.part != "tower")
-            sum = sum + piece.inertia.in(to_top * placement(machine.tree().frame_of(BodyId{piece.body})));
-    return sum;
-}
-
-}  // namespace
 
 Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options, bool with_top) {
     const TurbineDescription alone = tower_alone(description), whole = completed(description);
     if (alone.tower.rigid) throw InputError(alone.name, "tower.rigid", "true", "false: it could not move");
     (with_top ? whole : alone).check();
-    const PartDamping damping = damping_of_tower(whole, options);
-    Assembler assembler(alone, options, damping);
-    assembler.tower_alone(with_top ? tower_top_inertia(assemble(whole, options)) : RigidInertia{});
+    std::optional<Mesh> found;
+    if (seeks_tower_elements(alone, options)) found = tower_mesh(with_top ? whole : alone, options, with_top);
+    const AssemblyOptions elements = found ? with_elements(options, *found) : options;
+    const PartDamping damping = damping_of_tower(whole, elements);
+    Assembler assembler(alone, elements, damping);
+    assembler.tower_alone(with_top ? tower_top_inertia(whole, elements) : RigidInertia{});
     Turbine turbine;
     turbine.finish(assembler, description.name + (with_top ? ", tower with a rigid top" : ", tower alone"),
-                   description.source, settings(alone, options));
+                   description.source, settings(alone, elements), found);
     turbine.rotor_.description += computed(whole);
     return turbine;
 }

@@ -5,41 +5,14 @@
 #include "elements/machine/coordinate_force.hpp"
 #include "mbs/model/rotor_map.hpp"
 #include "mbs/system/system.hpp"
+#include "turbines/model/assembly_options.hpp"
 #include "turbines/model/description.hpp"
+#include "turbines/model/mesh.hpp"
 
 #include <memory>
 #include <optional>
 
 namespace cardan::turbines {
-
-/// The main shaft as one beam element instead of a torsion spring: bending stiffness of its own, torsion from the
-/// description (GJ = stiffness x overhang). It reaches from the tilt joint to the hub.
-struct ShaftBeam {
-    double EI = 0;    ///< N m^2
-    double mass = 1;  ///< kg/m; not zero: nothing else gives the tilt joint an inertia of its own
-};
-
-/// How a description is meshed and analysed.
-struct AssemblyOptions {
-    int tower_elements = 3;
-    int blade_elements = 3;
-    std::optional<double> delta =
-        {};  ///< hinge position in tower and blades; empty: suits the partition; see CardanBeamOptions
-    Partition partition = Partition::segment_masses;
-    double pitch = 0;                ///< pitch setting of all blades, leading edge upwind positive, rad
-    Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2
-    bool structural_damping = true;  ///< of tower and blades
-    bool joint_damping = true;       ///< of yaw, tilt, drive train, teeter, pitch
-    /// The generator's azimuth, free or driven, in place of DriveTrainDescription::spin; empty: as that says.
-    std::optional<CoordinateRole> spin = std::nullopt;
-    std::optional<ShaftBeam> shaft_beam = std::nullopt;
-    /// Complete element options of tower and blades: extension, torsion, element ends ... They replace the numbers of
-    /// elements, delta and partition above. Their damping must be empty: it is part of the description.
-    std::optional<CardanBeamOptions> tower_beam = std::nullopt, blade_beam = std::nullopt;
-    /// A prescribed coordinate per blade behind its pitch bearing, for a pitch that changes: "blade 1 pitch drive" ...,
-    /// positive away from feather, zero at the pitch setting.
-    bool pitch_drives = false;
-};
 
 /// Where to find parts in the tree of a machine, for loads and channels. Parts that a machine lacks are empty.
 struct MachineLayout {
@@ -74,13 +47,15 @@ public:
     /// Pitch linkages; usually empty.
     const LoopSet& loops() const { return *loops_; }
     const MachineLayout& layout() const { return *layout_; }
+    /// Numbers of elements; where one of them was not given, also how far the frequencies have converged.
+    const Mesh& mesh() const { return mesh_; }
     /// The same machine with other forces: usually a copy of forces() with generator, brake or loads added.
     /// @param remark  describes the forces, for the description stored in files
     /// @throws InputError as System does
     Turbine with_forces(const ForceSet& forces, const std::string& remark = {}) const;
     const std::string& source() const { return source_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
-    /// Bodies, coordinates, masses by part, total mass and centre of mass, warnings.
+    /// Bodies, coordinates, masses by part, total mass and centre of mass, mesh, warnings.
     std::string summary() const;
 
 private:
@@ -89,7 +64,7 @@ private:
     friend Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options, bool with_top);
     Turbine() = default;
     void finish(const class Assembler& assembler, const std::string& name, std::string source,
-                const std::string& settings);
+                const std::string& settings, const std::optional<Mesh>& found);
 
     std::shared_ptr<const Tree> tree_;
     std::shared_ptr<const ForceSet> forces_;
@@ -97,6 +72,7 @@ private:
     std::shared_ptr<const MachineLayout> layout_;
     std::shared_ptr<const System> system_;
     RotorMap rotor_;
+    Mesh mesh_;
     std::string source_;
     std::vector<std::string> warnings_;
 };
@@ -105,12 +81,14 @@ private:
 /// gearbox, hub (or shaft beam), teeter, then every blade's pitch, pitch actuator and elements; rigid joints are left
 /// out. The spin coordinate is the generator's azimuth relative to the nacelle. Frames: "tower foot", "tower top",
 /// "nacelle", "shaft" (fixed to the nacelle), "rotor centre" (spins), "hub" (teeters), "blade <k> pitch axis" and,
-/// behind the pitch joint, "blade <k> root".
+/// behind the pitch joint, "blade <k> root". Numbers of elements that the options do not give are those of
+/// converged_mesh(), which takes as long as several assemblies: with_elements() saves a second search.
 /// @throws InputError for bad data; the part is named.
 Turbine assemble(const TurbineDescription& description, const AssemblyOptions& options = {});
 
 /// One blade clamped at the hub radius of a rigid hub spinning about a fixed horizontal axis (with its cone; no pitch
-/// joint, no teeter, no tilt, no platform). The rest of the description is left out, and may lack anything.
+/// joint, no teeter, no tilt, no platform). The rest of the description is left out, and may lack anything. If no
+/// number of elements is given, as many as the frequencies of the blade alone take.
 /// @param number  which one
 /// @throws InputError also for a blade that is missing
 Turbine isolated_blade(const TurbineDescription& description, const AssemblyOptions& options = {}, int number = 1);
@@ -118,7 +96,8 @@ Turbine isolated_blade(const TurbineDescription& description, const AssemblyOpti
 /// The tower clamped at its foot, alone or with everything above it as one rigid body: blades undeformed, blade 1 up,
 /// at their pitch setting. It has no rotor and can only be analysed at standstill. A platform is left out. Of the rest
 /// of the description it needs nothing; with its top, or a damping ratio of the first mode, which is that of the tower
-/// with its top, it needs the masses, but no bearings.
+/// with its top, it needs the masses, but no bearings. If no number of elements is given, as many as its frequencies
+/// take.
 /// @throws InputError also for a tower that is rigid
 Turbine isolated_tower(const TurbineDescription& description, const AssemblyOptions& options = {},
                        bool with_top = false);

@@ -1,6 +1,7 @@
 #include "turbines/model/assembly_settings.hpp"
 
 #include "mbs/base/error.hpp"
+#include "turbines/model/detail/beam_options.hpp"
 
 #include <algorithm>
 
@@ -18,25 +19,19 @@ std::string in_words(const CardanBeamOptions& b) {
                 b.held_z ? ", bending about z held" : "");
 }
 
-// Numbers of elements where they count, else what took their place.
-std::string parts_in_words(const TowerDescription& tower, const AssemblyOptions& o) {
-    std::string words = tower.rigid    ? std::string("tower rigid, ")
-                        : o.tower_beam ? text("tower of ", in_words(*o.tower_beam), ", ")
-                                       : text(o.tower_elements, " tower elements, ");
-    words += o.blade_beam ? text("blades of ", in_words(*o.blade_beam), ", ")
-                          : text(o.blade_elements, " elements per blade, ");
-    if ((o.tower_beam || tower.rigid) && o.blade_beam) return words;
-    return words + text(places_hinges(o.partition)
-                            ? std::string()
-                            : text("delta ", o.delta.value_or(recommended_delta(o.partition)), ", "),
-                        partition_name(o.partition), ", ");
+// Tower and blades, as they are made.
+std::string parts_in_words(const TurbineDescription& d, const AssemblyOptions& o) {
+    std::string words = d.tower.rigid ? std::string("tower rigid, ")
+                                      : text("tower of ", in_words(tower_beam_options(d.tower, o)), ", ");
+    if (d.blades > 0) words += text("blades of ", in_words(blade_beam_options(d.blade, o)), ", ");
+    return words;
 }
 
 }  // namespace
 
 std::string settings(const TurbineDescription& d, const AssemblyOptions& o) {
     return text(
-        parts_in_words(d.tower, o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ",
+        parts_in_words(d, o), "pitch ", o.pitch, " rad, gravity (", o.gravity(0), ", ", o.gravity(1), ", ",
         o.gravity(2), ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
         o.joint_damping ? "on" : "off", ", main shaft ",
         o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),

@@ -6,7 +6,7 @@
 
 namespace cardan::turbines {
 
-/// "3 tower elements, 3 elements per blade, ..."
+/// "tower of 4 elements, mean differences, extension condensed, torsion free, blades of ..."
 std::string settings(const TurbineDescription& description, const AssemblyOptions& options);
 
 }  // namespace cardan::turbines

@@ -38,6 +38,8 @@ struct TowerDescription {
     /// No coordinates: it stands undeformed, and its mass stays. Its stiffness and damping are not used, so that a
     /// machine can be made rigid here and elastic again; a line without sections is massless.
     bool rigid = false;
+    /// It does not bend in this direction: its coordinates stay at zero.
+    bool held_fore_aft = false, held_side_side = false;
 };
 
 struct YawDescription {
@@ -121,6 +123,9 @@ struct BladeDescription {
     double first_flap_damping =
         0;                     ///< damping ratio of the first flap mode of the clamped blade, stiffness-proportional
     BeamDamping damping = {};  ///< in its place or beside it
+    /// It does not deform: its coordinates stay at zero, and its stiffness and damping are not used. One element unless
+    /// the options of the assembly say otherwise.
+    bool rigid = false;
 };
 
 /// What the tower stands on in the source of a description that does not hold it: the tower is clamped at its foot

@@ -130,8 +130,7 @@ private:
         t.main_shaft = {not_negative("DTTorSpr"), not_negative("DTTorDmp")};
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
         if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
-        out_.dofs.generator = file_.flag("GenDOF");
-        if (!out_.dofs.generator) t.spin = CoordinateRole::driven;
+        if (!file_.flag("GenDOF")) t.spin = CoordinateRole::driven;
         file_.note_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
@@ -292,7 +291,7 @@ private:
     }
 
     void read_dofs() {
-        FileDofs& f = out_.dofs;
+        FileDofs f = dofs_of(d_);
         if (context_.blade) {
             for (const char* keyword : {"FlapDOF1", "FlapDOF2", "EdgeDOF"})
                 if (!file_.flag_or(keyword, true)) file_.note(keyword, "of ElastoDyn's blades: BeamDyn's bend");
@@ -302,7 +301,7 @@ private:
         f.tower_fore_aft = bends({"TwFADOF1", "TwFADOF2"}, "the tower is a beam and bends with all its fore-aft modes");
         f.tower_side_side =
             bends({"TwSSDOF1", "TwSSDOF2"}, "the tower is a beam and bends with all its side-side modes");
-        d_.tower.rigid = !f.tower_fore_aft && !f.tower_side_side;
+        set_dofs(f, d_);
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
             if (file_.flag_or(keyword, false)) {
                 file_.note(keyword, "the tower is clamped at its foot; see TurbineDescription::platform");

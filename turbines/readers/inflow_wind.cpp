@@ -3,9 +3,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/readers/csv.hpp"
 #include "turbines/readers/detail/openfast_words.hpp"
 #include "turbines/readers/openfast_file.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <utility>
 

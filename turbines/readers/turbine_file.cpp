@@ -23,6 +23,25 @@ std::string refused(TurbineDescription machine, bool unusual) {
 
 }  // namespace
 
+void set_dofs(const FileDofs& dofs, TurbineDescription& description) {
+    description.drive_train.spin = dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
+    TowerDescription& tower = description.tower;
+    tower.rigid = !dofs.tower_fore_aft && !dofs.tower_side_side;
+    tower.held_fore_aft = !tower.rigid && !dofs.tower_fore_aft;
+    tower.held_side_side = !tower.rigid && !dofs.tower_side_side;
+    description.blade.rigid = !dofs.blades;
+    for (auto& [number, blade] : description.own_blades)
+        if (blade) blade->rigid = !dofs.blades;
+}
+
+FileDofs dofs_of(const TurbineDescription& description) {
+    const TowerDescription& tower = description.tower;
+    return {.generator = description.drive_train.spin == CoordinateRole::free,
+            .tower_fore_aft = !tower.rigid && !tower.held_fore_aft,
+            .tower_side_side = !tower.rigid && !tower.held_side_side,
+            .blades = !description.blade.rigid};
+}
+
 double pitch_at(const std::vector<PitchAt>& schedule, double rotor_speed) {
     if (schedule.empty()) throw InputError("schedule of the pitch", "entries", 0, "at least one");
     if (schedule.size() == 1) return schedule.front().pitch;

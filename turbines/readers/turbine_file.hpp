@@ -24,13 +24,18 @@ struct FileNote {
 /// "file:12: NacYaw = 3: the nacelle points into the wind here"
 std::string to_text(const FileNote& note);
 
-/// Degrees of freedom that a file may switch off (ElastoDyn's flags). Of these the description holds a locked generator
-/// (DriveTrainDescription::spin) and a tower that is rigid in both directions (TowerDescription::rigid).
+/// Degrees of freedom that a file may switch off (ElastoDyn's flags).
 struct FileDofs {
     bool generator = true;  ///< false: the rotor turns at constant speed (RotorSpin::prescribed)
-    /// False: rigid (CardanBeamOptions::held_z of the tower, held_y of the tower, hold_all() of the blades).
-    bool tower_fore_aft = true, tower_side_side = true, blades = true;
+    bool tower_fore_aft = true, tower_side_side = true, blades = true;  ///< false: rigid
+
+    bool operator==(const FileDofs&) const = default;
 };
+
+/// Whether the generator turns freely, what bends of the tower, and whether all blades do.
+void set_dofs(const FileDofs& dofs, TurbineDescription& description);
+/// Of a description; the blades bend if its common blade does.
+FileDofs dofs_of(const TurbineDescription& description);
 
 /// How the blades are set at a rotor speed below or at the rated one.
 struct PitchAt {
@@ -62,7 +67,6 @@ inline constexpr auto unusual_entries = "angles and ratios";
 /// A machine read from files.
 struct TurbineFile {
     TurbineDescription description;
-    FileDofs dofs = {};
     /// Spring of the yaw drive, even if the files lock the yaw bearing and it is rigid in the description; rigid: the
     /// files give no spring.
     Bearing yaw_drive = rigid_joint;

@@ -93,7 +93,7 @@ struct TeeteredMixed::Rotor {
 TeeteredMixed::TeeteredMixed(const TurbineDescription& description, int tower_elements, int blade_elements)
     : d_(description), blade_(mixed(description.blade.line, blade_elements)), tower_size_(0) {
     check(d_);
-    (void)assemble(d_, teetered_assembly(1));  // checks masses and springs
+    (void)assemble(d_, teetered_paper_assembly(1));  // checks masses and springs
     if (!d_.tower.rigid) {
         tower_ = mixed(d_.tower.line, tower_elements);
         tower_size_ = tower_->unknowns();

@@ -1,7 +1,7 @@
 #include "examples/studies/nrel5mw_controlled/sag.hpp"
 
 #include "mbs/base/error.hpp"
-#include "turbines/machines/nrel5mw_generator.hpp"
+#include "turbines/electric/nrel5mw_generator.hpp"
 #include "turbines/model/channels.hpp"
 
 #include "programs/shared/simulation_run.hpp"

@@ -5,10 +5,11 @@
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/campbell.hpp"
-#include "turbines/machines/electric_wt600.hpp"
+#include "turbines/electric/electric_wt600.hpp"
 #include "turbines/model/generator_slip.hpp"
 
 #include "examples/studies/drive_train.hpp"
+#include "examples/studies/wt600_simulation.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/words.hpp"
 #include <cstdio>
@@ -20,18 +21,14 @@ namespace cardan::electric {
 
 namespace {
 
-turbines::AssemblyOptions assembly(const MotionOptions& o) {
-    turbines::AssemblyOptions options;
-    options.blade_elements = o.blade_elements;
-    options.tower_elements = o.tower_elements;
-    return options;
-}
-
 // No wind and no torque, the grid's frequency that of the rotor, its voltage in proportion.
 turbines::Turbine machine_at(const MotionOptions& o, std::optional<MachineOrder> order, double speed) {
-    if (!order) return turbines::with_generator_slip(turbines::wt600(assembly(o)), turbines::wt600_induction_machine());
+    if (!order)
+        return turbines::with_generator_slip(
+            turbines::wt600(program::elements_of_paper(o.blade_elements, o.tower_elements)),
+            turbines::wt600_induction_machine());
     turbines::ElectricWt600Options options;
-    options.assembly = assembly(o);
+    options.assembly = program::elements_of_paper(o.blade_elements, o.tower_elements);
     options.wind = 0;
     options.order = *order;
     const double ratio = turbines::wt600_description().drive_train.gear_ratio,

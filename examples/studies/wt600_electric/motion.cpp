@@ -2,7 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/machines/electric_wt600.hpp"
+#include "turbines/electric/electric_wt600.hpp"
 
 #include "examples/studies/wt600_simulation.hpp"
 #include <cmath>
@@ -21,8 +21,9 @@ MachineOrder order_of(int order) {
 
 turbines::ElectricWt600Options machine_options(const std::string& study, const MotionOptions& o) {
     turbines::ElectricWt600Options options;
-    options.assembly.blade_elements = o.blade_elements;
-    options.assembly.tower_elements = o.tower_elements;
+    const Vec3 gravity = options.assembly.gravity;
+    options.assembly = program::elements_of_paper(o.blade_elements, o.tower_elements);
+    options.assembly.gravity = gravity;
     options.order = order_of(o.order);
     options.wind = study == "start" ? 0 : o.wind;
     if (study == "loss") options.grid = options.grid.with_interruption(o.at, o.lasts);

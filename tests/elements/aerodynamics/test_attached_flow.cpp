@@ -3,7 +3,7 @@
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 
 #include <cmath>
 #include <functional>

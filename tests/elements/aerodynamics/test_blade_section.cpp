@@ -4,7 +4,7 @@
 #include "mbs/base/types.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 
 #include <algorithm>
 #include <array>

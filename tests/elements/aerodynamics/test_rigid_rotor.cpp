@@ -3,8 +3,8 @@
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <cmath>
 #include <map>

@@ -6,8 +6,8 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <cmath>
 

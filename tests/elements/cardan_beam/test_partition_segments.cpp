@@ -25,8 +25,7 @@ BeamLine tapered() {
 
 // Second flap frequency of the isolated 600 kW blade at rest, Hz: the lowest three are flap 1, flap 2 or lag 1, ...
 double second_flap(int elements, double delta, Partition partition, std::size_t* warnings = nullptr) {
-    turbines::AssemblyOptions options;
-    options.blade_elements = elements;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(elements);
     options.delta = delta;
     options.partition = partition;
     const turbines::Turbine blade = turbines::isolated_blade(turbines::wt600_description(), options);

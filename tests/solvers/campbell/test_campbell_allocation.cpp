@@ -89,7 +89,7 @@ TEST_CASE("campbell point: no stage allocates after the first speed, small rotor
 
 TEST_CASE("campbell point: no stage allocates after the first speed, 600 kW machine", "[property]") {
     if (!AllocationGuard::works()) return;
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     require_no_allocation_by_stage(machine.system(), machine.rotor(), {0, 2.8, 1.4});
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("campbell point: the second and later points of a solver allocate noth
         require_no_allocation(rotor.system, rotor.map, {1, 0}, {.spin = RotorSpin::prescribed});
         require_no_allocation(rotor.system, rotor.map, {1, 0}, {.method = CampbellMethod::frozen_azimuth});
     }
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     require_no_allocation(machine.system(), machine.rotor(), {0, 2.8, 1.4}, {.all_modes = true});
 }
 

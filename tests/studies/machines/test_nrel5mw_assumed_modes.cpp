@@ -9,8 +9,8 @@
 #include "tests/oracles/rotating_blade.hpp"
 #include "tests/support/catch.hpp"
 #include "turbines/machines/nrel5mw_platform.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 

@@ -194,7 +194,7 @@ TEST_CASE("teetered machine: joint chain and mixed elements tend to the same fre
           "[crosscheck][slow]") {
     for (const double ratio : {10.0, 1000.0}) {
         const turbines::TurbineDescription d = turbines::with_tower_rigidity(teetered_description(), ratio);
-        const auto machine = turbines::assemble(d, turbines::teetered_assembly(8));
+        const auto machine = turbines::assemble(d, turbines::teetered_paper_assembly(8));
         std::vector<Named> chain;
         const HalfTurnFloquet floquet_modes = floquet(machine, teetered_speed, 100);
         for (const PeriodicMode& mode : floquet_modes.modes)
@@ -214,7 +214,7 @@ TEST_CASE("teetered machine: joint chain and mixed elements tend to the same fre
 TEST_CASE("teetered machine: with cone, undersling, delta-3, tilt, springs and dampers both models agree",
           "[crosscheck][slow]") {
     const turbines::TurbineDescription d = general_description();
-    const auto machine = turbines::assemble(d, turbines::teetered_assembly(10));
+    const auto machine = turbines::assemble(d, turbines::teetered_paper_assembly(10));
     solvers::SteadyOptions at;
     at.rotor_speed = teetered_speed;
     const auto steady = solvers::steady_state(machine.system(), machine.rotor().spin, at);

@@ -5,8 +5,8 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/machines/sampled_channels.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 
 namespace cardan::testing::air_lag_tests {
 

@@ -5,8 +5,8 @@
 #include "tests/turbines/aerodynamics/field_at_state.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/openfast.hpp"
 

@@ -6,8 +6,8 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/aerodynamics/field_at_state.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
 
 namespace cardan::testing::tower_air_tests {
 

@@ -102,10 +102,7 @@ void check_same_air(const Aerodynamics& a, const Aerodynamics& b) {
 
 void check_same(const Machine& a, const Machine& b) {
     CHECK(to_yaml(a) == to_yaml(b));
-    CHECK(a.dofs.generator == b.dofs.generator);
-    CHECK(a.dofs.blades == b.dofs.blades);
-    CHECK(a.dofs.tower_fore_aft == b.dofs.tower_fore_aft);
-    CHECK(a.dofs.tower_side_side == b.dofs.tower_side_side);
+    CHECK(dofs_of(a.description) == dofs_of(b.description));
     CHECK(a.yaw_drive.stiffness == b.yaw_drive.stiffness);
     CHECK(a.site.tower_foot == b.site.tower_foot);
     CHECK(a.operation.rotor_speed == b.operation.rotor_speed);
@@ -182,7 +179,8 @@ TEST_CASE("machine: written as YAML and read again it is the same machine, with 
     SECTION("everything that a machine may have") {
         const Model model;
         Machine machine = read_machine(model.main());
-        machine.dofs = {.generator = false, .tower_fore_aft = true, .tower_side_side = false, .blades = false};
+        set_dofs({.generator = false, .tower_fore_aft = true, .tower_side_side = false, .blades = false},
+                 machine.description);
         machine.yaw_drive = {1e6 / 3, 7};
         machine.operation.pitch_schedule = {{1, 0.1}, {1.0 / 3 + 1, -0.2}};
         machine.operation.min_pitch = {{3, 0.07}, {5.5, 0}};
@@ -216,8 +214,9 @@ TEST_CASE("machine: files of versions 1 and 2 are machines without air; of a who
         CHECK(to_yaml(machine.description) == to_yaml(read_description(seeds + name)));
         CHECK(machine.operation.rotor_speed == machine.description.rotor_speed);
     }
-    CHECK_FALSE(read_machine(seeds + "variants.yaml").dofs.tower_fore_aft);  // tower.rigid
-    CHECK_FALSE(read_machine(seeds + "variants.yaml").dofs.generator);       // spin: driven
+    const FileDofs variants = dofs_of(read_machine(seeds + "variants.yaml").description);
+    CHECK_FALSE(variants.tower_fore_aft);  // tower.rigid
+    CHECK_FALSE(variants.generator);       // spin: driven
     const Machine all = read_machine(seeds + "machine.yaml");
     check_same(all, again(all));
     CHECK(all.air->unsteady_airfoils.at(1).own_states() == 1);

@@ -112,8 +112,7 @@ double worst(const std::vector<Row>& table, Partition partition, int elements, s
 }
 
 turbines::Turbine wt600_isolated(Partition partition, int elements) {
-    turbines::AssemblyOptions options;
-    options.blade_elements = elements;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(elements);
     options.partition = partition;
     options.structural_damping = false;
     if (partition == moments) options.delta = 1. / 6;

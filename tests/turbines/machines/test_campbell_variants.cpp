@@ -14,7 +14,7 @@ namespace {
 Campbell with_yaw_stiffness(double factor, std::span<const double> speeds, const Campbell* neighbour) {
     turbines::TurbineDescription description = turbines::wt600_description();
     description.yaw.rotation.stiffness *= factor;
-    const turbines::Turbine turbine = turbines::assemble(description);
+    const turbines::Turbine turbine = turbines::assemble(description, turbines::wt600_paper_assembly());
     CampbellOptions options;
     options.keep_shapes = false;
     options.neighbour = neighbour;

@@ -19,9 +19,8 @@ using namespace cardan::turbines;
 namespace {
 
 AssemblyOptions on_ground(int elements = 1) {
-    AssemblyOptions options;
+    AssemblyOptions options = wt600_paper_assembly(elements);
     options.gravity = earth_gravity;
-    options.tower_elements = options.blade_elements = elements;
     return options;
 }
 

@@ -31,7 +31,7 @@ using units::rpm;
 constexpr double Omega = 27 * rpm;
 
 const turbines::Turbine& machine() {
-    static const turbines::Turbine made = turbines::wt600();
+    static const turbines::Turbine made = turbines::wt600(turbines::wt600_paper_assembly());
     return made;
 }
 int spin() {

@@ -31,8 +31,7 @@ BeamLine scaled(const BeamLine& line, double mass, double compliance) {
 }
 
 turbines::AssemblyOptions small(bool gravity) {
-    turbines::AssemblyOptions options;
-    options.tower_elements = options.blade_elements = 1;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(1);
     if (gravity) options.gravity = {0, 0, -units::standard_gravity};
     return options;
 }

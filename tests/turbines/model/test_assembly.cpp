@@ -162,7 +162,7 @@ TEST_CASE("assembly: tower and blades are damped to the ratio given for their fi
           "[analytic]") {
     // Stiffness proportional: ratio zeta f / f_1.
     const turbines::TurbineDescription d = turbines::wt600_description();
-    const turbines::Turbine blade = turbines::isolated_blade(d);
+    const turbines::Turbine blade = turbines::isolated_blade(d, turbines::wt600_paper_assembly());
     const double at_rest[] = {0};
     const auto diagram = solvers::campbell(blade.system(), blade.rotor(), at_rest);
     const double f1 = diagram.points[0].modes[0].mode.natural_hz();
@@ -179,7 +179,7 @@ TEST_CASE("assembly: tower and blades are damped to the ratio given for their fi
         s.compliance /= 1e4;
         return s;
     };
-    const turbines::Turbine on_tower = turbines::assemble(rigid);
+    const turbines::Turbine on_tower = turbines::assemble(rigid, turbines::wt600_paper_assembly());
     solvers::CampbellOptions locked;
     locked.spin = solvers::RotorSpin::prescribed;
     const auto tower = solvers::campbell(on_tower.system(), on_tower.rotor(), at_rest, locked);
@@ -241,7 +241,7 @@ TEST_CASE("assembly: a positive cone puts the blade tips downwind of the hub", "
 }
 
 TEST_CASE("assembly: a turbine keeps the text of its data and gives its masses by part", "[property]") {
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     CHECK_THAT(machine.source(),
                Catch::Matchers::Contains("quantity,unit,value") && Catch::Matchers::Contains("span_fraction[-]"));
     for (const char* part : {"tower  ", "nacelle  ", "hub  ", "blade 3  ", "gearbox", "generator azimuth"})

@@ -26,8 +26,8 @@ struct Setup {
 
 Setup on_ground(const Vec3& gravity, int elements = 2) {
     Setup setup;
+    setup.options = wt600_paper_assembly(elements);
     setup.options.gravity = gravity;
-    setup.options.tower_elements = setup.options.blade_elements = elements;
     return setup;
 }
 Setup on_platform(const Vec3& gravity, int elements = 2) {
@@ -387,7 +387,7 @@ TEST_CASE("machine on a moored platform: it has modes of the platform, at the fr
 }
 
 TEST_CASE("machine on a platform: its coordinates are named and the description mentions it", "[property]") {
-    CHECK_FALSE(wt600().layout().platform);
+    CHECK_FALSE(wt600(wt600_paper_assembly()).layout().platform);
     Setup setup = on_platform(earth_gravity);
     setup.description.platform->inertia.mass = 1234;
     CHECK_FALSE(isolated_blade(setup.description, setup.options).layout().platform);

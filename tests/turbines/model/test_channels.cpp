@@ -17,7 +17,7 @@ namespace {
 constexpr double g = units::standard_gravity, tilt = 5 * units::degree;
 
 AssemblyOptions heavy() {
-    AssemblyOptions options;
+    AssemblyOptions options = wt600_paper_assembly();
     options.gravity = {0, 0, -g};
     return options;
 }
@@ -105,7 +105,7 @@ TEST_CASE("channels: a parked blade carries its weight and the moment of its fir
 
 TEST_CASE("channels: a rotating blade pulls with its first moment about the axis times the square of the speed",
           "[analytic]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     const double Omega = 2.8, hub_radius = 1.5;
     MachineState state(turbine);
     at(turbine, state.q, "generator azimuth") = 1;
@@ -126,7 +126,7 @@ TEST_CASE("channels: a rotating blade pulls with its first moment about the axis
     CHECK(std::abs(now["RotTorq"]) < 1e-6);
     CHECK(now.vector("TwrBsF", "t").norm() < 1e-6 * pull.z());  // three blades are in balance
 
-    const Turbine single = isolated_blade(wt600_description());
+    const Turbine single = isolated_blade(wt600_description(), wt600_paper_assembly());
     MachineState alone(single);
     alone.q(0) = 1;
     alone.qd(0) = Omega;
@@ -137,7 +137,7 @@ TEST_CASE("channels: a rotating blade pulls with its first moment about the axis
 }
 
 TEST_CASE("channels: a force at a blade's tip comes down to root, tower top and foot with its lever", "[analytic]") {
-    const Turbine bare = wt600();
+    const Turbine bare = wt600(wt600_paper_assembly());
     const Vec3 F = 1000 * Vec3(std::cos(tilt), 0, -std::sin(tilt));  // along the shaft, downwind
     ForceSet forces = bare.forces();
     forces.add_wrench({"tip", bare.layout().blades[0].tip(), {F, Vec3::Zero()}, WrenchAxes::base});
@@ -163,7 +163,7 @@ TEST_CASE("channels: a force on a nacelle that is fixed to a rigid tower comes d
     const Vec3 F(300, -200, 100), arm(0, 0, 50.7);
     for (const bool afloat : {false, true}) {
         if (afloat) d.platform.emplace().mooring_pull = Vec3(7e5, 3e5, 0);  // on the platform, not on the tower
-        const Turbine bare = assemble(d);
+        const Turbine bare = assemble(d, wt600_paper_assembly());
         const FrameId nacelle = bare.tree().frame("nacelle");
         ForceSet forces = bare.forces();
         forces.add_wrench({"wind", nacelle, {F, Vec3::Zero()}, WrenchAxes::base});
@@ -183,7 +183,7 @@ TEST_CASE("channels: a force on a nacelle that is fixed to a rigid tower comes d
 
 TEST_CASE("channels: in any motion the loads along the axes of joints are the forces of their springs and drives",
           "[property]") {
-    const Wt600Operation machine = wt600_operation({.at_grid = false});
+    const Wt600Operation machine = wt600_operation({.assembly = heavy(), .at_grid = false});
     const Turbine& turbine = machine.turbine;
     for (unsigned seed : {1u, 2u, 3u}) {
         const MachineState state = in_motion(turbine, seed);
@@ -209,7 +209,7 @@ TEST_CASE("channels: in any motion the loads along the axes of joints are the fo
 }
 
 TEST_CASE("channels: an external wrench counts as one of the force set does", "[property]") {
-    const Wt600Operation machine = wt600_operation();
+    const Wt600Operation machine = wt600_operation({.assembly = heavy()});
     const Turbine bare = assemble(wt600_description(), heavy());
     const MachineState state = in_motion(machine.turbine, 4);
     Workspace workspace(bare.system().model);
@@ -230,7 +230,7 @@ TEST_CASE("channels: an external wrench counts as one of the force set does", "[
 
 TEST_CASE("channels: a hinge angle deflects the tip by its lever; turning the blade as a whole does not",
           "[analytic]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     MachineState rigid(turbine);
     for (const char* name : {"generator azimuth", "main shaft twist", "yaw", "tilt", "blade 1 pitch",
                              "tower element 2 bending y1", "yaw bearing x"})
@@ -324,7 +324,7 @@ TEST_CASE("channels: names and aliases are unique and complete, and a recorder g
     for (int blades : {3, 4}) {
         TurbineDescription d = wt600_description();
         d.blades = blades;
-        const Turbine turbine = assemble(d);
+        const Turbine turbine = assemble(d, wt600_paper_assembly());
         const solvers::Recorder recorder(integrator_at_rest(turbine.system()),
                                          channels(turbine));  // throws for names that come twice
         std::set<std::string> aliases;
@@ -337,15 +337,15 @@ TEST_CASE("channels: names and aliases are unique and complete, and a recorder g
             CHECK(aliases.contains(expected));
         CHECK_FALSE(aliases.contains("RootMxb4"));
     }
-    const Wt600Operation machine = wt600_operation();
+    const Wt600Operation machine = wt600_operation({.assembly = heavy()});
     CHECK_NOTHROW(solvers::Recorder(integrator_at_rest(machine.turbine.system()), machine.channels));
-    const Turbine blade = isolated_blade(wt600_description());
+    const Turbine blade = isolated_blade(wt600_description(), wt600_paper_assembly());
     const solvers::Recorder recorder(integrator_at_rest(blade.system()), channels(blade));
     for (const Channel& channel : recorder.channels()) CHECK(channel.alias != "TwrBsMxt");
 }
 
 TEST_CASE("channels: an external wrench without a function or on the base is refused", "[property]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     check_refused([&] { (void)channels(turbine, {{turbine.layout().hub, {}}}); }, {"external wrench", "function"});
     check_refused(
         [&] {

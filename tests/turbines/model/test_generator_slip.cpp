@@ -108,7 +108,7 @@ TEST_CASE("generator slip: the damping is the slope of Kloss' curve on the slow 
 
 TEST_CASE("generator slip: drive-train torsion of an otherwise stiff machine is that of three inertias by hand",
           "[analytic]") {
-    const turbines::Turbine free = turbines::assemble(stiff());
+    const turbines::Turbine free = turbines::assemble(stiff(), turbines::wt600_paper_assembly());
     const turbines::Turbine slipping = turbines::with_generator_slip(free, turbines::wt600_induction_machine());
     ThreeInertias chain{rotor_inertia(free), 0};
     const double speed = turbines::wt600_rated_speed();

@@ -75,7 +75,7 @@ TEST_CASE("assembly: damping of the description acts in the place of ratios of f
     D d = turbines::wt600_description(), none = d;
     none.blade.first_flap_damping = none.tower.first_mode_damping = 0;
     const auto first_ratio = [](const D& own) {
-        const turbines::Turbine blade = turbines::isolated_blade(own);
+        const turbines::Turbine blade = turbines::isolated_blade(own, turbines::wt600_paper_assembly());
         const double at_rest[] = {0};
         const auto diagram = solvers::campbell(blade.system(), blade.rotor(), at_rest);
         return diagram.points[0].modes[0].mode.damping_ratio();

@@ -53,7 +53,9 @@ TEST_CASE("scaling: the 15 MW machine has the frequencies of the 5 MW machine ov
 TEST_CASE("scaling: joints with springs in rotation and translation scale along, on the 600 kW machine", "[analytic]") {
     // It has all joints, offsets of shear centres, and damping that is given by first modes.
     const turbines::TurbineDescription d = turbines::wt600_description();
-    const turbines::Turbine a = turbines::assemble(d), b = turbines::assemble(turbines::scaled(d, length_ratio));
+    const turbines::AssemblyOptions elements = turbines::wt600_paper_assembly();
+    const turbines::Turbine a = turbines::assemble(d, elements),
+                            b = turbines::assemble(turbines::scaled(d, length_ratio), elements);
     for (double speed : {0.0, 27 * rpm}) check_same(a, b, speed, 1e-9);
 }
 
@@ -70,8 +72,8 @@ TEST_CASE("scaling: there and back again, and bad factors", "[property]") {
 
 TEST_CASE("scaling: a platform scales along, with the gravity that balances it", "[analytic]") {
     turbines::TurbineDescription d = turbines::nrel5mw_oc3_hywind_description();
-    turbines::AssemblyOptions options, scaled_options;
-    options.gravity = turbines::nrel5mw_gravity;
+    turbines::AssemblyOptions options{.tower_elements = 3, .blade_elements = 3, .gravity = turbines::nrel5mw_gravity};
+    turbines::AssemblyOptions scaled_options = options;
     scaled_options.gravity = options.gravity / length_ratio;
     const turbines::Turbine a = turbines::assemble(d, options),
                             b = turbines::assemble(turbines::scaled(d, length_ratio), scaled_options);

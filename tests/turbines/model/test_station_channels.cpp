@@ -23,7 +23,7 @@ constexpr double g = units::standard_gravity, tilt = 5 * units::degree, hub_radi
 const std::vector<double> places{0, 1.2, 2.5, 4.7, 20. / 3, 9, 11.5, 17, 20};
 
 AssemblyOptions heavy() {
-    AssemblyOptions options;
+    AssemblyOptions options = wt600_paper_assembly();
     options.gravity = {0, 0, -g};
     return options;
 }
@@ -135,7 +135,7 @@ TEST_CASE("stations: the tower carries at each the weight of what is above it", 
 }
 
 TEST_CASE("stations: a force at the tip bends each with its lever, about the axes of its twist", "[analytic]") {
-    const Turbine bare = wt600();
+    const Turbine bare = wt600(wt600_paper_assembly());
     const Vec3 F(1000, -300, 50);  // blade axes: downwind, toward the trailing edge, to the tip
     ForceSet forces = bare.forces();
     forces.add_wrench(
@@ -155,7 +155,7 @@ TEST_CASE("stations: a force at the tip bends each with its lever, about the axe
 
 TEST_CASE("stations: a rotating blade pulls with the centrifugal force of what is beyond, and is accelerated inward",
           "[analytic]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     const double Omega = 2.8;
     MachineState state(turbine);
     at(turbine, state.q, "generator azimuth") = 1;
@@ -178,7 +178,7 @@ TEST_CASE("stations: a rotating blade pulls with the centrifugal force of what i
 }
 
 TEST_CASE("stations: an angular acceleration adds its tangential part", "[analytic]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     MachineState state(turbine);
     state.qdd(turbine.rotor().spin) = 0.4;
     const Sampled now = sampled(turbine, {.blades = {12}}, state);
@@ -189,7 +189,7 @@ TEST_CASE("stations: an angular acceleration adds its tangential part", "[analyt
 
 TEST_CASE("stations: a hinge moves and turns what is beyond it and nothing before; turning the blade does neither",
           "[analytic]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     MachineState state(turbine);
     for (const char* name : {"generator azimuth", "main shaft twist", "yaw", "tilt", "blade 1 pitch", "yaw bearing x",
                              "tower element 2 bending y1"})
@@ -223,7 +223,7 @@ TEST_CASE("stations: torsion turns about z, the leading edge downwind where it i
     EngineeringSection section;
     section.mass = 100, section.GJ = 1e7, section.EI_flap = section.EI_edge = 1e8, section.j_flap = section.j_edge = 10;
     d.blade.line = uniform_beam(blade_length, section);
-    const Turbine turbine = assemble(d);
+    const Turbine turbine = assemble(d, wt600_paper_assembly());
     MachineState state(turbine);
     at(turbine, state.q, "blade 1 element 2 torsion") = 0.1;
     const Sampled now = sampled(turbine, {.blades = {9, 11, 20}}, state);
@@ -304,7 +304,7 @@ TEST_CASE("stations: sampling allocates nothing", "[property]") {
 TEST_CASE("stations: names are unique, aliases OpenFAST's, frames given; none for a fourth blade", "[property]") {
     TurbineDescription d = wt600_description();
     d.blades = 4;
-    const Turbine turbine = assemble(d);
+    const Turbine turbine = assemble(d, wt600_paper_assembly());
     std::set<std::string> names, aliases;
     for (const ChannelGroup& group : both(turbine, {.blades = {15, 2.25}, .tower = {40}}))
         for (const Channel& channel : group.channels) {
@@ -324,7 +324,7 @@ TEST_CASE("stations: names are unique, aliases OpenFAST's, frames given; none fo
 }
 
 TEST_CASE("stations: those that a machine does not have are refused", "[property]") {
-    const Turbine turbine = wt600();
+    const Turbine turbine = wt600(wt600_paper_assembly());
     const auto refused = [&](const Turbine& machine, const Stations& stations, std::initializer_list<std::string> say) {
         check_refused([&] { (void)turbines::station_channels(machine, stations); }, say);
     };
@@ -335,16 +335,18 @@ TEST_CASE("stations: those that a machine does not have are refused", "[property
     refused(turbine, {.tower = {51}}, {"stations of tower", "51", "0 ... 50.7"});
     refused(turbine, {.blades = {3, 7, 3}}, {"blade 1", "stations 1 and 3", "3", "each place once"});
     refused(turbine, {.tower = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}, {"stations of tower", "number = 10", "at most 9"});
-    refused(isolated_blade(wt600_description()), {.tower = {1}}, {"stations of tower", "no tower"});
-    refused(isolated_tower(wt600_description()), {.blades = {1}}, {"stations of blades", "no blades"});
+    refused(isolated_blade(wt600_description(), wt600_paper_assembly()), {.tower = {1}},
+            {"stations of tower", "no tower"});
+    refused(isolated_tower(wt600_description(), wt600_paper_assembly()), {.blades = {1}},
+            {"stations of blades", "no blades"});
     TurbineDescription rigid = wt600_description();
     rigid.tower.rigid = true;
-    refused(assemble(rigid), {.tower = {1}}, {"stations of tower", "rigid"});
+    refused(assemble(rigid, wt600_paper_assembly()), {.tower = {1}}, {"stations of tower", "rigid"});
     TurbineDescription unequal = wt600_description();
     unequal.own_blades[2] = unequal.blade;
     unequal.own_blades[2]->line =
         uniform_beam(15, {.mass = 100, .GJ = 1e7, .EI_flap = 1e8, .EI_edge = 1e8, .j_flap = 1, .j_edge = 1});
-    refused(assemble(unequal), {.blades = {17}}, {"stations of blade 2", "17", "0 ... 15"});
+    refused(assemble(unequal, wt600_paper_assembly()), {.blades = {17}}, {"stations of blade 2", "17", "0 ... 15"});
     check_refused(
         [&] {
             (void)turbines::station_channels(turbine, {}, {{turbine.layout().hub, {}}});

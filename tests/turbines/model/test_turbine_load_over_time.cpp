@@ -33,7 +33,7 @@ Turbine with(const Turbine& bare, FrameLoad load) {
 }  // namespace
 
 TEST_CASE("turbine: a table of thrust along the shaft comes down to the tower's foot with its height", "[analytic]") {
-    const Turbine bare = wt600();
+    const Turbine bare = wt600(wt600_paper_assembly());
     const std::vector<double> times{0, 2, 5};
     const std::vector<Vec3> thrust{Vec3(0, 0, 0), Vec3(8e4, 0, 0), Vec3(3e4, 0, 0)};  // x of the shaft: downwind
     const Turbine turbine =
@@ -55,7 +55,7 @@ TEST_CASE("turbine: a table of thrust along the shaft comes down to the tower's 
 
 TEST_CASE("turbine: a load over time counts in all channels as the same load that is constant, at each time",
           "[property]") {
-    const Turbine bare = wt600();
+    const Turbine bare = wt600(wt600_paper_assembly());
     const std::vector<double> times{0, 2, 6};
     const std::vector<Wrench> rows{
         {Vec3(0, 0, 0), Vec3(0, 0, 0)}, {Vec3(8e4, 2e3, 0), Vec3(3e4, 0, 1e3)}, {Vec3(2e4, 0, -4e3), Vec3(0, 5e3, 0)}};
@@ -80,7 +80,7 @@ TEST_CASE("turbine: a load over time counts in all channels as the same load tha
 }
 
 TEST_CASE("turbine: under a slow ramp of thrust a recorded tower follows statics", "[analytic]") {
-    const Turbine bare = isolated_tower(wt600_description(), {}, true);
+    const Turbine bare = isolated_tower(wt600_description(), wt600_paper_assembly(), true);
     const double T = 1e5, duration = 30;
     const Turbine turbine =
         with(bare, force_over_time("thrust", bare.layout().tower_top, {0, duration}, {Vec3(0, 0, 0), Vec3(T, 0, 0)}));

@@ -6,7 +6,7 @@
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/operation/level_machine.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 
 #include <algorithm>

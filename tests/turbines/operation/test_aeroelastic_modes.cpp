@@ -4,9 +4,9 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/operation/level_machine.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/operation/aeroelastic.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>

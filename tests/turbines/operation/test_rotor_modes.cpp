@@ -3,7 +3,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/turbines/iea22_rotor.hpp"
 #include "turbines/operation/aeroelastic.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,10 +5,10 @@
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/iea22_rotor.hpp"
 #include "tests/turbines/operation/level_machine.hpp"
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/model/channels.hpp"
 #include "turbines/operation/wind_operation.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <map>
 

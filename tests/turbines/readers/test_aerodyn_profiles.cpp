@@ -7,8 +7,8 @@
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/readers/aerodyn.hpp"
-#include "turbines/readers/csv.hpp"
 #include "turbines/readers/openfast_file.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <cmath>
 #include <cstdlib>

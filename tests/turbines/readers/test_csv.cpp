@@ -1,6 +1,6 @@
 #include "mbs/base/error.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include <filesystem>
 #include <fstream>

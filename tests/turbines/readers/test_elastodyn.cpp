@@ -6,9 +6,9 @@
 #include "turbines/machines/nrel5mw_blade.hpp"
 #include "turbines/model/assembly.hpp"
 #include "turbines/model/beam_table.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
 #include "turbines/readers/elastodyn.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include <array>
 
@@ -230,13 +230,13 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
         return read_openfast(model / main);
     };
     const TurbineFile as_it_is = changed({}, "small.fst");
-    CHECK(as_it_is.dofs.generator);
-    CHECK(as_it_is.dofs.tower_fore_aft);
-    CHECK(as_it_is.dofs.tower_side_side);  // one of two
-    CHECK(as_it_is.dofs.blades);
+    CHECK(dofs_of(as_it_is.description).generator);
+    CHECK(dofs_of(as_it_is.description).tower_fore_aft);
+    CHECK(dofs_of(as_it_is.description).tower_side_side);  // one of two
+    CHECK(dofs_of(as_it_is.description).blades);
     CHECK(as_it_is.yaw_drive.stiffness == 2e7);
     const TurbineFile locked = changed({"GenDOF"});
-    CHECK(!locked.dofs.generator);
+    CHECK(!dofs_of(locked.description).generator);
     CHECK(locked.description.drive_train.spin == CoordinateRole::driven);
     CHECK(as_it_is.description.drive_train.spin == CoordinateRole::free);
     CHECK(changed({"DrTrDOF"}).description.drive_train.main_shaft.is_rigid());
@@ -244,22 +244,26 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
     CHECK(yaw.description.yaw.rotation.is_rigid());
     CHECK(yaw.yaw_drive.stiffness == 2e7);  // for who wants it free
     const TurbineFile one = changed({"TwFADOF2"});
-    CHECK(one.dofs.tower_fore_aft);
+    CHECK(dofs_of(one.description).tower_fore_aft);
     CHECK(test::has_note(one.notes, "TwFADOF2", "one mode cannot be switched off"));
     const TurbineFile fore_aft = changed({"TwFADOF1", "TwFADOF2"});
-    CHECK(!fore_aft.dofs.tower_fore_aft);
-    CHECK(fore_aft.dofs.tower_side_side);
+    CHECK(!dofs_of(fore_aft.description).tower_fore_aft);
+    CHECK(dofs_of(fore_aft.description).tower_side_side);
     CHECK(!test::has_note(fore_aft.notes, "TwFADOF", ""));
     CHECK(!fore_aft.description.tower.rigid);
+    CHECK(fore_aft.description.tower.held_fore_aft);
+    CHECK(!fore_aft.description.tower.held_side_side);
     const TurbineFile stiff = changed({"TwFADOF1", "TwFADOF2", "TwSSDOF1"});
     CHECK(stiff.description.tower.rigid);
     AssemblyOptions options;
     options.blade_beam.emplace().torsion = false;
     const Turbine turbine = assemble(stiff.description, options);
     CHECK(turbine.system().model.coordinates().of_part("tower").empty());
-    CHECK(!changed({"TwSSDOF1"}).dofs.tower_side_side);
-    CHECK(changed({"FlapDOF1", "FlapDOF2"}).dofs.blades);
-    CHECK(!changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).dofs.blades);
+    CHECK(!dofs_of(changed({"TwSSDOF1"}).description).tower_side_side);
+    CHECK(dofs_of(changed({"FlapDOF1", "FlapDOF2"}).description).blades);
+    CHECK(!changed({"FlapDOF1", "FlapDOF2"}).description.blade.rigid);
+    CHECK(!dofs_of(changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).description).blades);
+    CHECK(changed({"FlapDOF1", "FlapDOF2", "EdgeDOF"}).description.blade.rigid);
 }
 
 TEST_CASE("elastodyn: a tower of one station has the same section everywhere", "[property]") {

@@ -137,12 +137,6 @@ void operation_fields(Archive& archive, Operating& o) {
 /// The keys are `machine_keys`.
 template <class Archive, class AnyMachine, class Air>
 void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
-    archive.group_if(true, "degrees_of_freedom", [&] {
-        archive.optional_flag("generator", m.dofs.generator);
-        archive.optional_flag("tower_fore_aft", m.dofs.tower_fore_aft);
-        archive.optional_flag("tower_side_side", m.dofs.tower_side_side);
-        archive.optional_flag("blades", m.dofs.blades);
-    });
     archive.optional_bearing("yaw_drive", m.yaw_drive);
     archive.group_if(true, "site", [&] {
         archive.optional_number("density", m.site.density);

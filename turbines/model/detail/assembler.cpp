@@ -2,6 +2,7 @@
 
 #include "elements/sections/quadrature.hpp"
 #include "mbs/base/error.hpp"
+#include "turbines/model/detail/beam_options.hpp"
 
 #include <Eigen/Geometry>
 
@@ -9,13 +10,7 @@ namespace cardan::turbines {
 
 namespace {
 
-CardanBeamOptions beam_options(const AssemblyOptions& options, int elements,
-                               const std::optional<CardanBeamOptions>& full, const BeamDamping& damping) {
-    CardanBeamOptions beam;
-    beam.elements = elements;
-    beam.delta = options.delta;
-    beam.partition = options.partition;
-    if (full) beam = *full;
+CardanBeamOptions damped(CardanBeamOptions beam, const BeamDamping& damping) {
     beam.damping = damping;
     return beam;
 }
@@ -49,8 +44,7 @@ bool is_empty(const BeamDamping& damping) {
 Assembler::Assembler(const TurbineDescription& description, const AssemblyOptions& options, const PartDamping& damping)
     : d_(description), options_(options), damping_(damping) {
     if (!(std::isfinite(options.pitch))) throw InputError(d_.name, "pitch [rad]", options.pitch, "finite");
-    for (int elements : {options.tower_elements, options.blade_elements})
-        if (elements > 1000) throw InputError(d_.name, "number of elements", elements, "1 ... 1000");
+    check_elements(options);
     check("tower", options.tower_beam);
     check("blade", options.blade_beam);
     forces.set_gravity(options.gravity);
@@ -129,9 +123,8 @@ FrameId Assembler::add_tower() {
 }
 
 FrameId Assembler::add_flexible_tower(FrameId foot) {
-    layout.tower =
-        add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
-                        beam_options(options_, options_.tower_elements, options_.tower_beam, damping_.tower));
+    layout.tower = add_cardan_beam(tree, forces, foot, d_.tower.line, "tower", {"tower"},
+                                   damped(tower_beam_options(d_.tower, options_), damping_.tower));
     keep(*layout.tower);
     lines.push_back({"tower", 0, layout.tower->nodes});
     return layout.tower->tip();
@@ -230,8 +223,8 @@ FrameId Assembler::add_drive_train_with_beam(FrameId shaft) {
     // The beam runs upwind: x reversed.
     const FrameId start = tree.add_frame(gearbox, Placement::rotation(rot_z(pi)), "shaft start");
     const BeamLine line = uniform_beam(d_.nacelle.overhang, section, "main shaft");
-    const CardanBeamOptions beam_option = beam_options(options_, 1, std::nullopt, {});
-    const CardanBeam beam = add_cardan_beam(tree, forces, start, line, "main shaft", {"drive train"}, beam_option);
+    const CardanBeam beam =
+        add_cardan_beam(tree, forces, start, line, "main shaft", {"drive train"}, shaft_beam_options(options_));
     const auto& e = beam.elements.front();
     if (options_.joint_damping)
         forces.add_spring("main shaft damper", e.bodies[2], 0, d_.drive_train.main_shaft.damping);
@@ -306,8 +299,8 @@ CardanBeam Assembler::add_blade_beam(FrameId root, int number, const BladeDescri
             return add_cardan_beam(tree, forces, root, layout.blades[i], name, {"blade", number});
     const auto damping = damping_.blades.find(number);
     return add_cardan_beam(tree, forces, root, blade.line, name, {"blade", number},
-                           beam_options(options_, options_.blade_elements, options_.blade_beam,
-                                        damping == damping_.blades.end() ? BeamDamping() : damping->second));
+                           damped(blade_beam_options(blade, options_),
+                                  damping == damping_.blades.end() ? BeamDamping() : damping->second));
 }
 
 void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade, bool with_pitch_joint) {

@@ -85,7 +85,10 @@ void blade_fields(Archive& archive, Blade& blade) {
     archive.since(2, [&] { archive.number("pitch_setting", blade.pitch_setting); });
     archive.number("first_flap_damping", blade.first_flap_damping);
     archive.damping("damping", blade.damping);
-    archive.since(2, [&] { archive.optional_number("tip_mass", blade.tip_mass); });
+    archive.since(2, [&] {
+        archive.optional_number("tip_mass", blade.tip_mass);
+        archive.optional_flag("rigid", blade.rigid);
+    });
 }
 
 /// Goes through the fields: `archive` writes them, or fills them.
@@ -102,7 +105,11 @@ void description_fields(Archive& archive, Description& d) {
         archive.line("line", d.tower.line);
         archive.number("first_mode_damping", d.tower.first_mode_damping);
         archive.damping("damping", d.tower.damping);
-        archive.since(2, [&] { archive.optional_flag("rigid", d.tower.rigid); });
+        archive.since(2, [&] {
+            archive.optional_flag("rigid", d.tower.rigid);
+            archive.optional_flag("held_fore_aft", d.tower.held_fore_aft);
+            archive.optional_flag("held_side_side", d.tower.held_side_side);
+        });
     });
     archive.group("yaw", [&] {
         archive.bearing("rotation", d.yaw.rotation);
@@ -147,8 +154,7 @@ void description_fields(Archive& archive, Description& d) {
 }
 
 /// Keys of a file beside those of the description, since version 3: the rest of a machine.
-inline constexpr std::array machine_keys{"degrees_of_freedom", "yaw_drive", "site",  "operation",
-                                         "controller",         "air",       "no_air"};
+inline constexpr std::array machine_keys{"yaw_drive", "site", "operation", "controller", "air", "no_air"};
 
 /// A column of a table with a row of numbers for each entry.
 template <class Row>

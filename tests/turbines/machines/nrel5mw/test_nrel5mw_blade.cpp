@@ -8,8 +8,8 @@
 #include "tests/support/files.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include <fstream>
 #include <sstream>

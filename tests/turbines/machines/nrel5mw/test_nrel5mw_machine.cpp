@@ -10,8 +10,8 @@
 #include "tests/support/refusal.hpp"
 #include "turbines/machines/nrel5mw_shapes.hpp"
 #include "turbines/machines/wt600.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include <fstream>
 

@@ -5,8 +5,8 @@
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "turbines/machines/nrel5mw.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 namespace cardan::testing {
 

@@ -7,8 +7,8 @@
 #include "tests/oracles/polynomial_blade.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/nrel5mw/test_nrel5mw_machine.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>

@@ -23,7 +23,7 @@ inline constexpr double teetered_speed = 6.02;  ///< nominal, rad/s
 /// Torsion has the armature that makes it O(h^4).
 /// @param ratio  of the tower's rigidity to the blade's
 inline turbines::Turbine teetered_machine(int elements, bool rigid_tower = false, double ratio = 100) {
-    turbines::AssemblyOptions options = turbines::teetered_assembly(elements);
+    turbines::AssemblyOptions options = turbines::teetered_paper_assembly(elements);
     options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
     turbines::TurbineDescription machine = turbines::with_tower_rigidity(turbines::teetered_description(), ratio);
     machine.tower.rigid = rigid_tower;

@@ -27,7 +27,7 @@ using turbines::TurbineDescription;
 namespace {
 
 AssemblyOptions general_options() {
-    AssemblyOptions options = turbines::teetered_assembly(2);
+    AssemblyOptions options = turbines::teetered_paper_assembly(2);
     options.gravity = {0.3, -0.2, -9.81};
     return options;
 }
@@ -48,7 +48,7 @@ Vec3 position(const Kinematics& kin, const char* frame) {
 }  // namespace
 
 TEST_CASE("teetered machine: masses and places are those of Table I", "[published]") {
-    const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
+    const Turbine machine = assemble(teetered_description(), turbines::teetered_paper_assembly());
     const auto parts = masses_by_part(machine.tree());
     const auto part = [&](const std::string& name) {
         const auto found = std::find_if(parts.begin(), parts.end(), [&](const PartMass& p) { return p.part == name; });
@@ -78,7 +78,7 @@ TEST_CASE("teetered machine: results keep the machine that was computed, not onl
     d.hub.teeter->bearing = {12345};
     change_section(d.blade.line, [](EngineeringSection& s) { s.EI_flap *= 2; });
     d.name = "stiffer";
-    const std::string kept = assemble(d, turbines::teetered_assembly()).rotor().description;
+    const std::string kept = assemble(d, turbines::teetered_paper_assembly()).rotor().description;
     const std::size_t at = kept.find("the machine that was computed\n");
     REQUIRE(at != std::string::npos);
     CHECK_THAT(kept.substr(at), Contains("name: \"stiffer\"\n") && Contains("rotor_speed: 6.02\n") &&
@@ -88,7 +88,7 @@ TEST_CASE("teetered machine: results keep the machine that was computed, not onl
 
 TEST_CASE("teetered machine: the metric of yaw and teeter is that of the rigid machine by hand", "[analytic]") {
     // Slender blades from 1.8 to 10.22 m with 4.9999 (about the shaft), 1e-4 (teeter), 5 (spanwise) kg m.
-    const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
+    const Turbine machine = assemble(teetered_description(), turbines::teetered_paper_assembly());
     const Model& model = machine.system().model;
     const double slender = 2 * 67.5772 * (std::pow(10.22, 3) - std::pow(1.8, 3)) / 3, both = 2 * 8.42;
     const double span = 50 + both * 5, teeter = 50 + slender + both * 1e-4, shaft = 5 + slender + both * 4.9999;
@@ -107,7 +107,7 @@ TEST_CASE("teetered machine: the metric of yaw and teeter is that of the rigid m
 }
 
 TEST_CASE("teetered machine: coordinates in order, spin prescribed, two blades in corresponding order", "[property]") {
-    const Turbine machine = assemble(teetered_description(), turbines::teetered_assembly());
+    const Turbine machine = assemble(teetered_description(), turbines::teetered_paper_assembly());
     const CoordinateTable& table = machine.system().model.coordinates();
     REQUIRE(table.size() == 30 + 3 + 2 * 30);
     CHECK(table[0].name == "tower element 1 bending y1");
@@ -127,7 +127,7 @@ TEST_CASE("teetered machine: coordinates in order, spin prescribed, two blades i
         CHECK(table[rotor.blades[0][i]].blade == 1);
         CHECK(table[rotor.blades[1][i]].blade == 2);
     }
-    AssemblyOptions free_spin = turbines::teetered_assembly();
+    AssemblyOptions free_spin = turbines::teetered_paper_assembly();
     free_spin.spin = CoordinateRole::free;
     CHECK(assemble(teetered_description(), free_spin).system().model.coordinates().free().size() == 93);
 }
@@ -174,7 +174,7 @@ TEST_CASE("teetered machine: with positive delta-3 the blade that teeters downwi
           "[analytic]") {
     TurbineDescription d = teetered_description();
     d.hub.teeter->delta3 = 0.6;
-    const Turbine machine = assemble(d, turbines::teetered_assembly(1));
+    const Turbine machine = assemble(d, turbines::teetered_paper_assembly(1));
     const Model& model = machine.system().model;
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, rigid_state(model, 0, 1.0, 1e-5), workspace);
@@ -257,7 +257,7 @@ TEST_CASE("teetered machine: a rigid tower has no coordinates, its mass stays in
     turbines::TurbineDescription d = teetered_description();
     d.tower.rigid = true;
     d.tower.first_mode_damping = 0.01;  // not used
-    const Turbine machine = assemble(d, turbines::teetered_assembly());
+    const Turbine machine = assemble(d, turbines::teetered_paper_assembly());
     CHECK(machine.system().model.size() == 3 + 2 * 30);
     CHECK(machine.system().model.coordinates().of_part("tower").empty());
     const Vec3 top = entry(machine.tree().frames(), machine.tree().frame("tower top").index).in_body.p;
@@ -271,7 +271,7 @@ TEST_CASE("teetered machine: a rigid tower has no coordinates, its mass stays in
 TEST_CASE("teetered machine: elements, extension and torsion of tower and blades are free to choose", "[property]") {
     TurbineDescription d = teetered_description();
     change_section(d.blade.line, [](EngineeringSection& s) { s.EA = 1e9; });
-    AssemblyOptions options = turbines::teetered_assembly();
+    AssemblyOptions options = turbines::teetered_paper_assembly();
     options.tower_beam->elements = 2;
     options.tower_beam->torsion = false;
     options.blade_beam->elements = 3;
@@ -291,7 +291,7 @@ TEST_CASE("teetered machine: straight it is its own steady state; coned, both bl
     d.yaw.rotation = {1e7};  // free, yaw would have no definite place
     for (double cone : {0.0, 0.05}) {
         d.blade.cone = cone;
-        const Turbine machine = assemble(d, turbines::teetered_assembly(2));
+        const Turbine machine = assemble(d, turbines::teetered_paper_assembly(2));
         const RotorMap& rotor = machine.rotor();
         solvers::SteadyOptions options;
         options.rotor_speed = 6.02;
@@ -328,7 +328,7 @@ std::string message_with(const std::string& old_text, const std::string& new_tex
     REQUIRE(at != std::string::npos);
     all.replace(at, old_text.size(), new_text);
     std::ofstream(folder / "teetered.csv", std::ios::binary) << all;
-    return message_of([&] { (void)assemble(teetered_description(folder.path), turbines::teetered_assembly(1)); });
+    return message_of([&] { (void)assemble(teetered_description(folder.path), turbines::teetered_paper_assembly(1)); });
 }
 
 template <class Change>
@@ -336,7 +336,7 @@ void check_machine_refused(Change change, std::initializer_list<std::string> par
     check_refused(
         [&] {
             TurbineDescription d = teetered_description();
-            AssemblyOptions options = turbines::teetered_assembly(1);
+            AssemblyOptions options = turbines::teetered_paper_assembly(1);
             change(d, options);
             (void)assemble(d, options);
         },

@@ -60,7 +60,7 @@ TEST_CASE("teetered machine's blade: torsion is that of the discrete rod, stiffe
     for (int n : {1, 2, 6})
         for (double a : {0.0, -1. / 12})
             for (double rotor_speed : {0.0, teetered_speed}) {
-                AssemblyOptions options = turbines::teetered_assembly(n);
+                AssemblyOptions options = turbines::teetered_paper_assembly(n);
                 options.blade_beam->torsion_armature = a;
                 const auto torsion = blade_frequencies(options, rotor_speed).torsion;
                 REQUIRE(torsion.size() == static_cast<std::size_t>(n));
@@ -82,7 +82,7 @@ TEST_CASE("teetered machine's blade: flap and lag converge to the exact blade wi
     CHECK(flap[1] / teetered_speed == Approx(20.069).epsilon(0).margin(1e-3));
     CHECK(lag[1] / teetered_speed == Approx(19.712).epsilon(0).margin(1e-3));
     const auto error = [&](int elements, bool of_lag, std::size_t k) {
-        const auto found = blade_frequencies(turbines::teetered_assembly(elements), teetered_speed);
+        const auto found = blade_frequencies(turbines::teetered_paper_assembly(elements), teetered_speed);
         return (of_lag ? found.lag[k] / lag[k] : found.flap[k] / flap[k]) - 1;
     };
     for (bool of_lag : {false, true}) {

@@ -135,7 +135,7 @@ TEST_CASE("campbell of the teetered machine: without the half-turn symmetry the 
 TEST_CASE("campbell of the teetered machine: locked teeter is no unknown, and in gravity the state is periodic",
           "[property]") {
     turbines::TurbineDescription description = general_description();
-    AssemblyOptions options = turbines::teetered_assembly(1);
+    AssemblyOptions options = turbines::teetered_paper_assembly(1);
     options.gravity = {0, 0, -9.81};
     for (const bool locked : {false, true}) {
         if (locked) description.hub.teeter->bearing = turbines::rigid_joint;

@@ -19,7 +19,7 @@ using turbines::Turbine;
 namespace {
 
 Turbine machine(bool teeter_locked) {
-    AssemblyOptions options = turbines::teetered_assembly(1);
+    AssemblyOptions options = turbines::teetered_paper_assembly(1);
     options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
     turbines::TurbineDescription description = turbines::with_tower_rigidity(turbines::teetered_description(), 100);
     if (teeter_locked) description.hub.teeter->bearing = turbines::rigid_joint;
@@ -64,7 +64,7 @@ TEST_CASE("campbell of the teetered machine: a mode that is locked becomes two m
 
 TEST_CASE("campbell of the teetered machine: the warning speaks of the fastest growing motion", "[property]") {
     // Too few harmonics split the double zero of free yaw into a slow growth beside that of the teeter.
-    AssemblyOptions options = turbines::teetered_assembly(1);
+    AssemblyOptions options = turbines::teetered_paper_assembly(1);
     options.gravity = {0, 0, -9.80665};
     const Turbine machine =
         turbines::assemble(turbines::with_tower_rigidity(turbines::teetered_description(), 100), options);

@@ -59,7 +59,8 @@ TEST_CASE("teetered machine: with stiff blades yaw and teeter move as the rigid 
     auto d = turbines::teetered_description();
     change_section(d.blade.line, [](EngineeringSection& s) { s.EI_flap *= 1e5, s.EI_edge *= 1e5, s.GJ *= 1e5; });
     d.tower.rigid = true;
-    const HalfTurnFloquet stiff = floquet(turbines::assemble(d, turbines::teetered_assembly(1)), teetered_speed, 200);
+    const HalfTurnFloquet stiff =
+        floquet(turbines::assemble(d, turbines::teetered_paper_assembly(1)), teetered_speed, 200);
     const auto exact = rigid_rotor().half_turn_multipliers();
     REQUIRE(exact[0].real() > 1.1);
     const RigidMotions found = rigid_motions(stiff);

@@ -186,7 +186,7 @@ TEST_CASE("modes of the teetered machine: three elements per part give the first
 
 TEST_CASE("modes of the teetered machine: in gravity, coned, tilted and underslung, about a periodic state",
           "[crosscheck]") {
-    AssemblyOptions options = turbines::teetered_assembly(1);
+    AssemblyOptions options = turbines::teetered_paper_assembly(1);
     options.gravity = {0, 0, -9.81};
     const Turbine machine = turbines::assemble(general_description(), options);
     const Periodic periodic(machine, 16);

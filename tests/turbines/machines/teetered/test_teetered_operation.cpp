@@ -32,8 +32,7 @@ Turbine machine(const Vec3& gravity = {0, 0, -units::standard_gravity}) {
     d.nacelle.overhang *= -1;
     d.nacelle.tilt *= -1;
     d.hub.teeter = {.bearing = {3e5, 2e4}, .undersling = 0.4, .delta3 = 0.3};
-    turbines::AssemblyOptions options;
-    options.tower_elements = options.blade_elements = 2;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(2);
     options.gravity = gravity;
     options.spin = CoordinateRole::driven;
     return turbines::assemble(d, options);

@@ -61,7 +61,7 @@ private:
 
 struct Modes {
     explicit Modes(bool rigid_tower = false, double per_period = 46) {
-        turbines::AssemblyOptions options = turbines::teetered_assembly(3);
+        turbines::AssemblyOptions options = turbines::teetered_paper_assembly(3);
         options.tower_beam->torsion_armature = options.blade_beam->torsion_armature = -1. / 12;
         auto description = turbines::with_tower_rigidity(turbines::teetered_description(), 100);
         description.tower.rigid = rigid_tower;

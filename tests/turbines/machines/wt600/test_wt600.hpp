@@ -23,12 +23,9 @@ inline constexpr const char* lag_backward = "1st blade edge (backward)";
 inline constexpr const char* lag_forward = "1st blade edge (forward)";
 inline constexpr const char* tower_longitudinal = "1st tower fore-aft";
 
-/// The discretisation of the reference numbers, everything stated; no damping anywhere.
+/// The discretisation of the reference numbers; no damping anywhere.
 inline turbines::AssemblyOptions undamped(int elements = 3) {
-    turbines::AssemblyOptions options;
-    options.tower_elements = options.blade_elements = elements;
-    options.delta = delta_gauss;
-    options.partition = Partition::segment_masses;
+    turbines::AssemblyOptions options = turbines::wt600_paper_assembly(elements);
     options.structural_damping = options.joint_damping = false;
     return options;
 }
@@ -43,13 +40,13 @@ inline std::vector<double> frequencies(const turbines::Turbine& turbine, double 
     return f;
 }
 
-/// Diagram of the machine as it comes (three elements, damped, generator free) from 0 to 40 rpm in steps of 1: the
-/// point number is the rotor speed in rpm. Computed once.
+/// Diagram of the machine with the elements of the paper (three, damped, generator free) from 0 to 40 rpm in steps of
+/// 1: the point number is the rotor speed in rpm. Computed once.
 inline const solvers::Campbell& diagram(solvers::CampbellMethod method = solvers::CampbellMethod::coleman) {
     const auto compute = [](solvers::CampbellMethod m) {
         solvers::CampbellOptions options;
         options.method = m;
-        const turbines::Turbine machine = turbines::wt600();
+        const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
         return solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 40, 1), options);
     };
     static const solvers::Campbell coleman = compute(solvers::CampbellMethod::coleman);
@@ -60,7 +57,8 @@ inline const solvers::Campbell& diagram(solvers::CampbellMethod method = solvers
 /// The isolated blade of the same discretisation over the same speeds, in its rotating frame.
 inline const solvers::Campbell& blade_diagram() {
     static const solvers::Campbell blade = [] {
-        const turbines::Turbine single = turbines::isolated_blade(turbines::wt600_description(), {});
+        const turbines::Turbine single =
+            turbines::isolated_blade(turbines::wt600_description(), turbines::wt600_paper_assembly());
         return solvers::campbell(single.system(), single.rotor(), solvers::rpm_range(0, 40, 1));
     }();
     return blade;

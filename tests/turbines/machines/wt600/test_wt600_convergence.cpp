@@ -12,10 +12,9 @@ using namespace cardan::solvers;
 TEST_CASE("600 kW machine: frequencies converge to those of 24 elements per part, at second order or to 1e-4",
           "[property][slow]") {
     const auto frequencies = [](int elements) {
-        const turbines::Turbine machine = turbines::wt600({.tower_elements = elements,
-                                                           .blade_elements = elements,
-                                                           .structural_damping = false,
-                                                           .joint_damping = false});
+        turbines::AssemblyOptions assembly = turbines::wt600_paper_assembly(elements);
+        assembly.structural_damping = assembly.joint_damping = false;
+        const turbines::Turbine machine = turbines::wt600(assembly);
         CampbellOptions options;
         options.keep_shapes = false;
         const std::vector<double> speed{27 * units::rpm};

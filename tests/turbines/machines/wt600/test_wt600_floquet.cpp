@@ -54,7 +54,7 @@ Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector
 TEST_CASE("Floquet: the untransformed 600 kW machine at 27 rpm has the modes that Coleman's transformation gives",
           "[property]") {
     const double rotor_speed = 27 * rpm, third = 2 * pi / (3 * rotor_speed);
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     const double speed[] = {rotor_speed};
     const auto coleman = solvers::campbell(machine.system(), machine.rotor(), speed);
     const Eigen::VectorXcd mu = multipliers(machine, coleman.unknowns, rotor_speed, 200);

@@ -34,7 +34,7 @@ double difference(const Matrix& A, const Matrix& B, const Matrix& M) {
 
 TEST_CASE("600 kW machine: mass, gyroscopic and inertial stiffness matrices are those of the explicit Lagrange sums",
           "[property]") {
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     const Model& model = machine.system().model;
     const int n = model.size();
     // Deflected, spinning, yawing, pitching, with the rotor and the tilt joint accelerated.
@@ -70,7 +70,7 @@ TEST_CASE("600 kW machine: mass, gyroscopic and inertial stiffness matrices are 
 }
 
 TEST_CASE("600 kW machine: elastic and damping matrices give the forces of the springs and dampers", "[property]") {
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     const System& system = machine.system();
     const int n = system.model.size();
     Random random(8);

@@ -59,8 +59,7 @@ TEST_CASE("wt600 operation: the converter's table holds the best tip speed ratio
 
 TEST_CASE("wt600 operation: with the converter, rated operation is an equilibrium that the machine returns to",
           "[analytic]") {
-    Wt600OperationOptions options{.assembly = {}, .generator = Wt600Generator::converter};
-    options.assembly.gravity.setZero();
+    Wt600OperationOptions options{.assembly = wt600_paper_assembly(), .generator = Wt600Generator::converter};
     const Wt600Operation machine = wt600_operation(options);
     const System& system = machine.turbine.system();
     const int spin = machine.turbine.rotor().spin, n = system.model.size();
@@ -84,9 +83,9 @@ TEST_CASE("wt600 operation: with the converter, rated operation is an equilibriu
 }
 
 TEST_CASE("wt600 operation: without grid, brake and wind it is the machine with pitch springs", "[property]") {
-    Wt600OperationOptions options{.assembly = {}, .at_grid = false, .wind = 0};
+    Wt600OperationOptions options{.assembly = wt600_paper_assembly(), .at_grid = false, .wind = 0};
     const Wt600Operation machine = wt600_operation(options);
-    const Turbine plain = wt600();
+    const Turbine plain = wt600(wt600_paper_assembly());
     const Vector zero = Vector::Zero(plain.system().model.size());
     const solvers::OperatingPoint rest{zero, zero, zero, 0};
     const auto a = solvers::linearise(machine.turbine.system(), rest), b = solvers::linearise(plain.system(), rest);
@@ -106,7 +105,7 @@ TEST_CASE("wt600 operation: without grid, brake and wind it is the machine with 
 }
 
 TEST_CASE("wt600 operation: a command turns all blades toward feather, against their coordinates", "[property]") {
-    const Wt600Operation machine = wt600_operation({.pitch = 0.3});
+    const Wt600Operation machine = wt600_operation({.assembly = wt600_paper_assembly(), .pitch = 0.3});
     const Model& model = machine.turbine.system().model;
     Vector q = Vector::Zero(model.size());
     const Vector qd = q;

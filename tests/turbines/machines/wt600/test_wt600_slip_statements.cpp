@@ -15,8 +15,8 @@ namespace {
 // 0 to 40 rpm in steps of 1, damped, three elements.
 const solvers::Campbell& slipping() {
     static const solvers::Campbell diagram = [] {
-        const turbines::Turbine machine =
-            turbines::with_generator_slip(turbines::wt600(), turbines::wt600_induction_machine());
+        const turbines::Turbine machine = turbines::with_generator_slip(
+            turbines::wt600(turbines::wt600_paper_assembly()), turbines::wt600_induction_machine());
         return solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 40, 1));
     }();
     return diagram;
@@ -91,7 +91,7 @@ TEST_CASE("statements with slip, 7: the longitudinal tower mode becomes lateral 
 }
 
 TEST_CASE("statements with the generator locked: the first tower modes are 0.2 % apart and mix", "[property]") {
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     solvers::CampbellOptions options;
     options.spin = solvers::RotorSpin::prescribed;
     const auto d = solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 20, 10), options);

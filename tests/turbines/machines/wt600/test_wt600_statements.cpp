@@ -269,7 +269,7 @@ TEST_CASE("statement 7: in that mode blades 2 and 3 flap alike at rest and in op
 }
 
 TEST_CASE("statement 8: crossings with 1P, 2P, 3P ... lie on branch and line, and none is missing", "[property]") {
-    const turbines::Turbine machine = turbines::wt600();
+    const turbines::Turbine machine = turbines::wt600(turbines::wt600_paper_assembly());
     solvers::CampbellOptions options;
     options.keep_shapes = false;
     const Campbell d = solvers::campbell(machine.system(), machine.rotor(), solvers::rpm_range(0, 46, 2), options);

@@ -1,4 +1,4 @@
-#include "turbines/readers/csv.hpp"
+#include "turbines/tables/csv.hpp"
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"

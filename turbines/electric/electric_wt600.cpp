@@ -1,4 +1,4 @@
-#include "turbines/machines/electric_wt600.hpp"
+#include "turbines/electric/electric_wt600.hpp"
 
 #include <utility>
 

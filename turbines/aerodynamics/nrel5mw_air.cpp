@@ -1,10 +1,10 @@
-#include "turbines/machines/nrel5mw_air.hpp"
+#include "turbines/aerodynamics/nrel5mw_air.hpp"
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/readers/csv.hpp"
-#include "turbines/readers/detail/embedded_data.hpp"
+#include "turbines/tables/csv.hpp"
+#include "turbines/tables/detail/embedded_data.hpp"
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "turbines/machines/nrel5mw_generator.hpp"
+#include "turbines/electric/nrel5mw_generator.hpp"
 
 #include "mbs/base/error.hpp"
 
