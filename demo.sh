@@ -20,8 +20,8 @@ case "${1:-}" in
 esac
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
-# shellcheck source=cmake/packages.sh
-source cmake/packages.sh
+# shellcheck source=.ci/packages.sh
+source .ci/packages.sh
 
 heading() { printf '\n== %s\n' "$*"; }
 trap 'echo "demo.sh: FAILED (line $LINENO)" >&2' ERR

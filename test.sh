@@ -32,8 +32,8 @@ for argument in "$@"; do
 done
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
-# shellcheck source=cmake/packages.sh
-source cmake/packages.sh
+# shellcheck source=.ci/packages.sh
+source .ci/packages.sh
 
 jobs="${CARDAN_JOBS:-$(nproc)}"
 failed=()

@@ -33,7 +33,7 @@ install(FILES ${data} DESTINATION ${CMAKE_INSTALL_DATADIR}/cardan/data)
 
 install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright) # as Debian calls it
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN reference EXCLUDE)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cardanConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/cardanConfig.cmake INSTALL_DESTINATION ${package_dir})
