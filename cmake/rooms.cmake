@@ -44,11 +44,12 @@ room(turbines/electric SEES turbines/machines elements/electric) # machines with
 room(turbines/control SEES turbines/model elements/control) # pitch drives and generator torque as actuators
 room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) # operating points over the wind, and their modes
 room(turbines/machine SEES turbines/yaml turbines/machines turbines/operation solvers/hdf5) # a machine with all that belongs to it, from whatever source
+room(turbines/analysis SEES turbines/machine turbines/control solvers/control) # simulation, Campbell diagram, linear model of a machine
 
-room(programs/shared SEES turbines/control turbines/electric turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
+room(programs/shared SEES turbines/analysis turbines/electric solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
 room(programs/cardan SEES programs/shared) # the commands of `cardan`
 room(programs SEES programs/cardan)
-room(examples SEES turbines/control turbines/electric turbines/machine solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
+room(examples SEES turbines/analysis turbines/electric solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
 room(examples/studies SEES examples programs/shared) # of papers and methods
 
 # Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)

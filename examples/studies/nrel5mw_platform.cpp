@@ -233,7 +233,7 @@ int run(const Arguments& a) {
     const Vector rest = Vector::Zero(machine.system().model.size());
     solvers::Integrator integrator(machine.system(), drives(a, machine, motions), 0, rest, rest, integration(a));
     solvers::Recorder recorder(integrator, platform::recorded_channels(machine), platform::recorder_options());
-    program::RowFile file(a.out + ".h5", about(a, machine), integrator, recorder);
+    solvers::HistoryRecording file(a.out + ".h5", about(a, machine), integrator, recorder);
     const program::Stopwatch watch;
     const platform::Response response =
         platform::periodic_response(integrator, recorder, settings,

@@ -177,12 +177,12 @@ int run(const Arguments& given) {
     for (const Happened& h : supervisor.list)
         std::printf("%-32s %10.4f %10.3f %10.2f\n", h.name.c_str(), h.time, h.speed / units::rpm,
                     h.pitch / units::degree);
-    const program::Extreme fastest = program::largest(rows.history, "RotSpeed");
+    const program::Extreme fastest = program::largest(rows.history(), "RotSpeed");
     std::printf("%-32s %10.4f %10.3f\n", "(largest rotor speed)", fastest.time, fastest.value / units::rpm);
     program::print_largest(
-        rows.history, {"TwrBsMyt", "TwrBsMxt", "TwrBsFxt", "TTDspFA", "YawBrTAxp", "RootMyb1", "RootMxb1", "RootFzb1",
-                       "OoPDefl1", "IPDefl1", "RotTorq", "HSSBrTq", "GenTq"});
-    bool good = program::check_energy(integrator, rows.history, a.simulation);
+        rows.history(), {"TwrBsMyt", "TwrBsMxt", "TwrBsFxt", "TTDspFA", "YawBrTAxp", "RootMyb1", "RootMxb1", "RootFzb1",
+                         "OoPDefl1", "IPDefl1", "RotTorq", "HSSBrTq", "GenTq"});
+    bool good = program::check_energy(integrator, rows.history(), a.simulation);
     const double spectra_from = stands ? standstill : integrator.time() - 40;
     if (end.end == solvers::Advance::End::cancelled) {
         program::write_outputs(rows, a.simulation.out, false, spectra_from);
@@ -190,7 +190,7 @@ int run(const Arguments& given) {
     }
     if (balanced)
         good = program::check("start in equilibrium: change of rotor speed before grid loss",
-                              program::speed_drift(rows.history, a.loss), 1e-3) &&
+                              program::speed_drift(rows.history(), a.loss), 1e-3) &&
                good;
     good = program::check("events in order, rotor stands (0: yes)", stands && in_order(supervisor.list) ? 0 : 1, 0) &&
            good;

@@ -5,6 +5,7 @@
 // speeds, accelerations and loads as outputs; the multi-blade transformation makes the matrices constant; balanced
 // truncation leaves a small model to design with.
 // Reference: the modes of A are those of the Campbell diagram at this rotor speed (docs/wt600.md).
+#include "turbines/analysis/linear_model.hpp"
 #include "turbines/machines/wt600.hpp"
 
 #include "examples/studies/wt600_generator_option.hpp"
@@ -74,10 +75,16 @@ double input_size(const solvers::Signal& input) {
     throw InputError("balanced model", "input", input.name, "one whose size is known");
 }
 
-program::SignalSizes sizes(const solvers::ConstantModel& fixed) {
-    program::SignalSizes sizes{Vector(fixed.B.cols()), output_sizes(fixed)};
-    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i) sizes.input(i) = input_size(entry(fixed.inputs, i));
-    return sizes;
+solvers::BalancedModel balanced(const solvers::ConstantModel& fixed, const program::LinearModelArguments& a) {
+    solvers::BalancedOptions options;
+    options.order = a.order;
+    if (a.order == 0) options.error = a.error / 100;
+    options.max_frequency_hz = a.max_frequency;
+    options.static_gain = solvers::StaticGain::kept;
+    options.output_size = output_sizes(fixed);
+    options.input_size.resize(fixed.B.cols());
+    for (Eigen::Index i = 0; i < fixed.B.cols(); ++i) options.input_size(i) = input_size(entry(fixed.inputs, i));
+    return solvers::balanced_truncation(fixed, options);
 }
 
 int run(const Arguments& a) {
@@ -88,12 +95,14 @@ int run(const Arguments& a) {
         program::with_generator(turbines::assemble(description, a.assembly), a.generator, a.data);
     program::check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
 
-    using program::LinearisedAbout;
-    const solvers::LinearModel model =
-        program::linearise(turbine, a.model, a.rotor_rpm * units::rpm, a.generator.spin(),
-                           a.gravity ? LinearisedAbout::periodic : LinearisedAbout::constant);
+    const solvers::LinearModel model = turbines::linearised(turbine,
+                                                            {.rotor_speed = a.rotor_rpm * units::rpm,
+                                                             .gravity = a.gravity,
+                                                             .stations = program::stations_of(a.model.stations),
+                                                             .azimuths = a.model.azimuths},
+                                                            a.generator.spin());
     const solvers::MultiBladeModel fixed = solvers::multi_blade(model, turbine.rotor());
-    const solvers::BalancedModel small = program::balanced(fixed, a.model, sizes(fixed));
+    const solvers::BalancedModel small = balanced(fixed, a.model);
     program::introduce(model, a.rotor_rpm, &fixed);
     std::printf("%s\n", turbines::in_words(turbine.mesh()).c_str());
     program::print_modes(fixed, diagram(turbine, a), a.model.max_frequency);

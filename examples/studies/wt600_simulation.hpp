@@ -61,6 +61,11 @@ inline Vector steady_position(const turbines::Turbine& turbine, const ForceSet& 
     return state.at.q;
 }
 
+/// State at time zero.
+struct Start {
+    Vector q, qd;
+};
+
 /// At rest under gravity, blade 1 up.
 /// @param driven  where the driven coordinates are; empty: at zero
 inline Start standing_start(const turbines::Wt600Operation& machine, const Vector& driven = {}) {
@@ -130,7 +135,7 @@ inline std::vector<std::string> platform_motions(const solvers::History& history
 /// @param complete      the run came to its end
 /// @param spectra_from  s; the spectra are those of the stretch from there to the end
 inline void write_outputs(Rows& rows, const std::string& prefix, bool complete, double spectra_from) {
-    std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(rows.history));
+    std::vector<solvers::HistoryPanel> panels = solvers::one_panel_each(platform_motions(rows.history()));
     panels.insert(panels.end(), {{{"RotSpeed"}},
                                  {{"BldPitch1"}},
                                  {{"GenTq", "RotTorq"}},

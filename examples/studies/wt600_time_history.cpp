@@ -231,17 +231,17 @@ int run(const Arguments& a) {
     std::printf("%s speed, wind %g m/s, pitch from 90 to 0 deg until %.2f s\n", a.mode.c_str(), a.wind,
                 machine.pitch->arrival());
     if (connected_at >= 0) std::printf("generator connected at synchronous speed: %.4f s\n", connected_at);
-    print_resonances(rows.history, tower_frequency(a));
-    program::print_largest(rows.history, {"RotSpeed", "TwrBsMyt", "TwrBsMxt", "TTDspFA", "TTDspSS", "RootMyb1",
-                                          "RootMxb1", "RootFzb1", "RotTorq", "GenTq", "generator power"});
-    bool good = program::check_energy(integrator, rows.history, s);
+    print_resonances(rows.history(), tower_frequency(a));
+    program::print_largest(rows.history(), {"RotSpeed", "TwrBsMyt", "TwrBsMxt", "TTDspFA", "TTDspSS", "RootMyb1",
+                                            "RootMxb1", "RootFzb1", "RotTorq", "GenTq", "generator power"});
+    bool good = program::check_energy(integrator, rows.history(), s);
     const double expected = balanced_speed(machine, a.wind);
-    const bool settled = rows.history.time.back() > machine.pitch->arrival() + 15;
+    const bool settled = rows.history().time.back() > machine.pitch->arrival() + 15;
     if (settled) {
         std::printf("rotor speed at the end %.3f rpm, by the balance of torques %.3f rpm\n",
-                    last_speed(rows.history) / units::rpm, expected / units::rpm);
+                    last_speed(rows.history()) / units::rpm, expected / units::rpm);
         good = program::check("rotor speed at the end against the balance of torques",
-                              last_speed(rows.history) / expected - 1, 5e-3) &&
+                              last_speed(rows.history()) / expected - 1, 5e-3) &&
                good;
     }
     program::print_effort(integrator, system, elapsed);

@@ -1,13 +1,8 @@
 #include "programs/cardan/air.hpp"
 
 #include "mbs/base/error.hpp"
-#include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/machine/read_machine.hpp"
-#include "turbines/machine/result.hpp"
-#include "turbines/machine/wind_text.hpp"
-#include "turbines/operation/aeroelastic.hpp"
-#include "turbines/readers/inflow_wind.hpp"
 
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/words.hpp"
@@ -38,10 +33,14 @@ void add_wake_option(CommandLine& app, AirArguments& a) {
         .one_of({"quasi-steady", "none"});
 }
 
-std::string in_words(const AirArguments& a) {
-    return text("shear ", a.shear, ", direction ", a.direction, " deg, upflow ", a.upflow, " deg",
-                a.density ? text(", density ", *a.density) : "", a.no_skew ? ", no skew" : "",
-                a.no_tower ? ", no tower" : "");
+turbines::AirSettings settings_of(const AirArguments& a) {
+    return {.shear_exponent = a.shear,
+            .propagation_direction = a.direction * units::degree,
+            .upflow = a.upflow * units::degree,
+            .density = a.density,
+            .skewed_wake = !a.no_skew,
+            .tower_nacelle = !a.no_tower,
+            .induction = a.wake != "none"};
 }
 
 void take_air(turbines::Machine& machine, const AirArguments& arguments, bool all_notes) {
@@ -53,58 +52,13 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, bool al
     print_notes(machine.air->notes, all_notes);
 }
 
-turbines::Aerodynamics air_of(const turbines::Machine& machine, const AirArguments& arguments) {
-    turbines::Aerodynamics air = machine.require_air();
-    if (arguments.no_tower) air.support = {};
-    if (arguments.no_skew) air.options.skew = Skew::none;
-    if (arguments.wake == "none") air.options.induction = false;
-    if (arguments.density) air.density = *arguments.density;
-    return air;
-}
-
-std::string air_in_words(std::string_view wake, bool profiles_lag) {
-    return text("wake ", wake, ", profiles ", profiles_lag ? "unsteady" : "steady");
-}
-
-std::string air_in_equilibrium(const turbines::Aerodynamics& air) {
-    return air_in_words(air.options.induction ? turbines::name_of(turbines::Wake::quasi_steady) : "none", false);
-}
-
 void tell_air(const char* what, const std::string& words) {
     std::cout << "air of the " << what << ": " << words << "\n";
 }
 
-SteadyWind wind_profile(const AirArguments& arguments, double density, const turbines::Machine& machine,
-                        const turbines::Turbine& turbine) {
-    SteadyWind wind = turbines::still_wind(turbine, machine, density);
-    wind.shear = arguments.shear == 0 ? Shear::none : Shear::power;
-    wind.exponent = arguments.shear;
-    wind.direction = arguments.direction * units::degree;
-    wind.upflow = arguments.upflow * units::degree;
-    return wind;
-}
-
-namespace {
-
-Wind wind_of_result(const std::string& path) {
-    if (auto wind = turbines::wind_of(turbines::input_description(path), path)) return *std::move(wind);
-    throw InputError("--wind", "file", path, "a result of a run in the wind");
-}
-
-}  // namespace
-
-Wind wind_of(const std::string& given, const SteadyWind& profile, bool all_notes) {
-    const std::filesystem::path path = given;
-    if (std::filesystem::exists(path)) {
-        if (turbines::is_result(path)) return wind_of_result(given);
-        if (lower_case(path.extension().string()) == ".csv") return turbines::read_wind_table(path, profile);
-        const turbines::InflowWindFile read = turbines::read_inflow_wind(path, profile.density);
-        print_notes(read.notes, all_notes);
-        return read.wind.over(profile.ground);
-    }
-    SteadyWind wind = profile;
-    wind.speed = number("--wind", given, given, wind_file_format);
-    return wind;
+turbines::WindSource wind_source(const std::string& given) {
+    if (std::filesystem::exists(given)) return std::filesystem::path(given);
+    return number("--wind", given, given, wind_file_format);
 }
 
 }  // namespace cardan::program

@@ -1,20 +1,24 @@
-// Campbell diagram of any machine, over the rotor speed; or in the wind, over the wind speed (campbell_wind.cpp).
+// Campbell diagram of any machine, over the rotor speed; or in the wind, over the wind speed.
 //
 // Problem: the machine's source becomes a description, blades and tower as beams; at every rotor speed it is brought to
 // its steady state and linearised, and the multi-blade transformation makes the equations constant. With gravity or an
 // unbalanced hub the steady state is periodic and the modes are those of the mean over the azimuth, with two blades
 // they are Floquet's. Where a controller sets the pitch by the rotor speed, the machine differs from speed to speed.
+// In the wind the machine is brought to its operating points as `cardan steady --wind` does, and the air is frozen, in
+// equilibrium, or lags behind the motion; motions of the air alone are apart: no vibrations of the machine.
 // What a source holds beside the structure, and what is taken otherwise than in the program it was made for, is printed
 // as notes. Frames, signs, and what is read: docs/coming_from_openfast.md, docs/coming_from_windio.md.
+#include "turbines/analysis/campbell.hpp"
+
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/analysis/in_unit.hpp"
 
-#include "programs/cardan/campbell_wind.hpp"
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
+#include "programs/cardan/wind_options.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include "programs/shared/words.hpp"
-#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -51,22 +55,11 @@ void declare(CommandLine& app, CampbellArguments& a) {
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 
-std::vector<double> speeds_of(CampbellArguments& a, const turbines::Machine& machine) {
-    if (!a.rpm.empty()) return rotor_speeds(a.rpm);
-    const double rated = machine.operation.rotor_speed * units::to_rpm;
-    if (!(rated > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", rpm_format);
-    std::cout << "rotor speeds: 0 to " << 1.2 * rated << " rpm, 1.2 times " << rated << " rpm";
-    if (!machine.operation.rotor_speed_source.empty()) std::cout << " (" << machine.operation.rotor_speed_source << ")";
-    std::cout << "\n";
-    const double step = read_number(text(0.1 * rated)).value;  // in few digits
-    a.rpm = text("0:", digits(12 * step), ":", digits(step));
-    return rotor_speeds(a.rpm);
-}
-
 // "0:4,7.5:1" to rad/s and rad.
 std::vector<turbines::PitchAt> parse_schedule(const std::string& given) {
     constexpr auto option = "--pitch-schedule", allowed = "RPM:DEG separated by commas, speeds increasing";
     std::vector<turbines::PitchAt> schedule;
+    if (given.empty()) return schedule;
     for (const std::string& word : split(given, ',')) {
         const std::vector<std::string> pair = split(word, ':');
         if (pair.size() != 2) throw InputError(option, "value", given, allowed);
@@ -82,91 +75,88 @@ std::vector<turbines::PitchAt> parse_schedule(const std::string& given) {
 std::string schedule_words(const std::vector<turbines::PitchAt>& schedule) {
     std::string words;
     for (const turbines::PitchAt& one : schedule)
-        words += text(words.empty() ? "" : ",", digits(one.rotor_speed * units::to_rpm), ":",
-                      digits(one.pitch * units::to_degrees));
+        words += text(words.empty() ? "" : ",", digits(turbines::in_unit(one.rotor_speed, units::rpm)), ":",
+                      digits(turbines::in_unit(one.pitch, units::degree)));
     return words;
 }
 
-// That of the options, or the machine's; empty: one angle for all speeds.
-std::vector<turbines::PitchAt> schedule_of(const CampbellArguments& a, const turbines::Machine& machine) {
-    if (!a.pitch_schedule.empty()) return parse_schedule(a.pitch_schedule);
-    return a.machine.pitch ? std::vector<turbines::PitchAt>() : machine.operation.pitch_schedule;
+turbines::CampbellSettings settings_of(const CampbellArguments& a) {
+    turbines::CampbellSettings s;
+    if (!a.rpm.empty()) s.rotor_speeds = rotor_speeds(a.rpm);
+    s.winds = winds_of(a.air.wind);
+    s.pitch_schedule = parse_schedule(a.pitch_schedule);
+    s.machine = numbers_of(a.machine);
+    s.gravity = a.machine.gravity;
+    s.max_frequency_hz = a.max_frequency;
+    s.air = settings_of(a.air.wind.air);
+    s.operation = operation_of(a.air.wind);
+    s.vibration = vibration_of(a.air);
+    s.floquet = a.air.floquet;
+    s.all_air_motions = a.air_roots;
+    s.harmonics = a.air.harmonics;
+    s.report = remarks_printed(a.machine.notes);
+    s.progress = show_progress;
+    s.cancelled = interrupted;
+    return s;
 }
 
-// Degrees, by rotor speed. A schedule that does not change between the speeds is one angle, which --pitch holds.
-std::vector<double> pitch_angles(CampbellArguments& a, const turbines::Machine& machine,
-                                 const std::vector<double>& speeds) {
-    const std::vector<turbines::PitchAt> schedule = schedule_of(a, machine);
-    std::vector<double> angles;
-    angles.reserve(speeds.size());
+// Numbers of equal steps as a range, in few digits.
+std::string words_of(const std::vector<double>& speeds) {
+    std::string words;
     for (const double speed : speeds)
-        angles.push_back(schedule.empty() ? 0 : turbines::pitch_at(schedule, speed) * units::to_degrees);
-    const auto [least, most] = std::ranges::minmax(angles);
-    if (most - least < 1e-9) {
-        if (!a.pitch_schedule.empty()) a.machine.pitch = angles.front();
-        a.pitch_schedule.clear();
-        set_pitch(machine, a.machine, speeds.back());
-        return std::vector<double>(speeds.size(), *a.machine.pitch);
-    }
-    std::cout << "pitch: " << least << " to " << most << " deg over the rotor speed";
-    if (a.pitch_schedule.empty()) std::cout << " (" << machine.operation.pitch_source << ")";
-    std::cout << "\n";
-    a.pitch_schedule = schedule_words(schedule);
-    return angles;
+        words += text(words.empty() ? "" : ",", digits(turbines::in_unit(speed, units::rpm)));
+    return words;
 }
 
-// One machine for all speeds, or one for each.
-solvers::Campbell diagram_of(const turbines::Machine& machine, const CampbellArguments& a,
-                             const turbines::Turbine& first, const std::vector<double>& speeds,
-                             const std::vector<double>& pitch, const solvers::CampbellOptions& options) {
-    if (a.pitch_schedule.empty()) return solvers::campbell(first.system(), first.rotor(), speeds, options);
-    std::vector<turbines::Turbine> machines;
-    MachineOptions own = a.machine;
-    for (const double angle : pitch) {
-        own.pitch = angle;
-        machines.push_back(turbines::assemble(machine.description, assembly_options(machine, own)));
-    }
-    std::vector<solvers::CampbellCase> cases;
-    for (std::size_t i = 0; i < speeds.size(); ++i)
-        cases.push_back({&machines[i].system(), &machines[i].rotor(), speeds[i], 0});
-    return solvers::campbell(cases, "", options);
+void keep_taken(const turbines::CampbellSettings& taken, CampbellArguments& a) {
+    keep_taken(taken.machine, a.machine);
+    if (taken.winds.empty() && a.rpm.empty()) a.rpm = words_of(taken.rotor_speeds);
+    a.pitch_schedule = schedule_words(taken.pitch_schedule);
+    a.max_frequency = taken.max_frequency_hz;
 }
 
-int run_in_wind(CampbellArguments& a, turbines::Machine machine, const CommandLine& command) {
-    if (!a.rpm.empty()) throw InputError("--rpm", "value", a.rpm, "none beside --wind: see --schedule");
-    if (!a.pitch_schedule.empty())
-        throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
-    take_wind(machine, a.air.wind, a.machine.notes);
-    if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell_wind");
-    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
-    return campbell_in_wind(machine, a.machine, a.air, *a.max_frequency, a.out, a.air_roots, command);
-}
-
-int run(CampbellArguments& a, const CommandLine& command) {
-    const turbines::Machine machine = prepared_machine(a.machine);
-    if (!a.air.wind.speeds.empty()) return run_in_wind(a, machine, command);
-    if (a.out.empty()) a.out = default_prefix(a.machine.model, "campbell");
-    const std::vector<double> speeds = speeds_of(a, machine), pitch = pitch_angles(a, machine, speeds);
-    if (!a.pitch_schedule.empty()) a.machine.pitch = pitch.back();
-    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
-    const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, std::abs(speeds.back()));
-    if (!a.pitch_schedule.empty()) a.machine.pitch.reset();
-
-    check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
-    solvers::CampbellOptions options = campbell_options(*a.max_frequency);
-    options.method = diagram_method(machine, a.machine);
-    options.spin = rotor_spin(machine);
-    solvers::Campbell diagram = diagram_of(machine, a, ready.turbine, speeds, pitch, options);
-    stop_at_once();
-    tell_origin(diagram, "campbell", command, machine, ready);
-    print_table(diagram);
-    if (diagram.points.empty()) return 130;
+void write(const turbines::CampbellDiagram& diagram, const CampbellArguments& a) {
     solvers::CampbellPlotOptions picture;
     picture.max_frequency_hz = *a.max_frequency;
     picture.title = title_of(diagram);
-    write_files(diagram, a.out, picture);
-    std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png\n";
-    return diagram.complete ? 0 : 130;
+    if (diagram.settings.winds.empty()) {
+        write_files(diagram, a.out, picture);
+        std::cout << "\nfiles: " << a.out << ".h5, .csv, .svg, .png\n";
+        return;
+    }
+    picture.states = a.air_roots;
+    picture.log_damping = true;
+    write_files_and_roots(diagram, diagram, a.out, picture);
+}
+
+// That every option has its meaning: the wind's machine runs otherwise.
+void check_wind(const CampbellArguments& a) {
+    if (!a.rpm.empty()) throw InputError("--rpm", "value", a.rpm, "none beside --wind: see --schedule");
+    if (!a.pitch_schedule.empty())
+        throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
+}
+
+int run(CampbellArguments& a, const CommandLine& command) {
+    turbines::Machine machine = prepared_machine(a.machine);
+    const bool windy = !a.air.wind.speeds.empty();
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "campbell_wind" : "campbell");
+    if (windy) {
+        check_wind(a);
+        take_wind(machine, a.air.wind, a.machine.notes);
+    }
+    const turbines::CampbellSettings settings = settings_of(a);
+    if (windy) check_outputs(a.out, {"_roots.svg", "_roots.png"});
+    check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
+    turbines::CampbellDiagram diagram = turbines::campbell(machine, settings);
+    stop_at_once();
+    if (a.machine.summary) std::cout << diagram.turbine->summary() << "\n";
+    keep_taken(diagram.settings, a);
+    diagram.source = run_text("campbell", command) + diagram.source;
+    if (diagram.points.empty()) return interrupted() ? 130 : 1;
+    print_table(diagram);
+    write(diagram, a);
+    if (!diagram.complete) return 130;
+    return diagram.not_converged.empty() ? 0 : 1;
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ void declare(CommandLine& app, FlutterArguments& a) {
 
 // Torsion feels where the lift acts.
 turbines::Aerodynamics air_for_torsion(const turbines::Machine& machine, const FlutterArguments& a) {
-    turbines::Aerodynamics air = air_of(machine, a.air);
+    turbines::Aerodynamics air = turbines::air_of(machine, settings_of(a.air));
     if (!air.torsion_sweep.empty()) std::cout << "aerodynamic centres: those for torsion\n";
     air.blade = air.torsion_blade();
     return air;
@@ -231,11 +231,11 @@ int run(FlutterArguments& a, const CommandLine& command) {
     const turbines::Aerodynamics air = air_for_torsion(machine, a);
     set_pitch(machine, a.machine, machine.operation.rotor_speed);
     if (!a.max_frequency) a.max_frequency = modes_up_to * torsion_hz(machine, a.machine);
-    const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);
+    const turbines::PreparedTurbine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);
     check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
 
     const turbines::Turbine blade = blade_of(machine, a.machine);
-    const std::string answer = air_in_words("none", profiles_lag(air, a));
+    const std::string answer = turbines::air_in_words("none", profiles_lag(air, a));
     tell_air("blade", answer);
     solvers::StabilityLimits found = limits_of(blade, air, a, range, a.steps);
     solvers::Campbell& diagram = found.diagram;

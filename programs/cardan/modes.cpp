@@ -4,9 +4,11 @@
 // to turn included.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/analysis/campbell.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
+#include "programs/cardan/wind_options.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include <algorithm>
 #include <cstdio>
@@ -72,19 +74,19 @@ void print(const solvers::Campbell& diagram) {
 int run(ModesArguments& a, const CommandLine& command) {
     const turbines::Machine machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "modes");
-    const double speed = a.rpm * units::rpm;
-    set_pitch(machine, a.machine, speed);
-    if (!a.max_frequency) a.max_frequency = usual_frequency(machine, a.machine);
-    const ReadyMachine ready = ready_machine(machine, a.machine, *a.max_frequency, std::abs(speed));
     check_outputs(a.out, {".h5", ".csv"});
-    solvers::CampbellOptions options = campbell_options(*a.max_frequency);
-    options.progress = {};
-    options.method = diagram_method(machine, a.machine);
-    options.spin = rotor_spin(machine);
-    solvers::Campbell diagram = solvers::campbell(ready.turbine.system(), ready.turbine.rotor(), {speed}, options);
+    turbines::CampbellDiagram diagram = turbines::campbell(machine, {.rotor_speeds = {a.rpm * units::rpm},
+                                                                     .machine = numbers_of(a.machine),
+                                                                     .gravity = a.machine.gravity,
+                                                                     .max_frequency_hz = a.max_frequency,
+                                                                     .report = remarks_printed(a.machine.notes),
+                                                                     .cancelled = interrupted});
     stop_at_once();
+    if (a.machine.summary) std::cout << diagram.turbine->summary() << "\n";
     if (diagram.points.empty()) return 130;
-    tell_origin(diagram, "modes", command, machine, ready);
+    keep_taken(diagram.settings.machine, a.machine);
+    a.max_frequency = diagram.settings.max_frequency_hz;
+    diagram.source = run_text("modes", command) + diagram.source;
     print(diagram);
     solvers::write_hdf5(diagram, a.out + ".h5");
     solvers::write_csv(diagram, a.out + ".csv");

@@ -8,6 +8,9 @@
 
 namespace cardan::program {
 
+/// rad/s; none: it was not asked for.  @throws InputError for what is not finite
+std::optional<double> asked_speed(const std::optional<double>& asked_rpm);
+
 /// One speed: what was asked for, rev/min, or the machine's, which is told.
 /// @return rad/s;  @throws InputError if there is none
 double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machine& machine);
@@ -15,17 +18,10 @@ double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machi
 /// Without a pitch among the options, that of the machine at a rotor speed, rad/s, is put there, and told.
 void set_pitch(const turbines::Machine& machine, MachineOptions& options, double rotor_speed);
 
-/// The mean over the azimuth where blades are equal and gravity or an unbalanced hub makes the equations periodic: an
-/// approximation that serves them. Else what suits.
-solvers::CampbellMethod diagram_method(const turbines::Machine& machine, const MachineOptions& options);
-
-/// Free, or prescribed where the generator is locked.
-solvers::RotorSpin rotor_spin(const turbines::Machine& machine);
-
 /// Puts into a diagram what it holds for, how accurate it is, by which command it was made, and the machine.
 /// @param name  of the command
 void tell_origin(solvers::Campbell& diagram, const std::string& name, const CommandLine& command,
-                 const turbines::Machine& machine, const ReadyMachine& ready);
+                 const turbines::Machine& machine, const turbines::PreparedTurbine& ready);
 
 /// Of a picture: the machine, and what the diagram holds for.
 std::string title_of(const solvers::Campbell& diagram);

@@ -6,90 +6,15 @@
 // driven at constant speed; or under a controller, which sets pitch and torque of the generator. Coordinates may start
 // elsewhere, to see their motion decay. What drives the rotor is the air, steady or over time, or a given torque.
 // Checks: the energy balance, by the integration and by the recorded powers of generator, air and rotor torque.
-#include "programs/cardan/simulate.hpp"
-
-#include "mbs/base/error.hpp"
-#include "mbs/base/outcome.hpp"
-#include "mbs/base/units.hpp"
-#include "turbines/model/channels.hpp"
-
 #include "programs/cardan/commands.hpp"
-#include "programs/shared/channel_choice.hpp"
-#include "programs/shared/named_values.hpp"
-#include "programs/shared/steady_rotation.hpp"
+#include "programs/cardan/operation.hpp"
+#include "programs/cardan/simulate_options.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace cardan::program {
 
 namespace {
-
-void declare(CommandLine& app, SimulateArguments& a) {
-    a.run.duration = 20;
-    add_machine(app, a.machine);
-    add_run_options(app, a.run);
-    add_station_options(app, a.stations);
-    app.add_option("--rpm", a.rpm, "rotor speed at the start, rev/min (default: the model's)");
-    app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at the start, deg, zero upward");
-    app.add_option("--start", a.start, "steady: bent as in steady rotation, or at rest; undeformed: straight")
-        .one_of({"steady", "undeformed"});
-    app.add_option("--q", a.q, "COORDINATE=NUMBER: where it starts instead, rad or m; may be repeated").one_word();
-    app.add_option("--qd", a.qd, "COORDINATE=NUMBER: its rate, rad/s or m/s; may be repeated").one_word();
-    app.add_option(
-        "--generator-torque", a.torque,
-        "of the generator on its own shaft, N m, constant, or with a controller at the start; positive brakes "
-        "positive rotation (default: none; in the wind that of the air in steady rotation)");
-    app.add_option("--generator-slope", a.slope,
-                   "rise of this torque with the generator's speed above that at the start, as of slip, N m s/rad");
-    app.add_option("--wind", a.wind, std::string("speed at the hub's height: ") + wind_file_format)
-        .type_name("SPEED|FILE");
-    add_air_options(app, a.air);
-    add_wake_option(app, a.air);
-    add_rotor_torque(app, a.rotor_torque);
-    add_controller_options(app, a.controller);
-    app.add_flag("--no-gravity", a.no_gravity, "without gravity");
-    add_machine_options(app, a.machine);
-    app.add_option("--plot", a.plot,
-                   "channels of one panel of the pictures, by name or alias, joined by +: TTDspFA+TTDspSS; may be "
-                   "repeated (default: speeds, deflections and loads)")
-        .one_word();
-    app.add_flag("--list", a.list, "print the channels and end");
-    app.add_flag("--resume", a.run.resume,
-                 "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration");
-}
-
-solvers::OperatingPoint at_rest(const turbines::Turbine& turbine, double azimuth) {
-    solvers::SteadyOptions options;
-    options.azimuth = azimuth;
-    const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);
-    require_result(state);
-    return state.at;
-}
-
-// Empty, with the reason printed: there is no steady state, or it was not found.
-std::optional<Start> steady_start(const turbines::Turbine& turbine, double speed, double azimuth) {
-    try {
-        const solvers::OperatingPoint at =
-            speed == 0 ? at_rest(turbine, azimuth) : steady_rotation(turbine, speed, 8, good_start).at(azimuth);
-        return Start{at.q, at.qd};
-    } catch (const NumericalError& error) {
-        std::cout << "note: the start is undeformed: " << error.what() << "\n";
-        return std::nullopt;
-    }
-}
-
-Start start_of(const SimulateArguments& a, const turbines::Turbine& turbine, double speed) {
-    const System& system = turbine.system();
-    const int spin = turbine.rotor().spin;
-    const double azimuth = a.azimuth * units::degree;
-    std::optional<Start> start;
-    if (a.start == "steady") start = steady_start(turbine, speed, azimuth);
-    if (!start) start = {Vector::Zero(system.model.size()), Vector::Zero(system.model.size())};
-    start->q(spin) = azimuth;
-    start->qd(spin) = speed;
-    const CoordinateTable& table = system.model.coordinates();
-    return {named_values("--q", a.q, table, start->q, false), named_values("--qd", a.qd, table, start->qd, false)};
-}
 
 // What the controller sets beside what comes of it, then the usual ones.
 std::vector<solvers::HistoryPanel> controlled_panels(const turbines::MachineLayout& layout,
@@ -122,7 +47,8 @@ std::vector<solvers::HistoryPanel> with_air(std::vector<solvers::HistoryPanel> a
 std::vector<solvers::HistoryPanel> panels(const SimulateArguments& a, const turbines::MachineLayout& layout,
                                           const std::vector<Channel>& channels) {
     if (a.plot.empty()) {
-        const auto usual = a.controller.acts() ? controlled_panels(layout, channels) : usual_panels(layout, channels);
+        const auto usual =
+            !a.controller.what.empty() ? controlled_panels(layout, channels) : usual_panels(layout, channels);
         return a.wind.empty() ? usual : with_air(usual);
     }
     std::vector<solvers::HistoryPanel> all;
@@ -139,12 +65,6 @@ void print(const std::vector<Channel>& channels) {
         std::printf("%-44s %-10s %-8s %s\n", c.name.c_str(), c.alias.c_str(), c.units.c_str(), c.long_name.c_str());
 }
 
-// A rotor that is driven turns on at the speed of the start.
-std::vector<solvers::Drive> drives(bool driven, int spin, const Start& start) {
-    if (!driven) return {};
-    return {{spin, solvers::Motion::constant_rate(start.q(spin), start.qd(spin))}};
-}
-
 // Of the loads that are recorded, J; positive: put into the machine. From each so many-th sample.
 double recorded_work(const solvers::History& history, std::size_t every) {
     double sum = 0;
@@ -154,8 +74,9 @@ double recorded_work(const solvers::History& history, std::size_t every) {
     return sum;
 }
 
-bool check_balance(solvers::Integrator& integrator, const solvers::History& history, const SimulateArguments& a) {
-    const solvers::EnergyBalance end = integrator.energy();
+bool check_balance(const turbines::Recording& run, const SimulateArguments& a) {
+    const solvers::History& history = run.history;
+    const solvers::EnergyBalance& end = run.energy;
     const double kinetic = largest(history, "kinetic energy").value;
     const double exchanged = exchanged_energy(history);
     const bool parked = exchanged > kinetic;
@@ -182,11 +103,10 @@ bool check_balance(solvers::Integrator& integrator, const solvers::History& hist
     return good;
 }
 
-void print_result(const Subject& subject, const SimulateArguments& a, solvers::Integrator& integrator,
-                  const solvers::History& history) {
-    std::printf("%s: from %g rpm, rotor %s, %g s\n", subject.title.c_str(), *a.rpm, subject.driven ? "driven" : "free",
-                integrator.time());
-    const std::vector<std::string> names = main_channels(subject.turbine.layout(), history.channels);
+void print_result(const turbines::Simulation& run, const SimulateArguments& a, const solvers::History& history) {
+    std::printf("%s: from %g rpm, rotor %s, %g s\n", run.title().c_str(), *a.rpm,
+                dofs_of(run.machine().description).generator ? "free" : "driven", run.integrator().time());
+    const std::vector<std::string> names = main_channels(run.turbine().layout(), history.channels);
     std::vector<const char*> shown;
     shown.reserve(names.size());
     for (const std::string& name : names) shown.push_back(name.c_str());
@@ -200,48 +120,43 @@ std::vector<solvers::HistoryPanel> spectra_of(const turbines::MachineLayout& lay
     return spectra;
 }
 
+turbines::Simulation simulation(SimulateArguments& a, const turbines::Machine& machine) {
+    const turbines::SimulationSettings settings = settings_of(a);
+    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs);
+    turbines::Simulation run(machine, settings);
+    keep_taken(run.settings(), a);
+    if (a.machine.summary) std::cout << run.turbine().summary() << "\n";
+    return run;
+}
+
 int run(SimulateArguments& a, const CommandLine& command) {
     check_run_options(a.run);
-    if (a.controller.acts() && a.slope != 0)
-        throw InputError("--generator-slope", "value", a.slope, "none beside --controller, which sets the torque");
-    if (a.run.resume && a.controller.acts() && !a.controller.is_baseline())
-        throw InputError("--resume", "controller", a.controller.what,
-                         "baseline: a library keeps its memory to itself, so that its run cannot go on");
     a.machine.gravity = !a.no_gravity;
-    const Subject subject = subject_of(a);
-    const turbines::Turbine& turbine = subject.turbine;
-    const System& system = turbine.system();
-    const int spin = turbine.rotor().spin;
-    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs);
-    const std::optional<solvers::Checkpoint> broken_off = start_of(a.run, subject.about);
-    const Start start = start_of(a, subject.at_start, subject.speed);
-    solvers::IntegrationOptions options = integration_options(a.run);
-    options.controllers = subject.controllers;
-    const std::vector<solvers::Drive> drive = drives(subject.driven, spin, start);
-    solvers::Integrator integrator = broken_off ? solvers::Integrator(system, drive, *broken_off, options)
-                                                : solvers::Integrator(system, drive, 0, start.q, start.qd, options);
-    std::vector<ChannelGroup> channels = channels_of(turbine, a.stations);
-    channels.insert(channels.end(), subject.channels.begin(), subject.channels.end());
-    solvers::Recorder recorder(integrator, channels);
-    if (a.list) return print(recorder.channels()), 0;
-    const std::vector<solvers::HistoryPanel> pictures = panels(a, turbine.layout(), recorder.channels());
-    Rows rows = broken_off
-                    ? Rows(a.run, integrator, recorder)
-                    : Rows(subject.title, run_text("simulate", command) + subject.about, a.run, integrator, recorder);
+    if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
+    turbines::Machine machine = prepared_machine(a.machine);
+    if (!a.wind.empty()) take_air(machine, a.air, a.machine.notes);
+    turbines::Simulation simulated = simulation(a, machine);
+    if (a.list) return print(simulated.channels()), 0;
+    const turbines::MachineLayout& layout = simulated.turbine().layout();
+    const std::vector<solvers::HistoryPanel> pictures = panels(a, layout, simulated.channels());
 
     const Stopwatch watch;
-    const solvers::Advance end = record(integrator, recorder, 0, a.run.duration, a.run.step, rows);
+    const turbines::Recording result = simulated.record(a.run.out + ".h5", {.duration = a.run.duration,
+                                                                            .step = a.run.step,
+                                                                            .resume = a.run.resume,
+                                                                            .origin = run_text("simulate", command),
+                                                                            .progress = TimeShown(a.run.duration)});
     const Elapsed elapsed = watch.elapsed();
     progress("\r                              \r");
 
-    print_result(subject, a, integrator, rows.history);
-    const bool good = check_balance(integrator, rows.history, a);
-    print_effort(integrator, system, elapsed);
-    write_outputs(rows, a.run.out, end.reached(), pictures, spectra_of(turbine.layout()),
-                  {.from = integrator.time() / 2,
-                   .blades = static_cast<int>(turbine.layout().blades.size()),
-                   .max_frequency_hz = 8});
-    if (!end.reached()) return 130;
+    print_result(simulated, a, result.history);
+    const bool good = check_balance(result, a);
+    print_effort(simulated.integrator(), simulated.turbine().system(), elapsed);
+    write_pictures(result.history, a.run.out, pictures, spectra_of(layout),
+                   {.from = simulated.integrator().time() / 2,
+                    .blades = static_cast<int>(layout.blades.size()),
+                    .max_frequency_hz = 8});
+    if (!result.complete) return 130;
     return good ? 0 : 1;
 }
 

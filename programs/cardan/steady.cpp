@@ -10,6 +10,8 @@
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "solvers/pictures/history.hpp"
+#include "turbines/analysis/in_unit.hpp"
+#include "turbines/analysis/steady_rotation.hpp"
 #include "turbines/machine/machine_text.hpp"
 #include "turbines/model/channels.hpp"
 
@@ -19,7 +21,6 @@
 #include "programs/cardan/steady_wind.hpp"
 #include "programs/shared/channel_choice.hpp"
 #include "programs/shared/program.hpp"
-#include "programs/shared/steady_rotation.hpp"
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -70,7 +71,8 @@ Revolution standing(const turbines::Turbine& turbine, double azimuth) {
 
 Revolution revolution(const turbines::Turbine& turbine, double speed, const SteadyArguments& a) {
     if (speed == 0) return standing(turbine, a.azimuth * units::degree);
-    const solvers::PeriodicSteadyState state = steady_rotation(turbine, speed, a.revolution.harmonics);
+    const solvers::PeriodicSteadyState state =
+        turbines::steady_rotation(turbine, speed, {.harmonics = a.revolution.harmonics}, remarks_printed(false));
     Revolution all;
     const double turn = std::copysign(2 * pi, speed);  // in the order of time
     for (int i = 0; i < a.revolution.azimuths; ++i) all.states.push_back(state.at(turn * i / a.revolution.azimuths));
@@ -114,9 +116,10 @@ int run(SteadyArguments& a, const CommandLine& command) {
         return steady_in_wind(machine, a.machine, a.wind, a.revolution, a.out, command);
     }
     const double speed = rotor_speed(a.rpm, machine);
-    a.rpm = speed * units::to_rpm;
+    a.rpm = turbines::in_unit(speed, units::rpm);
     set_pitch(machine, a.machine, speed);
-    const ReadyMachine ready = ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
+    const turbines::PreparedTurbine ready =
+        ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
     const turbines::Turbine& turbine = ready.turbine;
     check_outputs(a.out, {".h5", ".svg", ".png"});
     const Revolution states = revolution(turbine, speed, a);

@@ -21,12 +21,11 @@ namespace cardan::program {
 namespace {
 
 // At the wind with the largest thrust.
-void tell_mesh(const WindRun& run, const WindResults& results, const turbines::Machine& machine,
-               const MachineOptions& options, const RevolutionOptions& revolution) {
-    if (run.ready.turbine.layout().blades.empty() || !dofs_of(machine.description).blades) return;
+void tell_mesh(const turbines::WindRun& run, const WindResults& results, const RevolutionOptions& revolution) {
+    if (run.ready.turbine.layout().blades.empty() || !dofs_of(run.machine.description).blades) return;
     const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindPoint::thrust);
     const double wind = largest->operation.wind;
-    FinerPoint finer = finer_point(run, machine, options, largest->operation);
+    turbines::FinerPoint finer = finer_point(run, largest->operation);
     if (!finer.point.converged) {
         std::printf("with twice as many elements no steady state was found at %g m/s\n", wind);
         return;
@@ -38,29 +37,52 @@ void tell_mesh(const WindRun& run, const WindResults& results, const turbines::M
     std::printf("at %g m/s, and with twice as many elements: %s\n", wind, beside(results, index, other).c_str());
 }
 
+turbines::WindRunOptions run_options(const turbines::Machine& machine, const MachineOptions& options,
+                                     const WindArguments& wind, const RevolutionOptions& revolution) {
+    return {.winds = winds_of(wind),
+            .operation = operation_of(wind),
+            .air = settings_of(wind.air),
+            .machine = numbers_of(options),
+            .gravity = options.gravity,
+            .harmonics = revolution.harmonics,
+            .azimuths = revolution.azimuths,
+            .max_frequency_hz = usual_frequency(machine, options),
+            .report = remarks_printed(options.notes),
+            .progress = [](int done, int total) { show_progress("wind speed", done, total); },
+            .cancelled = interrupted};
+}
+
+// 130: interrupted, 1: some did not converge
+int exit_code(const turbines::WindRun& run) {
+    if (!run.complete) return 130;
+    return run.not_converged.empty() ? 0 : 1;
+}
+
 }  // namespace
 
 int steady_in_wind(const turbines::Machine& machine, MachineOptions& options, const WindArguments& wind,
                    const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command) {
     const turbines::TurbineDescription& d = machine.description;
-    WindRun run =
-        wind_run(machine, options, wind, revolution.harmonics, revolution.azimuths, usual_frequency(machine, options));
+    turbines::WindRun run = turbines::wind_run(machine, run_options(machine, options, wind, revolution));
+    keep_taken(run.options.machine, options);
+    if (options.summary) std::cout << run.ready.turbine.summary() << "\n";
     check_outputs(prefix, {".h5", ".csv", ".svg", ".png"});
-    find_points(run, machine, options, wind);
+    turbines::find_points(run);
+    stop_at_once();
     if (run.points.empty()) return run.complete ? 1 : 130;
-    const int code = run.exit_code();
+    const int code = exit_code(run);
     const WindResults results =
         wind_results(run.operation, std::move(run.points), revolution.stations, text(d.name, ", in the wind"));
     write_csv(results, prefix);
-    write_hdf5(results, prefix + ".h5", air_in_equilibrium(run.air),
+    write_hdf5(results, prefix + ".h5", turbines::air_in_equilibrium(run.air),
                run_text("steady", command) + turbines::with_machine(run.ready.turbine.rotor().description, machine));
     std::printf("\n%s\n%s\n", results.title.c_str(), in_words(run.ready.mesh).c_str());
     if (!run.operation.is_constant())
         std::printf(
             "%d harmonics of the revolution; what those left out would have to balance, over stiffness: up to "
             "%.1e rad or m\n",
-            revolution.harmonics, run.remainder);
-    if (run.complete) tell_mesh(run, results, machine, options, revolution);
+            revolution.harmonics, run.truncation_residual);
+    if (run.complete) tell_mesh(run, results, revolution);
     print(results);
     std::printf("\nfiles: %s.h5, .csv, _sections.csv", prefix.c_str());
     if (results.points.size() > 1) {

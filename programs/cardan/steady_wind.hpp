@@ -3,7 +3,7 @@
 #pragma once
 
 #include "programs/cardan/revolution.hpp"
-#include "programs/cardan/wind_run.hpp"
+#include "programs/cardan/wind_options.hpp"
 #include <string>
 
 namespace cardan::program {

@@ -27,7 +27,7 @@ std::string beside(const WindResults& results, std::size_t point, const WindResu
 /// PREFIX.csv, PREFIX_sections.csv.  @throws FileError
 void write_csv(const WindResults& results, const std::string& prefix);
 /// @throws FileError
-/// @param air  air_in_equilibrium()
+/// @param air  turbines::air_in_equilibrium()
 void write_hdf5(const WindResults& results, const std::string& path, const std::string& air,
                 const std::string& description);
 

@@ -31,10 +31,13 @@ inline std::vector<double> places(const char* option, const std::string& given) 
     return given.empty() ? std::vector<double>() : numbers(option, given, "numbers separated by commas, m");
 }
 
+inline turbines::Stations stations_of(const StationOptions& options) {
+    return {.blades = places("--blade-stations", options.blades), .tower = places("--tower-stations", options.tower)};
+}
+
 /// Those at the stations that were asked for.
 inline std::vector<ChannelGroup> station_channels(const turbines::Turbine& turbine, const StationOptions& options) {
-    return turbines::station_channels(turbine, {.blades = places("--blade-stations", options.blades),
-                                                .tower = places("--tower-stations", options.tower)});
+    return turbines::station_channels(turbine, stations_of(options));
 }
 
 /// All: the usual ones and those at stations.

@@ -7,11 +7,12 @@
 #include "turbines/yaml/foundation.hpp"
 
 #include "programs/shared/program.hpp"
+#include "programs/shared/remarks.hpp"
 #include "programs/shared/run_record.hpp"
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <iostream>
-#include <limits>
+#include <utility>
 
 namespace cardan::program {
 
@@ -40,25 +41,6 @@ std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options)
     return additions;
 }
 
-// What was asked for in the place of what the machine's source says.
-void set_dofs(const MachineOptions& a, turbines::Machine& model) {
-    turbines::Bearing& yaw = model.description.yaw.rotation;
-    turbines::FileDofs f = dofs_of(model.description);
-    if (!a.generator.empty()) f.generator = a.generator == "free";
-    if (!a.blades.empty()) f.blades = a.blades == "bend";
-    if (!a.tower.empty()) {
-        f.tower_fore_aft = a.tower == "bends" || a.tower == "fore-aft";
-        f.tower_side_side = a.tower == "bends" || a.tower == "side-side";
-    }
-    set_dofs(f, model.description);
-    if (a.yaw == "locked") yaw = turbines::rigid_joint;
-    if (a.yaw == "driven") yaw = turbines::driven_joint;
-    if (a.yaw != "free" || !yaw.is_rigid()) return;
-    if (model.yaw_drive.is_rigid())
-        throw InputError("--yaw", "value", "free", "locked: the model gives no spring of a yaw drive");
-    yaw = model.yaw_drive;
-}
-
 void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
     const turbines::FileDofs f = dofs_of(model.description);
     a.generator = f.generator ? "free" : "locked";
@@ -67,19 +49,6 @@ void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
     a.blades = f.blades ? "bend" : "rigid";
     a.tower =
         f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
-}
-
-// A diagram of a machine that a file holds altogether would be empty: its beams bend.
-void free_beams_if_nothing_moves(turbines::Machine& model) {
-    const turbines::TurbineDescription& d = model.description;
-    const bool teeters = d.hub.teeter && !d.hub.teeter->bearing.is_rigid();
-    turbines::FileDofs f = dofs_of(model.description);
-    if (f.generator || f.blades || !d.tower.rigid || teeters || !d.yaw.rotation.is_rigid() ||
-        !d.drive_train.main_shaft.is_rigid())
-        return;
-    f.blades = f.tower_fore_aft = f.tower_side_side = true;
-    set_dofs(f, model.description);
-    std::cout << "note: the model switches off all degrees of freedom: tower and blades bend here\n";
 }
 
 std::string dofs_in_words(const turbines::Machine& model) {
@@ -172,55 +141,61 @@ void add_machine_options(CommandLine& app, MachineOptions& options) {
     app.add_flag("--summary", options.summary, "print bodies, coordinates and masses first");
 }
 
-namespace {
-
-void set_foundation(const std::string& file, turbines::Machine& model) {
-    if (file.empty()) return;
-    if (model.description.platform)
-        throw InputError("--foundation", "file", file,
-                         text("none: the tower stands on ", model.description.platform->name));
-    model.description.platform = turbines::read_foundation(file);
+turbines::MachineSettings numbers_of(const MachineOptions& a) {
+    turbines::MachineSettings settings;
+    if (a.pitch) settings.pitch = *a.pitch * units::degree;
+    if (a.blade_elements > 0) settings.blade_elements = a.blade_elements;
+    if (a.tower_elements > 0) settings.tower_elements = a.tower_elements;
+    settings.damping = !a.undamped;
+    return settings;
 }
 
-// What the model's tower stands on, where it is left out.
-bool is_clamped(const turbines::Machine& machine) {
-    const turbines::TurbineDescription& d = machine.description;
-    return !d.missing_foundation.name.empty() && !d.platform;
+namespace {
+
+// All that the options say of the machine.
+turbines::MachineSettings settings_of(const MachineOptions& a) {
+    using namespace turbines;
+    constexpr std::array towers{std::pair("bends", TowerDof::bends), std::pair("fore-aft", TowerDof::fore_aft),
+                                std::pair("side-side", TowerDof::side_side), std::pair("rigid", TowerDof::rigid)};
+    constexpr std::array yaws{std::pair("free", YawDof::free), std::pair("locked", YawDof::locked),
+                              std::pair("driven", YawDof::prescribed)};
+    MachineSettings settings = numbers_of(a);
+    if (!a.generator.empty()) settings.generator = a.generator == "free" ? GeneratorDof::free : GeneratorDof::locked;
+    for (const auto& [name, value] : yaws)
+        if (a.yaw == name) settings.yaw = value;
+    for (const auto& [name, value] : towers)
+        if (a.tower == name) settings.tower = value;
+    if (!a.blades.empty()) settings.blades = a.blades == "bend" ? BladeDof::bend : BladeDof::rigid;
+    if (!a.foundation.empty()) settings.foundation = read_foundation(a.foundation);
+    if (a.generator_inertia != 0) settings.generator_inertia = a.generator_inertia;
+    return settings;
 }
 
 }  // namespace
 
-std::string foundation_in_words(const turbines::Machine& machine) {
-    const std::string& name = machine.description.missing_foundation.name;
-    return is_clamped(machine) ? text("tower clamped at its foot, ", name, " left out") : "";
+turbines::Report remarks_printed(bool all_notes) {
+    return [all_notes](const turbines::Remark& remark) {
+        if (remark.kind == turbines::Remark::Kind::file) return print_notes(remark.entries, all_notes);
+        print_remark(remark);
+    };
 }
 
 turbines::Machine prepared_machine(MachineOptions& options) {
     turbines::Machine machine = turbines::read_machine(options.model, additions_of(options));
     print_notes(machine.notes, options.notes);
-    set_dofs(options, machine);
-    set_foundation(options.foundation, machine);
-    free_beams_if_nothing_moves(machine);
+    machine = turbines::with_settings(std::move(machine), settings_of(options), remarks_printed(options.notes));
     tell_dofs(machine, options);
     std::cout << "degrees of freedom: " << dofs_in_words(machine) << "\n";
-    if (is_clamped(machine)) {
+    if (turbines::is_clamped(machine)) {
         const auto& [name, where] = machine.description.missing_foundation;
         std::cout << "foundation: the " << name << " of the model is left out, and the tower clamped at its foot, "
                   << where << "; --foundation FILE gives it springs\n";
     }
-    if (options.generator_inertia != 0) machine.description.drive_train.generator_inertia = options.generator_inertia;
     return machine;
 }
 
 turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options) {
-    turbines::AssemblyOptions o;
-    if (options.blade_elements > 0) o.blade_elements = options.blade_elements;
-    if (options.tower_elements > 0) o.tower_elements = options.tower_elements;
-    o.spin = CoordinateRole::free;  // how it turns (FileDofs::generator) is left to the analysis
-    o.pitch = options.pitch ? *options.pitch * units::degree : machine.operation.pitch;
-    if (options.gravity) o.gravity = {0, 0, -units::standard_gravity};
-    if (options.undamped) o.structural_damping = o.joint_damping = false;
-    return o;
+    return turbines::assembly_options(machine, numbers_of(options), options.gravity);
 }
 
 int first_blade(const turbines::TurbineDescription& description) {
@@ -233,21 +208,14 @@ double usual_frequency(const turbines::Machine& machine, const MachineOptions& o
     return turbines::usual_frequency(machine.description, assembly_options(machine, options));
 }
 
-ReadyMachine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
-                           double rotor_speed) {
-    const turbines::TurbineDescription& description = machine.description;
-    turbines::AssemblyOptions assembly = assembly_options(machine, options);
-    assembly.mesh.largest_hz = largest_hz;
-    assembly.mesh.rotor_speed = rotor_speed;
-    const turbines::Turbine turbine = turbines::assemble(description, assembly);
-    // Numbers that were asked for are judged as well.
-    const turbines::Mesh mesh =
-        turbine.mesh().largest_hz > 0 ? turbine.mesh() : turbines::converged_mesh(description, assembly);
-    options.blade_elements = mesh.blade_elements;
-    options.tower_elements = mesh.tower_elements;
-    if (description.platform) std::cout << "mesh: chosen with the " << description.platform->name << " held\n";
-    introduce(turbine, options.summary);
-    return {turbine, mesh};
+turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+                                        double rotor_speed) {
+    turbines::PreparedTurbine ready = turbines::assembled(machine, assembly_options(machine, options), largest_hz,
+                                                          rotor_speed, remarks_printed(options.notes));
+    options.blade_elements = ready.mesh.blade_elements;
+    options.tower_elements = ready.mesh.tower_elements;
+    if (options.summary) std::cout << ready.turbine.summary() << "\n";
+    return ready;
 }
 
 std::string run_text(const std::string& command, const CommandLine& options) {

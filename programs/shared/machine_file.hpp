@@ -2,8 +2,8 @@
 /// A machine as the argument of a program, with the options that change it, on its way to a solver.
 #pragma once
 
+#include "turbines/analysis/prepared_machine.hpp"
 #include "turbines/machine/read_machine.hpp"
-#include "turbines/model/assembly.hpp"
 
 #include "programs/shared/command_line.hpp"
 #include <optional>
@@ -42,21 +42,18 @@ void print_notes(const std::vector<turbines::FileNote>& notes, bool all);
 /// @throws InputError also for a yaw bearing that is to be free without a spring
 turbines::Machine prepared_machine(MachineOptions& options);
 
-/// Of a machine whose foundation is left out, for titles: "tower clamped at its foot, substructure left out"; else
-/// empty.
-std::string foundation_in_words(const turbines::Machine& machine);
+/// What the options say beside what prepared_machine() puts into the machine: pitch, numbers of elements, damping.
+turbines::MachineSettings numbers_of(const MachineOptions& options);
 
-/// A machine on its way to a solver.
-struct ReadyMachine {
-    turbines::Turbine turbine;
-    turbines::Mesh mesh;
-};
+/// What the library has to say, on the terminal as it says it.
+/// @param all_notes  as print_notes()
+turbines::Report remarks_printed(bool all_notes);
 
 /// Chooses the mesh, assembles, prints what the assembly has to say. The options then hold the numbers of elements.
 /// @param largest_hz   frequencies up to here shall be right
 /// @param rotor_speed  highest, rad/s
-ReadyMachine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
-                           double rotor_speed);
+turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+                                        double rotor_speed);
 
 /// Beams, pitch, gravity and damping.
 turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options);

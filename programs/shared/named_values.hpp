@@ -5,6 +5,7 @@
 #include "mbs/model/coordinates.hpp"
 
 #include "programs/shared/words.hpp"
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,18 @@ inline Vector named_values(const char* option, const std::vector<std::string>& g
         initial(table.index(word.substr(0, equals))) = value;
     }
     return initial;
+}
+
+/// Likewise as they are named, the last one of each name.  @throws InputError naming the option
+inline std::map<std::string, double> named_numbers(const char* option, const std::vector<std::string>& given) {
+    constexpr auto allowed = "COORDINATE=NUMBER";
+    std::map<std::string, double> all;
+    for (const std::string& word : given) {
+        const std::size_t equals = word.rfind('=');
+        if (equals == std::string::npos) throw InputError(option, "value", word, allowed);
+        all[word.substr(0, equals)] = number(option, word, word.substr(equals + 1), allowed);
+    }
+    return all;
 }
 
 }  // namespace cardan::program

@@ -6,6 +6,7 @@
 #include "mbs/base/pending_file.hpp"
 
 #include "programs/shared/command_line.hpp"
+#include "programs/shared/option_names.hpp"
 #include <atomic>
 #include <csignal>
 #include <exception>
@@ -77,7 +78,7 @@ int with_errors(const char* name, const Body& body) {
         const int code = body();
         return code == 130 && interrupted() ? 128 + interrupt : code;
     } catch (const Error& error) {
-        std::cerr << name << ": " << error.what() << "\n";
+        std::cerr << name << ": " << in_options(error.what()) << "\n";
     } catch (const std::exception& error) {
         std::cerr << name << ": unexpected: " << error.what() << "\n";
     }

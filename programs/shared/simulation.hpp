@@ -5,7 +5,7 @@
 
 #include "mbs/base/types.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/hdf5/history.hpp"
+#include "solvers/hdf5/history_recording.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
 
@@ -27,16 +27,22 @@ namespace cardan::program {
 /// Names of methods on the command line.
 inline const std::vector<std::string> method_names{"bdf", "adams", "dirk", "erk", "alpha"};
 
-/// @param max_order  of bdf: beyond 2, weakly damped modes may grow
-inline solvers::IntegrationOptions integration_options(const std::string& method, double tolerance, int max_order) {
+/// One of these.
+inline solvers::Method method_named(const std::string& name) {
     using solvers::Method;
     const std::map<std::string, Method> methods{{"bdf", Method::bdf},
                                                 {"adams", Method::adams},
                                                 {"dirk", Method::dirk},
                                                 {"erk", Method::erk},
                                                 {"alpha", Method::generalised_alpha}};
+    return methods.at(name);
+}
+
+/// @param max_order  of bdf: beyond 2, weakly damped modes may grow
+inline solvers::IntegrationOptions integration_options(const std::string& method, double tolerance, int max_order) {
+    using solvers::Method;
     solvers::IntegrationOptions options;
-    options.method = methods.at(method);
+    options.method = method_named(method);
     if (options.method == Method::bdf) options.max_order = max_order;
     const double absolute = tolerance / 100;
     options.tolerances = {tolerance, absolute, absolute, 10 * absolute, 10 * absolute};
@@ -58,42 +64,6 @@ public:
 private:
     std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
     std::clock_t processor_ = std::clock();
-};
-
-/// Rows on their way to a history in HDF5, with checkpoints: what was computed stays, whatever happens.
-class RowFile {
-public:
-    /// An existing file is replaced.
-    RowFile(const std::string& path, const solvers::HistoryMetadata& about, solvers::Integrator& integrator,
-            const solvers::Recorder& recorder)
-        : writer_(solvers::HistoryWriter::create(path, recorder.channels(), about, {.replace = true})) {
-        if (integrator.resumable()) writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
-    }
-    /// Goes on with a file that was broken off, from its checkpoint.
-    RowFile(const std::string& path, solvers::Integrator& integrator, const solvers::Recorder& recorder)
-        : writer_(solvers::HistoryWriter::append_to(path, recorder.channels())), rows_(writer_->rows()) {
-        if (integrator.resumable()) writer_->take_checkpoints([&integrator] { return integrator.checkpoint(); });
-    }
-    /// @return false if there is a row of that time: where a run was stopped and goes on
-    bool append(double time, const std::vector<double>& values) {
-        if (time <= writer_->last_time()) return false;
-        writer_->append(time, values);
-        ++rows_;
-        return true;
-    }
-    std::size_t rows() const { return rows_; }
-    /// @param complete  the run came to its end; otherwise the file says that it was broken off
-    void close(bool complete) {
-        if (complete)
-            writer_->finish();
-        else
-            writer_->flush();
-        writer_.reset();
-    }
-
-private:
-    std::optional<solvers::HistoryWriter> writer_;
-    std::size_t rows_ = 0;
 };
 
 /// Value of largest magnitude of a channel within a stretch of time, and when it occurs.

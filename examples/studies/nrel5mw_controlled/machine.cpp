@@ -93,15 +93,15 @@ RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double)>&
     return rotor_of(plant.turbine, wind);
 }
 
-program::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double)>& wind,
-                                           const DamperOptions& damper, const turbines::ActuatorOptions& actuators) {
+turbines::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double)>& wind,
+                                            const DamperOptions& damper, const turbines::ActuatorOptions& actuators) {
     ForceSet forces = with_load(plant.turbine.forces(), rotor_in_wind(plant, wind));
     const ControlSignal more = add_damper(damper, plant, forces);
-    program::ControllerOptions options;
-    options.what = "baseline";
-    options.efficiency = 0.944;
-    return program::controlled_machine(options, plant.turbine.with_forces(forces), plant.point.torque, "", {}, more,
-                                       actuators);
+    turbines::Controller controller = turbines::Controller::baseline();
+    controller.generator_efficiency = 0.944;
+    controller.actuators = actuators;
+    return turbines::controlled_machine(controller, plant.turbine.with_forces(forces),
+                                        {.torque = plant.point.torque, .more_torque = more});
 }
 
 LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "solvers/linear/modes.hpp"
+#include "turbines/analysis/controlled_machine.hpp"
 #include "turbines/control/actuators.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 
 #include "examples/studies/nrel5mw_controlled/wind.hpp"
-#include "programs/shared/controller.hpp"
 #include <functional>
 #include <string>
 
@@ -43,9 +43,9 @@ turbines::ActuatorOptions pitch_actuators();
 turbines::Turbine open_loop(const Plant& plant);
 
 /// Under the program, with the torque of a wind that changes.
-program::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
-                                           const DamperOptions& damper,
-                                           const turbines::ActuatorOptions& actuators = pitch_actuators());
+turbines::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
+                                            const DamperOptions& damper,
+                                            const turbines::ActuatorOptions& actuators = pitch_actuators());
 /// That load: for channels and loads by equilibrium.
 RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double time)>& wind);
 

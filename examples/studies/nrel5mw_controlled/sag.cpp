@@ -13,7 +13,7 @@ namespace cardan::controlled {
 namespace {
 
 struct Machine {
-    program::ControlledMachine controlled;
+    turbines::ControlledMachine controlled;
     DoublyFedGenerator generator;
 };
 
@@ -21,7 +21,7 @@ struct Machine {
 Machine machine_in_sag(const Plant& plant, const SagOptions& options) {
     turbines::ActuatorOptions actuators = pitch_actuators();
     actuators.torque_on_shaft = false;
-    program::ControlledMachine machine = sampled_machine(
+    turbines::ControlledMachine machine = sampled_machine(
         plant, [wind = options.wind](double) { return wind; }, {}, actuators);
     const turbines::MachineLayout& layout = machine.turbine.layout();
     DoublyFedGenerator generator = turbines::nrel5mw_doubly_fed(layout);
@@ -69,16 +69,16 @@ int sag(const MachineOptions& machine, const SagOptions& options, const std::str
     const solvers::Advance end = program::record(integrator, recorder, 0, run.duration, run.step, rows);
     const program::Elapsed elapsed = watch.elapsed();
     program::progress("\r                              \r");
-    program::print_largest(rows.history, {"RotSpeed", "GenTq", "RotTorq", "doubly-fed generator power",
-                                          "doubly-fed generator current", "doubly-fed generator rotor voltage"});
+    program::print_largest(rows.history(), {"RotSpeed", "GenTq", "RotTorq", "doubly-fed generator power",
+                                            "doubly-fed generator current", "doubly-fed generator rotor voltage"});
     std::printf("\n");
     const solvers::EnergyBalance energy = integrator.energy();
-    const double scale = program::largest(rows.history, "kinetic energy").value;
+    const double scale = program::largest(rows.history(), "kinetic energy").value;
     bool good = program::check_energy(energy, scale, 10 * options.tolerance);
-    good = program::check_field_energy(energy, rows.history, 10 * options.tolerance) && good;
+    good = program::check_field_energy(energy, rows.history(), 10 * options.tolerance) && good;
     if (end.reached())
         good = program::check("start in equilibrium: change of rotor speed before the sag",
-                              program::speed_drift(rows.history, options.at), 1e-3) &&
+                              program::speed_drift(rows.history(), options.at), 1e-3) &&
                good;
     program::print_effort(integrator, turbine.system(), elapsed);
     program::write_outputs(rows, out, end.reached(),

@@ -23,7 +23,7 @@ public:
     const turbines::Turbine& turbine() const { return machine_.turbine; }
 
 private:
-    program::ControlledMachine machine_;
+    turbines::ControlledMachine machine_;
     std::unique_ptr<solvers::Integrator> integrator_;
     std::unique_ptr<solvers::Recorder> recorder_;
 };

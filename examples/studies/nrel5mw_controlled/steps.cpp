@@ -72,11 +72,11 @@ int steps(const MachineOptions& machine, const StepsOptions& options, const std:
         program::record(simulation.integrator(), simulation.recorder(), 0, run.duration, run.step, rows);
     const program::Elapsed elapsed = watch.elapsed();
     program::progress("\r                              \r");
-    const bool settled = print_stretches(rows.history, wind);
+    const bool settled = print_stretches(rows.history(), wind);
     std::printf("\n");
     const bool balanced =
-        program::check_energy(simulation.integrator().energy(), program::largest(rows.history, "kinetic energy").value,
-                              10 * options.tolerance);
+        program::check_energy(simulation.integrator().energy(),
+                              program::largest(rows.history(), "kinetic energy").value, 10 * options.tolerance);
     program::print_effort(simulation.integrator(), simulation.turbine().system(), elapsed);
     program::write_outputs(rows, out, end.reached(),
                            {{{"wind speed"}},

@@ -166,21 +166,18 @@ DecayOutcome let_go(const Run& run, const Release& release, const Linear& linear
         program::integration_options(run.options.method, run.options.tolerance, 2));
     solvers::Recorder recorder(integrator, turbines::channels(run.turbine),
                                {.coordinates = false, .rates = false, .actuators = false, .statistics = false});
-    program::RowFile file(prefix + ".h5",
-                          {.title = title(run, release),
-                           .method = text(run.options.method, ", relative tolerance ", run.options.tolerance),
-                           .description = run.turbine.rotor().description,
-                           .program = "nrel5mw_floating"},
-                          integrator, recorder);
-    solvers::History history{title(run, release), recorder.channels(), {}, {}};
-    history.values.resize(history.channels.size());
+    solvers::HistoryRecording file(prefix + ".h5",
+                                   {.title = title(run, release),
+                                    .method = text(run.options.method, ", relative tolerance ", run.options.tolerance),
+                                    .description = run.turbine.rotor().description,
+                                    .program = "nrel5mw_floating"},
+                                   integrator, recorder);
+    const solvers::History& history = file.history();
     const program::Stopwatch watch;
     const solvers::Advance end = solvers::record(
         integrator, recorder, solvers::sample_times(0, duration, step),
         [&](double time, const std::vector<double>& values) {
             file.append(time, values);
-            history.time.push_back(time);
-            for (std::size_t i = 0; i < values.size(); ++i) history.values[i].push_back(values[i]);
             program::progress(text("\r", history.title, ": ", std::round(time), " of ", std::round(duration), " s  "));
         });
     program::progress("\r");

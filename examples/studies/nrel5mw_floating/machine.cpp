@@ -4,8 +4,9 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
+#include "turbines/analysis/steady_rotation.hpp"
 
-#include "programs/shared/steady_rotation.hpp"
+#include "programs/shared/remarks.hpp"
 #include <algorithm>
 
 namespace cardan::floating {
@@ -74,7 +75,7 @@ solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rot
         require_result(state, "equilibrium");
         return state.at;
     }
-    return program::steady_rotation(turbine, rotor_speed, 4).at(0);
+    return turbines::steady_rotation(turbine, rotor_speed, {.harmonics = 4}, program::print_remark).at(0);
 }
 
 }  // namespace cardan::floating

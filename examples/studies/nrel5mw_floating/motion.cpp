@@ -149,31 +149,25 @@ MotionOutcome run(const Study& study, const Case& one, const std::string& prefix
     solvers::Recorder recorder(integrator, turbines::channels(study.turbine),
                                {.coordinates = false, .rates = false, .actuators = true, .statistics = false});
     MotionOutcome out;
-    out.history = {
-        text("NREL 5 MW machine on the prescribed spar, ", o.rpm, " rpm: ", one.words.empty() ? "still" : one.words),
-        recorder.channels(),
-        {},
-        {}};
-    out.history.values.resize(recorder.channels().size());
-    program::RowFile file(text(prefix, "_", one.name, ".h5"),
-                          {.title = out.history.title,
-                           .method = text(o.method, ", relative tolerance ", o.tolerance),
-                           .description = study.turbine.rotor().description,
-                           .program = "nrel5mw_floating"},
-                          integrator, recorder);
+    solvers::HistoryRecording file(text(prefix, "_", one.name, ".h5"),
+                                   {.title = text("NREL 5 MW machine on the prescribed spar, ", o.rpm,
+                                                  " rpm: ", one.words.empty() ? "still" : one.words),
+                                    .method = text(o.method, ", relative tolerance ", o.tolerance),
+                                    .description = study.turbine.rotor().description,
+                                    .program = "nrel5mw_floating"},
+                                   integrator, recorder);
     const program::Stopwatch watch;
     const solvers::Advance end = solvers::record(
         integrator, recorder, solvers::sample_times(0, study.duration, o.step),
         [&](double time, const std::vector<double>& values) {
             file.append(time, values);
-            out.history.time.push_back(time);
-            for (std::size_t i = 0; i < values.size(); ++i) out.history.values[i].push_back(values[i]);
             program::progress(text("\r", one.name, ": ", std::round(time), " of ", std::round(study.duration), " s  "));
         });
     program::progress("\r                                  \r");
     require_result(end);
     file.close(end.reached());
     out.complete = end.reached();
+    out.history = file.history();
     std::printf("\n%s\n", out.history.title.c_str());
     const bool parked = o.rpm == 0;
     const double scale =

@@ -115,15 +115,15 @@ int motion(const std::string& study, const MotionOptions& given) {
 
     std::vector<const char*> extremes{"RotSpeed", "GenTq", "RotTorq", "generator power", "RootMxb1", "TTDspSS"};
     if (o.order > 1) extremes.insert(extremes.begin() + 3, "generator current");
-    program::print_largest(rows.history, extremes);
+    program::print_largest(rows.history(), extremes);
     std::printf("\n");
     const solvers::EnergyBalance energy = integrator.energy();
-    const double scale = program::largest(rows.history, "kinetic energy").value;
+    const double scale = program::largest(rows.history(), "kinetic energy").value;
     bool good = program::check_energy(energy, scale, 10 * o.run.tolerance);
-    if (o.order == 5) good = program::check_field_energy(energy, rows.history, 10 * o.run.tolerance) && good;
+    if (o.order == 5) good = program::check_field_energy(energy, rows.history(), 10 * o.run.tolerance) && good;
     if (!from_rest && end.reached())
         good = program::check("start in equilibrium: change of rotor speed before the disturbance",
-                              program::speed_drift(rows.history, o.at), 1e-3) &&
+                              program::speed_drift(rows.history(), o.at), 1e-3) &&
                good;
     program::print_effort(integrator, machine.turbine.system(), elapsed);
     program::write_outputs(rows, o.run.out, end.reached(), panels(o.order), {}, {});

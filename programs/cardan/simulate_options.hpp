@@ -1,0 +1,46 @@
+/// @file
+/// Options of `cardan simulate`, and what they mean to the library.
+#pragma once
+
+#include "turbines/analysis/simulation.hpp"
+
+#include "programs/cardan/air.hpp"
+#include "programs/shared/channel_choice.hpp"
+#include "programs/shared/machine_file.hpp"
+#include "programs/shared/simulation_run.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cardan::program {
+
+/// Of a controller.
+struct ControllerArguments {
+    std::string what;   ///< "baseline", or the path of a shared library; empty: none
+    std::string input;  ///< file for the library
+    double period = turbines::Controller().period, efficiency = 1;
+    std::string pitch_control;   ///< of a library: collective or individual; empty: as the model says
+    std::string pitch_actuator;  ///< HZ[:DAMPING[:DEG/S]]; empty: none
+};
+
+struct SimulateArguments {
+    MachineOptions machine;
+    RunArguments run;
+    StationOptions stations;
+    ControllerArguments controller;
+    AirArguments air;
+    std::optional<double> rpm, torque;
+    std::string start = "steady", rotor_torque, wind;
+    double azimuth = 0, slope = 0;
+    bool no_gravity = false, list = false;
+    std::vector<std::string> plot, q, qd;
+};
+
+void declare(CommandLine& app, SimulateArguments& arguments);
+
+/// @throws InputError naming the option, FileError, ParseError
+turbines::SimulationSettings settings_of(const SimulateArguments& arguments);
+/// Puts what the library has taken where nothing was given.
+void keep_taken(const turbines::SimulationSettings& taken, SimulateArguments& arguments);
+
+}  // namespace cardan::program

@@ -1,0 +1,89 @@
+#include "programs/cardan/wind_options.hpp"
+
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
+#include "turbines/analysis/in_unit.hpp"
+#include "turbines/machine/read_machine.hpp"
+
+#include "programs/shared/program.hpp"
+#include "programs/shared/words.hpp"
+
+namespace cardan::program {
+
+namespace {
+
+constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m/s";
+
+}  // namespace
+
+void add_wind_options(CommandLine& app, WindArguments& a) {
+    app.add_option("--wind", a.speeds, std::string("wind speeds at the hub's height, ") + wind_format);
+    app.add_option("--schedule", a.schedule,
+                   "how the machine runs: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg] (default: the "
+                   "machine's, if it has one; else variable speed with the following options)")
+        .type_name("FILE");
+    app.add_option("--rated-power", a.rated_power, "of the air on the rotor, kW (default: the machine's controller's)");
+    app.add_option("--rated-rpm", a.rated_rpm, "rotor speed from rated wind on, rev/min (default: the machine's)");
+    app.add_option("--least-rpm", a.least_rpm,
+                   "rotor speed at least, rev/min (default: that of the machine's controller)");
+    app.add_option(
+        "--tip-speed-ratio", a.tip_speed_ratio,
+        "below rated power (default: that of the machine's controller, or of the largest power coefficient)");
+    add_air_options(app, a.air);
+}
+
+bool WindArguments::sets_law() const {
+    return tip_speed_ratio || rated_power || rated_rpm || least_rpm > 0;
+}
+
+void take_wind(turbines::Machine& machine, const WindArguments& wind, bool all_notes) {
+    take_air(machine, wind.air, all_notes);
+    if (wind.schedule.empty()) return;
+    if (wind.sets_law())
+        throw InputError("--schedule", "file", wind.schedule,
+                         "none beside --rated-power, --rated-rpm, --least-rpm, --tip-speed-ratio");
+    machine.operation.schedule = turbines::read_schedule(wind.schedule);
+}
+
+std::vector<double> winds_of(const WindArguments& wind) {
+    return wind.speeds.empty() ? std::vector<double>() : numbers_in_ranges("--wind", wind.speeds, wind_format);
+}
+
+turbines::OperationSettings operation_of(const WindArguments& wind) {
+    turbines::OperationSettings own;
+    if (wind.rated_power) own.rated_power = *wind.rated_power * 1e3;
+    if (wind.rated_rpm) own.rated_rotor_speed = *wind.rated_rpm * units::rpm;
+    if (wind.least_rpm > 0) own.min_rotor_speed = wind.least_rpm * units::rpm;
+    own.tip_speed_ratio = wind.tip_speed_ratio;
+    return own;
+}
+
+void add_vibration_options(CommandLine& app, VibrationArguments& a) {
+    add_wind_options(app, a.wind);
+    app.add_option("--wake", a.wind.air.wake,
+                   "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
+                   "dynamic; none: there are none")
+        .one_of({"frozen", "quasi-steady", "dynamic", "none"});
+    app.add_flag("--steady-profiles", a.steady_profiles,
+                 "lift, drag and moment follow the angle of attack at once, also where the profiles' data have lags");
+    app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
+        .range(1, 200);
+}
+
+turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
+    turbines::VibrationSettings settings{.unsteady_airfoils = !a.steady_profiles};
+    if (a.wind.air.wake != "none") settings.wake = turbines::wake_named(a.wind.air.wake, "--wake");
+    return settings;
+}
+
+void show_progress(const char* what, int done, int total) {
+    progress(text("\r", what, " ", done, " of ", total, done == total ? "\n" : ""));
+}
+
+void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options) {
+    if (taken.pitch) options.pitch = turbines::in_unit(*taken.pitch, units::degree);
+    options.blade_elements = *taken.blade_elements;
+    options.tower_elements = *taken.tower_elements;
+}
+
+}  // namespace cardan::program

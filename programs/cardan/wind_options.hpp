@@ -1,0 +1,51 @@
+/// @file
+/// What commands with --wind over a range of speeds ask about it, and what that means to the library.
+#pragma once
+
+#include "turbines/analysis/wind_run.hpp"
+
+#include "programs/cardan/air.hpp"
+#include "programs/shared/machine_file.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cardan::program {
+
+/// What the wind is, and how the machine runs in it.
+struct WindArguments {
+    std::string speeds;    ///< m/s, with ranges; empty: no wind
+    std::string schedule;  ///< file; empty: the machine's, or variable speed
+    AirArguments air;
+    std::optional<double> tip_speed_ratio, rated_power, rated_rpm;  ///< kW
+    double least_rpm = 0;
+
+    bool sets_law() const;  ///< is there an option of variable speed?
+};
+void add_wind_options(CommandLine& app, WindArguments& arguments);
+
+/// m/s; empty: no wind.  @throws InputError
+std::vector<double> winds_of(const WindArguments& arguments);
+turbines::OperationSettings operation_of(const WindArguments& arguments);
+
+/// What the air does to a vibration.
+struct VibrationArguments {
+    WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
+    bool steady_profiles = false, floquet = false;
+    int harmonics = turbines::CampbellSettings().harmonics;
+
+    VibrationArguments() { wind.air.wake = "dynamic"; }
+};
+void add_vibration_options(CommandLine& app, VibrationArguments& arguments);
+turbines::VibrationSettings vibration_of(const VibrationArguments& arguments);
+
+/// Reads the airfoils and the schedule that were asked for, which are the machine's from then on.
+/// @throws InputError for a schedule beside options of variable speed, and as take_air()
+void take_wind(turbines::Machine& machine, const WindArguments& wind, bool all_notes);
+
+/// For people: "wind speed 3 of 8", on a terminal.
+void show_progress(const char* what, int done, int total);
+/// Puts what the library has taken where nothing was given.
+void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options);
+
+}  // namespace cardan::program

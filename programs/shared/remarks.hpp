@@ -1,0 +1,37 @@
+/// @file
+/// What the library has to say, on the terminal.
+#pragma once
+
+#include "turbines/analysis/remark.hpp"
+
+#include "programs/shared/option_names.hpp"
+#include "programs/shared/program.hpp"
+#include <iostream>
+#include <string>
+
+namespace cardan::program {
+
+/// With options in the place of fields. Entries of files are left out: print_notes() has them.
+inline void print_remark(const turbines::Remark& remark) {
+    using Kind = turbines::Remark::Kind;
+    const std::string words = in_options(remark.text);
+    switch (remark.kind) {
+        case Kind::taken:
+            std::cout << words << "\n";
+            return;
+        case Kind::note:
+            std::cout << "note: " << words << "\n";
+            return;
+        case Kind::warning:
+            std::cerr << "warning: " << words << "\n";
+            return;
+        case Kind::controller:
+            progress("\r                              \r");
+            std::cout << "controller: at " << remark.time << " s: " << words << "\n";
+            return;
+        case Kind::file:
+            return;
+    }
+}
+
+}  // namespace cardan::program

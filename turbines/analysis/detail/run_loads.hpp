@@ -1,0 +1,37 @@
+/// @file
+/// Generator and rotor torque of a run in time. Internal to the room.
+#pragma once
+
+#include "mbs/system/channel.hpp"
+#include "turbines/analysis/settings.hpp"
+#include "turbines/model/assembly.hpp"
+
+#include <string>
+
+namespace cardan::turbines {
+
+/// T = torque + slope (speed - start), of the generator on its own shaft.
+struct ConstantGenerator {
+    double torque = 0, slope = 0, start = 0, ratio = 1;  ///< N m, N m s/rad, rad/s, -
+    BodyId shaft;
+
+    /// @param rate  of its coordinate
+    double at(double rate) const { return torque + slope * (ratio * rate - start); }
+    bool acts() const { return torque != 0 || slope != 0; }
+};
+Turbine with_generator(const Turbine& turbine, const ConstantGenerator& generator);
+/// "generator torque" (GenTq) and "generator power", mechanical.
+ChannelGroup generator_channels(const ConstantGenerator& generator);
+
+/// A follower load at the hub, about its z axis.
+/// @throws InputError naming the row
+FrameLoad load_of(const RotorTorque& torque, FrameId hub);
+Turbine with_rotor_torque(const Turbine& turbine, const RotorTorque& torque);
+/// With that at time zero, for ever: for a start in the steady state.
+Turbine with_first_rotor_torque(const Turbine& turbine, const RotorTorque& torque);
+/// "rotor torque" and "rotor torque power".
+ChannelGroup rotor_torque_channels(const RotorTorque& torque, FrameId hub);
+/// Enough to tell another table.
+std::string in_words(const RotorTorque& torque);
+
+}  // namespace cardan::turbines

@@ -1,0 +1,42 @@
+/// @file
+/// What a Simulation integrates. Internal to the room.
+#pragma once
+
+#include "solvers/time/integrate.hpp"
+#include "turbines/analysis/prepared_machine.hpp"
+#include "turbines/analysis/settings.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// The machine as it runs.
+struct SimulationModel {
+    Turbine turbine;
+    Turbine at_start;  ///< the same without anything that changes: springs in the place of actuators
+    std::vector<solvers::SampledController> controllers = {};
+    std::vector<ChannelGroup> channels = {};  ///< beside those of any machine
+    std::string wind = {};                    ///< as text, for the file of the run
+};
+/// @param machine  with_settings(), with its pitch drives
+/// @param options  with rotor speed and pitch
+/// @param mesh     out
+SimulationModel simulation_model(const Machine& machine, const SimulationSettings& options, Mesh& mesh,
+                                 const Report& report);
+
+/// Positions and rates at time zero.
+struct SimulationState {
+    Vector q, qd;
+};
+/// Steady, or undeformed, with a note, where there is no steady state.
+SimulationState start_of(const Turbine& at_start, const SimulationSettings& options, const Report& report);
+
+/// What makes a run but its length, in words: start, controller, torque, wind.
+std::string in_words(const SimulationSettings& options);
+std::string_view name_of(solvers::Method method);
+
+/// @throws InputError for fields out of range
+void check(const SimulationSettings& options);
+
+}  // namespace cardan::turbines

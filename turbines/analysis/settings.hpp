@@ -1,0 +1,240 @@
+/// @file
+/// What a caller may set about the analyses of a machine: every field with its default. SI units and radians.
+///
+/// All fields have names, so that only what differs is written, at once, in the order that the compiler asks for, or
+/// one by one in any order:
+///
+///     turbines::Simulation run(machine, {.wind = 12, .controller = turbines::Controller::baseline()});
+///
+///     turbines::SimulationSettings settings;
+///     settings.controller = turbines::Controller::baseline();
+///     settings.wind = 12;
+///
+/// Errors name a field as it stands here: "SimulationSettings::tolerance".
+#pragma once
+
+#include "elements/aerodynamics/wind.hpp"
+#include "solvers/time/integrate.hpp"
+#include "turbines/analysis/remark.hpp"
+#include "turbines/control/actuators.hpp"
+#include "turbines/model/station_channels.hpp"
+#include "turbines/operation/aeroelastic.hpp"
+
+#include <concepts>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cardan::turbines {
+
+/// @name Degrees of freedom
+///@{
+enum class GeneratorDof : std::uint8_t { free, locked };        ///< locked: at its speed, whatever happens
+enum class YawDof : std::uint8_t { free, locked, prescribed };  ///< free: on the spring of the yaw drive
+enum class TowerDof : std::uint8_t { bends, fore_aft, side_side, rigid };
+enum class BladeDof : std::uint8_t { bend, rigid };
+///@}
+
+/// What of the machine is to be otherwise than its source says; what is not given stays.
+struct MachineSettings {
+    std::optional<double> pitch = {};  ///< of all blades, toward feather, rad; none: the machine's at the rotor speed
+    std::optional<GeneratorDof> generator = {};
+    std::optional<YawDof> yaw = {};
+    std::optional<TowerDof> tower = {};
+    std::optional<BladeDof> blades = {};
+    std::optional<PlatformDescription> foundation = {};  ///< read_foundation(); none: the machine's, or it is clamped
+    std::optional<double> generator_inertia = {};        ///< on its own shaft, kg m^2
+    /// Beam elements; none: as many as it takes, converged_mesh().
+    std::optional<int> blade_elements = {}, tower_elements = {};
+    bool damping = true;  ///< of beams and joints
+};
+
+/// The air that a machine runs in, beside the speed of its wind.
+struct AirSettings {
+    double shear_exponent = 0;           ///< of the power law over the height; 0: the wind is uniform
+    double propagation_direction = 0;    ///< where the wind blows to, from downwind to the left, rad
+    double upflow = 0;                   ///< of the wind above the horizontal, rad
+    std::optional<double> density = {};  ///< kg/m^3; none: that of the airfoils' file
+    bool skewed_wake = true;             ///< the induction is redistributed in a skewed wake
+    bool tower_nacelle = true;           ///< the wind that the tower dams, and the drag of tower and nacelle
+    bool induction = true;               ///< false: the rotor induces no velocities
+};
+
+/// The wind of a run in time: a speed (steady), a file, or a wind with all that it has. `= 12`, `= "gust.csv"`.
+class WindSource {
+public:
+    template <class Speed>
+    requires std::is_arithmetic_v<Speed> WindSource(
+        Speed speed)  // NOLINT(google-explicit-constructor): hub-height wind speed, m/s
+        : what_(static_cast<double>(speed)) {}
+    /// CSV of read_wind_table(), InflowWind's main file, or a result (.h5) of a run in the wind. A table has the rest
+    /// from AirSettings.
+    template <std::convertible_to<std::filesystem::path> Path>
+    WindSource(const Path& file)  // NOLINT(google-explicit-constructor)
+        : what_(std::filesystem::path(file)) {}
+    /// As it is, whatever AirSettings say.
+    WindSource(Wind wind) : what_(std::move(wind)) {}  // NOLINT(google-explicit-constructor)
+
+    const double* speed() const { return std::get_if<double>(&what_); }
+    const std::filesystem::path* file() const { return std::get_if<std::filesystem::path>(&what_); }
+    const Wind* wind() const { return std::get_if<Wind>(&what_); }
+
+private:
+    std::variant<double, std::filesystem::path, Wind> what_;
+};
+
+/// What sets pitch and generator torque in a run in time.
+struct Controller {
+    enum class Kind : std::uint8_t { none, baseline, library };
+
+    Kind kind = Kind::none;
+    std::filesystem::path library = {};  ///< shared library with Bladed's function DISCON
+    std::filesystem::path input = {};    ///< file that the library reads
+    std::string output = "cardan";       ///< prefix of files that the library writes
+    double period = 0.0125;              ///< between its calls, s
+    double generator_efficiency = 1;     ///< electrical over mechanical power, which is recorded and measured
+    /// A demand for every blade, of a library; none: as the machine says (Ptch_Cntrl of ServoDyn), else collective.
+    std::optional<bool> individual_pitch = {};
+    /// Without a frequency of the pitch: springs of the machine's pitch bearings, or the pitch is prescribed.
+    ActuatorOptions actuators = {};
+
+    /// That of the report of the NREL 5 MW machine, for this machine.
+    static Controller baseline() { return {.kind = Kind::baseline}; }
+    /// In a shared library.
+    static Controller discon(std::filesystem::path library, std::filesystem::path input = {}) {
+        return {.kind = Kind::library, .library = std::move(library), .input = std::move(input)};
+    }
+    bool acts() const { return kind != Kind::none; }
+    bool is_individual() const { return individual_pitch.value_or(false); }
+};
+
+/// A prescribed torque on the hub about its axis, with which it turns; positive drives positive rotation. Linear
+/// between its rows, constant before and after them.
+struct RotorTorque {
+    std::vector<double> times = {}, values = {};  ///< s, N m; empty: there is none
+
+    static RotorTorque constant(double torque) { return {{0, 1}, {torque, torque}}; }
+    bool acts() const { return !times.empty(); }
+};
+/// CSV with the columns time[s],torque[N m].
+/// @throws ParseError, FileError
+RotorTorque read_rotor_torque(const std::filesystem::path& path);
+
+enum class SimulationStart : std::uint8_t {
+    steady,     ///< bent as in steady rotation, or at rest in equilibrium
+    undeformed  ///< straight
+};
+
+/// Of a Simulation.
+struct SimulationSettings {
+    std::optional<double> rotor_speed = {};  ///< at the start, rad/s; none: the machine's
+    std::optional<WindSource> wind = {};     ///< none: there is no air
+    AirSettings air = {};
+    Controller controller = {};
+    /// Without a controller: torque of the generator on its own shaft, N m, positive brakes positive rotation, and its
+    /// rise with the speed of that shaft above that at the start, N m s/rad. With one: the torque at the start.
+    /// None: that which balances the air in steady rotation, without wind 0.
+    std::optional<double> generator_torque = {};
+    double generator_slope = 0;
+    RotorTorque rotor_torque = {};
+    MachineSettings machine = {};
+    double azimuth = 0;                     ///< of blade 1 at the start, zero upward, rad
+    std::map<std::string, double> q = {};   ///< coordinates that start elsewhere, by name, rad or m
+    std::map<std::string, double> qd = {};  ///< and their rates, rad/s or m/s
+    Stations stations = {};                 ///< further channels along blades and tower
+    double tolerance = 1e-6;                ///< relative, of a step
+    int max_order = 2;                      ///< of Method::bdf, beyond which weakly damped modes may grow
+    solvers::Method method = solvers::Method::dirk;
+    SimulationStart start = SimulationStart::steady;
+    bool gravity = true;
+    Report report = {};                    ///< receives the remarks as they arise: Simulation::remarks() has all
+    std::function<bool()> cancelled = {};  ///< asked before every step; true: the run ends
+};
+
+/// How a machine runs over the wind: its schedule (MachineOperation::schedule, read_schedule()), or variable speed, if
+/// it has none or anything is set here; none: as the machine says.
+struct OperationSettings {
+    std::optional<double> rated_power = {};        ///< of the air on the rotor, W
+    std::optional<double> rated_rotor_speed = {};  ///< from rated wind on, rad/s
+    std::optional<double> min_rotor_speed = {};    ///< rad/s
+    std::optional<double> tip_speed_ratio = {};    ///< below rated power; none: also that of the best power coefficient
+};
+
+/// How the air follows a vibration.
+struct VibrationSettings {
+    Wake wake = Wake::dynamic;      ///< induced velocities; without AirSettings::induction there are none
+    bool unsteady_airfoils = true;  ///< coefficients lag where the airfoils' data have lags
+};
+
+/// Of campbell(): over rotor speeds, or with `winds` in the air, over those.
+struct CampbellSettings {
+    /// rad/s, rising from >= 0; empty: from 0 to 1.2 times the machine's in 12 steps. None beside `winds`.
+    std::vector<double> rotor_speeds = {};
+    std::vector<double> winds = {};  ///< at the hub's height, m/s, rising; the machine runs as `operation` says
+    /// Pitch over the rotor speed; empty: MachineSettings::pitch, else that of the machine's controller. None beside
+    /// `winds`.
+    std::vector<PitchAt> pitch_schedule = {};
+    MachineSettings machine = {};
+    bool gravity = false;
+    /// Modes up to here, Hz; none: 1.3 times the third of the blade, clamped and at rest, usual_frequency().
+    std::optional<double> max_frequency_hz = {};
+    /// @name With winds
+    ///@{
+    AirSettings air = {};
+    OperationSettings operation = {};
+    VibrationSettings vibration = {};
+    bool floquet = false;          ///< Floquet's theory in the place of the mean over the azimuth
+    bool all_air_motions = false;  ///< also all roots that are mostly states of the air
+    int harmonics = 4;             ///< of the revolution, at first
+    ///@}
+    Report report = {};  ///< receives the remarks as they arise
+    /// Called after every rotor speed or wind: first of the operating points, then of the modes.
+    std::function<void(const char* what, int done, int total)> progress = {};
+    std::function<bool()> cancelled = {};  ///< asked before every one; true: the rest is left out
+};
+
+/// Of linear_model(): at a rotor speed, or with a wind at the operating point in it.
+struct LinearModelSettings {
+    std::optional<double> rotor_speed = {};  ///< >= 0, rad/s; none: the machine's; with a wind the operating point's
+    std::optional<double> wind = {};         ///< at the hub's height, m/s; the machine runs as `operation` says
+    /// Names of linear_inputs(), in this order; empty: all. With a wind also "wind speed" and "collective pitch", which
+    /// is three: with "... rate" and "... acceleration".
+    std::vector<std::string> inputs = {};
+    /// Names or aliases of channels (channels(), station_channels(), with a wind those of the air), in this order;
+    /// empty: linear_outputs(), those at stations, and all of the air.
+    std::vector<std::string> outputs = {};
+    MachineSettings machine = {};
+    bool gravity = false;
+    Stations stations = {};
+    int azimuths = 24;                  ///< per revolution
+    std::optional<int> harmonics = {};  ///< of the revolution that are balanced, at first; none: 8, with a wind 4
+    /// The balanced model is right up to here, Hz, and so is the mesh; none: as for campbell().
+    std::optional<double> max_frequency_hz = {};
+    bool balanced = true;  ///< a balanced model is made, which takes most of the time where the air has many states
+    /// Of the balanced model: of every input and output, relative to its largest response; its order follows.
+    double error = 0.05;
+    int order = 0;         ///< of the balanced model in the place of its error; 0: by that
+    double azimuth = 0;    ///< rad, nearest to which a periodic model is given as a constant one
+    AirSettings air = {};  ///< with a wind, as the next two
+    OperationSettings operation = {};
+    VibrationSettings vibration = {};
+    Report report = {};  ///< receives the remarks as they arise
+};
+
+/// Of Simulation::record().
+struct RecordSettings {
+    double duration = 20;     ///< time that is simulated, from the start of the simulation, s
+    double step = 0.02;       ///< between outputs, s
+    bool resume = false;      ///< goes on with the file, from its checkpoint
+    std::string origin = {};  ///< begins the file's description: by what it was made
+    /// Called after every output.
+    std::function<void(double time)> progress = {};
+};
+
+}  // namespace cardan::turbines

@@ -1,0 +1,30 @@
+#include "turbines/analysis/steady_rotation.hpp"
+
+#include "mbs/base/outcome.hpp"
+
+#include <utility>
+
+namespace cardan::turbines {
+
+solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double rotor_speed,
+                                             const SteadyRotationOptions& options, const Report& report) {
+    solvers::PeriodicOptions periodic;
+    periodic.rotor_speed = rotor_speed;
+    periodic.harmonics = options.harmonics;
+    periodic.rotor = &turbine.rotor();
+    const auto solve = [&] { return solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, periodic); };
+    solvers::PeriodicSteadyState state = solve();
+    if (!state.converged && state.residual < options.good) {
+        report_remark(report, {.text = text("the steady state is out of balance by ",
+                                            digits(state.residual, std::chars_format::scientific, 1),
+                                            " (residual over stiffness, rad or m)")});
+        periodic.tolerance = options.good;
+        periodic.start = state.coefficients;
+        state = solve();
+    }
+    require_result(state, "steady rotation");
+    if (!state.note.empty()) report_remark(report, {.text = text("steady state: ", state.note)});
+    return state;
+}
+
+}  // namespace cardan::turbines

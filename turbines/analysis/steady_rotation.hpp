@@ -1,0 +1,24 @@
+/// @file
+/// Steady rotation of a machine, periodic.
+#pragma once
+
+#include "solvers/periodic/steady_state.hpp"
+#include "turbines/analysis/remark.hpp"
+#include "turbines/model/assembly.hpp"
+
+namespace cardan::turbines {
+
+struct SteadyRotationOptions {
+    int harmonics = 8;  ///< of the revolution, at first
+    /// Out of balance by less, residual over stiffness, rad or m, a state is taken as well, with a note: free yaw,
+    /// which nothing holds, has hardly any equilibrium.
+    double good = 1e-7;
+};
+
+/// By harmonic balance. What the solver notes is reported.
+/// @param rotor_speed  rad/s, not zero
+/// @throws NumericalError if there is none
+solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double rotor_speed,
+                                             const SteadyRotationOptions& options = {}, const Report& report = {});
+
+}  // namespace cardan::turbines

@@ -1,0 +1,66 @@
+/// @file
+/// A machine over the wind speed: how it is run, and its operating points.
+#pragma once
+
+#include "turbines/analysis/prepared_machine.hpp"
+#include "turbines/analysis/settings.hpp"
+#include "turbines/machine/machine.hpp"
+#include "turbines/operation/aeroelastic.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cardan::turbines {
+
+struct WindRunOptions {
+    std::vector<double> winds = {};  ///< at the hub's height, m/s
+    OperationSettings operation = {};
+    AirSettings air = {};
+    MachineSettings machine = {};
+    bool gravity = false;
+    int harmonics = 4, azimuths = 24;  ///< of a revolution: WindOperationOptions
+    double max_frequency_hz = 0;       ///< up to which the mesh is to be accurate
+    Report report = {};
+    std::function<void(int done, int total)> progress = {};  ///< after every operating point
+    std::function<bool()> cancelled = {};                    ///< asked after every point; true: no further ones
+};
+
+/// The machine made ready, and its operating points.
+struct WindRun {
+    Machine machine;         ///< with the settings
+    WindRunOptions options;  ///< with pitch and numbers of elements
+    bool own_pitch = false;  ///< it was not set
+    Aerodynamics air;
+    PreparedTurbine ready;
+    WindOperationOptions in_wind;
+    WindOperation operation;
+    std::vector<WindPoint> points = {};      ///< that converged
+    std::vector<double> not_converged = {};  ///< winds of the others, m/s
+    double truncation_residual = 0;          ///< WindPoint::remainder, the largest
+    bool complete = false;                   ///< false: it was cancelled
+};
+
+/// Without points as yet.
+/// @throws InputError for a machine without airfoils
+WindRun wind_run(const Machine& source, const WindRunOptions& options);
+
+/// One after the other; those that do not converge are reported as warnings.
+/// @throws InputError for a machine that says neither schedule nor rated power
+void find_points(WindRun& run);
+
+/// One operation by twice as many elements, of which deflections and twist of bent blades ask for more than frequencies
+/// at rest do.
+struct FinerPoint {
+    WindOperation operation;
+    WindPoint point;
+};
+FinerPoint finer_point(const WindRun& run, const Operation& at);
+
+/// With the lags that the airfoils have.
+AeroelasticOptions aeroelastic_options(const VibrationSettings& settings, const Aerodynamics& air);
+/// air_in_words()
+std::string in_words(const AeroelasticOptions& options, const Aerodynamics& air);
+
+}  // namespace cardan::turbines
