@@ -8,7 +8,6 @@
 
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
-#include "programs/cardan/wind_options.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include <algorithm>
 #include <cstdio>

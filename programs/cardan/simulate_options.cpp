@@ -142,9 +142,7 @@ turbines::SimulationSettings settings_of(const SimulateArguments& a) {
 
 void keep_taken(const turbines::SimulationSettings& taken, SimulateArguments& a) {
     a.rpm = turbines::in_unit(*taken.rotor_speed, units::rpm);
-    a.machine.pitch = turbines::in_unit(*taken.machine.pitch, units::degree);
-    a.machine.blade_elements = *taken.machine.blade_elements;
-    a.machine.tower_elements = *taken.machine.tower_elements;
+    keep_taken(taken.machine, a.machine);
     if (taken.controller.acts())
         a.controller.pitch_control = taken.controller.is_individual() ? "individual" : "collective";
 }

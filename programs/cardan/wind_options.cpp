@@ -2,7 +2,6 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/analysis/in_unit.hpp"
 #include "turbines/machine/read_machine.hpp"
 
 #include "programs/shared/program.hpp"
@@ -78,12 +77,6 @@ turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
 
 void show_progress(const char* what, int done, int total) {
     progress(text("\r", what, " ", done, " of ", total, done == total ? "\n" : ""));
-}
-
-void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options) {
-    if (taken.pitch) options.pitch = turbines::in_unit(*taken.pitch, units::degree);
-    options.blade_elements = *taken.blade_elements;
-    options.tower_elements = *taken.tower_elements;
 }
 
 }  // namespace cardan::program

@@ -45,7 +45,4 @@ void take_wind(turbines::Machine& machine, const WindArguments& wind, bool all_n
 
 /// For people: "wind speed 3 of 8", on a terminal.
 void show_progress(const char* what, int done, int total);
-/// Puts what the library has taken where nothing was given.
-void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options);
-
 }  // namespace cardan::program

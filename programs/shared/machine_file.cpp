@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/analysis/in_unit.hpp"
 #include "turbines/machine/built_in.hpp"
 #include "turbines/yaml/foundation.hpp"
 
@@ -148,6 +149,12 @@ turbines::MachineSettings numbers_of(const MachineOptions& a) {
     if (a.tower_elements > 0) settings.tower_elements = a.tower_elements;
     settings.damping = !a.undamped;
     return settings;
+}
+
+void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options) {
+    if (taken.pitch) options.pitch = turbines::in_unit(*taken.pitch, units::degree);
+    options.blade_elements = *taken.blade_elements;
+    options.tower_elements = *taken.tower_elements;
 }
 
 namespace {

@@ -44,6 +44,8 @@ turbines::Machine prepared_machine(MachineOptions& options);
 
 /// What the options say beside what prepared_machine() puts into the machine: pitch, numbers of elements, damping.
 turbines::MachineSettings numbers_of(const MachineOptions& options);
+/// Puts what the library has taken there where nothing was given.
+void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options);
 
 /// What the library has to say, on the terminal as it says it.
 /// @param all_notes  as print_notes()
