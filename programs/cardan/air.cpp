@@ -7,7 +7,6 @@
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/words.hpp"
 #include <filesystem>
-#include <iostream>
 
 namespace cardan::program {
 
@@ -50,10 +49,6 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, bool al
                          "FILE, the main file of AeroDyn, or windIO");
     machine.no_air.clear();
     print_notes(machine.air->notes, all_notes);
-}
-
-void tell_air(const char* what, const std::string& words) {
-    std::cout << "air of the " << what << ": " << words << "\n";
 }
 
 turbines::WindSource wind_source(const std::string& given) {

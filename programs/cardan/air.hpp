@@ -30,9 +30,6 @@ turbines::AirSettings settings_of(const AirArguments& arguments);
 /// Puts the airfoils that were asked for in the place of the machine's, and prints the notes on those it has then.
 /// @throws InputError for a machine without airfoils; as the readers
 void take_air(turbines::Machine& machine, const AirArguments& arguments, bool all_notes);
-/// The line that every command with air prints of it: "air of the vibrations: wake dynamic, profiles unsteady".
-/// @param what  the air is of
-void tell_air(const char* what, const std::string& words);
 
 inline constexpr const char* wind_file_format =
     "SPEED in m/s, or FILE: CSV with time[s],speed[m/s] and more, InflowWind's main file, or a result (.h5) in the "

@@ -100,7 +100,7 @@ turbines::CampbellSettings settings_of(const CampbellArguments& a) {
     return s;
 }
 
-// Numbers of equal steps as a range, in few digits.
+// All of them, in the fewest digits that give them back.
 std::string words_of(const std::vector<double>& speeds) {
     std::string words;
     for (const double speed : speeds)

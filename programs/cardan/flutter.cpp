@@ -93,7 +93,7 @@ SpeedRange speed_range(FlutterArguments& a, const turbines::Machine& machine) {
 
 turbines::Turbine blade_of(const turbines::Machine& machine, const MachineOptions& options) {
     const turbines::TurbineDescription& d = machine.description;
-    return turbines::isolated_blade(d, assembly_options(machine, options), first_blade(d));
+    return turbines::isolated_blade(d, assembly_options(machine, options), d.first_blade());
 }
 
 // The first torsion of the blade at rest, without air, Hz.
@@ -236,7 +236,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
 
     const turbines::Turbine blade = blade_of(machine, a.machine);
     const std::string answer = turbines::air_in_words("none", profiles_lag(air, a));
-    tell_air("blade", answer);
+    std::cout << "air of the blade: " << answer << "\n";
     solvers::StabilityLimits found = limits_of(blade, air, a, range, a.steps);
     solvers::Campbell& diagram = found.diagram;
     diagram.remark = "blade alone in still air, " + answer;

@@ -142,9 +142,7 @@ void print_operation(const turbines::Machine& machine) {
 
 void print_blade(const turbines::Machine& machine, const MachineOptions& options) {
     if (machine.description.blade_at(1) == nullptr) return;
-    MachineOptions fine = options;
-    fine.blade_elements = 0;
-    const std::vector<double> hz = turbines::clamped_blade_hz(machine.description, assembly_options(machine, fine));
+    const std::vector<double> hz = turbines::clamped_blade_hz(machine.description, assembly_options(machine, options));
     std::printf("blade 1 clamped at its root and at rest, Hz (12 elements)\n ");
     for (std::size_t i = 0; i < hz.size() && i < 6; ++i) std::printf(" %.4f", hz[i]);
     std::printf("\n");

@@ -3,7 +3,6 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/analysis/in_unit.hpp"
-#include "turbines/machine/machine_text.hpp"
 
 #include <cmath>
 
@@ -23,14 +22,6 @@ void set_pitch(const turbines::Machine& machine, MachineOptions& options, double
     if (options.pitch) return;
     const double pitch = turbines::pitch_at_speed({}, machine, rotor_speed, remarks_printed(false));
     options.pitch = turbines::in_unit(pitch, units::degree);
-}
-
-void tell_origin(solvers::Campbell& diagram, const std::string& name, const CommandLine& command,
-                 const turbines::Machine& machine, const turbines::PreparedTurbine& ready) {
-    const std::string foundation = turbines::foundation_in_words(machine);
-    diagram.remark += text(diagram.remark.empty() || foundation.empty() ? "" : "; ", foundation);
-    diagram.accuracy = in_words(ready.mesh);
-    diagram.source = run_text(name, command) + turbines::with_machine(diagram.source, machine);
 }
 
 std::string title_of(const solvers::Campbell& diagram) {

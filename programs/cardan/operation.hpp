@@ -18,11 +18,6 @@ double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machi
 /// Without a pitch among the options, that of the machine at a rotor speed, rad/s, is put there, and told.
 void set_pitch(const turbines::Machine& machine, MachineOptions& options, double rotor_speed);
 
-/// Puts into a diagram what it holds for, how accurate it is, by which command it was made, and the machine.
-/// @param name  of the command
-void tell_origin(solvers::Campbell& diagram, const std::string& name, const CommandLine& command,
-                 const turbines::Machine& machine, const turbines::PreparedTurbine& ready);
-
 /// Of a picture: the machine, and what the diagram holds for.
 std::string title_of(const solvers::Campbell& diagram);
 

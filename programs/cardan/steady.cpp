@@ -61,16 +61,8 @@ struct Revolution {
     std::string about;
 };
 
-Revolution standing(const turbines::Turbine& turbine, double azimuth) {
-    solvers::SteadyOptions options;
-    options.azimuth = azimuth;
-    const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);
-    require_result(state);
-    return {{state.at}, "at rest"};
-}
-
 Revolution revolution(const turbines::Turbine& turbine, double speed, const SteadyArguments& a) {
-    if (speed == 0) return standing(turbine, a.azimuth * units::degree);
+    if (speed == 0) return {{turbines::standstill(turbine, a.azimuth * units::degree)}, "at rest"};
     const solvers::PeriodicSteadyState state =
         turbines::steady_rotation(turbine, speed, {.harmonics = a.revolution.harmonics}, remarks_printed(false));
     Revolution all;

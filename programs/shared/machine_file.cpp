@@ -205,12 +205,6 @@ turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, con
     return turbines::assembly_options(machine, numbers_of(options), options.gravity);
 }
 
-int first_blade(const turbines::TurbineDescription& description) {
-    int first = 1;
-    while (first <= description.blades && description.blade_at(first) == nullptr) ++first;
-    return first;
-}
-
 double usual_frequency(const turbines::Machine& machine, const MachineOptions& options) {
     return turbines::usual_frequency(machine.description, assembly_options(machine, options));
 }

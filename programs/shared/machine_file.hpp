@@ -60,9 +60,6 @@ turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, Machin
 /// Beams, pitch, gravity and damping.
 turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options);
 
-/// The first blade that is there, from 1; beyond the number of blades: there is none.
-int first_blade(const turbines::TurbineDescription& description);
-
 /// As turbines::usual_frequency().
 double usual_frequency(const turbines::Machine& machine, const MachineOptions& options);
 

@@ -110,11 +110,6 @@ solvers::Campbell over_speeds(const Machine& machine, const CampbellSettings& s,
     return solvers::campbell(cases, "", options);
 }
 
-void keep_elements(const Mesh& mesh, CampbellSettings& s) {
-    s.machine.blade_elements = mesh.blade_elements;
-    s.machine.tower_elements = mesh.tower_elements;
-}
-
 CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {
     if (s.rotor_speeds.empty()) s.rotor_speeds = usual_speeds(machine, s.report);
     const std::vector<double> pitch = pitch_angles(s, machine);
@@ -125,7 +120,7 @@ CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {
     if (!s.max_frequency_hz) s.max_frequency_hz = usual_frequency(machine.description, assembly);
     const PreparedTurbine ready =
         assembled(machine, assembly, *s.max_frequency_hz, std::abs(s.rotor_speeds.back()), s.report);
-    keep_elements(ready.mesh, s);
+    keep_elements(ready.mesh, s.machine);
     CampbellDiagram diagram{over_speeds(machine, s, ready.turbine, pitch)};
     diagram.mesh = ready.mesh;
     diagram.turbine = ready.turbine;
@@ -177,10 +172,7 @@ CampbellDiagram campbell(const Machine& source, const CampbellSettings& settings
     check(settings);
     CampbellSettings s = settings;
     std::vector<Remark> remarks;
-    s.report = [&](const Remark& remark) {
-        remarks.push_back(remark);
-        report_remark(settings.report, remark);
-    };
+    s.report = kept(remarks, settings.report);
     const Machine machine = with_settings(source, s.machine, s.report);
     s.machine.foundation.reset();  // it is the machine's now
     CampbellDiagram diagram =

@@ -162,10 +162,7 @@ MachineLinearModel linear_model(const Machine& source, const LinearModelSettings
     check(settings);
     LinearModelSettings s = settings;
     std::vector<Remark> remarks;
-    s.report = [&](const Remark& remark) {
-        remarks.push_back(remark);
-        report_remark(settings.report, remark);
-    };
+    s.report = kept(remarks, settings.report);
     if (!s.harmonics) s.harmonics = s.wind ? harmonics_in_wind : harmonics_without_wind;
     const Machine machine = with_settings(source, s.machine, s.report);
     s.machine.foundation.reset();  // it is the machine's now
@@ -173,8 +170,7 @@ MachineLinearModel linear_model(const Machine& source, const LinearModelSettings
         s.max_frequency_hz = usual_frequency(machine.description, assembly_options(machine, s.machine, s.gravity));
     MachineLinearModel linear =
         s.wind ? at_operating_point(machine, std::move(s)) : at_rotor_speed(machine, std::move(s));
-    linear.settings.machine.blade_elements = linear.mesh.blade_elements;
-    linear.settings.machine.tower_elements = linear.mesh.tower_elements;
+    keep_elements(linear.mesh, linear.settings.machine);
     linear.settings.report = settings.report;
     if (linear.in_wind) linear.in_wind->options.report = settings.report;
     linear.model.description = with_machine(linear.model.description, machine);

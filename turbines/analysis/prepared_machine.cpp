@@ -91,6 +91,11 @@ PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, doub
     return {turbine, mesh};
 }
 
+void keep_elements(const Mesh& mesh, MachineSettings& settings) {
+    settings.blade_elements = mesh.blade_elements;
+    settings.tower_elements = mesh.tower_elements;
+}
+
 double rotor_speed_of(const std::optional<double>& asked, const Machine& machine, const char* field,
                       const Report& report) {
     if (asked) {

@@ -27,6 +27,9 @@ struct PreparedTurbine {
 PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, double max_hz, double rotor_speed,
                           const Report& report = {});
 
+/// The numbers of elements that were chosen become those of the settings.
+void keep_elements(const Mesh& mesh, MachineSettings& settings);
+
 /// One speed, rad/s: that which is asked for, or the machine's, which is reported.
 /// @param field  that asks, for errors
 /// @throws InputError for what is not finite

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cardan::turbines {
@@ -30,6 +31,15 @@ using Report = std::function<void(const Remark&)>;
 
 inline void report_remark(const Report& report, const Remark& remark) {
     if (report) report(remark);
+}
+
+/// Keeps all remarks, and passes them on.
+/// @param all  lives as long as the report
+inline Report kept(std::vector<Remark>& all, Report further) {
+    return [&all, further = std::move(further)](const Remark& remark) {
+        all.push_back(remark);
+        report_remark(further, remark);
+    };
 }
 
 }  // namespace cardan::turbines

@@ -66,12 +66,7 @@ struct Simulation::Parts {
     std::optional<solvers::Recorder> recorder;
 
     // The parts stay where they are as long as the simulation lives.
-    Report report() {
-        return [this](const Remark& remark) {
-            remarks.push_back(remark);
-            report_remark(settings.report, remark);
-        };
-    }
+    Report report() { return kept(remarks, settings.report); }
     void set_machine(const Machine& source);
     void set_model();
     std::string description(double step) const;
@@ -93,8 +88,7 @@ void Simulation::Parts::set_machine(const Machine& source) {
 void Simulation::Parts::set_model() {
     Mesh mesh;
     model = simulation_model(machine, settings, mesh, report());
-    settings.machine.blade_elements = mesh.blade_elements;
-    settings.machine.tower_elements = mesh.tower_elements;
+    keep_elements(mesh, settings.machine);
     const SimulationState start = start_of(model->at_start, settings, report());
     drives = drives_of(machine, model->turbine.rotor().spin, start);
     integration = integration_of(settings, model->controllers);

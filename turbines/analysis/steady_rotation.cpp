@@ -27,4 +27,12 @@ solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double roto
     return state;
 }
 
+solvers::OperatingPoint standstill(const Turbine& turbine, double azimuth) {
+    solvers::SteadyOptions options;
+    options.azimuth = azimuth;
+    const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);
+    require_result(state);
+    return state.at;
+}
+
 }  // namespace cardan::turbines

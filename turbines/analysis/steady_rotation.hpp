@@ -21,4 +21,9 @@ struct SteadyRotationOptions {
 solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double rotor_speed,
                                              const SteadyRotationOptions& options = {}, const Report& report = {});
 
+/// At rest in equilibrium, the rotor held.
+/// @param azimuth  of blade 1, rad
+/// @throws NumericalError if there is no equilibrium
+solvers::OperatingPoint standstill(const Turbine& turbine, double azimuth);
+
 }  // namespace cardan::turbines

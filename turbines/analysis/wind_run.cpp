@@ -88,8 +88,7 @@ WindRun wind_run(const Machine& source, const WindRunOptions& options) {
         o.machine.pitch = pitch_at_speed({}, machine, machine.operation.rotor_speed, o.report);
     const AssemblyOptions assembly = assembly_options(machine, o.machine, o.gravity);
     PreparedTurbine ready = assembled(machine, assembly, o.max_frequency_hz, machine.operation.rotor_speed, o.report);
-    o.machine.blade_elements = ready.mesh.blade_elements;
-    o.machine.tower_elements = ready.mesh.tower_elements;
+    keep_elements(ready.mesh, o.machine);
     WindOperationOptions in_wind = operation_options(machine, o, air, ready.turbine);
     WindOperation operation(machine.description, assembly_options(machine, o.machine, o.gravity), air.blade, in_wind);
     return {.machine = std::move(machine),

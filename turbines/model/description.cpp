@@ -134,6 +134,12 @@ bool HubDescription::is_balanced() const {
            inertia.J(0, 2) == 0 && inertia.J(1, 2) == 0;
 }
 
+int TurbineDescription::first_blade() const {
+    int first = 1;
+    while (first <= blades && blade_at(first) == nullptr) ++first;
+    return first;
+}
+
 const BladeDescription* TurbineDescription::blade_at(int number) const {
     const auto own = own_blades.find(number);
     if (own == own_blades.end()) return &blade;

@@ -157,6 +157,8 @@ struct TurbineDescription {
 
     /// The blade at a place, 1 ... `blades`; null: it is missing.
     const BladeDescription* blade_at(int number) const;
+    /// The first blade that is there, from 1; beyond the number of blades: there is none.
+    int first_blade() const;
     /// Three or more, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
     bool has_equal_blades() const { return blades > 2 && own_blades.empty(); }
     /// Refuses what cannot be and, unless `unusual`, what machines do not have: |tilt| > 0.35, |cone| > 0.5, |delta-3|

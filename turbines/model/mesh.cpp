@@ -213,8 +213,9 @@ private:
         mesh.blade_elements = blade_elements;
         mesh.tower_elements = tower_elements;
         mesh.largest_hz = mesh_.largest_hz;
+        Frequencies few = frequencies(blade_elements, tower_elements);
         const auto change = [&](int blade_factor, int tower_factor) {
-            return largest_change(frequencies(mesh.blade_elements, mesh.tower_elements),
+            return largest_change(few,
                                   frequencies(blade_factor * mesh.blade_elements, tower_factor * mesh.tower_elements),
                                   mesh_.largest_hz);
         };
@@ -222,7 +223,10 @@ private:
         const int blade_factor = seeks_blade_elements(description_, options_) ? 2 : 1,
                   tower_factor = seeks_tower_elements(description_, options_) ? 2 : 1;
         Change found = change(blade_factor, tower_factor);
-        while (found.change > mesh_.tolerance && enlarge(mesh)) found = change(blade_factor, tower_factor);
+        while (found.change > mesh_.tolerance && enlarge(mesh)) {
+            few = frequencies(mesh.blade_elements, mesh.tower_elements);
+            found = change(blade_factor, tower_factor);
+        }
         if (blade_factor * tower_factor < 4) found = change(2, 2);
         mesh.change = found.change;
         mesh.at_hz = found.at_hz;
@@ -248,12 +252,8 @@ private:
     MeshOptions mesh_;
 };
 
-// The first blade that is there and has sections; 0: there is none.
-int first_blade(const TurbineDescription& d) {
-    for (int k = 1; k <= d.blades; ++k)
-        if (const BladeDescription* blade = d.blade_at(k))
-            return !blade->rigid && blade->line.section && blade->line.length > 0 ? k : 0;
-    return 0;
+bool bends(const BladeDescription& blade) {
+    return !blade.rigid && blade.line.section && blade.line.length > 0;
 }
 
 constexpr int fine = 12;  // elements of a blade whose frequencies are asked for
@@ -301,8 +301,8 @@ std::vector<double> clamped_blade_hz(const TurbineDescription& description, cons
 }
 
 double usual_frequency(const TurbineDescription& description, const AssemblyOptions& options) {
-    const int first = first_blade(description);
-    if (first == 0) return 5;
+    const int first = description.first_blade();
+    if (first > description.blades || !bends(*description.blade_at(first))) return 5;
     AssemblyOptions elements = options;
     elements.blade_elements = fine;
     const std::vector<double> hz = clamped_blade_hz(description, elements, first);

@@ -28,7 +28,6 @@ public:
     Eigen::Index unknowns() const { return teeter() + 1; }
     enum Body : std::uint8_t { nacelle, shaft, hub };
     /// First unknown of the tower; of blade 1 or 2; of a Body.
-    static Eigen::Index tower_unknowns() { return 0; }
     Eigen::Index blade_unknowns(int number) const { return tower_size_ + (number - 1) * blade_.unknowns(); }
     Eigen::Index body_unknowns(int body) const { return tower_size_ + 2 * blade_.unknowns() + 6 * Eigen::Index{body}; }
     Eigen::Index yaw() const { return body_unknowns(3); }

@@ -97,20 +97,12 @@ double driving_torque(const Machine& machine, const SimulationSettings& o, const
     return !air && o.controller.acts() && o.rotor_torque.acts() ? o.rotor_torque.values.front() : 0;
 }
 
-solvers::OperatingPoint at_rest(const Turbine& turbine, double azimuth) {
-    solvers::SteadyOptions options;
-    options.azimuth = azimuth;
-    const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);
-    require_result(state);
-    return state.at;
-}
-
 // Empty, with the reason reported: there is no steady state, or it was not found.
 std::optional<SimulationState> steady_start(const Turbine& turbine, double speed, double azimuth,
                                             const Report& report) {
     try {
         const solvers::OperatingPoint at =
-            speed == 0 ? at_rest(turbine, azimuth)
+            speed == 0 ? standstill(turbine, azimuth)
                        : steady_rotation(turbine, speed, {.good = good_start}, report).at(azimuth);
         return SimulationState{at.q, at.qd};
     } catch (const NumericalError& error) {
