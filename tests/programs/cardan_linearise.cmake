@@ -36,4 +36,8 @@ add_example_test(example_turbine_linear_unknown_option cardan 2 "--nonsense" lin
 add_example_test(example_turbine_linear_rpm cardan 1 "--rpm: value = -1; allowed: >= 0" linearise wt600 --rpm=-1)
 add_example_test(example_turbine_linear_azimuths cardan 1 "number of azimuths = 2; allowed: >= 3" linearise teetered --azimuths 2
                  --out example_turbine_linear_azimuths)
+# At once: neither modes nor those of twice as many elements are computed before.
+add_example_test(example_turbine_linear_many_elements cardan 1
+    "mesh: 80 elements per blade, 80 in the tower, as given\n.*number of unknowns = 1850; allowed: <= 1500 .all eigenvalues of a full matrix.*take fewer elements per part"
+    linearise wt600 --blade-elements 80 --tower-elements 80 --out example_turbine_linear_many_elements)
 add_example_test(example_turbine_linear_unwritable cardan 1 "the folder 'no/such' does not exist" linearise wt600 --out no/such/x)
