@@ -7,9 +7,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/difference.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/machines/wt600_operation.hpp"
+#include "turbines/model/generator_slip.hpp"
 
-#include "examples/studies/wt600_generator_option.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include <array>
 #include <filesystem>
@@ -23,7 +23,8 @@ struct Arguments {
     std::string rpm = "0:40:1";
     std::string out = "wt600_campbell";
     std::string data;
-    program::GeneratorOption generator;
+    std::string generator = "free";
+    double generator_torque = 0;  // N m, where its slip is linearised
     turbines::AssemblyOptions assembly;
     bool undamped = false, frozen = false, modes = false, summary = false;
     bool gravity = false, shaft_beam = false, floquet = false, paper = false;
@@ -59,7 +60,11 @@ int parse(int argc, char** argv, Arguments& a) {
                                                  "are chosen for it (by default for those up "
                                                  "to the second flap)");
     app.add_flag("--undamped", a.undamped, "leave out all damping");
-    program::add_generator_option(app, a.generator);
+    app.add_option("--generator", a.generator,
+                   "free: no torque; slip: the data set's induction machine, linearised; locked: its speed prescribed")
+        .one_of({"free", "slip", "locked"});
+    app.add_option("--generator-torque", a.generator_torque,
+                   "of the induction machine where its slip is linearised, N m");
     const program::Option frozen =
         app.add_flag("--frozen-azimuth", a.frozen,
                      "eigenvalues at one azimuth (no motions of the machine), for comparison with the paper");
@@ -77,6 +82,16 @@ int parse(int argc, char** argv, Arguments& a) {
     if (const int code = app.parse(argc, argv); code >= 0) return code;
     set_assembly(a, limit.given());
     return -1;
+}
+
+turbines::Turbine with_generator(const turbines::Turbine& turbine, const Arguments& a) {
+    if (a.generator == "slip")
+        return turbines::with_generator_slip(
+            turbine, a.data.empty() ? turbines::wt600_induction_machine() : turbines::wt600_induction_machine(a.data),
+            a.generator_torque);
+    if (a.generator_torque != 0)
+        throw InputError("--generator-torque", "value [N m]", a.generator_torque, "0, or --generator slip");
+    return turbine;
 }
 
 // The arrangement of the paper's Figs. 8 and 9.
@@ -117,15 +132,14 @@ int run(const Arguments& a) {
     std::string files = text(a.out, ".h5, .csv, .svg, .png");
     const turbines::TurbineDescription description =
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
-    const turbines::Turbine turbine =
-        program::with_generator(turbines::assemble(description, a.assembly), a.generator, a.data);
+    const turbines::Turbine turbine = with_generator(turbines::assemble(description, a.assembly), a);
     program::introduce(turbine, a.summary);
 
     solvers::CampbellOptions options = program::campbell_options(a.max_frequency);
     options.method = a.frozen    ? solvers::CampbellMethod::frozen_azimuth
                      : a.floquet ? solvers::CampbellMethod::floquet
                                  : solvers::CampbellMethod::coleman;
-    options.spin = a.generator.spin();
+    options.spin = a.generator == "locked" ? solvers::RotorSpin::prescribed : solvers::RotorSpin::free;
     program::check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_tower_yaw_tilt.png", "_flap_edge.png"});
     if (a.floquet) program::check_outputs(a.out, {"_averaged.csv", "_difference.svg", "_difference.png"});
     solvers::Campbell diagram = solvers::campbell(turbine.system(), turbine.rotor(), speeds, options);

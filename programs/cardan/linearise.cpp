@@ -8,14 +8,22 @@
 // eigenvalues are not motions of the machine. What does not change with the azimuth (standstill, no blades) is
 // constant. Reference: the modes of A, or the characteristic exponents of the periodic A by Floquet's theory, are those
 // of the Campbell diagram at this rotor speed.
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "turbines/analysis/in_unit.hpp"
 #include "turbines/analysis/linear_model.hpp"
 
 #include "programs/cardan/commands.hpp"
+#include "programs/cardan/linear_model_output.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/wind_options.hpp"
-#include "programs/shared/linear_model_program.hpp"
+#include "programs/shared/channel_choice.hpp"
+#include "programs/shared/program.hpp"
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <optional>
 #include <utility>
 
 namespace cardan::program {
@@ -25,22 +33,38 @@ namespace {
 struct LineariseArguments {
     MachineOptions machine;
     VibrationArguments air;
-    LinearModelArguments model{.azimuths = 24};
+    StationOptions stations;
+    std::string out;
     std::optional<double> rpm, max_frequency;
-    double azimuth = 0;
+    double error = 5, azimuth = 0;
+    int azimuths = 24, order = 0;
 };
 
 void declare(CommandLine& app, LineariseArguments& a) {
     add_machine(app, a.machine);
     app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the model's)");
-    add_linear_model_options(app, a.model);
+    app.add_option("--azimuths", a.azimuths, "azimuths per revolution");
+    app.add_option("--error", a.error,
+                   "error of the balanced model, % of the largest response of every input and output up to the largest "
+                   "frequency; its order follows");
+    app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
+    add_station_options(app, a.stations);
+    app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--max-frequency", a.max_frequency,
-                   text(max_frequency_of_models, " (default: 1.3 times the third of the blade, clamped and at rest)"));
+                   "modes are printed, and the balanced model is right, up to this frequency, Hz (default: 1.3 times "
+                   "the third of the blade, clamped and at rest)");
     app.add_option("--azimuth", a.azimuth,
                    "of a periodic model that is given as a constant one, deg; the nearest there is");
     app.add_flag("--gravity", a.machine.gravity, "about the periodic steady state under gravity");
     add_vibration_options(app, a.air);
     add_machine_options(app, a.machine);
+}
+
+void require_numbers(const LineariseArguments& a) {
+    if (a.rpm && (!std::isfinite(*a.rpm) || *a.rpm < 0)) throw InputError("--rpm", "value", *a.rpm, ">= 0");
+    if (a.max_frequency) require_positive("--max-frequency", "value [Hz]", *a.max_frequency);
+    require_positive("--error", "value [%]", a.error);
+    if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
 }
 
 turbines::LinearModelSettings settings_of(const LineariseArguments& a) {
@@ -51,12 +75,12 @@ turbines::LinearModelSettings settings_of(const LineariseArguments& a) {
     if (!winds.empty()) s.wind = winds.front();
     s.machine = numbers_of(a.machine);
     s.gravity = a.machine.gravity;
-    s.stations = stations_of(a.model.stations);
-    s.azimuths = a.model.azimuths;
+    s.stations = stations_of(a.stations);
+    s.azimuths = a.azimuths;
     if (s.wind) s.harmonics = a.air.harmonics;
     s.max_frequency_hz = a.max_frequency;
-    s.error = a.model.error / 100;
-    s.order = a.model.order;
+    s.error = a.error / 100;
+    s.order = a.order;
     s.azimuth = a.azimuth * units::degree;
     s.air = settings_of(a.air.wind.air);
     s.operation = operation_of(a.air.wind);
@@ -68,7 +92,7 @@ turbines::LinearModelSettings settings_of(const LineariseArguments& a) {
 void keep_taken(const turbines::LinearModelSettings& taken, LineariseArguments& a) {
     keep_taken(taken.machine, a.machine);
     a.rpm = turbines::in_unit(*taken.rotor_speed, units::rpm);
-    a.max_frequency = a.model.max_frequency = *taken.max_frequency_hz;
+    a.max_frequency = taken.max_frequency_hz;
 }
 
 solvers::CampbellOptions modes_of(const turbines::MachineLinearModel& linear, solvers::RotorSpin spin) {
@@ -202,13 +226,12 @@ void print_constant(const turbines::MachineLinearModel& linear, const std::optio
 int run(LineariseArguments& a, const CommandLine& command) {
     const bool windy = !a.air.wind.speeds.empty();
     turbines::Machine machine = prepared_machine(a.machine);
-    if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
-    a.model.max_frequency = a.max_frequency.value_or(a.model.max_frequency);
-    check(a.model, a.rpm.value_or(0));
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
+    require_numbers(a);
     if (windy && a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
     if (windy) take_wind(machine, a.air.wind, a.machine.notes);
     const turbines::LinearModelSettings settings = settings_of(a);
-    check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
+    check_outputs(a.out, {".h5", ".mat", ".1.lin"});
     turbines::MachineLinearModel linear = turbines::linear_model(machine, settings);
     keep_taken(linear.settings, a);
     if (a.machine.summary) std::cout << linear.turbine.summary() << "\n";
@@ -220,7 +243,7 @@ int run(LineariseArguments& a, const CommandLine& command) {
         print_periodic(linear, machine.description, modes);
     else
         print_constant(linear, modes);
-    write_files(linear.model, linear.constant, a.model.out);
+    write_files(linear.model, linear.constant, a.out);
     return 0;
 }
 

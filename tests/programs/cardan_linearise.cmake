@@ -2,8 +2,10 @@
 set(models ${CMAKE_CURRENT_SOURCE_DIR}/data)
 set(coarse --blade-elements 1 --tower-elements 1)
 add_example_test(example_turbine_linear_wt600 cardan 0
-    "generator and yaw bearing free\n.*7 inputs, 20 outputs, 12 azimuths.*modes of A and of the Campbell.* 1.9[0-9]+ +[0-9.]+ +1.9[0-9]+ +[0-9.]+  1st blade flap.*balanced model: order [0-9]+ and 2 .*example_turbine_linear_wt600.1.lin ... 12 files" linearise
+    "generator and yaw bearing free\n.*7 inputs, 20 outputs, 12 azimuths.*modes of A and of the Campbell.* 1.9[0-9]+ +[0-9.]+ +1.9[0-9]+ +[0-9.]+  1st blade flap.*1st drive-train torsion.*balanced model: order 46 and 2 .*yaw moment +[0-4].[0-9]+ %.*pitch moment .collective. +[0-4].[0-9]+ %.*example_turbine_linear_wt600.1.lin ... 12 files" linearise
     wt600 --rpm 27 --azimuths 12 --blade-elements 3 --tower-elements 3 --out example_turbine_linear_wt600)
+add_example_test(example_turbine_linear_still cardan 0 "at 0 rpm: .* 1 azimuths.*1st tower fore-aft\n.*balanced model: order [0-9]+ and 2 .*1 files" linearise
+    wt600 --rpm 0 ${coarse} --out example_turbine_linear_still)
 add_example_test(example_turbine_linear_nrel5mw cardan 0
     "at 12.1 rpm.*A [0-9.]+e-1[0-9].*balanced model: order 8 and 2 .*24 files" linearise nrel5mw ${coarse} --order 8 --out
     example_turbine_linear_nrel5mw)
@@ -26,8 +28,8 @@ add_example_test(example_turbine_linear_hub_alone cardan 0
 add_example_test(example_turbine_linear_openfast cardan 0
     "generator locked.* rpm: [0-9]+ states, 3 inputs, 17 outputs.*modes of A and of.*1st tower fore-aft\n.*balanced model: order [0-9]+ and 0 " linearise
     ${models}/openfast/small.fst ${coarse} --generator locked --out example_turbine_linear_openfast)
-add_example_test(example_turbine_linear_openfast_gravity cardan 0 "periodic remainder.*modes of A\n.*order 4 and" linearise ${models}/openfast/small.fst
-    ${coarse} --gravity --order 4 --out example_turbine_linear_openfast_gravity)
+add_example_test(example_turbine_linear_openfast_gravity cardan 0 "periodic remainder.*modes of A\n.*order 4 and 0 " linearise ${models}/openfast/small.fst
+    ${coarse} --gravity --generator locked --order 4 --out example_turbine_linear_openfast_gravity)
 # Bad usage.
 add_example_test(example_turbine_linear_help cardan 0 "--azimuths.*  teetered  " linearise --help)
 add_example_test(example_turbine_linear_no_machine cardan 2 "model is required" linearise)
@@ -36,6 +38,9 @@ add_example_test(example_turbine_linear_unknown_option cardan 2 "--nonsense" lin
 add_example_test(example_turbine_linear_rpm cardan 1 "--rpm: value = -1; allowed: >= 0" linearise wt600 --rpm=-1)
 add_example_test(example_turbine_linear_azimuths cardan 1 "number of azimuths = 2; allowed: >= 3" linearise teetered --azimuths 2
                  --out example_turbine_linear_azimuths)
+add_example_test(example_turbine_linear_error cardan 1 "--error: value .%. = nan; allowed: finite and > 0" linearise wt600 --error nan)
+add_example_test(example_turbine_linear_order cardan 1 "order = 1000; allowed: 0 ... [0-9]+" linearise wt600 --order 1000 ${coarse} --azimuths 4
+                 --out example_turbine_linear_order)
 # At once: neither modes nor those of twice as many elements are computed before.
 add_example_test(example_turbine_linear_many_elements cardan 1
     "mesh: 80 elements per blade, 80 in the tower, as given\n.*number of unknowns = 1850; allowed: <= 1500 .all eigenvalues of a full matrix.*take fewer elements per part"

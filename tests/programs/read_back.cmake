@@ -12,7 +12,8 @@ if(CARDAN_PEER_PYTHON)
                      --out read_back_campbell)
     add_example_test(read_back_write_floquet teetered_floquet 0 "read_back_floquet.h5" --gravity --max 20 ${coarse} --no-pictures
                      --no-teeter --harmonics 4 --out read_back_floquet)
-    add_example_test(read_back_write_model wt600_linear_model 0 "read_back_model.h5" ${coarse} --azimuths 7 --out read_back_model)
+    add_example_test(read_back_write_model cardan 0 "read_back_model.h5" linearise wt600 --rpm 27 ${coarse} --azimuths 7
+                     --out read_back_model)
     add_example_test(read_back_write_run wt600_time_history 0 "read_back_run.h5" ${coarse} --duration 5 --out read_back_run)
     add_example_test(read_back_write_table cardan 0 "rows of" convert read_back_run.h5 read_back_run.csv)
     set_tests_properties(read_back_write_campbell PROPERTIES FIXTURES_SETUP read_back_campbell)
@@ -31,7 +32,7 @@ if(CARDAN_PEER_PYTHON)
         add_test(NAME python_snippets_${document}
                  COMMAND ${CARDAN_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tests/peers/python_snippets.py
                          ${PROJECT_SOURCE_DIR}/docs/${document}.md python_snippets_${document} wt600_campbell.h5=read_back_campbell.h5
-                         wt600_linear_model.h5=read_back_model.h5 run.h5=read_back_run.h5
+                         wt600_linear.h5=read_back_model.h5 run.h5=read_back_run.h5
                  WORKING_DIRECTORY ${test_output_dir})
         set_tests_properties(python_snippets_${document} PROPERTIES SKIP_RETURN_CODE 77
                              FIXTURES_REQUIRED "read_back_campbell;read_back_model;read_back_run")

@@ -1,25 +1,14 @@
 # The 600 kW machine in time.
 set(coarse --blade-elements 1 --tower-elements 1)
-add_example_test(example_stop wt600_emergency_stop 0
-              "grid loss .*overspeed, pitch to feather.*brake on.*standstill.*tower base moment y.*ok.*ok.*start in equilibrium[^\n]*ok.*ok.*_spectrum.png"
-              ${coarse} --grid-loss 1 --tolerance 1e-5 --after 3 --out example_stop)
-add_example_test(example_stop_delay wt600_emergency_stop 0 "brake on.*standstill" ${coarse} --grid-loss 0.5 --brake-delay 6
-              --tolerance 1e-4 --after 0 --no-gravity --method dirk --out example_stop_delay)
-add_example_test(example_stop_short wt600_emergency_stop 1 "rotor stands .0: yes.*FAILED" ${coarse} --duration 1
-              --grid-loss 0.5 --out example_stop_short)
-add_example_test(example_stop_excludes wt600_emergency_stop 2 "excludes --brake" --brake-delay 1
-              --brake-speed 5)
-add_example_test(example_stop_overspeed wt600_emergency_stop 1 "--overspeed: value = 1; allowed: > 1" --overspeed 1)
-add_example_test(example_stop_loss wt600_emergency_stop 1 "--grid-loss: value = 0; allowed: finite and > 0" --grid-loss 0)
-add_example_test(example_stop_unwritable wt600_emergency_stop 1 "the folder 'no/such' does not exist" --out no/such/x)
-add_example_test(example_stop_no_data wt600_emergency_stop 1 "no_such_folder/wt600_[a-z]+.csv: cannot be read" --data
-              no_such_folder)
 add_example_test(example_time_fixed wt600_time_history 0
               "connected at synchronous speed.*3P.*generator torque.*against the balance of torques.*ok" ${coarse}
               --mode fixed --pitch-rate 6 --duration 40 --tolerance 1e-5 --step 0.05 --out example_time_fixed)
 add_example_test(example_time_variable wt600_time_history 0 "variable speed.*against the balance of torques.*ok"
               ${coarse} --mode variable --pitch-rate 6 --duration 60 --tolerance 1e-5 --step 0.05 --out
               example_time_variable)
+# The speed has not settled yet: a check that does not hold is the exit code.
+add_example_test(example_time_short wt600_time_history 1 "against the balance of torques[^\n]* FAILED" ${coarse} --mode variable
+              --pitch-rate 6 --duration 31 --tolerance 1e-5 --step 0.05 --out example_time_short)
 add_example_test(example_time_platform wt600_time_history 0
               "energy lost.*ok.*platform's drives.*ok.*example_time_platform.h5.*, _energy.png, _spectrum.png" ${coarse} --surge
               amplitude=1,period=8,phase=20 --heave velocity=0.5 --pitch mean=-2,amplitude=1,period=5 --duration 15 --tolerance 1e-5
@@ -48,6 +37,8 @@ add_example_test(example_time_duration wt600_time_history 1 "--duration: value =
 add_example_test(example_time_step wt600_time_history 1 "--step: value = 0" --step 0)
 add_example_test(example_time_order wt600_time_history 1 "highest order = 9; allowed: 0 ... 5" --method bdf --order 9)
 add_example_test(example_time_unwritable wt600_time_history 1 "the folder 'no/such' does not exist" --out no/such/x)
+add_example_test(example_time_no_data wt600_time_history 1 "no_such_folder/wt600_[a-z]+.csv: cannot be read" --data
+              no_such_folder)
 add_example_test(example_time_resume_help wt600_time_history 0 "bit for bit with dirk, erk and alpha, within the tolerance" --help)
 foreach(tolerance nan inf -1)
     add_example_test(example_time_tolerance_${tolerance} wt600_time_history 1 "relative tolerance = ${tolerance}; allowed: finite and > 0"

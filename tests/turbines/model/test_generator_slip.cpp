@@ -2,10 +2,13 @@
 // chain of three inertias written by hand, with the generator free, slipping and locked.
 #include "mbs/base/decompositions.hpp"
 #include "solvers/campbell/diagram.hpp"
+#include "solvers/control/model_reduction.hpp"
+#include "solvers/control/multi_blade_model.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "turbines/analysis/linear_model.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/generator_slip.hpp"
 
@@ -138,6 +141,30 @@ TEST_CASE("generator slip: drive-train torsion of the machine falls from 4.51 to
     CHECK(slip[0] == Approx(1.44).margin(5e-3));
     CHECK(slip[1] == Approx(0.52).margin(5e-3));
     CHECK_THAT(slipping.rotor().description, Catch::Matchers::StartsWith("slip of the generator: 4774648"));
+}
+
+TEST_CASE(
+    "generator slip: the linear model has the torsion of the Campbell diagram, and of the states that are not stable "
+    "the azimuth remains",
+    "[crosscheck]") {
+    const turbines::Turbine free = turbines::wt600(turbines::wt600_paper_assembly());
+    const turbines::Turbine slipping = turbines::with_generator_slip(free, turbines::wt600_induction_machine());
+    const auto model = [](const turbines::Turbine& machine) {
+        return solvers::multi_blade(
+            turbines::linearised(machine, {.rotor_speed = 27 * rpm, .outputs = {"GenSpeed"}, .azimuths = 5},
+                                 RotorSpin::free),
+            machine.rotor());
+    };
+    const solvers::MultiBladeModel slips = model(slipping);
+    const auto found = torsion(slipping, RotorSpin::free, 27 * rpm);
+    CHECK(found[1] == Approx(0.515).margin(0.015));
+    const std::vector<Complex> poles = slips.poles();
+    CHECK(std::ranges::any_of(poles, [&](const Complex& pole) {
+        return std::abs(std::abs(pole) / (2 * pi) - found[0]) < 1e-6 * found[0] &&
+               std::abs(-pole.real() / std::abs(pole) - found[1]) < 1e-6;
+    }));
+    CHECK(solvers::balanced_truncation(slips, {.order = 16}).kept_as_is == 1);
+    CHECK(solvers::balanced_truncation(model(free), {.order = 16}).kept_as_is == 2);
 }
 
 TEST_CASE("generator slip: bad input is refused", "[property]") {

@@ -1,56 +1,19 @@
-/// @file
-/// What the programs that make linear models for the design of controllers have in common.
-#pragma once
+#include "programs/cardan/linear_model_output.hpp"
 
 #include "mbs/base/entry.hpp"
-#include "mbs/base/error.hpp"
-#include "mbs/base/units.hpp"
-#include "solvers/campbell/diagram.hpp"
 #include "solvers/control/lin_file.hpp"
-#include "solvers/control/model_reduction.hpp"
-#include "solvers/control/multi_blade_model.hpp"
 #include "solvers/hdf5_models/state_space.hpp"
 #include "solvers/matlab/state_space.hpp"
 
-#include "programs/shared/channel_choice.hpp"
-#include "programs/shared/program.hpp"
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 namespace cardan::program {
 
-struct LinearModelArguments {
-    double max_frequency = 10, error = 5;
-    int azimuths = 12, order = 0;
-    StationOptions stations = {};
-    std::string out = {};
-};
+namespace {
 
-inline constexpr auto max_frequency_of_models =
-    "modes are printed, and the balanced model is right, up to this frequency, Hz";
-
-/// All but --max-frequency.
-inline void add_linear_model_options(CommandLine& app, LinearModelArguments& a) {
-    app.add_option("--azimuths", a.azimuths, "azimuths per revolution");
-    app.add_option("--error", a.error,
-                   "error of the balanced model, % of the largest response of every input and output up to the largest "
-                   "frequency; its order follows");
-    app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
-    add_station_options(app, a.stations);
-    app.add_option("--out", a.out, "prefix of the files");
-}
-
-/// @throws InputError
-inline void check(const LinearModelArguments& a, double rpm) {
-    if (!std::isfinite(rpm) || rpm < 0) throw InputError("--rpm", "value", rpm, ">= 0");
-    require_positive("--max-frequency", "value [Hz]", a.max_frequency);
-    require_positive("--error", "value [%]", a.error);
-    if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
-}
-
-/// The branch of a diagram whose eigenvalue at the last point is nearest to a pole, and nearly equal; null: none.
-inline const solvers::Branch* branch_of(const solvers::Campbell& diagram, const Complex& pole) {
+// The branch of a diagram whose eigenvalue at the last point is nearest to a pole, and nearly equal; null: none.
+const solvers::Branch* branch_of(const solvers::Campbell& diagram, const Complex& pole) {
     const solvers::Branch* best = nullptr;
     double nearest = 1e-3 * std::abs(pole);
     for (const solvers::Branch& branch : diagram.branches) {
@@ -62,9 +25,10 @@ inline const solvers::Branch* branch_of(const solvers::Campbell& diagram, const 
     return best;
 }
 
-/// Modes of a constant model beside those of a Campbell diagram's last point; none: alone.
-inline void print_modes(const solvers::ConstantModel& model, const std::optional<solvers::Campbell>& diagram,
-                        double max_frequency) {
+}  // namespace
+
+void print_modes(const solvers::ConstantModel& model, const std::optional<solvers::Campbell>& diagram,
+                 double max_frequency) {
     std::printf("modes of A%s\n", diagram ? " and of the Campbell diagram" : "");
     std::printf("  natural Hz  damping %%%s\n", diagram ? "    natural Hz  damping %" : "");
     for (const Complex& pole : model.poles()) {
@@ -81,8 +45,7 @@ inline void print_modes(const solvers::ConstantModel& model, const std::optional
     }
 }
 
-/// Which inputs and outputs a small model serves is seen here.
-inline void print(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency) {
+void print(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency) {
     const auto print = [](const std::vector<solvers::Signal>& signals, const Vector& error) {
         for (Eigen::Index i = 0; i < error.size(); ++i)
             std::printf("  %-34s %8.2f %%\n", entry(signals, i).name.c_str(), 100 * error(i));
@@ -99,8 +62,7 @@ inline void print(const solvers::ConstantModel& fixed, const solvers::BalancedMo
     std::printf("\n");
 }
 
-/// Sizes of a model, and how far multi-blade coordinates leave it periodic.
-inline void introduce(const solvers::LinearModel& model, double rpm, const solvers::MultiBladeModel* fixed) {
+void introduce(const solvers::LinearModel& model, double rpm, const solvers::MultiBladeModel* fixed) {
     std::printf("%s at %g rpm: %zu states, %zu inputs, %zu outputs, %zu azimuths\n", model.machine.c_str(), rpm,
                 model.states.size(), model.inputs.size(), model.outputs.size(), model.samples.size());
     if (fixed)
@@ -109,9 +71,8 @@ inline void introduce(const solvers::LinearModel& model, double rpm, const solve
     std::printf("estimated error of C and D, relative: %.1e\n\n", model.output_error.maxCoeff());
 }
 
-/// PREFIX.h5, PREFIX.mat, PREFIX.1.lin, ...
-inline void write_files(const solvers::LinearModel& model, const std::vector<solvers::NamedModel>& constant,
-                        const std::string& prefix) {
+void write_files(const solvers::LinearModel& model, const std::vector<solvers::NamedModel>& constant,
+                 const std::string& prefix) {
     solvers::write_hdf5(model, constant, prefix + ".h5");
     solvers::write_mat(model, constant, prefix + ".mat");
     const auto files = solvers::write_lin(model, prefix);
